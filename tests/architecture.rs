@@ -111,11 +111,9 @@ pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
         "ligament-python",
         &[
             "ligament",
-            "ligament-analysis",
             "ligament-case",
             "ligament-cli",
             "ligament-mesh",
-            "ligament-model",
             "ligament-output",
             "ligament-plot",
             "ligament-report",
@@ -206,9 +204,10 @@ const CALLS_C: &str = "ligament-petsc";
 const PARTS: usize = 4;
 
 /// What lies at the top of the repository, hidden files and results aside.
-const TOP: [&str; 14] = [
+const TOP: [&str; 16] = [
     "ARCHITECTURE.md",
     "CHANGELOG.md",
+    "CITATION.cff",
     "CONTRIBUTING.md",
     "Cargo.lock",
     "Cargo.toml",
@@ -216,6 +215,7 @@ const TOP: [&str; 14] = [
     "LICENSE-MIT",
     "README.md",
     "cases",
+    "codemeta.json",
     "crates",
     "deny.toml",
     "docs",

@@ -20,10 +20,13 @@ fn what_exists_where() -> String {
             law.word, law.sentence, law.source
         );
     }
-    made += "\n| criterion | plane | space | what fails |\n|---|---|---|---|\n";
+    made += "\n| criterion | plane | space | what fails | source |\n|---|---|---|---|---|\n";
     for kind in KINDS {
         let in_space = yes(kind.limits.solid.is_some());
-        made += &format!("| `{}` | yes | {in_space} | {} |\n", kind.word, kind.words);
+        made += &format!(
+            "| `{}` | yes | {in_space} | {} | {} |\n",
+            kind.word, kind.words, kind.source
+        );
     }
     made
 }

@@ -3,6 +3,7 @@
 mod architecture;
 mod existence;
 mod metadata;
+mod publishing;
 mod structure;
 mod targets;
 mod words;

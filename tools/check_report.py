@@ -6,7 +6,9 @@ Values under the pointer must be those of the VTU files to half of the last digi
 their cracks. Solids turn and are cut. Nothing may be asked of a network or complained of in the console.
 """
 
+import base64
 import csv
+import io
 import json
 import re
 import shutil
@@ -14,16 +16,20 @@ import subprocess
 import sys
 import tempfile
 import time
+import tomllib
 from pathlib import Path
 
 import meshio
 import numpy as np
+from PIL import Image
 
 import browser
 
 READY = "document.documentElement?.dataset.ready === 'true'"
 PICTURE = "document.getElementById('body').toDataURL()"
 STEP = "Number(document.getElementById('step').value)"
+# Colours of the symbols of supports, and of loads.
+SKETCHED = {"support": (89, 97, 107), "load": (122, 64, 181)}
 TITLE = "A title with <script>throw 1</script> & \"quotes\""
 
 
@@ -185,6 +191,37 @@ def check_controls(page, run):
     assert page.value(PICTURE) != before, "the field changes the picture"
 
 
+def pixels(page, colour):
+    """Places of the pixels of a colour in the picture of the body, from its middle, y upwards; those within 2 of 255 levels."""
+    answer = page.value(PICTURE).partition(",")[2]
+    picture = np.asarray(Image.open(io.BytesIO(base64.b64decode(answer))).convert("RGB")).astype(int)
+    down, across = np.nonzero(np.abs(picture - np.array(colour)).max(axis=2) <= 2)
+    return np.column_stack([across - picture.shape[1] / 2, picture.shape[0] / 2 - down])
+
+
+def check_sketch(page, folder, run):
+    """Symbols stand at the points of the supports and loads, and go and come; a force from one to the other points where theirs lie."""
+    model = meshio.read(folder / "model.vtu")
+    groups = {name: set(np.flatnonzero(of)) for name, of in model.point_data.items() if name.startswith("group.")}
+    entries = run["sketch"]
+    assert entries and all(it["points"] for it in entries), entries
+    page.value("document.getElementById('forces').click(); 0")
+    shown = {name: pixels(page, colour) for name, colour in SKETCHED.items()}
+    for is_support, name in ((True, "support"), (False, "load")):
+        assert (len(shown[name]) > 0) == any(it["isSupport"] == is_support for it in entries), name
+    with open(folder / "case.resolved.toml", "rb") as file:
+        case = tomllib.load(file)
+    if run["body"]["dimension"] == 2 and all(it.get("group") for it in [*case.get("support", []), *case["load"]]):
+        at = [np.mean([model.points[list(groups[f"group.{it['group']}"])].mean(axis=0) for it in case[key]], axis=0) for key in ("support", "load")]
+        along, seen = (at[1] - at[0])[:2], shown["load"].mean(axis=0) - shown["support"].mean(axis=0)
+        # The sample of the points, and the length of the symbols, are small beside the distance.
+        assert along @ seen > 0.9 * np.linalg.norm(along) * np.linalg.norm(seen), (along, seen)
+    page.value("document.getElementById('symbols').click(); 0")
+    assert not any(len(pixels(page, colour)) for colour in SKETCHED.values())
+    for control in ("symbols", "forces"):
+        page.value(f"document.getElementById('{control}').click(); 0")
+
+
 def check_layouts(report):
     """A dark page is dark, and a phone needs no scrolling aside."""
     background = "getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number).reduce((a, b) => a + b)"
@@ -308,6 +345,7 @@ def check_solid(program, folder, plane, place):
         page.open(report, READY)
         run = described(page)["runs"][0]
         check_opened_at_peak(page, folder, run)
+        check_sketch(page, folder, run)
         check_turning(page, folder, run)
         # Seen from above, x and y lie as they do in the plane.
         page.value("document.getElementById('body').focus(); 0")
@@ -366,6 +404,7 @@ def main(program, *folders):
             assert TITLE in page.value("document.querySelector('h1').textContent")
             run = described(page)["runs"][0]
             check_opened_at_peak(page, copy, run)
+            check_sketch(page, copy, run)
             check_lost_graphics(page)
             n_values = check_values(page, copy, run)
             n_bonds = check_bonds(page, copy, run)

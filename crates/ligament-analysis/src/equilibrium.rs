@@ -40,6 +40,7 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
+use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
 
 pub(crate) use dissipating::Dissipation;
@@ -262,6 +263,23 @@ impl Equilibrium {
         *contact = Contact::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
+    }
+
+    /// Takes breakages back: the equations are those of the bonds of a state again, with its criteria.
+    pub(crate) fn return_to(&mut self, state: &State, criteria: Arc<Criteria>) {
+        let Equations {
+            problem,
+            contact,
+            solver,
+            earlier,
+            ..
+        } = &mut self.equations;
+        let system = &*problem.system;
+        self.connectivity = Connectivity::held(system, &state.intact);
+        *contact = Contact::new(system, &state.intact);
+        *earlier = EarlierEquilibria::default();
+        solver.discard();
+        problem.criteria = criteria;
     }
 
     /// Measures a state that is known to be in equilibrium at its load factor, without solving.

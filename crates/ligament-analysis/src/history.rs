@@ -297,6 +297,27 @@ pub enum Notice {
     /// The body breaks in the first load step.
     #[error(transparent)]
     AtOnce(AtOnce),
+    /// The equilibria ended, and the body moves.
+    #[error(
+        "time {time:.6e} s: the body loses its balance: a step without inertia would set free more than {share:.1e} of the work, so that it \
+         moves from here on"
+    )]
+    LostBalance {
+        /// Time of the last equilibrium, s.
+        time: f64,
+        /// Share of the work so far.
+        share: f64,
+    },
+    /// The body came to rest after a motion, and equilibria follow each other again.
+    #[error("time {time:.6e} s: the body is at rest again, after a motion of {:.3e} s in which {broken} bonds broke", time - since)]
+    AtRest {
+        /// Time of the first equilibrium, s.
+        time: f64,
+        /// Time at which the motion began, s.
+        since: f64,
+        /// Number of bonds broken in the motion.
+        broken: usize,
+    },
     /// The loads move the body as a whole, without deformation.
     #[error(
         "nothing resists the loads: they move the body as a whole and do not deform it, so that all forces are rounding; hold a \

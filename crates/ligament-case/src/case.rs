@@ -43,6 +43,7 @@ mod setting;
 mod solid_lattice_section;
 mod solver;
 pub mod source;
+mod sources;
 mod stage;
 mod temperature;
 pub mod values;

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`commands`] | a file for each command: its options, its help and what it calls |
 //! | [`check`] | report of `ligament check` on a case |
+//! | [`cite`] | references as BibTeX |
 //! | [`explain`] | report of `ligament explain` on the bonds of a stored run |
 //! | [`inspect`] | report of `ligament inspect` on a mesh |
 //! | [`program`] | from the arguments to the exit code |
@@ -19,6 +20,7 @@
 
 mod build;
 pub mod check;
+pub mod cite;
 pub mod commands;
 pub mod explain;
 pub mod inspect;

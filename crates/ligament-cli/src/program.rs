@@ -72,6 +72,7 @@ const TERMS: Terms = Terms {
     elsewhere: " with --out",
     replace: " with --force",
     setting: |key, value| format!("--set {key}={value}"),
+    option: |name, value| format!("--{name} {value}").trim_end().to_owned(),
 };
 
 /// Prints the error and its causes; failures of the output are ignored.

@@ -1,6 +1,7 @@
 //! The commands as a user meets them: the program is run, and its files and words are looked at.
 
 mod calibrate_command;
+mod cite_command;
 mod columns;
 mod command_line;
 mod crack_command;

@@ -46,7 +46,7 @@ fn a_modal_run_writes_its_modes() {
     assert_eq!(
         rows.next().unwrap(),
         "mode,kind,frequency_hz,angular_frequency,eigenvalue,residual,effective_mass_x,effective_mass_y,\
-         effective_inertia,share_x,share_y,share_inertia"
+         effective_inertia,share_x,share_y,share_inertia,participation_x,participation_y,participation_rotation"
     );
     let summary: serde_json::Value =
         serde_json::from_str(&fs::read_to_string(out.join("summary.json")).unwrap()).unwrap();

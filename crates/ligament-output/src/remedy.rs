@@ -16,6 +16,22 @@ pub enum Remedy {
         /// The value, in TOML.
         value: &'static str,
     },
+    /// An option of the request, with a value.
+    Give {
+        /// Name of the option on the command line, `at`.
+        option: &'static str,
+        /// What stands for its value, `X,Y,Z`.
+        value: &'static str,
+    },
+    /// An option of the request, with a number.
+    GiveNumber {
+        /// Name of the option on the command line, `point`.
+        option: &'static str,
+        /// The number.
+        value: i64,
+    },
+    /// An option of the request, to be left out.
+    LeaveOut(&'static str),
 }
 
 /// What a path is meant for.
@@ -47,6 +63,8 @@ pub struct Terms {
     pub replace: &'static str,
     /// What sets a key to a value.
     pub setting: fn(&str, &str) -> String,
+    /// An option, by its name on the command line, with what stands for its value; empty where it is only named.
+    pub option: fn(&str, &str) -> String,
 }
 
 /// Terms for no front end in particular.
@@ -54,6 +72,7 @@ const COMMON: Terms = Terms {
     elsewhere: "",
     replace: "",
     setting: |key, value| format!("`{key} = {value}`"),
+    option: |name, value| format!("{name} {value}").trim_end().to_owned(),
 };
 
 impl Remedy {
@@ -64,6 +83,13 @@ impl Remedy {
             Self::RunAgain { key, value } => {
                 return format!("run it again with {}", (terms.setting)(key, value));
             }
+            Self::Give { option, value } => {
+                return format!("give {}", (terms.option)(option, value));
+            }
+            Self::GiveNumber { option, value } => {
+                return format!("give {}", (terms.option)(option, &value.to_string()));
+            }
+            Self::LeaveOut(option) => return format!("leave out {}", (terms.option)(option, "")),
         };
         let place = match place {
             Place::File => "file",
@@ -125,6 +151,7 @@ mod tests {
             elsewhere: " by PATH",
             replace: " by REPLACE",
             setting: |key, value| format!("{key}:{value}"),
+            option: |name, value| format!("/{name}:{value}"),
         };
         let remedy = Remedy::Elsewhere(Place::Folder, Some(Way::Replace));
         let error = Around::from(Inner(remedy));
@@ -136,6 +163,13 @@ mod tests {
             value: "true",
         };
         assert_eq!(again.worded(&terms), "run it again with output.model:true");
+        let at = Remedy::Give {
+            option: "at",
+            value: "X,Y",
+        };
+        assert_eq!(at.worded(&terms), "give /at:X,Y");
+        assert_eq!(at.to_string(), "give at X,Y");
+        assert_eq!(Remedy::LeaveOut("view").to_string(), "leave out view");
         assert_eq!(again.to_string(), "run it again with `output.model = true`");
     }
 }

@@ -3,7 +3,6 @@
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use ligament::Setup;
 use ligament::body::AnyBody;
 use ligament_case::case::CaseFile;
 use pyo3::prelude::*;
@@ -162,10 +161,5 @@ impl Case {
         let read = py.detach(|| self.file.read_body(&mut ()));
         let body = read.map_err(|error| Failure::Other(error).exception(py))?;
         Ok(self.body.get_or_init(|| body))
-    }
-
-    /// The setup of the case on its body.
-    pub(crate) fn setup(&self) -> Result<Setup, Failure> {
-        Ok(self.file.setup(&mut ())?)
     }
 }

@@ -3,9 +3,8 @@
 use std::error::Error;
 use std::iter::successors;
 
-use ligament::SetupError;
 use ligament_case::case::key_path::KeyPath;
-use ligament_case::case::{CaseError, CaseFile, Fault, Location, override_parts};
+use ligament_case::case::{CaseError, Fault, Location, override_parts};
 use ligament_output::remedy::{Terms, causes};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -15,7 +14,22 @@ const TERMS: Terms = Terms {
     elsewhere: "",
     replace: " with replace=True",
     setting: |key, value| format!("{}={value}", key.replace('.', "__")),
+    option: argument,
 };
+
+/// An option of the command line as an argument: `at=(X, Y)`; only its name where it has no value.
+fn argument(option: &str, value: &str) -> String {
+    let name = match option {
+        "iso" => "level",
+        other => other,
+    };
+    let parts: Vec<&str> = value.split(',').collect();
+    match parts.as_slice() {
+        [""] => format!("`{name}`"),
+        [_] => format!("`{name}={value}`"),
+        several => format!("`{name}=({})`", several.join(", ")),
+    }
+}
 
 /// Machine-readable parts of an error.
 #[derive(Debug, Default)]
@@ -39,16 +53,6 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    /// The failure of a computation of a case, at the responsible key.
-    pub(crate) fn computing(case: &CaseFile, error: ligament::Error) -> Self {
-        Self::Other(case.explained(error))
-    }
-
-    /// The failure of a setup of a case, at the responsible key.
-    pub(crate) fn setup(case: &CaseFile, error: SetupError) -> Self {
-        Self::Case(case.located(error))
-    }
-
     /// The exception for the failure.
     pub(crate) fn exception(self, py: Python<'_>) -> PyErr {
         match self {

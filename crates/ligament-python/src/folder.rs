@@ -33,10 +33,16 @@ pub(crate) struct Folder {
     /// Path of the folder.
     #[pyo3(get)]
     pub(crate) path: PathBuf,
+    /// Whether the results are natural modes.
+    #[pyo3(get)]
+    is_modal: bool,
 }
 
 /// A line of a crack: vertices (n, 2), m, kinds of the ends, and length, m.
 type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
+
+/// Digits of the largest value of a field, largest number of steps, and size (MB) of a page; the usual ones where they are not given.
+type Limits = (Option<u32>, Option<u32>, Option<f64>);
 
 /// The exception of a fault in a folder.
 fn told(py: Python<'_>) -> impl Fn(Error) -> PyErr {
@@ -49,15 +55,9 @@ impl Folder {
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         require_results(&path).map_err(told(py))?;
-        if kind_of(&path) == OutputKind::Modes {
-            let fault = format!(
-                "{} has natural modes; PyVista reads their files, and `ligament.modal` finds them in memory",
-                path.display()
-            );
-            return Err(errors::of_request(py, &fault));
-        }
+        let is_modal = kind_of(&path) == OutputKind::Modes;
         let path = std::path::absolute(&path).unwrap_or(path);
-        Ok(Self { path })
+        Ok(Self { path, is_modal })
     }
 
     /// The summary as JSON; `None` where the run has not ended.
@@ -92,7 +92,7 @@ impl Folder {
         Ok(loading.probes.into_keys().collect())
     }
 
-    /// Steps with fields.
+    /// Steps with fields; of natural modes the numbers of the modes.
     fn steps(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
         Ok(self.outputs(py)?.files.into_keys().collect())
     }
@@ -260,7 +260,7 @@ impl Folder {
     }
 }
 
-/// Writes the page of results of some folders with their labels, and returns its path.
+/// Writes the page of results of some folders with their labels within limits, and returns its path.
 #[pyfunction]
 pub(crate) fn report(
     py: Python<'_>,
@@ -268,7 +268,9 @@ pub(crate) fn report(
     labels: Vec<String>,
     path: PathBuf,
     measured: Vec<PathBuf>,
+    limits: Limits,
 ) -> PyResult<PathBuf> {
+    let (digits, steps, size) = limits;
     let path = match path.is_dir() {
         true => path.join(REPORT),
         false => path,
@@ -278,9 +280,9 @@ pub(crate) fn report(
         labels,
         output: Some(path),
         force: true,
-        digits: DIGITS,
-        steps: STEPS as usize,
-        size: (SIZE * MEGABYTE) as usize,
+        digits: digits.unwrap_or(DIGITS),
+        steps: steps.unwrap_or(STEPS) as usize,
+        size: (size.unwrap_or(SIZE) * MEGABYTE) as usize,
         measured,
         unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
     };

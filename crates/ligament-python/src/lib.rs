@@ -11,7 +11,6 @@
 //! | `keys` | the keys of a case |
 //! | `solution` | a run on a separate thread, with progress and Ctrl-C |
 //! | `folder` | results of a run in their folder, as arrays and words |
-//! | `modes` | natural modes, as arrays |
 //! | `arrays` | arrays that are moved and not copied |
 //! | `drawing` | pictures in memory |
 //! | `calibration` | the next trial value of a key |
@@ -27,7 +26,6 @@ mod drawing;
 mod errors;
 mod folder;
 mod keys;
-mod modes;
 mod program;
 mod solution;
 
@@ -46,8 +44,6 @@ mod native {
     use crate::folder::{Folder, report};
     #[pymodule_export]
     use crate::keys::schema;
-    #[pymodule_export]
-    use crate::modes::modes;
     #[pymodule_export]
     use crate::program::execute;
     #[pymodule_export]

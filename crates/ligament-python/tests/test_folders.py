@@ -181,14 +181,46 @@ def test_explanations_and_reports(result: Any, tmp_path: Path) -> None:
     page = result.report(tmp_path / "report.html")
     assert page.read_text().lstrip().lower().startswith("<!doctype html") and result.title in page.read_text()
     assert result.report(page) == page
+    assert result.report(tmp_path / "small.html", digits=2, steps=2).stat().st_size < page.stat().st_size
+    with pytest.raises(ligament.LigamentError, match="2 to 8 digits"):
+        result.report(page, digits=9)
     assert ligament.report([result, result], tmp_path / "both.html").stat().st_size > page.stat().st_size
 
 
-def test_natural_modes_are_no_result_of_loads(tmp_path: Path) -> None:
+def test_natural_modes_are_kept_and_opened_as_results_are(tmp_path: Path) -> None:
     case = Path(__file__).resolve().parents[3] / "cases/modal-plate/case.toml"
     assert program("run", str(case), "--out", str(tmp_path / "out")).returncode == 0
-    with pytest.raises(ligament.LigamentError, match="natural modes"):
-        ligament.open(tmp_path / "out")
+    opened, found = ligament.open(tmp_path / "out"), ligament.modal(case, folder=tmp_path / "found")
+    assert isinstance(opened, ligament.Modes) and found.folder == tmp_path / "found"
+    opened = ligament.open(tmp_path / "out", ligament.Modes)
+    with pytest.raises(ligament.LigamentError, match="has natural modes; `ligament.open"):
+        ligament.open(tmp_path / "out", ligament.Result)
+    same_modes(opened, found)
+    for copied in (pickle.loads(pickle.dumps(found)), copy.deepcopy(found), ligament.open(found.save(tmp_path / "kept"))):
+        same_modes(copied, found)
+    with pytest.raises(ligament.LigamentError, match="replace=True"):
+        found.save(tmp_path / "kept")
+    with pytest.raises(ligament.LigamentError, match="counted from 0"):
+        found.shape(len(found))
+    assert "case.resolved.toml" in {it.name for it in found.save(tmp_path / "kept", replace=True).iterdir()}
+
+
+def same_modes(one: Any, other: Any) -> None:
+    assert len(one) == len(other) > 3 and one.title == other.title and one.mass == other.mass
+    assert np.array_equal(one.frequency, other.frequency) and np.array_equal(one.participation, other.participation)
+    assert all(np.array_equal(one.shape(mode), other.shape(mode)) for mode in range(len(one)))
+
+
+def test_errors_name_what_python_takes(result: Any) -> None:
+    for asked, words in (
+        (lambda: result.explain(at=(0.0, 0.0, 0.0)), r"two coordinates; give `at=\(X, Y\)`"),
+        (lambda: result.plot(view="x"), "leave out `view`"),
+        (lambda: result.plot(level=0.1), "leave out `level`"),
+        (lambda: result.explain(bond=(5, 5)), "give `point=5`"),
+    ):
+        with pytest.raises(ligament.LigamentError, match=words) as error:
+            asked()
+        assert "--" not in str(error.value)
 
 
 SPLIT: Any = {

@@ -38,6 +38,11 @@ impl Inputs {
         Ok(Self { case, unit_of })
     }
 
+    /// The resolved case.
+    pub(crate) fn case(&self) -> &Table {
+        &self.case
+    }
+
     /// The fracture energy of the only material, J/m^2.
     pub(crate) fn fracture_energy(&self) -> Option<f64> {
         self.case

@@ -12,6 +12,7 @@
 //! | `bonds` | bonds, their limits and their breakage |
 //! | `history` | the table of the steps |
 //! | `inputs` | mesh, material and loads as text |
+//! | `sketch` | supports and loads as symbols on the body |
 //! | `measured` | measured curves |
 //! | `summary` | title, warnings and results as text |
 //! | `columns` | encoding of numbers as compressed text |
@@ -33,6 +34,7 @@ mod measured;
 pub mod page;
 mod parts;
 mod run;
+mod sketch;
 mod summary;
 
 pub use error::ReportError;

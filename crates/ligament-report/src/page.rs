@@ -16,7 +16,7 @@ use crate::summary::escaped;
 /// Template of the page, and the parts of its program in the order in which they are joined.
 const PAGE: &str = include_str!("viewer/page.html");
 const STYLE: &str = include_str!("viewer/style.css");
-const PROGRAM: [&str; 17] = [
+const PROGRAM: [&str; 18] = [
     include_str!("viewer/columns.js"),
     include_str!("viewer/numbers.js"),
     include_str!("viewer/run.js"),
@@ -28,6 +28,7 @@ const PROGRAM: [&str; 17] = [
     include_str!("viewer/drawing.js"),
     include_str!("viewer/scene.js"),
     include_str!("viewer/lines.js"),
+    include_str!("viewer/symbols.js"),
     include_str!("viewer/chart.js"),
     include_str!("viewer/measured.js"),
     include_str!("viewer/charts.js"),
@@ -185,7 +186,7 @@ fn page(runs: &[PageRun], texts: &Texts, measured: &[Value], request: &Request) 
             let names = escaped(&run.left_out.join(", "));
             let _ = writeln!(
                 summaries,
-                "<p class=\"note\">Not in this page, for its size: {names}. --size gives more room, --digits shorter numbers.</p>"
+                "<p class=\"note\">Not in this page, for its size: {names}. A larger page has more room, and fewer steps or digits take less.</p>"
             );
         }
         summaries.push_str("</div>\n");

@@ -22,7 +22,7 @@ use crate::fields::{self, Field};
 use crate::history::{self, shown};
 use crate::inputs::Inputs;
 use crate::parts::{Budget, Choice, Texts};
-use crate::{crack, summary};
+use crate::{crack, sketch, summary};
 
 /// Digits of positions, relative to the largest coordinate.
 const PLACES: u32 = 6;
@@ -71,6 +71,7 @@ impl PageRun {
             outputs: &outputs,
             files: &files,
             body: &body,
+            case: inputs.case(),
         };
         let mut description = of.describe(choice.digits, texts, &mut budget)?;
         let is_modes = outputs.kind == OutputKind::Modes;
@@ -114,6 +115,8 @@ struct Drawn<'a> {
     /// Files of the steps, or modes, of the page.
     files: &'a BTreeMap<usize, PathBuf>,
     body: &'a Body,
+    /// The resolved case.
+    case: &'a toml::Table,
 }
 
 impl Drawn<'_> {
@@ -125,7 +128,10 @@ impl Drawn<'_> {
         budget: &mut Budget,
     ) -> Result<Value, Error> {
         let (folder, body) = (&self.outputs.folder, self.body);
-        let bonds = stored(folder)?.map(|run| Bonds::new(&run, body));
+        let run = stored(folder)?;
+        let sketch = run.as_ref();
+        let sketch = sketch.map(|run| sketch::describe(self.case, &run.model, body));
+        let bonds = run.map(|run| Bonds::new(&run, body));
         let fields = fields::read(self.files, body, digits)?;
         let moved = fields.iter().find(|it| it.name == DISPLACEMENT.name);
         let before = texts.letters();
@@ -154,6 +160,7 @@ impl Drawn<'_> {
             "bonds": bonds,
             "cracks": cracks,
             "precracks": precracks,
+            "sketch": sketch,
         }))
     }
 }

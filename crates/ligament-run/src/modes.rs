@@ -13,14 +13,15 @@ use crate::summary::modal_summary;
 use ligament::Model;
 use ligament_case::case::CaseFile;
 
-/// Finds the modes of a model and writes them into a new folder.
+/// Finds the modes of a model and writes them into a new folder; `inputs` are the case, and whether the folder gets copies of its files.
 pub(crate) fn find_modes(
-    case: &CaseFile,
+    inputs: (&CaseFile, bool),
     settings: ModalSettings,
     (model, provenance): (&Model, Provenance),
     create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
     mut stages: Stages,
 ) -> anyhow::Result<ModalSummary> {
+    let case = inputs.0;
     let vibration = Vibration::new(model);
     let vibration = vibration.map_err(|error| case.located(error))?;
     let problem = vibration.problem(model);
@@ -30,7 +31,7 @@ pub(crate) fn find_modes(
     let outcome = stages.time("modes", || analysis.find())?;
 
     // Nothing is written or replaced before the modes are found.
-    make_results((case, false), create, |folder, case| {
+    make_results(inputs, create, |folder, case| {
         stages.time("output", || {
             let grid = model.body().grid();
             write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)

@@ -44,6 +44,8 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
         Notice::Undeformed => format!("{notice} ([[support]])"),
         Notice::Unstable { .. }
         | Notice::AtOnce(_)
+        | Notice::LostBalance { .. }
+        | Notice::AtRest { .. }
         | Notice::NegativeEnergy { .. }
         | Notice::EnergyUnbalanced { .. }
         | Notice::DissipatedBeyondWork { .. } => notice.to_string(),

@@ -160,7 +160,13 @@ impl<'a> Request<'a> {
             let (build, mut contents) = (self.build.clone(), Contents::default());
             let provenance = provenance(build, self.case, self.out, &mut contents);
             let body = (model, provenance.map_err(unread)?);
-            let summary = find_modes(self.case, settings, body, create, stages)?;
+            let summary = find_modes(
+                (self.case, self.keeps_inputs),
+                settings,
+                body,
+                create,
+                stages,
+            )?;
             progress.finish(&format!("{} modes found", summary.modes.len()));
             Ok(Report::Modes(Box::new(summary)))
         } else {

@@ -4,7 +4,7 @@
 
 use ligament::prelude::*;
 
-const MESH: &[u8] = include_bytes!("../../../meshes/disk-4mm.msh");
+const MESH: &[u8] = include_bytes!("disk-4mm.msh");
 
 /// The disk under a shortening of 0.4 mm in 50 steps, or until the load falls.
 fn disk() -> Result<Solution, Box<dyn std::error::Error>> {

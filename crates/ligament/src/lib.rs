@@ -37,6 +37,9 @@
 //!
 //! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::NoObserver) receives the load steps of a run;
 //! [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
+//!
+//! This crate is the one to depend on: [`analysis`], [`mechanics`] and [`mesh`] are the crates beneath it, for whatever a program needs of
+//! them.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
@@ -68,6 +71,10 @@ pub mod suggestion;
 pub mod system;
 pub mod units;
 pub mod warning;
+
+pub use ligament_analysis as analysis;
+pub use ligament_mesh as mesh;
+pub use ligament_model as mechanics;
 
 pub use body::Body;
 pub use error::{Error, Fault, Field, SetupError, Torn};

@@ -9,6 +9,12 @@
 mod breaking_disk;
 #[path = "../examples/elastic_plate.rs"]
 mod elastic_plate;
+#[path = "../examples/resumed_plate.rs"]
+mod resumed_plate;
+#[path = "../examples/splitting_solid.rs"]
+mod splitting_solid;
+#[path = "../examples/watched_plate.rs"]
+mod watched_plate;
 
 #[test]
 fn an_elastic_plate_from_arrays() {
@@ -18,4 +24,19 @@ fn an_elastic_plate_from_arrays() {
 #[test]
 fn a_disk_from_a_mesh_breaks() {
     breaking_disk::main().unwrap();
+}
+
+#[test]
+fn a_solid_from_arrays_splits() {
+    splitting_solid::main().unwrap();
+}
+
+#[test]
+fn an_observer_watches_and_stops_a_run() {
+    watched_plate::main().unwrap();
+}
+
+#[test]
+fn a_run_goes_on_from_its_checkpoint() {
+    resumed_plate::main().unwrap();
 }

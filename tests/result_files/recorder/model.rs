@@ -13,17 +13,20 @@ impl Recorder<'_> {
         let n_lines = system.bonds.len() + absent.len();
         let expected = &mut self.expected;
         expected.lines(file, self.model.setup.body.geometry().positions(), n_lines);
-        let point = |name| Place {
-            file,
-            part: "point",
-            name,
-        };
+        fn point(name: &str) -> Place<'_> {
+            let (file, part) = ("model.vtu", "point");
+            Place { file, part, name }
+        }
         expected.reals(point("volume"), system.cloud.volumes.iter().copied());
         expected.reals(point("horizon"), fixed.horizon.iter().copied());
         let no_fail = fixed.no_fail.iter().map(|&it| i64::from(it));
         expected.integers(point("no_fail"), no_fail);
         let tags = (0..system.cloud.len() as u32).map(|it| self.model.body().tag(it) as i64);
         expected.integers(point(self.model.body().tagged()), tags);
+        for group in self.problem.loads.groups() {
+            let at = (0..system.cloud.len() as u32).map(|it| i64::from(group.points.contains(&it)));
+            expected.integers(point(&format!("group.{}", group.name)), at);
+        }
 
         fn cell(name: &str) -> Place<'_> {
             let (file, part) = ("model.vtu", "cell");

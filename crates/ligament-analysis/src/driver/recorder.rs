@@ -118,25 +118,56 @@ impl Energies {
 
     /// Adds the work from the last state to this one.
     pub(super) fn add_work(&mut self, problem: &Problem, state: &State, balanced: &Balanced) {
+        self.external_work += self.work_to(problem, state, balanced);
+        self.largest_work = self.largest_work.max(self.external_work.abs());
+        self.thermal = Self::thermal_now(problem, state, balanced);
+        self.last_loaded = self.loaded_now(problem, state, balanced).collect();
+    }
+
+    /// Work from the last state to this one, J.
+    pub(super) fn work_to(&self, problem: &Problem, state: &State, balanced: &Balanced) -> f64 {
         let mut work = 0.0;
+        let now = self.loaded_now(problem, state, balanced);
+        for (now, last) in now.zip(&self.last_loaded) {
+            let mean_force = 0.5 * (now.force + last.force);
+            work += mean_force * (now.displacement - last.displacement);
+        }
+        let (factor, force) = self.thermal;
+        let (factor_now, force_now) = Self::thermal_now(problem, state, balanced);
+        work + 0.5 * (force + force_now) * (factor_now - factor)
+    }
+
+    /// Forces and displacements of the loaded degrees of freedom in a state.
+    fn loaded_now<'a>(
+        &'a self,
+        problem: &'a Problem,
+        state: &'a State,
+        balanced: &'a Balanced,
+    ) -> impl Iterator<Item = Loaded> + 'a {
         let given = problem.loads.forces(state.load_factor, &self.loaded);
-        for ((&dof, given), last) in self.loaded.iter().zip(given).zip(&mut self.last_loaded) {
+        self.loaded.iter().zip(given).map(|(&dof, given)| {
             let dof = dof as usize;
             let force = if problem.loads.reacts_at(dof) {
                 balanced.internal.values[dof]
             } else {
                 given
             };
-            let mean_force = 0.5 * (force + last.force);
-            work += mean_force * (state.displacement[dof] - last.displacement);
-            (last.force, last.displacement) = (force, state.displacement[dof]);
-        }
-        let (factor, force) = self.thermal;
-        let factor_now = problem.loads.temperature_factor(state.load_factor);
-        self.thermal = (factor_now, balanced.internal.thermal);
-        work += 0.5 * (force + self.thermal.1) * (factor_now - factor);
-        self.external_work += work;
-        self.largest_work = self.largest_work.max(self.external_work.abs());
+            Loaded {
+                force,
+                displacement: state.displacement[dof],
+            }
+        })
+    }
+
+    /// Temperature factor and [`InternalForces::thermal`] in a state.
+    fn thermal_now(problem: &Problem, state: &State, balanced: &Balanced) -> (f64, f64) {
+        let factor = problem.loads.temperature_factor(state.load_factor);
+        (factor, balanced.internal.thermal)
+    }
+
+    /// Largest external work so far, J.
+    pub(super) fn largest_work(&self) -> f64 {
+        self.largest_work
     }
 
     /// Adds the work of what moves rigid bodies, J.

@@ -93,6 +93,9 @@ pub struct ImplicitSettings {
     pub rounds: usize,
     /// Relative change of the energy that ends the iteration of bonds that soften (NHPD eq. 21).
     pub energy_tolerance: f64,
+    /// Share of the work so far that a step without inertia may set free beyond what its bonds dissipate: equilibria follow each other up to
+    /// there, and again once the motion has no more energy than that. None: all steps have inertia.
+    pub statics: Option<f64>,
 }
 
 /// Settings of explicit steps.

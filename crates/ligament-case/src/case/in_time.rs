@@ -24,7 +24,7 @@ pub(super) fn keys_of_statics(scheme: Scheme) -> Vec<&'static str> {
     let of_steps = STEPPING.into_iter().chain(["stop"]);
     match scheme {
         Scheme::Explicit => of_steps.chain(BALANCING).collect(),
-        Scheme::Implicit => of_steps.collect(),
+        Scheme::Implicit | Scheme::Auto => of_steps.collect(),
     }
 }
 
@@ -44,7 +44,7 @@ pub(super) fn refuse_statics(
     let reason = "a motion has a `stop` of its own, in [motion]";
     refuse(&fracture, [is_given("stop")], setting, reason)?;
     match scheme {
-        Scheme::Implicit => Ok(()),
+        Scheme::Implicit | Scheme::Auto => Ok(()),
         Scheme::Explicit => {
             let setting = "motion.scheme = \"explicit\"";
             let reason = "all bonds at their limits break in an explicit step";

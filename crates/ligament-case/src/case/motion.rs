@@ -43,6 +43,10 @@ pub struct Motion {
     /// Dissipation of fast motions by implicit steps, after Hilber, Hughes and Taylor: 0 takes no energy.
     #[schemars(range(min = 0), extend("maximum" = MOST_DISSIPATION, "default" = 0.0))]
     pub dissipation: Option<f64>,
+    /// Share of the work so far that a step without inertia may set free beyond what its bonds dissipate, and that a motion may have left when
+    /// equilibria follow again; for the scheme `auto`.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = setup::STATICS))]
+    pub statics: Option<f64>,
     /// Factor on the rotational inertia of the points; a larger one allows longer steps where rotations limit them.
     #[serde(default = "one")]
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -64,6 +68,9 @@ pub enum Scheme {
     Explicit,
     /// Newmark's scheme: steps of any length, each an equilibrium with inertia; of `[fracture]` the keys of a load step hold for each.
     Implicit,
+    /// Equilibria without inertia from row to row until the body loses its balance, then implicit steps until it is at rest, then equilibria
+    /// again.
+    Auto,
 }
 
 /// Damping in proportion to masses and stiffness.
@@ -105,9 +112,13 @@ fn one() -> f64 {
 impl Motion {
     /// Fills in the missing keys of the scheme.
     pub(super) fn complete(&mut self) {
-        match self.scheme {
-            Scheme::Explicit => self.safety = self.safety.or(Some(explicit().safety)),
-            Scheme::Implicit => self.dissipation = self.dissipation.or(Some(0.0)),
+        if self.scheme == Scheme::Explicit {
+            self.safety = self.safety.or(Some(explicit().safety));
+            return;
+        }
+        self.dissipation = self.dissipation.or(Some(0.0));
+        if self.scheme == Scheme::Auto {
+            self.statics = self.statics.or(Some(setup::STATICS));
         }
     }
 
@@ -117,30 +128,17 @@ impl Motion {
         key: &KeyPath,
         fracture: Option<&Fracture>,
     ) -> Result<MotionSettings, KeyFault> {
-        let (safety, dissipation) = (self.safety.is_some(), self.dissipation.is_some());
         let scheme = match self.scheme {
-            Scheme::Explicit => {
-                let reason = "explicit steps take no energy";
-                let given = [("dissipation", dissipation)];
-                refuse(key, given, "scheme = \"explicit\"", reason)?;
-                motion::Scheme::Explicit(ExplicitSettings {
-                    step: self.step,
-                    safety: self.safety.unwrap_or(explicit().safety),
-                })
-            }
+            Scheme::Explicit => self.explicit(key)?,
             Scheme::Implicit => {
-                let reason = "implicit steps are stable at any length";
-                refuse(key, [("safety", safety)], "scheme = \"implicit\"", reason)?;
-                let step = self.step.ok_or_else(|| missing(key, "step"))?;
-                let default = setup::implicit(step);
-                let settings = match fracture {
-                    Some(it) => it.implicit(default),
-                    None => default,
-                };
-                motion::Scheme::Implicit(ImplicitSettings {
-                    dissipation: self.dissipation.unwrap_or(0.0),
-                    ..settings
-                })
+                let given = [("statics", self.statics.is_some())];
+                let reason = "all implicit steps have inertia; those of the scheme \"auto\" have it where the body loses its balance";
+                refuse(key, given, "scheme = \"implicit\"", reason)?;
+                self.implicit(key, fracture, None)?
+            }
+            Scheme::Auto => {
+                let share = self.statics.unwrap_or(setup::STATICS);
+                self.implicit(key, fracture, Some(share))?
             }
         };
         Ok(MotionSettings {
@@ -157,6 +155,48 @@ impl Motion {
                 wall_time: self.stop.wall_time,
             },
         })
+    }
+}
+
+impl Motion {
+    fn explicit(&self, key: &KeyPath) -> Result<motion::Scheme, KeyFault> {
+        let given = [
+            ("dissipation", self.dissipation.is_some()),
+            ("statics", self.statics.is_some()),
+        ];
+        let reason = "explicit steps take no energy and follow no equilibria";
+        refuse(key, given, "scheme = \"explicit\"", reason)?;
+        Ok(motion::Scheme::Explicit(ExplicitSettings {
+            step: self.step,
+            safety: self.safety.unwrap_or(explicit().safety),
+        }))
+    }
+
+    /// Implicit steps, with the share of the work that steps without inertia may set free.
+    fn implicit(
+        &self,
+        key: &KeyPath,
+        fracture: Option<&Fracture>,
+        statics: Option<f64>,
+    ) -> Result<motion::Scheme, KeyFault> {
+        let given = [("safety", self.safety.is_some())];
+        let setting = match statics {
+            Some(_) => "scheme = \"auto\"",
+            None => "scheme = \"implicit\"",
+        };
+        let reason = "implicit steps are stable at any length";
+        refuse(key, given, setting, reason)?;
+        let step = self.step.ok_or_else(|| missing(key, "step"))?;
+        let default = setup::implicit(step);
+        let settings = match fracture {
+            Some(it) => it.implicit(default),
+            None => default,
+        };
+        Ok(motion::Scheme::Implicit(ImplicitSettings {
+            dissipation: self.dissipation.unwrap_or(0.0),
+            statics,
+            ..settings
+        }))
     }
 }
 

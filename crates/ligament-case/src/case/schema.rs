@@ -18,6 +18,8 @@ pub fn schema() -> Value {
         .into_generator()
         .into_root_schema_for::<Case>();
     schema.insert("title".to_owned(), "Case file of Ligament".into());
+    // Tombi reads the version of TOML here.
+    schema.insert("x-tombi-toml-version".to_owned(), "v1.0.0".into());
     schema.to_value()
 }
 
@@ -33,6 +35,23 @@ impl Transform for ForToml {
         schema.remove("format");
         without_null(schema);
         words(schema);
+        titles(schema);
+    }
+}
+
+/// Titles of the keys of a table: the key in words with its unit, `tensile strength (Pa)`.
+fn titles(schema: &mut Schema) {
+    let Some(Value::Object(keys)) = schema.get_mut("properties") else {
+        return;
+    };
+    for (key, of_key) in keys {
+        let Value::Object(of_key) = of_key else {
+            continue;
+        };
+        let unit = of_key.get("x-unit").and_then(Value::as_str);
+        let unit = unit.map(|unit| format!(" ({unit})")).unwrap_or_default();
+        let title = format!("{}{unit}", key.replace('_', " "));
+        of_key.entry("title").or_insert_with(|| title.into());
     }
 }
 

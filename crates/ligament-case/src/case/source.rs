@@ -9,6 +9,9 @@ use super::key_path::KeyPath;
 use super::keys::{in_sections, unit_of};
 use super::overrides;
 
+/// What the names of case files may end in before their extension, by which editors tell them from other TOML files.
+const KIND: &str = ".ligament";
+
 /// The parsed text of a case or a study, with its file and overrides.
 #[derive(Debug, Clone)]
 pub struct Source {
@@ -81,7 +84,9 @@ impl Source {
     /// Name of the source: that of its folder if the file has one of the `usual` names, otherwise that of the file without its extension.
     pub fn name(&self, usual: &[&str]) -> String {
         let stem = self.path.file_stem().unwrap_or_default();
-        let stem = stem.to_string_lossy().into_owned();
+        let stem = stem.to_string_lossy();
+        // `disk.ligament.toml` is the case `disk`.
+        let stem = stem.strip_suffix(KIND).unwrap_or(&stem).to_owned();
         if !usual.contains(&stem.as_str()) {
             return stem;
         }

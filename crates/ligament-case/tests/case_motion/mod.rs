@@ -8,7 +8,7 @@ mod refusals;
 use std::fs;
 use std::path::Path;
 
-use ligament::setup::{Action, Analysis as Kind, Place};
+use ligament::setup::{self, Action, Analysis as Kind, Place};
 use ligament::{Loading, Model};
 use ligament_analysis::motion::{MotionProblem, Scheme};
 use ligament_analysis::{Amplitude, Component, Shape};
@@ -316,6 +316,31 @@ fn what_depends_on_time_is_refused_without_a_motion() {
     ] {
         let found = read(&text, &[setting]).unwrap_err();
         assert!(found.contains(expected), "{setting}: {found}");
+    }
+}
+
+/// The scheme `auto` is implicit steps with a share of the work for equilibria, which is complete in the case that the program writes.
+#[test]
+fn equilibria_and_motion_alternate_where_the_case_says_so() {
+    let text = BAR.replace(
+        "duration = 1e-5\n",
+        "duration = 1e-5\nscheme = \"auto\"\nstep = 1e-8\n",
+    );
+    for (given, expected) in [
+        ("title=\"x\"", setup::STATICS),
+        ("motion.statics=0.01", 0.01),
+    ] {
+        let case = read(&text, &[given]).unwrap();
+        let again = read(&case.resolved_toml().unwrap(), &[]).unwrap();
+        for case in [case, again] {
+            let Kind::Motion(found) = case.setup(&mut ()).unwrap().analysis else {
+                panic!("another analysis");
+            };
+            let Scheme::Implicit(implicit) = found.scheme else {
+                panic!("another scheme");
+            };
+            assert_eq!((implicit.statics, implicit.step), (Some(expected), 1e-8));
+        }
     }
 }
 

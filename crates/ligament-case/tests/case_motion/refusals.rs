@@ -1,7 +1,7 @@
 //! Settings that a motion refuses.
 
 /// Settings of the bar, and what the error says about them.
-pub(super) const REFUSED: [[&str; 2]; 45] = [
+pub(super) const REFUSED: [[&str; 2]; 49] = [
     [
         "-material.density",
         "material.density: missing key `density`: it is required (in kg/m^3) because a motion needs masses",
@@ -21,6 +21,22 @@ pub(super) const REFUSED: [[&str; 2]; 45] = [
     [
         "motion.rows=0",
         "motion.rows: must be 1 to 1000000, found 0",
+    ],
+    [
+        "motion.statics=1e-3",
+        "motion.statics: `statics` does not apply with scheme = \"explicit\"",
+    ],
+    [
+        "motion={duration=1.0,scheme=\"implicit\",step=1e-7,statics=1e-3}",
+        "motion.statics: `statics` does not apply with scheme = \"implicit\": all implicit steps have inertia",
+    ],
+    [
+        "motion={duration=1.0,scheme=\"auto\",step=1e-7,statics=1.0}",
+        "motion.statics: must be greater than 0 and less than 1, found 1.0",
+    ],
+    [
+        "motion={duration=1.0,scheme=\"auto\"}",
+        "motion.step: missing key `step`",
     ],
     [
         "motion.step=-1e-9",

@@ -256,7 +256,8 @@ pub(super) fn documents() -> Vec<Value> {
     );
     // Keys of one correction stand in another document than those of the other.
     let patch = ORTHOTROPIC.replace("\"domain\"", "\"patch\"");
-    let scheme = "duration = 1e-2\nscheme = \"implicit\"\nstep = 1e-4";
+    // The scheme that takes all keys of implicit steps.
+    let scheme = "duration = 1e-2\nscheme = \"auto\"\nstep = 1e-4";
     let implicit = MOTION.replace("duration = 1e-2", scheme);
     [
         mesh.as_str(),

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ligament::Loading;
 use ligament::setup::Setup;
 use ligament_analysis::driver::motion::time_step;
-use ligament_analysis::motion::MotionSettings;
+use ligament_analysis::motion::{ImplicitSettings, MotionSettings, Scheme};
 use ligament_case::case::CaseFile;
 use ligament_model::material::PlaneWaves;
 use ligament_output::quantity::quantity;
@@ -56,12 +56,19 @@ pub(super) fn check(
             critical.component.name()
         );
         entry(out, "critical step", words)?;
-        let count = (settings.duration / step.step).round();
-        entry(
-            out,
-            "time step",
-            format!("{}, {count} steps", quantity(step.step, "s")),
-        )?;
+        let length = quantity(step.step, "s");
+        let words = match settings.scheme {
+            Scheme::Implicit(ImplicitSettings {
+                statics: Some(_), ..
+            }) => format!(
+                "{length} where the body moves; equilibria from row to row before and after"
+            ),
+            Scheme::Explicit(_) | Scheme::Implicit(_) => {
+                let count = (settings.duration / step.step).round();
+                format!("{length}, {count} steps")
+            }
+        };
+        entry(out, "time step", words)?;
     }
     Ok(write_waves(out, model)?)
 }

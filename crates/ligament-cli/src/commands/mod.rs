@@ -3,6 +3,7 @@
 mod calibrate;
 mod case_args;
 mod check;
+mod cite;
 mod completions;
 mod crack;
 mod explain;
@@ -31,6 +32,7 @@ use clap::{CommandFactory, Parser, Subcommand};
 pub use calibrate::{CalibrateArgs, LineArgs, RunsArgs};
 pub use case_args::CaseArgs;
 pub use check::CheckArgs;
+pub use cite::CiteArgs;
 pub use completions::CompletionsArgs;
 pub use crack::CrackArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
@@ -194,6 +196,12 @@ pub enum Command {
     /// errors.
     #[command(after_help = schema::EXAMPLES)]
     Schema(SchemaArgs),
+    /// Print references to cite, as BibTeX: this program, and the papers behind what a case uses
+    ///
+    /// The papers are those of the law, the corrections, the failure criteria, the softening, random properties and the scheme of a
+    /// motion. The mesh of the case is not read.
+    #[command(after_help = cite::EXAMPLES)]
+    Cite(CiteArgs),
     /// Print a completion script for a shell
     #[command(after_help = completions::EXAMPLES)]
     Completions(CompletionsArgs),
@@ -224,6 +232,7 @@ impl Cli {
             Command::Stiffness(args) => args.execute(),
             Command::Yield(args) => args.execute(),
             Command::Schema(args) => args.execute(),
+            Command::Cite(args) => args.execute(),
             Command::Completions(args) => args.execute(Self::command()),
         };
         done.map(|()| ExitCode::SUCCESS)

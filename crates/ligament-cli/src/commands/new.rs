@@ -19,6 +19,7 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament new plate.msh                             writes case.toml, for plate.msh
   ligament new meshes/disk.msh --out disk/case.toml --law bbpd
+  ligament new plate.msh --out plate.ligament.toml   a name by which editors know a case
   ligament new --lattice 60,120,0.001                a lattice in place of a mesh
   ligament new --lattice 10,10,40,0.001              a lattice of a solid
 

@@ -16,7 +16,7 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament report results/disk                       writes results/disk/report.html
   ligament report results/coarse results/fine --labels '4 mm' '2 mm' --out both.html
-  ligament report results/disk --digits 4 --steps 20 a smaller page
+  ligament report results/disk --digits 3 --steps 20 a smaller page
 
 The page is one file without anything from a network: open it in a browser, send it, print it. It has
 summary and warnings, force over displacement, energies and convergence, and the body with any field,

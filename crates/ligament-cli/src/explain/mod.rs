@@ -13,6 +13,7 @@ mod words;
 use std::io::Write;
 use std::path::PathBuf;
 
+use ligament_output::remedy::Remedy;
 use ligament_output::results::stored::StoredRun;
 use ligament_output::{check_file, write_file};
 use thiserror::Error;
@@ -71,20 +72,21 @@ pub enum ExplainError {
         nearest: Vec<i64>,
     },
     /// A position in the plane for a solid.
-    #[error("the body is a solid: --at needs X,Y,Z")]
-    InSpace,
+    #[error("the body is a solid, and a place in it has three coordinates")]
+    InSpace(#[source] Remedy),
     /// A position in space for a body in the plane.
-    #[error("the body lies in the plane: --at needs X,Y")]
-    InPlane,
+    #[error("the body lies in the plane, and a place in it has two coordinates")]
+    InPlane(#[source] Remedy),
     /// A bond from a point to itself.
-    #[error(
-        "a bond has two ends, and both are {tagged} {tag}; --point {tag} explains all bonds of it"
-    )]
+    #[error("a bond has two ends, and both are {tagged} {tag}")]
     OneEnd {
         /// Kind of the tags, `node` or `cell`.
         tagged: &'static str,
         /// The tag.
         tag: i64,
+        /// The family in the place of a bond.
+        #[source]
+        remedy: Remedy,
     },
 }
 
@@ -120,7 +122,16 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
             let [a, b] = [point_of(&run, tags[0])?, point_of(&run, tags[1])?];
             if a == b {
                 let (tagged, tag) = (run.model.tagged, tags[0]);
-                return Err(ExplainError::OneEnd { tagged, tag }.into());
+                let remedy = Remedy::GiveNumber {
+                    option: "point",
+                    value: tag,
+                };
+                return Err(ExplainError::OneEnd {
+                    tagged,
+                    tag,
+                    remedy,
+                }
+                .into());
             }
             let ends = [a.min(b), a.max(b)];
             let pair = pair_of(&run, ends);
@@ -161,9 +172,13 @@ fn position_of(run: &StoredRun, position: Position) -> Result<[f64; 3], ExplainE
     match (run.model.in_space, position) {
         (true, Position::InSpace(position)) => Ok(position),
         (false, Position::InPlane([x, y])) => Ok([x, y, 0.0]),
-        (true, Position::InPlane(_)) => Err(ExplainError::InSpace),
-        (false, Position::InSpace(_)) => Err(ExplainError::InPlane),
+        (true, Position::InPlane(_)) => Err(ExplainError::InSpace(give("at", "X,Y,Z"))),
+        (false, Position::InSpace(_)) => Err(ExplainError::InPlane(give("at", "X,Y"))),
     }
+}
+
+fn give(option: &'static str, value: &'static str) -> Remedy {
+    Remedy::Give { option, value }
 }
 
 /// The point nearest to a position, the first of several.

@@ -56,7 +56,7 @@ fn the_crack_path_is_drawn_with_its_length_tips_and_axes() {
     );
 
     let moved = refusal(&[path, "--with-lines", band, "--scale", "10"]);
-    assert!(moved.contains("leave it out"), "{moved}");
+    assert!(moved.contains("leave out --scale"), "{moved}");
     fs::write(band, "0.04,0.03\n0.12\n").unwrap();
     let broken = refusal(&[path, "--with-lines", band]);
     assert!(broken.contains("row 2, `0.12`"), "{broken}");

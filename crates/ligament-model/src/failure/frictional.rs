@@ -14,6 +14,7 @@ pub use super::kind::Calibration;
 
 /// Sliding that compression makes harder.
 pub const FRICTIONAL: Kind = Kind {
+    source: "MPPD eqs 52 to 58",
     takes: &[TENSILE_STRENGTH, COMPRESSIVE_STRENGTH],
     keys: &["limit", "friction_angle", "calibration"],
     brittle_because: Some(

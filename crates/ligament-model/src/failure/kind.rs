@@ -20,6 +20,8 @@ pub struct Kind {
     pub word: &'static str,
     /// Sentence that says what fails, and where the limit comes from.
     pub words: &'static str,
+    /// Papers of the condition and of its limit, by the keys of the references, with their equations; empty without any.
+    pub source: &'static str,
     /// Measures of a bond's deformation; the kind stands for a [`Criterion`](super::Criterion) of each.
     pub measures: &'static [Measure],
     /// Properties of a material that the limits come from, unless they are given.
@@ -203,6 +205,7 @@ impl Kind {
         Self {
             word,
             words,
+            source: "",
             measures,
             takes: &[],
             keys: &[],

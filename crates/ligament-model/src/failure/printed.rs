@@ -23,6 +23,7 @@ use super::surroundings::Surroundings;
 
 /// Opening (mode I).
 pub const OPENING: Kind = Kind {
+    source: "MBB-PD eqs C.3, C.4",
     takes: &[FRACTURE_ENERGY],
     brittle_because: mixed_mode::MIXED_MODE.brittle_because,
     ..Kind::new(
@@ -35,6 +36,7 @@ pub const OPENING: Kind = Kind {
 
 /// Sliding (mode II).
 pub const SLIDING: Kind = Kind {
+    source: "MBB-PD eqs C.6, C.7",
     takes: &[FRACTURE_ENERGY],
     brittle_because: mixed_mode::MIXED_MODE.brittle_because,
     ..Kind::new(
@@ -47,6 +49,7 @@ pub const SLIDING: Kind = Kind {
 
 /// Opening and sliding together.
 pub const MIXED: Kind = Kind {
+    source: "MBB-PD eqs 21 to 24, C.9, C.10",
     takes: &[FRACTURE_ENERGY],
     brittle_because: mixed_mode::MIXED_MODE.brittle_because,
     suits: mixed_mode::suits,

@@ -9,6 +9,7 @@ use crate::material::{Isotropic, Space};
 
 /// Sliding, from the tensile strength.
 pub const SLIDING: Kind = Kind {
+    source: "MPPD eqs 49, 50",
     takes: &[TENSILE_STRENGTH],
     keys: &["limit"],
     ..Kind::new(

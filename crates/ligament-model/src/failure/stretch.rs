@@ -8,6 +8,7 @@ use crate::material::{Isotropic, Space};
 
 /// Stretch, from the tensile strength.
 pub const TENSION: Kind = Kind {
+    source: "MPPD eq. 44",
     takes: &[TENSILE_STRENGTH],
     keys: &["limit"],
     ..Kind::new(
@@ -20,6 +21,7 @@ pub const TENSION: Kind = Kind {
 
 /// Shortening, from the compressive strength.
 pub const COMPRESSION: Kind = Kind {
+    source: "MPPD eq. 44",
     takes: &[COMPRESSIVE_STRENGTH],
     keys: &["limit"],
     ..Kind::new(

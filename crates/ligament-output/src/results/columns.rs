@@ -250,6 +250,13 @@ columns! { "Columns of the table of natural modes."
     "share_inertia_x" "-" SOLID "of a solid, about x";
     "share_inertia_y" "-" SOLID "about y";
     "share_inertia_z" "-" SOLID "about z";
+    "participation_x" "kg^(1/2)" ANY "participation in a motion along x, whose square is the effective mass";
+    "participation_y" "kg^(1/2)" ANY "along y";
+    "participation_z" "kg^(1/2)" SOLID "along z, of a solid";
+    "participation_rotation" "kg^(1/2) m" PLANE "about the centre of mass, in the plane";
+    "participation_rotation_x" "kg^(1/2) m" SOLID "of a solid, about x";
+    "participation_rotation_y" "kg^(1/2) m" SOLID "about y";
+    "participation_rotation_z" "kg^(1/2) m" SOLID "about z";
 }
 
 columns! { "Columns of the lines of a crack."

@@ -1,7 +1,8 @@
 //! File of the model of a run: points, bonds and their limits, from which a bond can be explained later.
 //!
 //! `model.vtu`, in pieces `model.pvtu`, has the points with their tags, volumes and horizons, and the bonds as lines between them, which
-//! give lengths and directions. Factors and horizons have seven digits, limits all digits.
+//! give lengths and directions. Factors and horizons have seven digits, limits all digits. The point field `group.NAME` is 1 at the points
+//! of a support or load, NAME as in the columns of the history.
 //!
 //! | cell field | of a bond |
 //! |---|---|
@@ -18,6 +19,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::driver::Problem;
+use ligament_analysis::load_program::BoundaryGroup;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_model::{BodyGrid, ConstantFields};
 
@@ -29,6 +31,9 @@ use crate::vtu::{self, Field};
 
 /// Name of the field of the energies that bonds dissipated, J.
 pub(super) const DISSIPATED_ENERGY: &str = "dissipated_energy";
+
+/// What the names of the fields of supported and loaded points begin with.
+pub(super) const GROUP: &str = "group.";
 
 /// Stem of the model file's name.
 const MODEL: &str = "model";
@@ -99,15 +104,30 @@ pub(super) fn write(
     cell_fields.extend(largest.iter().flat_map(|columns| columns.fields()));
     let dissipated = dissipated.iter();
     cell_fields.extend(dissipated.map(|it| Field::scalar(DISSIPATED_ENERGY, it)));
-    let point_fields = [
+    let groups = groups(problem);
+    let mut point_fields = vec![
         Field::scalar(VOLUME.name, system.volumes()),
         Field::scalar(HORIZON.name, &fixed.horizon),
         Field::integer("no_fail", &no_fail),
         Field::integer(grid.tagged, &grid.tags),
     ];
+    point_fields.extend(groups.iter().map(|(name, at)| Field::integer(name, at)));
     let subdomain = system.subdomain();
     let path = folder.join(vtu::file_name(MODEL, subdomain));
     lines.write(&path, grid, &point_fields, &cell_fields, subdomain)
+}
+
+/// Fields of the supported and loaded points: a name and 1 at its points for each group.
+fn groups(problem: &Problem) -> Vec<(String, Vec<i64>)> {
+    let n_points = problem.system.volumes().len();
+    let field = |group: &BoundaryGroup| {
+        let mut at = vec![0; n_points];
+        for &point in &group.points {
+            at[point as usize] = 1;
+        }
+        (format!("{GROUP}{}", group.name), at)
+    };
+    problem.loads.groups().iter().map(field).collect()
 }
 
 /// Values of the bonds, with no number for each absent one.

@@ -49,7 +49,13 @@ pub fn write_modes(
             mode.eigenvalue.into(),
             mode.residual.into(),
         ];
-        row.extend(effective.chain(shares).map(Value::from));
+        let participation = mode.participation.iter().copied();
+        row.extend(
+            effective
+                .chain(shares)
+                .chain(participation)
+                .map(Value::from),
+        );
         table.append(&row)?;
         let name = format!("mode_{number:04}.vtu");
         let values = [

@@ -11,7 +11,7 @@ use ligament_model::Absence;
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
 
-use super::model_file::{COEFFICIENTS, model_file};
+use super::model_file::{COEFFICIENTS, GROUP, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::tables::told;
 use crate::csv::read::{Row, Sheet};
@@ -53,6 +53,8 @@ pub struct StoredModel {
     pub horizon: Vec<f64>,
     /// Whether the bonds of a point never fail, shape (n_points).
     pub no_fail: Vec<bool>,
+    /// Supported and loaded points by the name of their group in the history; none of runs of earlier versions.
+    pub groups: BTreeMap<String, Vec<u32>>,
     /// Bonds and absent bonds.
     pub bonds: StoredBonds,
     /// The failure criteria, in the order of the case.
@@ -285,11 +287,24 @@ impl StoredModel {
             volumes: numbers(VOLUME.name)?,
             horizon: numbers(HORIZON.name)?,
             no_fail: no_fail.into_iter().map(|flag| flag != 0).collect(),
+            groups: groups(&file)?,
             criteria: criteria(folder, &file, &bonds.absence)?,
             largest: StoredLargest::read(&file, &bonds.absence)?,
             bonds,
         })
     }
+}
+
+/// Supported and loaded points by the name of their group.
+fn groups(file: &VtuFile) -> Result<BTreeMap<String, Vec<u32>>, Error> {
+    let names = file.fields(FieldLocation::Point);
+    let named = names.filter_map(|field| Some((field, field.strip_prefix(GROUP)?)));
+    let points = |(field, name): (&str, &str)| {
+        let at = file.required_integers(FieldLocation::Point, field)?;
+        let points = (0..).zip(at).filter(|(_, is_in)| *is_in != 0);
+        Ok((name.to_owned(), points.map(|it| it.0).collect()))
+    };
+    named.map(points).collect()
 }
 
 impl StoredBonds {

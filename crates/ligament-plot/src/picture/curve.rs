@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use ligament_output::remedy::Remedy;
 use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 use ligament_output::summary::{self, Summary};
 
@@ -192,7 +193,7 @@ fn require_history(folder: &Path) -> Result<(), PictureError> {
         return Err(PictureError::Modes {
             path: folder.to_path_buf(),
             what: "history",
-            option: "--curve",
+            remedy: Remedy::LeaveOut("curve"),
         });
     }
     Ok(())

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament_output::pvd::Collection;
+use ligament_output::remedy::Remedy;
 use ligament_output::results::outputs::Outputs;
 use ligament_output::results::solid_body::{SolidBody, is_solid};
 use ligament_output::results::steps::StepChoice;
@@ -78,12 +79,18 @@ fn write(
 ) -> Result<Isosurface, PictureError> {
     let file = VtuFile::open(fields)?;
     if !is_solid(&file)? {
-        return Err(PictureError::Plane(request.folder.clone()));
+        return Err(PictureError::Plane(
+            request.folder.clone(),
+            Remedy::LeaveOut("iso"),
+        ));
     }
     let body = SolidBody::read(&file)?;
     let field = Field::read(&file, &request.field)?;
     if field.values.len() != body.grid.positions.len() {
-        return Err(PictureError::NoLevel);
+        return Err(PictureError::NoLevel(Remedy::Give {
+            option: "field",
+            value: "NAME",
+        }));
     }
     let of = (&file, &body);
     let (area, triangles) = write_level_set(&path, of, &field.values, request.level)?;

@@ -33,6 +33,7 @@ pub mod units;
 
 use std::path::PathBuf;
 
+use ligament_output::remedy::Remedy;
 use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
@@ -92,9 +93,9 @@ pub enum PictureError {
     },
     /// Lines are drawn on the body without its displacement.
     #[error(
-        "--scale {0} moves the body away from its lines, which are drawn where it is without load; leave it out"
+        "{0} times the displacement moves the body away from its lines, which are drawn where it is without load"
     )]
-    MovedLines(f64),
+    MovedLines(f64, #[source] Remedy),
     /// A picture for each step is one of each result alone.
     #[error("{option} draws one result at a time, and there are {n_results}; name one of them")]
     SeveralResults {
@@ -109,26 +110,29 @@ pub enum PictureError {
     )]
     Solid(&'static str),
     /// A view, section or level for a body in the plane.
-    #[error("{0} has a body in the plane; --view, --section and --iso are for solids")]
-    Plane(PathBuf),
+    #[error(
+        "{0} has a body in the plane, and only a solid has views, sections and surfaces of a level"
+    )]
+    Plane(PathBuf, #[source] Remedy),
     /// A level without a field.
-    #[error("--iso needs a field of the points: name one with --field")]
-    NoLevel,
+    #[error("the surface of a level needs a field of the points")]
+    NoLevel(#[source] Remedy),
     /// Lines over a solid.
-    #[error("--with-lines and --box are for bodies in the plane, and this one is a solid")]
-    LinesOfSolid,
+    #[error("lines and boxes are drawn over bodies in the plane, and this one is a solid")]
+    LinesOfSolid(#[source] Remedy),
     /// There is no history to choose or to draw from in the folder.
     #[error("{0} has no history.csv with the outputs, so none can be chosen by the displacement")]
     NoHistory(PathBuf),
     /// Modes have no curves and no cracks.
-    #[error("{path} has natural modes, and so no {what}; leave out {option}")]
+    #[error("{path} has natural modes, and so no {what}")]
     Modes {
         /// The folder.
         path: PathBuf,
         /// What was asked for.
         what: &'static str,
-        /// The option that asked for it.
-        option: &'static str,
+        /// The request without it.
+        #[source]
+        remedy: Remedy,
     },
     /// There are as many labels as results, or none.
     #[error(

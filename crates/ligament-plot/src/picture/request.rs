@@ -78,9 +78,15 @@ impl SolidRequest {
         self.view.or_else(of_section).unwrap_or(View::OBLIQUE)
     }
 
-    /// Whether something is asked for that only solids have.
-    pub(super) fn is_asked(&self) -> bool {
-        *self != Self::default()
+    /// The option by which something is asked for that only solids have, if any.
+    pub(super) fn asked(&self) -> Option<&'static str> {
+        let options = [
+            ("view", self.view.is_some()),
+            ("section", self.section.is_some()),
+            ("iso", self.level.is_some()),
+        ];
+        let asked = options.into_iter().find(|(_, is_asked)| *is_asked);
+        asked.map(|it| it.0)
     }
 }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::Sheet;
+use ligament_output::remedy::Remedy;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::steps::{NamedStep, StepChoice, StepName};
 
@@ -149,7 +150,7 @@ fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<()
         ) => Err(PictureError::Modes {
             path,
             what: "first breakage and no peak",
-            option: "--step",
+            remedy: Remedy::LeaveOut("step"),
         }),
         StepChoice::All | StepChoice::One(StepName::Last | StepName::Number(_)) => Ok(()),
     }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use ligament_output::FieldLocation;
 use ligament_output::csv::read::Sheet;
 use ligament_output::quantity::four_digits;
+use ligament_output::remedy::Remedy;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::{DISPLACEMENT, OPENING};
 use ligament_output::results::first_field_of;
@@ -106,7 +107,7 @@ impl Subject {
         if let (true, Magnification::Times(factor)) = (request.has_lines(), request.magnification)
             && factor != 0.0
         {
-            return Err(PictureError::MovedLines(factor));
+            return Err(PictureError::MovedLines(factor, Remedy::LeaveOut("scale")));
         }
         let has_surface = sources.iter().any(|it| it.solid_cracks.is_some());
         let default = match request.crack {
@@ -170,7 +171,7 @@ impl Source {
                 return Err(PictureError::Modes {
                     path: folder.to_path_buf(),
                     what: "cracks",
-                    option: "--crack",
+                    remedy: Remedy::LeaveOut("crack"),
                 });
             }
             let table = Sheet::read(folder.join("modes.csv"))?;
@@ -285,8 +286,9 @@ impl Output<'_> {
         if is_solid(&file)? {
             return self.solid_panel(&file, field);
         }
-        if self.source.solid.is_asked() {
-            return Err(PictureError::Plane(self.source.outputs.folder.clone()));
+        if let Some(option) = self.source.solid.asked() {
+            let folder = self.source.outputs.folder.clone();
+            return Err(PictureError::Plane(folder, Remedy::LeaveOut(option)));
         }
         let is_drawn = field != NONE;
         let mut field = is_drawn.then(|| Field::read(&file, field)).transpose()?;
@@ -313,7 +315,7 @@ impl Output<'_> {
     fn solid_panel(&self, file: &VtuFile, field: &str) -> Result<Panel, PictureError> {
         let source = self.source;
         if !source.lines.is_empty() {
-            return Err(PictureError::LinesOfSolid);
+            return Err(PictureError::LinesOfSolid(Remedy::LeaveOut("with-lines")));
         }
         let cracks = source.solid_cracks.as_ref();
         let cracks = cracks.map(|it| (it, self.chosen.number));

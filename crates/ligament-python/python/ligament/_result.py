@@ -5,14 +5,12 @@ from __future__ import annotations
 import difflib
 import functools
 import html
-import importlib.util
 import json
 import os
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +19,9 @@ from ligament import _native
 from ligament._curves import WIDTH, curves
 from ligament._errors import LigamentError
 from ligament._home import Home
+from ligament._modes import Modes
 from ligament._picture import Picture
-
-Floats = NDArray[np.float64]
+from ligament._stored import Floats, Stored, read_only, table
 
 # A step by its number, from the end (-1 is the last) or by what happened in it: the first breakage or softening, the largest load. In a motion a
 # step is a row of the history, and a time in s means the nearest one.
@@ -71,23 +69,7 @@ class Text(str):
         return str(self)
 
 
-def table(columns: Mapping[str, Any], units: Mapping[str, str] | None = None) -> Any:
-    """Columns as a table of pandas, whose ``attrs["units"]`` has their units, or of polars, whichever is installed, else as a dictionary."""
-    if importlib.util.find_spec("pandas"):
-        import pandas
-
-        frame = pandas.DataFrame(dict(columns), copy=False)
-        if units is not None:
-            frame.attrs["units"] = dict(units)
-        return frame
-    if importlib.util.find_spec("polars"):
-        import polars
-
-        return polars.DataFrame(dict(columns))
-    return dict(columns)
-
-
-class Result:
+class Result(Stored):
     """The results of a run in a folder: history, points, bonds and fields as arrays, pictures, cracks, explanations.
 
     The folder is that of the command line, so that its commands take it too. Arrays are read when they are asked for, and then kept; they
@@ -95,38 +77,9 @@ class Result:
     """
 
     def __init__(self, folder: str | os.PathLike[str], title: str | None = None, home: Home | None = None) -> None:
-        self._run = _native.Folder(Path(folder))
-        # Who has the folder: it lives as long as this.
-        self._home = home
+        super().__init__(folder, title, home)
         self._fields: dict[tuple[int, str], NDArray[Any]] = {}
         self._infos: dict[int, dict[str, tuple[list[str], bool, str]]] = {}
-        self.title = title if title is not None else self._own_title()
-
-    def _own_title(self) -> str:
-        case = tomllib.loads((self.folder / "case.resolved.toml").read_text(encoding="utf-8"))
-        return str(case.get("title") or self.folder.name)
-
-    @property
-    def folder(self) -> Path:
-        """The folder of the results."""
-        return Path(self._run.path)
-
-    def save(self, folder: str | os.PathLike[str], *, replace: bool = False) -> Path:
-        """Copies the results into a folder that is new or empty, and gives its path; `ligament.open` and the command line read it.
-
-        The files that the case reads come along, so that the folder can be moved, repeated and, where the run was stopped, resumed.
-        `replace` puts it in the place of earlier results.
-        """
-        self._run.copy_to(Path(folder), replace)
-        return Path(folder)
-
-    def __reduce__(self) -> Any:
-        files = {it.name: it.read_bytes() for it in sorted(self.folder.iterdir()) if it.is_file() and not it.name.startswith(".")}
-        return _restored, (files, self.title)
-
-    def __deepcopy__(self, _: object) -> Result:
-        # It never changes.
-        return self
 
     @functools.cached_property
     def columns(self) -> dict[str, Any]:
@@ -177,7 +130,7 @@ class Result:
         """Arrays over the points that never change: position (n, 2) or (n, 3), volume, horizon and others."""
         first = self.steps[0]
         fixed = [name for name, (_, stays, _) in self._info(first).items() if stays]
-        position = self._positions if self.is_solid else _read_only(self._positions[:, :2].copy())
+        position = self._positions if self.is_solid else read_only(self._positions[:, :2].copy())
         return {"position": position, **{name: self._whole(name, first) for name in fixed}}
 
     @functools.cached_property
@@ -203,8 +156,8 @@ class Result:
         positions, bonds = self._model
         ends = bonds["ends"]
         length = np.linalg.norm(positions[ends[:, 1]] - positions[ends[:, 0]], axis=1)
-        taken = {} if "dissipated_energy" in bonds or not self.is_finished else {"dissipated_energy": _read_only(np.zeros(len(ends)))}
-        return {**bonds, "length": _read_only(length), **taken}
+        taken = {} if "dissipated_energy" in bonds or not self.is_finished else {"dissipated_energy": read_only(np.zeros(len(ends)))}
+        return {**bonds, "length": read_only(length), **taken}
 
     @functools.cached_property
     def _summary_text(self) -> str:
@@ -273,7 +226,7 @@ class Result:
         if part is None:
             return values
         if part == NORM:
-            return self._fields.setdefault((at, name), _read_only(np.linalg.norm(values, axis=1)))
+            return self._fields.setdefault((at, name), read_only(np.linalg.norm(values, axis=1)))
         return values[:, self._info(at)[base][0].index(part)]
 
     def _step(self, step: Step | None, time: float | None = None) -> int:
@@ -371,10 +324,21 @@ class Result:
         tags = [*([] if point is None else [int(point)]), *map(int, bond or ())]
         return Text(self._run.explain(tags, [float(it) for it in at or ()]))
 
-    def report(self, path: str | os.PathLike[str], measured: Sequence[str | os.PathLike[str]] = ()) -> Path:
+    def report(
+        self,
+        path: str | os.PathLike[str],
+        measured: Sequence[str | os.PathLike[str]] = (),
+        *,
+        digits: int | None = None,
+        steps: int | None = None,
+        size: float | None = None,
+    ) -> Path:
         """Writes the page of the results for a browser, one file, with tables of measured curves, and gives its path; a file that is there
-        is replaced."""
-        return report([self], path, measured)
+        is replaced.
+
+        `digits` are those of the largest value of a field in a step, at first 4; `steps` and the `size` in MB are limits, at first 60 and 15.
+        """
+        return report([self], path, measured, digits=digits, steps=steps, size=size)
 
     def to_pyvista(self, step: Step | None = None, *, time: float | None = None) -> Any:
         """The body in a step, or at a time of a motion, as a grid of PyVista, with all fields."""
@@ -436,13 +400,6 @@ class Result:
         return told + [("warning", words) for words in self.warnings]
 
 
-def _restored(files: dict[str, bytes], title: str) -> Result:
-    """The result of files, in a folder of its own."""
-    home = Home()
-    home.restore(files)
-    return Result(home.path, title, home)
-
-
 def _meant(step: Step | None, time: float | None) -> str:
     """The name of a step or of a time."""
     if time is None:
@@ -453,19 +410,40 @@ def _meant(step: Step | None, time: float | None) -> str:
     return f"t={float(time)!r}"
 
 
-def _read_only(values: NDArray[Any]) -> NDArray[Any]:
-    values.setflags(write=False)
-    # A view of an array that is read only cannot be made writable.
-    return values.view()
+@overload
+def open(folder: str | os.PathLike[str]) -> Result: ...
+@overload
+def open(folder: str | os.PathLike[str], kind: type[Result]) -> Result: ...
+@overload
+def open(folder: str | os.PathLike[str], kind: type[Modes]) -> Modes: ...
+def open(folder: str | os.PathLike[str], kind: type[Result] | type[Modes] | None = None) -> Result | Modes:
+    """The results in a folder: of ``ligament run``, of `Result.save`, or of a run that is under way, of which it has what is there so far; of a
+    modal analysis its `Modes`.
 
-
-def open(folder: str | os.PathLike[str]) -> Result:
-    """The results in a folder: of ``ligament run``, of `Result.save`, or of a run that is under way, of which it has what is there so far."""
-    return Result(folder)
+    `kind`, ``ligament.Modes`` or ``ligament.Result``, tells type checkers what it is, and refuses the other.
+    """
+    found: type[Result] | type[Modes] = Modes if _native.Folder(folder).is_modal else Result
+    if kind not in (None, found):
+        what = "natural modes" if found is Modes else "the results of loads"
+        hint = f"`ligament.open(folder, ligament.{found.__name__})` opens them"
+        raise LigamentError(f"{folder} has {what}; {hint}", hint=hint)
+    return found(folder)
 
 
 def report(
-    results: list[Result], path: str | os.PathLike[str], measured: Sequence[str | os.PathLike[str]] = ()
+    results: list[Result],
+    path: str | os.PathLike[str],
+    measured: Sequence[str | os.PathLike[str]] = (),
+    *,
+    digits: int | None = None,
+    steps: int | None = None,
+    size: float | None = None,
 ) -> Path:
-    """Writes one page for a browser with several results, and gives its path; a file that is there is replaced."""
-    return _native.report([it.folder for it in results], [it.title for it in results], Path(path), [Path(it) for it in measured])
+    """Writes one page for a browser with several results, and gives its path; a file that is there is replaced. The others are those of
+    `Result.report`."""
+    if digits is not None and not 2 <= digits <= 8:
+        raise LigamentError(f"a page has from 2 to 8 digits, and not {digits}", hint="2 to 8 digits")
+    if (steps is not None and steps < 2) or (size is not None and not size > 0):
+        raise LigamentError("a page has 2 steps or more, and a size above 0", hint="2 steps or more, and a size above 0")
+    folders, titles = [it.folder for it in results], [it.title for it in results]
+    return _native.report(folders, titles, Path(path), [Path(it) for it in measured], (digits, steps, size))

@@ -954,11 +954,13 @@ class Motion(TypedDict, total=False):
     """Time at the end, s."""
     rows: int
     """Rows of the history, at equal times. Default 200."""
-    scheme: Literal["explicit", "implicit"]
+    scheme: Literal["explicit", "implicit", "auto"]
     """Scheme of the integration in time.
 
 - `explicit`: Central differences: steps without equations to solve, shorter than a critical step.
-- `implicit`: Newmark's scheme: steps of any length, each an equilibrium with inertia; of `[fracture]` the keys of a load step hold for each. Default "explicit"."""
+- `implicit`: Newmark's scheme: steps of any length, each an equilibrium with inertia; of `[fracture]` the keys of a load step hold for each.
+- `auto`: Equilibria without inertia from row to row until the body loses its balance, then implicit steps until it is at rest, then equilibria
+again. Default "explicit"."""
     step: float
     """Time step, s; explicit steps without it are `safety` times the critical step of the body. It is shortened so that rows are at
 multiples of it, and implicit steps are halved where bonds break fast."""
@@ -966,6 +968,9 @@ multiples of it, and implicit steps are halved where bonds break fast."""
     """Share of the critical step, beyond which explicit steps are unstable. Default 0.8."""
     dissipation: float
     """Dissipation of fast motions by implicit steps, after Hilber, Hughes and Taylor: 0 takes no energy. Default 0.0."""
+    statics: float
+    """Share of the work so far that a step without inertia may set free beyond what its bonds dissipate, and that a motion may have left when
+equilibria follow again; for the scheme `auto`. Default 0.001."""
     rotary_inertia: float
     """Factor on the rotational inertia of the points; a larger one allows longer steps where rotations limit them. Default 1.0."""
     damping: MotionDamping

@@ -18,7 +18,8 @@ from ligament._home import Home
 from ligament._modes import Modes
 from ligament._picture import Picture
 from ligament._progress import Report
-from ligament._result import Result, table
+from ligament._result import Result
+from ligament._stored import table
 
 
 def run(
@@ -48,11 +49,7 @@ def _run(
 ) -> Result:
     if case._native.is_modal:
         raise LigamentError("the case asks for natural modes; `ligament.modal` finds them", hint="`ligament.modal` finds them")
-    home: Home | None = None
-    if folder is None:
-        home = Home()
-        folder = home.path
-    place = Path(folder)
+    place, home = _place(folder)
     report = _progress.report_of(progress, case._native.is_motion)
     try:
         stopped = _native.run(case._native, place, replace, report)
@@ -64,10 +61,26 @@ def _run(
     return result
 
 
-def modal(case: Source, /, **changes: Any) -> Modes:
-    """Finds the natural modes of a case with ``analysis = "modal"``."""
+def modal(
+    case: Source, /, *, folder: str | os.PathLike[str] | None = None, replace: bool = False, **changes: Any
+) -> Modes:
+    """Finds the natural modes of a case with ``analysis = "modal"``; they are written into `folder` as the results of `run` are."""
     meant = case_of(case, changes)
-    return Modes(_native.modes(meant._native), meant.title or meant.name)
+    if not meant._native.is_modal:
+        hint = "`analysis=\"modal\"` asks for them, and `ligament.run` runs the case under its loads"
+        raise LigamentError(f"the case does not ask for natural modes; {hint}", key="analysis", hint=hint)
+    place, home = _place(folder)
+    if _native.run(meant._native, place, replace, None):
+        raise KeyboardInterrupt
+    return Modes(place, meant.title or meant.name, home)
+
+
+def _place(folder: str | os.PathLike[str] | None) -> tuple[Path, Home | None]:
+    """The folder for results, where none is given a temporary one."""
+    if folder is not None:
+        return Path(folder), None
+    home = Home()
+    return home.path, home
 
 
 @dataclass(frozen=True)

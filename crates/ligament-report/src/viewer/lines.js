@@ -90,29 +90,20 @@ class Lines {
       const place = scene.relative(scene.placeOf(point));
       const presses = dot3(force, place) < 0;
       const [tail, tip] = presses ? [minus3(place, force), place] : [place, minus3(place, force.map((it) => -it))];
-      segments.push([tail, tip], ...this.head(tail, tip));
+      segments.push(...arrow(tail, tip, scene.camera));
     }
     return segments;
   }
 
-  // The two strokes at the tip of an arrow, in the plane of the screen.
-  head(tail, tip) {
-    const { toEye } = this.scene.camera;
-    const along = minus3(tip, tail);
-    const across = cross(along, toEye);
-    const length = Math.hypot(...along) || 1;
-    const width = (0.13 * length) / (Math.hypot(...across) || 1);
-    return [1, -1].map((side) => [tip, tip.map((it, axis) => it - 0.28 * along[axis] + side * width * across[axis])]);
-  }
-
   // All layers over the body of a step.
-  layers({ step, mode, broken, family, chosen, reaction, isOverRed }) {
+  layers({ step, mode, broken, family, chosen, reaction, symbols, isOverRed }) {
     const crack = isOverRed ? CRACK_OVER_RED : CRACK;
     const layers = [
       lineLayer((broken ?? []).map((it) => this.bond(it)), [...crack.slice(0, 3), 0.6], 1),
       // Pre-cracks open as well.
       lineLayer(["none", "open"].includes(mode) ? [] : this.precracks(), PRECRACK, 3),
       lineLayer(mode === "lines" ? this.cracks(step) : [], crack, 3),
+      ...(symbols ? symbols.layers() : []),
       lineLayer(this.forces(reaction), FORCE, 2),
     ];
     for (const [colour, kind] of [[INTACT, false], [BROKEN, true]]) {
@@ -121,4 +112,14 @@ class Lines {
     layers.push(lineLayer(family.filter((it) => it.bond === chosen).map((it) => this.bond(it.ends)), CHOSEN, 4));
     return layers;
   }
+}
+
+// An arrow, whose two strokes at the tip lie in the plane of the screen.
+function arrow(tail, tip, { toEye }) {
+  const along = minus3(tip, tail);
+  const across = cross(along, toEye);
+  const length = Math.hypot(...along) || 1;
+  const width = (0.13 * length) / (Math.hypot(...across) || 1);
+  const head = [1, -1].map((side) => [tip, tip.map((it, axis) => it - 0.28 * along[axis] + side * width * across[axis])]);
+  return [[tail, tip], ...head];
 }

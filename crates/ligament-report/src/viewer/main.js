@@ -18,6 +18,7 @@ class Page {
       this.redraw();
     });
     this.lines = new Lines(this.scene);
+    this.symbols = new Symbols(this.scene);
     this.panel = new Panel();
     this.charts = new Charts(this.runs, description.measured, (number, step) => this.go(step, this.runs[number]));
     this.asked = 0;
@@ -77,6 +78,8 @@ class Page {
     this.body = await run.body();
     this.scene.show(this.body);
     this.lines.show(run, this.body);
+    this.symbols.show(run);
+    element("symbols").closest("label").hidden = this.symbols.isEmpty;
     this.allowTouch();
   }
 
@@ -210,6 +213,7 @@ class Page {
       family: this.family,
       chosen: this.chosenBond,
       reaction: element("forces").checked ? this.reaction : null,
+      symbols: element("symbols").checked ? this.symbols : null,
       isOverRed: this.range.map !== "cividis",
     }));
     if (this.run.isSolid) drawAxes(element("axes"), this.scene.camera);
@@ -294,7 +298,7 @@ class Page {
     element("cracks").addEventListener("change", () => this.showStep());
     element("section").addEventListener("change", () => this.place());
     element("cut").addEventListener("input", () => this.place());
-    element("forces").addEventListener("change", () => this.redraw());
+    for (const id of ["forces", "symbols"]) element(id).addEventListener("change", () => this.redraw());
     element("save-body").addEventListener("click", () => save(this.canvas.toDataURL("image/png"), `${this.run.label}-${this.choice.id}-${this.run.steps[this.step]}.png`));
     for (const button of document.querySelectorAll("[data-view]")) button.addEventListener("click", () => this.look(button.dataset.view));
     element("step").addEventListener("input", (event) => this.go(Number(event.target.value)));

@@ -63,6 +63,9 @@ impl Analysis {
     }
 }
 
+/// Share of the work so far that a step without inertia may set free in a motion that follows equilibria where it can.
+pub const STATICS: f64 = 1e-3;
+
 /// Settings of load steps with these load factors; at most five bonds break between two solutions.
 pub fn stepped(load_factors: Vec<f64>) -> SteppedSettings {
     SteppedSettings {
@@ -131,5 +134,6 @@ pub fn implicit(step: f64) -> ImplicitSettings {
         rule,
         rounds: 20,
         energy_tolerance,
+        statics: None,
     }
 }

@@ -117,6 +117,11 @@ fn check_settings(settings: &MotionSettings) -> Checked {
             let is_fit = (0.0..=1.0 / 3.0).contains(&dissipation);
             let expected = "0 to 1/3";
             require(is_fit, field.part("dissipation"), expected, dissipation)?;
+            if let Some(share) = implicit.statics {
+                let is_share = share > 0.0 && share < 1.0;
+                let expected = "greater than 0 and less than 1";
+                require(is_share, field.part("statics"), expected, share)?;
+            }
         }
     }
     let factor = settings.rotary_inertia;

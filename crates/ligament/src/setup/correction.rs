@@ -41,7 +41,26 @@ pub enum Surface {
     Patch(patch::Settings),
 }
 
+impl Alpha {
+    /// Papers of the factor, by the keys of the references; empty without any.
+    pub fn source(self) -> &'static str {
+        match self {
+            Self::Length => "NHPD",
+            Self::None | Self::PartialVolume => "",
+        }
+    }
+}
+
 impl Surface {
+    /// Papers of the correction, by the keys of the references; empty without any.
+    pub fn source(&self) -> &'static str {
+        match self {
+            Self::Volume => "Le and Bobaru 2018",
+            Self::Domain(_) => "NHPD",
+            Self::None | Self::Patch(_) => "",
+        }
+    }
+
     /// Largest ratio of the materials' stiffnesses in the computation of the factors ([contrast](ligament_model::material::with_reduced_contrast)). With a
     /// smaller ratio, soft layers between stiffer parts carry a more accurate load, stiff layers under tension along them a less accurate
     /// one, as measured on layers of one to four cells.

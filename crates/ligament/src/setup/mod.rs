@@ -32,7 +32,7 @@ use crate::body::{AnyBody, Geometry};
 use crate::implausible::Implausible;
 
 pub use analysis::{
-    Analysis, ELASTIC_ENERGY_TOLERANCE, event, explicit, implicit, modal, motion, stepped,
+    Analysis, ELASTIC_ENERGY_TOLERANCE, STATICS, event, explicit, implicit, modal, motion, stepped,
 };
 pub use conditions::{
     Action, Axis, Couple, Displacement, Load, Place, Position, Profile, Sample, SpringStiffness,

@@ -2,17 +2,18 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod faces;
+mod statics;
 mod vibration;
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use ligament::Vibration;
 use ligament::body::{Cells, SolidLatticeBody};
 use ligament::prelude::*;
 use ligament::run::on_threads;
 use ligament::setup::{self, InitialVelocity, modal};
+use ligament::{Loading, Vibration};
 use ligament_analysis::driver::{Outcome, Problem, motion};
 use ligament_analysis::history::{Moment, ObserverError, Onward, StepRecord, Termination, View};
 use ligament_analysis::modal::{ModalAnalysis, ModeKind, Rotations};
@@ -133,6 +134,7 @@ fn implicit(duration: f64, rows: usize, steps: usize, dissipation: f64) -> Motio
             rule: setup::stepped(Vec::new()).rule,
             rounds: 20,
             energy_tolerance: 1e-6,
+            statics: None,
         }),
         ..settings(duration, rows)
     }

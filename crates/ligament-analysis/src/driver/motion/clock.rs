@@ -1,6 +1,6 @@
 //! Times of a motion: equal time steps, of which a fixed number makes a row of the history.
 
-use crate::motion::{MotionError, MotionSettings};
+use crate::motion::{ImplicitSettings, MotionError, MotionSettings};
 use crate::serial;
 
 /// Times of a motion.
@@ -31,6 +31,19 @@ impl Clock {
             duration,
             rows,
             steps_per_row,
+        }
+    }
+
+    /// Times of implicit steps. Where equilibria follow each other, a row is halved until its parts are as short as a step of the motion.
+    pub(super) fn implicit(settings: &MotionSettings, implicit: ImplicitSettings) -> Self {
+        let clock = Self::new(settings, implicit.step);
+        let steps_per_row = match implicit.statics {
+            Some(_) => clock.steps_per_row.next_power_of_two(),
+            None => clock.steps_per_row,
+        };
+        Self {
+            steps_per_row,
+            ..clock
         }
     }
 

@@ -6,7 +6,7 @@ use crate::motion::{Damping, MotionProblem};
 use crate::problem::Problem;
 use crate::serial;
 use crate::state::State;
-use crate::vectors::weighted_square;
+use crate::vectors::{sum_of_chunks, weighted_square};
 
 /// Motion at a time.
 pub(super) struct Here {
@@ -59,10 +59,10 @@ pub(super) fn free_masses(problem: &MotionProblem, rotary_inertia: f64) -> Vec<f
 
 impl Motion {
     /// Motion with given velocities (n_degrees_of_freedom), before accelerations and forces are known.
-    pub(super) fn at_rest(velocity: &[f64], balanced: &Balanced) -> Self {
+    pub(super) fn with_velocity(velocity: Vec<f64>, balanced: &Balanced) -> Self {
         let n = velocity.len();
         Self {
-            velocity: velocity.to_vec(),
+            velocity,
             acceleration: vec![0.0; n],
             internal: balanced.internal.values.clone(),
             external: vec![0.0; n],
@@ -144,6 +144,43 @@ impl MassAndDamping<'_> {
             }
         }
         forces
+    }
+}
+
+impl MassAndDamping<'_> {
+    /// Energy that damping took between two times, and with dissipation that of the scheme, J, for the way of each degree of freedom: the work
+    /// of the forces that are out of balance at both times, and what the parameters of the scheme take from the kinetic energy.
+    pub(super) fn damped(
+        &self,
+        [before, after]: [&Motion; 2],
+        way: &(dyn Fn(usize) -> f64 + Sync),
+        dissipates: bool,
+    ) -> f64 {
+        let masses = self.masses;
+        let left = |motion: &Motion, dof: usize| {
+            let inertia = masses[dof] * motion.acceleration[dof];
+            let balance = motion.external[dof] - motion.internal[dof];
+            if masses[dof] > 0.0 {
+                balance - motion.damping[dof] - inertia
+            } else {
+                0.0
+            }
+        };
+        let sum = sum_of_chunks(masses.len(), |range| {
+            let of = |dof: usize| {
+                let mut force = before.damping[dof] + after.damping[dof];
+                if dissipates {
+                    let inertia = before.acceleration[dof] + after.acceleration[dof];
+                    force += left(before, dof) + left(after, dof) + masses[dof] * inertia;
+                }
+                0.5 * force * way(dof)
+            };
+            range.map(of).sum()
+        });
+        match dissipates {
+            true => sum + before.kinetic_energy(masses) - after.kinetic_energy(masses),
+            false => sum,
+        }
     }
 }
 

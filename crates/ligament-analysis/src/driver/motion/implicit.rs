@@ -5,34 +5,26 @@
 //!
 //! Points with a prescribed motion have no mass here: the trapezoidal rule would let the acceleration of a prescribed motion ring.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use super::clock::Clock;
 use super::here::{Here, MassAndDamping, Motion, free_masses};
 use super::implicit_kept::ImplicitKept;
 use super::progress::{IMPLICIT, Progress, Resumed};
+use super::quasi_static;
 use super::record;
-use super::stepping::{HALVINGS, Pace, Stepping, scheme};
-use super::taken::{Taken, next};
-use crate::balanced::Attempt;
+use super::stepping::{CALM, HALVINGS, Pace, Stepping, scheme};
+use super::taken::{self, Taken, TooLong, Trial};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::driver::dissipation;
 use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
-use crate::driver::start::NoObserver;
 use crate::error::SetupError;
-use crate::history::{BreakRecord, Observer, Termination};
+use crate::history::{Notice, Observer, Termination};
 use crate::motion::{ImplicitSettings, MotionError, MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::softening::Softening;
 use crate::state::State;
-use crate::unbalanced::Unbalanced;
-use crate::vectors::sum_of_chunks;
-
-/// Steps without a breakage after which a halved step is doubled again.
-const CALM: usize = 8;
 
 /// Motion in implicit steps.
 struct Implicit<'a> {
@@ -51,14 +43,6 @@ struct Implicit<'a> {
     started: Instant,
 }
 
-/// Reason why a step is halved and taken again.
-enum TooLong {
-    /// Bonds broke round after round.
-    Rounds,
-    /// There was no equilibrium.
-    Unbalanced(Unbalanced),
-}
-
 /// Follows a motion from time zero to its end.
 pub(super) fn run(
     problem: &MotionProblem,
@@ -67,7 +51,7 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     check(problem, settings)?;
-    let clock = Clock::new(settings, implicit.step);
+    let clock = Clock::implicit(settings, implicit);
     let mut state = State::fresh(&*problem.problem.system);
     problem
         .problem
@@ -76,13 +60,13 @@ pub(super) fn run(
     let n_bonds = state.intact.len();
     state.softening = Softening::of_sound_bonds(&problem.problem.criteria, n_bonds);
     let masses = free_masses(problem, settings.rotary_inertia);
-    let pace = Pace::default();
+    let pace = quasi_static::first_pace(problem, implicit);
     let scheme = scheme(settings, implicit, &clock, pace);
     let mut stepping = Stepping::new(problem, scheme, &masses, (&mut state, implicit))?;
     let balanced = stepping.equilibrium.measured(&mut state);
     let mut motion = Implicit {
         here: Here {
-            motion: Motion::at_rest(&problem.initial_velocity, &balanced),
+            motion: Motion::with_velocity(problem.initial_velocity.to_vec(), &balanced),
             state,
             balanced,
             broken: 0,
@@ -115,7 +99,7 @@ pub(super) fn resume(
         progress,
         kept,
     } = resumed;
-    if progress.clock != Clock::new(settings, implicit.step) {
+    if progress.clock != Clock::implicit(settings, implicit) {
         return Err(CheckpointError::OtherTimes.into());
     }
     let ImplicitKept {
@@ -225,45 +209,86 @@ impl Implicit<'_> {
 
     /// Takes steps up to a row of the history; returns the reason why there is none, if a step does not converge however small it is.
     fn move_to_row(&mut self, row: usize) -> Result<Option<Termination>, SetupError> {
-        let Clock { steps_per_row, .. } = self.progress.clock;
-        let whole = 1_usize << HALVINGS;
-        let (mut tick, ticks) = (0, steps_per_row * whole);
+        let Clock {
+            steps_per_row,
+            rows,
+            duration,
+        } = self.progress.clock;
+        let (mut tick, ticks) = (0, steps_per_row << HALVINGS);
         while tick < ticks {
-            let length = whole >> self.pace.halvings;
-            let is_aligned = (tick + ticks).is_multiple_of(2 * length);
-            if self.pace.halvings > 0 && self.pace.calm >= CALM && is_aligned {
-                self.change_pace(self.pace.halvings - 1)?;
+            if self.lengthen(row, tick)? {
                 continue;
             }
+            let length = self.pace.parts(&self.progress.clock);
             let share = (tick + length) as f64 / ticks as f64;
-            let rows = self.progress.clock.rows as f64;
-            let time = self.progress.clock.duration * ((row - 1) as f64 + share) / rows;
+            let time = duration * ((row - 1) as f64 + share) / rows as f64;
             match self.attempt(row, time)? {
                 Ok(taken) => {
                     self.accept(taken)?;
                     tick += length;
                 }
-                Err(TooLong::Unbalanced(reason)) if self.pace.halvings == HALVINGS => {
+                Err(TooLong::Unbalanced(reason)) if !self.can_shorten() => {
                     let step = self.progress.history.len();
                     return Ok(Some(Termination::NoEquilibrium { step, reason }));
                 }
-                Err(TooLong::Rounds | TooLong::Unbalanced(_)) => {
-                    self.change_pace(self.pace.halvings + 1)?;
-                }
+                Err(TooLong::Rounds | TooLong::Free | TooLong::Unbalanced(_)) => self.shorten()?,
             }
         }
         Ok(None)
     }
 
-    /// Takes steps of another length from here on.
-    fn change_pace(&mut self, halvings: usize) -> Result<(), SetupError> {
-        self.pace = Pace { halvings, calm: 0 };
-        let scheme = scheme(
-            self.settings,
-            self.implicit,
-            &self.progress.clock,
-            self.pace,
-        );
+    /// Whether shorter steps than the present ones are possible, or steps with inertia.
+    fn can_shorten(&self) -> bool {
+        let most = self.pace.most_halvings(&self.progress.clock);
+        !self.pace.has_inertia || self.pace.halvings < most
+    }
+
+    /// Halves the steps, or lets the body move where the shortest ones without inertia are too long.
+    fn shorten(&mut self) -> Result<(), SetupError> {
+        if self.pace.halvings < self.pace.most_halvings(&self.progress.clock) {
+            let pace = self.pace.halved();
+            if pace.has_inertia {
+                return self.change_pace(pace);
+            }
+            self.pace = pace;
+            let criteria = self.problem.problem.criteria.clone();
+            let equilibrium = &mut self.stepping.equilibrium;
+            equilibrium.return_to(&self.here.state, criteria);
+            return Ok(());
+        }
+        let time = self.here.state.load_factor;
+        let share = self.implicit.statics.unwrap_or_default();
+        self.observer.notice(&Notice::LostBalance { time, share })?;
+        self.progress.moving_since = (time, self.here.broken);
+        self.change_pace(Pace::MOTION)
+    }
+
+    /// Doubles steps that are calm, or leaves inertia out where the body came to rest; returns whether it did.
+    fn lengthen(&mut self, row: usize, tick: usize) -> Result<bool, SetupError> {
+        let pace = self.pace;
+        let is_aligned = tick.is_multiple_of(2 * pace.parts(&self.progress.clock));
+        if pace.halvings > 0 && pace.calm >= pace.calm_enough() && is_aligned {
+            let pace = pace.doubled();
+            match pace.has_inertia {
+                true => self.change_pace(pace)?,
+                false => self.pace = pace,
+            }
+            return Ok(true);
+        }
+        let is_calm = pace.calm > 0 && pace.calm.is_multiple_of(CALM);
+        match self.implicit.statics {
+            Some(share) if pace.has_inertia && pace.halvings == 0 && is_calm => {
+                self.come_to_rest(row, tick, share)
+            }
+            _ => Ok(false),
+        }
+    }
+
+    /// Takes steps with the equations of another pace from here on.
+    fn change_pace(&mut self, pace: Pace) -> Result<(), SetupError> {
+        self.pace = pace;
+        let clock = &self.progress.clock;
+        let scheme = scheme(self.settings, self.implicit, clock, pace);
         let of_state = (&mut self.here.state, self.implicit);
         let stepping = Stepping::new(&self.problem, scheme, &self.masses, of_state)?;
         let costs = self.stepping.costs();
@@ -271,72 +296,108 @@ impl Implicit<'_> {
         Ok(())
     }
 
+    /// Leaves inertia out, if the body with its present bonds has an equilibrium at this time that is as near as `share` of the energy; returns
+    /// whether it has.
+    fn come_to_rest(&mut self, row: usize, tick: usize, share: f64) -> Result<bool, SetupError> {
+        let most = share * self.energy_given();
+        let kinetic = self.progress.motion.kinetic_energy;
+        if kinetic > most {
+            return Ok(false);
+        }
+        let pace = self.pace;
+        let time = self.here.state.load_factor;
+        self.change_pace(quasi_static::pace_from(tick, &self.progress.clock))?;
+        let criteria = self.problem.problem.criteria.clone();
+        let taken = self.attempt(row, time)?.ok();
+        let problem = &self.problem.problem;
+        let is_near = |taken: &Taken| {
+            let free = quasi_static::set_free(problem, &self.energies, &self.here, taken);
+            taken.broken.is_empty() && kinetic + free <= most
+        };
+        let Some(taken) = taken.filter(is_near) else {
+            self.problem.problem.criteria = criteria;
+            self.change_pace(Pace { calm: 0, ..pace })?;
+            return Ok(false);
+        };
+        let before = self.in_bonds();
+        self.accept(taken)?;
+        self.progress.motion.damping_energy += kinetic + self.in_bonds() - before;
+        let (since, before) = self.progress.moving_since;
+        let broken = self.here.broken - before;
+        let notice = Notice::AtRest {
+            time,
+            since,
+            broken,
+        };
+        self.observer.notice(&notice)?;
+        Ok(true)
+    }
+
+    /// Work less the energies of bonds and contacts, J.
+    fn in_bonds(&self) -> f64 {
+        let Energies {
+            external_work,
+            released,
+            ..
+        } = self.energies;
+        let friction = self.progress.motion.friction_energy;
+        external_work - self.here.balanced.stored_energy - released - friction
+    }
+
+    /// Largest energy that the body was given so far, J.
+    fn energy_given(&self) -> f64 {
+        let initial = self.progress.motion.initial_energy;
+        self.energies.largest_work().max(initial)
+    }
+
     fn inertia(&self) -> MassAndDamping<'_> {
         MassAndDamping {
             problem: &self.problem,
             masses: &self.masses,
-            damping: self.stepping.scheme.damping,
+            damping: self.settings.damping,
         }
     }
 
     /// A step to a time, without effect on the motion; the reason why it is too long, if it is.
     fn attempt(&mut self, row: usize, time: f64) -> Result<Result<Taken, TooLong>, SetupError> {
-        let criteria = self.problem.problem.criteria.clone();
-        let loads = Arc::new(self.stepping.loads(&self.here, self.inertia()));
+        let loads = self.stepping.loads(&self.here, self.inertia());
+        let trial = Trial {
+            row,
+            broken: self.here.broken,
+            rule: self.implicit.rule,
+            rounds: self.can_shorten().then_some(self.implicit.rounds),
+        };
         let equilibrium = &mut self.stepping.equilibrium;
         equilibrium.load_with(loads);
-        let mut taken = Taken {
-            state: State {
-                load_factor: time,
-                ..self.here.state.clone()
-            },
-            balanced: self.here.balanced.clone(),
-            broken: Vec::new(),
-            records: Vec::new(),
+        let start = State {
+            load_factor: time,
+            ..self.here.state.clone()
         };
-        let mut breakage = Breakage::default();
-        let mut rounds = 0;
-        loop {
-            let attempt = equilibrium.balance(&mut taken.state, &breakage, &mut NoObserver)?;
-            taken.balanced = match attempt {
-                Attempt::Balanced(balanced) => balanced,
-                Attempt::Unbalanced(reason) => {
-                    self.problem.problem.criteria = criteria;
-                    return Ok(Err(TooLong::Unbalanced(reason)));
-                }
-            };
-            breakage = Breakage::default();
-            let problem = &mut self.problem.problem;
-            if let Some(begun) = problem.beginning(&taken.state, &taken.balanced) {
-                problem.criteria = Arc::new(problem.criteria.begun_at(&begun));
-                equilibrium.judge_by(problem.criteria.clone());
-                taken.state.softening.begun = begun;
-                continue;
-            }
-            let next = next(problem, &self.implicit.rule, equilibrium, &taken);
-            if next.is_empty() {
-                return Ok(Ok(taken));
-            }
-            rounds += 1;
-            if rounds > self.implicit.rounds && self.pace.halvings < HALVINGS {
-                problem.criteria = criteria;
-                return Ok(Err(TooLong::Rounds));
-            }
-            let moment = BreakRecord {
-                order: self.here.broken + taken.broken.len(),
-                step: row,
-                round: rounds,
-                ..BreakRecord::default()
-            };
-            breakage = taken.break_bonds(problem, &next, moment, equilibrium);
+        let start = (start, self.here.balanced.clone());
+        let criteria = self.problem.problem.criteria.clone();
+        let problem = &mut self.problem.problem;
+        let taken = match taken::attempt(problem, equilibrium, start, &trial)? {
+            Ok(taken) => taken,
+            Err(reason) => return Ok(Err(reason)),
+        };
+        let Some(share) = self.implicit.statics.filter(|_| !self.pace.has_inertia) else {
+            return Ok(Ok(taken));
+        };
+        let problem = &self.problem.problem;
+        let free = quasi_static::set_free(problem, &self.energies, &self.here, &taken);
+        let work = (self.energies).work_to(problem, &taken.state, &taken.balanced);
+        let given = self.energies.external_work + work;
+        if free <= share * self.energy_given().max(given) {
+            return Ok(Ok(taken));
         }
+        self.problem.problem.criteria = criteria;
+        Ok(Err(TooLong::Free))
     }
 
     /// Accepts a step, with its energies.
-    fn accept(&mut self, mut taken: Taken) -> Result<(), SetupError> {
+    fn accept(&mut self, taken: Taken) -> Result<(), SetupError> {
         let problem = &self.problem.problem;
         self.observer.broke(&taken.records)?;
-        dissipation::soften(problem, &mut taken.state);
         let expansion = problem.loads.thermal_strain(taken.state.load_factor);
         let (system, before) = (&*problem.system, &self.here.state);
         let breakage = match taken.broken.is_empty() {
@@ -344,9 +405,13 @@ impl Implicit<'_> {
             false => Breakage::new(system, expansion, before, &taken.broken),
         };
         let motion = self.stepping.after(&self.here, &taken, self.inertia());
-        let way = |dof: usize| taken.state.displacement[dof] - before.displacement[dof];
-        let earlier = &self.here.motion;
-        self.progress.motion.damping_energy += self.damped(earlier, &motion, &way);
+        if self.pace.has_inertia {
+            let way = |dof: usize| taken.state.displacement[dof] - before.displacement[dof];
+            let both = [&self.here.motion, &motion];
+            let dissipates = self.implicit.dissipation > 0.0;
+            let damped = self.inertia().damped(both, &way, dissipates);
+            self.progress.motion.damping_energy += damped;
+        }
         self.progress.motion.kinetic_energy = motion.kinetic_energy(&self.masses);
         self.progress.motion.time_steps += 1;
         self.pace.calm = if taken.broken.is_empty() {
@@ -371,40 +436,13 @@ impl Implicit<'_> {
         self.energies.add_work(problem, state, balanced);
         self.energies
             .add_released(problem, state, &breakage, balanced);
-        self.progress.motion.friction_energy +=
-            self.energies.follow_contact(problem, state, balanced);
-        Ok(())
-    }
-
-    /// Energy that damping took in a step, and with dissipation that of the scheme, J: the work of the forces that are out of balance at its
-    /// ends, and what its parameters take from the kinetic energy.
-    fn damped(&self, before: &Motion, after: &Motion, way: &(dyn Fn(usize) -> f64 + Sync)) -> f64 {
-        let dissipates = self.implicit.dissipation > 0.0;
-        let masses = &self.masses;
-        let left = |motion: &Motion, dof: usize| {
-            let inertia = masses[dof] * motion.acceleration[dof];
-            let balance = motion.external[dof] - motion.internal[dof];
-            if masses[dof] > 0.0 {
-                balance - motion.damping[dof] - inertia
-            } else {
-                0.0
-            }
-        };
-        let sum = sum_of_chunks(masses.len(), |range| {
-            let of = |dof: usize| {
-                let mut force = before.damping[dof] + after.damping[dof];
-                if dissipates {
-                    let inertia = before.acceleration[dof] + after.acceleration[dof];
-                    force += left(before, dof) + left(after, dof) + masses[dof] * inertia;
-                }
-                0.5 * force * way(dof)
-            };
-            range.map(of).sum()
-        });
-        match dissipates {
-            true => sum + before.kinetic_energy(masses) - after.kinetic_energy(masses),
-            false => sum,
+        if self.pace.has_inertia {
+            let taken = self.energies.follow_contact(problem, state, balanced);
+            self.progress.motion.friction_energy += taken;
+        } else {
+            (self.energies).add_contact(problem, state, &breakage, balanced);
         }
+        Ok(())
     }
 
     /// Records the present time as a row, and returns the reason why the motion ends there, if it does.

@@ -2,7 +2,7 @@
 
 use super::clock::Clock;
 use super::here::{Here, Motion, free_masses};
-use super::stepping::{HALVINGS, Pace, Stepping, of_step, scheme};
+use super::stepping::{Pace, Stepping, of_step, scheme};
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -51,7 +51,7 @@ impl ImplicitKept {
         let pace: Pace = Serial::read(from).map_err(damaged)?;
         let costs: Costs = Serial::read(from).map_err(damaged)?;
         let n = problem.problem.system.layout().n_degrees_of_freedom();
-        if !motion.fits(n) || pace.halvings > HALVINGS {
+        if !motion.fits(n) || pace.halvings > pace.most_halvings(clock) {
             return Err(CheckpointError::OtherModel.into());
         }
         problem.problem = with_begun(&problem.problem, &state)?;

@@ -11,6 +11,7 @@ mod implicit_kept;
 mod inertia;
 mod newmark;
 mod progress;
+mod quasi_static;
 mod record;
 mod restored;
 mod stepping;
@@ -56,7 +57,7 @@ pub fn time_step(
     match settings.scheme {
         Scheme::Explicit(explicit) => Ok(explicit::chosen(problem, settings, explicit)?.1),
         Scheme::Implicit(implicit) => Ok(ExplicitChoice {
-            step: Clock::new(settings, implicit.step).step(),
+            step: Clock::implicit(settings, implicit).step(),
             critical: critical_step(problem, settings)?,
         }),
     }

@@ -23,6 +23,8 @@ pub(super) struct Progress {
     pub(super) damping_forces: Vec<f64>,
     /// Energy stored in faces of cracks that stick, J.
     pub(super) sticking: f64,
+    /// Time at which the body last lost its balance, s, with the number of bonds broken before.
+    pub(super) moving_since: (f64, usize),
     pub(super) history: Vec<StepRecord>,
     /// Largest overlap of crack faces so far.
     pub(super) overlap: Option<LargestOverlap>,
@@ -33,6 +35,7 @@ serial!(Progress {
     motion,
     damping_forces,
     sticking,
+    moving_since,
     history,
     overlap,
 });
@@ -44,6 +47,7 @@ impl Progress {
             motion: InMotion::default(),
             damping_forces: Vec::new(),
             sticking: 0.0,
+            moving_since: (0.0, 0),
             history: Vec::new(),
             overlap: None,
         }

@@ -11,6 +11,7 @@ use crate::costs::Costs;
 use crate::driver::recorder::Energies;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
+use crate::load_program::LoadProgram;
 use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::restraints::Restraints;
@@ -20,49 +21,118 @@ use crate::state::State;
 /// Largest number of times that a step is halved.
 pub(super) const HALVINGS: usize = 10;
 
+/// Steps of a motion without a breakage after which halved steps are doubled again.
+pub(super) const CALM: usize = 8;
+
 /// Equations of steps of one length.
 pub(super) struct Stepping {
-    pub(super) scheme: Newmark,
+    /// Scheme of the motion; None for equilibria without inertia.
+    pub(super) scheme: Option<Newmark>,
     pub(super) restraints: Arc<Restraints>,
     pub(super) equilibrium: Equilibrium,
     /// Costs of the equations of other lengths before.
     pub(super) costs: Costs,
 }
 
-/// Length of the steps: those of the clock, halved some times.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// Kind and length of the steps.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Pace {
-    /// Number of halvings.
+    /// Whether the steps have inertia; steps without it are equilibria.
+    pub(super) has_inertia: bool,
+    /// Number of halvings: of the steps of the clock, without inertia of the time between two rows.
     pub(super) halvings: usize,
     /// Number of steps since the last halving or breakage.
     pub(super) calm: usize,
 }
 
-serial!(Pace { halvings, calm });
+serial!(Pace {
+    has_inertia,
+    halvings,
+    calm
+});
 
-/// Scheme of steps at a pace.
+impl Pace {
+    /// Steps without inertia from row to row.
+    pub(super) const STATICS: Self = Self {
+        has_inertia: false,
+        halvings: 0,
+        calm: 0,
+    };
+
+    /// Steps of the clock, with inertia.
+    pub(super) const MOTION: Self = Self {
+        has_inertia: true,
+        ..Self::STATICS
+    };
+
+    /// Steps of half the length.
+    pub(super) fn halved(self) -> Self {
+        Self {
+            halvings: self.halvings + 1,
+            calm: 0,
+            ..self
+        }
+    }
+
+    /// Steps of twice the length.
+    pub(super) fn doubled(self) -> Self {
+        Self {
+            halvings: self.halvings - 1,
+            calm: 0,
+            ..self
+        }
+    }
+
+    /// Largest number of halvings.
+    pub(super) fn most_halvings(&self, clock: &Clock) -> usize {
+        match self.has_inertia {
+            true => HALVINGS,
+            false => clock.steps_per_row.trailing_zeros() as usize,
+        }
+    }
+
+    /// Number of parts, 2^[`HALVINGS`] of which a step of the clock has, in a step.
+    pub(super) fn parts(&self, clock: &Clock) -> usize {
+        let whole = 1_usize << HALVINGS;
+        match self.has_inertia {
+            true => whole >> self.halvings,
+            false => (clock.steps_per_row * whole) >> self.halvings,
+        }
+    }
+
+    /// Number of calm steps after which the steps are doubled.
+    pub(super) fn calm_enough(&self) -> usize {
+        if self.has_inertia { CALM } else { 1 }
+    }
+}
+
+/// Scheme of steps at a pace; None without inertia.
 pub(super) fn scheme(
     settings: &MotionSettings,
     implicit: ImplicitSettings,
     clock: &Clock,
     pace: Pace,
-) -> Newmark {
-    Newmark {
+) -> Option<Newmark> {
+    pace.has_inertia.then(|| Newmark {
         step: clock.step() / f64::from(1_u32 << pace.halvings),
         dissipation: implicit.dissipation,
         damping: settings.damping,
-    }
+    })
 }
 
 /// Problem of a step of a scheme, with its restraints.
 pub(super) fn of_step(
     problem: &MotionProblem,
-    scheme: Newmark,
+    scheme: Option<Newmark>,
     masses: &[f64],
 ) -> (Problem, Arc<Restraints>) {
+    let base = &problem.problem.loads;
+    let Some(scheme) = scheme else {
+        return (problem.problem.clone(), base.restraints().clone());
+    };
     let restraints = Arc::new(scheme.restraints(problem, masses));
     let loads = StepLoads {
-        base: problem.problem.loads.clone(),
+        base: base.clone(),
         restraints: restraints.clone(),
         factor: 1.0 / scheme.of_stiffness(),
         added: vec![0.0; masses.len()],
@@ -78,7 +148,7 @@ impl Stepping {
     /// Equations of steps of a scheme, for the bonds of a state.
     pub(super) fn new(
         problem: &MotionProblem,
-        scheme: Newmark,
+        scheme: Option<Newmark>,
         masses: &[f64],
         (state, implicit): (&mut State, ImplicitSettings),
     ) -> Result<Self, SetupError> {
@@ -89,6 +159,7 @@ impl Stepping {
         for &bond in &broken {
             state.intact[bond as usize] = true;
         }
+        state.held.fill(false);
         equilibrium.break_bonds(state, &broken);
         if !state.softening.remaining.is_empty() {
             equilibrium.soften();
@@ -107,10 +178,11 @@ impl Stepping {
     }
 
     /// Loads of a step from here.
-    pub(super) fn loads(&self, here: &Here, inertia: MassAndDamping<'_>) -> StepLoads {
-        let Stepping {
-            scheme, restraints, ..
-        } = self;
+    pub(super) fn loads(&self, here: &Here, inertia: MassAndDamping<'_>) -> Arc<dyn LoadProgram> {
+        let base = inertia.problem.problem.loads.clone();
+        let Some(scheme) = &self.scheme else {
+            return base;
+        };
         let Here { state, motion, .. } = here;
         let Motion {
             velocity,
@@ -138,27 +210,24 @@ impl Stepping {
             let force = mass * of_mass * predicted[dof] - scheme.of_start() * at_start - *sum;
             *sum = if mass > 0.0 { factor * force } else { 0.0 };
         }
-        StepLoads {
-            base: inertia.problem.problem.loads.clone(),
-            restraints: restraints.clone(),
+        Arc::new(StepLoads {
+            base,
+            restraints: self.restraints.clone(),
             factor,
             added,
-        }
+        })
     }
 
     /// Velocities, accelerations and forces after a step.
     pub(super) fn after(&self, here: &Here, taken: &Taken, inertia: MassAndDamping<'_>) -> Motion {
-        let scheme = &self.scheme;
         let Here { state, motion, .. } = here;
-        let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
         let n = inertia.masses.len();
-        let mut after = Motion {
-            velocity: vec![0.0; n],
-            acceleration: vec![0.0; n],
-            internal: taken.balanced.internal.values.clone(),
-            external: Vec::new(),
-            damping: Vec::new(),
+        let mut after = Motion::with_velocity(vec![0.0; n], &taken.balanced);
+        let Some(scheme) = &self.scheme else {
+            after.external = inertia.forces(&taken.state, &after.velocity).0;
+            return after;
         };
+        let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
         for dof in (0..n).filter(|&dof| inertia.masses[dof] > 0.0) {
             let (u, v, a) = (
                 state.displacement[dof],

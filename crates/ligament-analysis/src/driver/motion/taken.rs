@@ -1,14 +1,19 @@
 //! An implicit step on trial: its equilibria, and the bonds that break in it.
 
-use crate::balanced::Balanced;
+use std::sync::Arc;
+
+use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
 use crate::driver::breaks::{Breaking, CriteriaAtDeformations};
 use crate::driver::dissipation;
+use crate::driver::start::NoObserver;
 use crate::equilibrium::Equilibrium;
+use crate::error::SetupError;
 use crate::history::BreakRecord;
 use crate::problem::Problem;
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// A step that was taken.
 pub(super) struct Taken {
@@ -19,8 +24,82 @@ pub(super) struct Taken {
     pub(super) records: Vec<BreakRecord>,
 }
 
+/// Reason why a step is too long.
+pub(super) enum TooLong {
+    /// Bonds broke round after round.
+    Rounds,
+    /// Without inertia it set energy free.
+    Free,
+    /// There was no equilibrium.
+    Unbalanced(Unbalanced),
+}
+
+/// Settings of a step.
+pub(super) struct Trial {
+    /// Row of the history to which the step leads.
+    pub(super) row: usize,
+    /// Number of bonds that broke before it.
+    pub(super) broken: usize,
+    pub(super) rule: BreakingRule,
+    /// Largest number of rounds of breaking; None: any number.
+    pub(super) rounds: Option<usize>,
+}
+
+/// A step to the time of a state, from an equilibrium before it; the reason why it is too long, if it is. The criteria of the problem then remain
+/// as they were.
+pub(super) fn attempt(
+    problem: &mut Problem,
+    equilibrium: &mut Equilibrium,
+    (state, balanced): (State, Balanced),
+    trial: &Trial,
+) -> Result<Result<Taken, TooLong>, SetupError> {
+    let criteria = problem.criteria.clone();
+    let mut taken = Taken {
+        state,
+        balanced,
+        broken: Vec::new(),
+        records: Vec::new(),
+    };
+    let mut breakage = Breakage::default();
+    let mut rounds = 0;
+    loop {
+        let attempt = equilibrium.balance(&mut taken.state, &breakage, &mut NoObserver)?;
+        taken.balanced = match attempt {
+            Attempt::Balanced(balanced) => balanced,
+            Attempt::Unbalanced(reason) => {
+                problem.criteria = criteria;
+                return Ok(Err(TooLong::Unbalanced(reason)));
+            }
+        };
+        breakage = Breakage::default();
+        if let Some(begun) = problem.beginning(&taken.state, &taken.balanced) {
+            problem.criteria = Arc::new(problem.criteria.begun_at(&begun));
+            equilibrium.judge_by(problem.criteria.clone());
+            taken.state.softening.begun = begun;
+            continue;
+        }
+        let next = next(problem, &trial.rule, equilibrium, &taken);
+        if next.is_empty() {
+            dissipation::soften(problem, &mut taken.state);
+            return Ok(Ok(taken));
+        }
+        rounds += 1;
+        if trial.rounds.is_some_and(|most| rounds > most) {
+            problem.criteria = criteria;
+            return Ok(Err(TooLong::Rounds));
+        }
+        let moment = BreakRecord {
+            order: trial.broken + taken.broken.len(),
+            step: trial.row,
+            round: rounds,
+            ..BreakRecord::default()
+        };
+        breakage = taken.break_bonds(problem, &next, moment, equilibrium);
+    }
+}
+
 /// Bonds that break next in an equilibrium of a step.
-pub(super) fn next(
+fn next(
     problem: &Problem,
     rule: &BreakingRule,
     equilibrium: &Equilibrium,
@@ -49,7 +128,7 @@ pub(super) fn next(
 
 impl Taken {
     /// Breaks bonds of an equilibrium of the step.
-    pub(super) fn break_bonds(
+    fn break_bonds(
         &mut self,
         problem: &Problem,
         bonds: &[u32],

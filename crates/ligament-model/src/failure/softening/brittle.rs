@@ -6,6 +6,7 @@ use super::law::{Law, Softened};
 pub const LAW: Law = Law {
     word: "brittle",
     words: "It breaks.",
+    source: "",
     force: "brittle",
     parameter: None,
     softens: false,

@@ -10,6 +10,7 @@ pub const LAST_FORCE: f64 = 1e-3;
 pub const LAW: Law = Law {
     word: "exponential",
     words: "Its force falls exponentially.",
+    source: "",
     force: "force falls exponentially, with a scale of",
     parameter: Some(Parameter {
         key: "scale",

@@ -9,6 +9,8 @@ pub struct Law {
     pub word: &'static str,
     /// Sentence on what the force does.
     pub words: &'static str,
+    /// Papers of the law, by the keys of the references, with their equations; empty without any.
+    pub source: &'static str,
     /// What the force does, in few words; the parameter follows, if there is one.
     pub force: &'static str,
     /// Parameter of the law, if there is one.

@@ -6,6 +6,7 @@ use super::law::{Law, Parameter, Softened};
 pub const LAW: Law = Law {
     word: "linear",
     words: "Its force falls in one straight line to zero.",
+    source: "MPPD eqs 45, 46, 50",
     force: "force falls in one straight line, to zero at",
     parameter: Some(Parameter {
         key: "end",

@@ -6,6 +6,7 @@ use super::law::{Law, Softened};
 pub const LAW: Law = Law {
     word: "plastic",
     words: "Its force stays; of `sliding` alone.",
+    source: "",
     force: "force stays",
     parameter: None,
     softens: true,

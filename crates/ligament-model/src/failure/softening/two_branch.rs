@@ -16,6 +16,7 @@ const ENERGY: f64 = 5.0 / 9.0;
 pub const LAW: Law = Law {
     word: "two-branch",
     words: "Its force falls in two straight lines, to a third and then to zero (Petersson's, of concrete).",
+    source: "Petersson 1981",
     force: "force falls to a third and then to zero, in two straight lines (Petersson), which end at",
     parameter: Some(Parameter {
         key: "end",

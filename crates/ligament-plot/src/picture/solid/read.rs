@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use ligament_mesh::SolidCell;
 use ligament_model::{Canvas, box_corners};
 use ligament_output::FieldLocation;
+use ligament_output::remedy::Remedy;
 use ligament_output::results::fields::{DISPLACEMENT, OPENING, ResultField, SLIDING};
 use ligament_output::results::solid_body::SolidBody;
 use ligament_output::results::solid_cracks::SolidCracks;
@@ -209,7 +210,10 @@ impl Solid<'_> {
         let tetrahedra = Tetrahedra::new(&self.body.grid);
         let points = tetrahedra.points.iter();
         let values: Option<Vec<f64>> = points.map(|it| self.value(*it)).collect();
-        let values = values.ok_or(PictureError::NoLevel)?;
+        let values = values.ok_or(PictureError::NoLevel(Remedy::Give {
+            option: "field",
+            value: "NAME",
+        }))?;
         let mut scene = self.on_level(&tetrahedra, &values, level);
         self.add_edges(&mut scene);
         Ok(scene)

@@ -1,0 +1,43 @@
+//! The papers behind what a case uses.
+
+use super::motion::Scheme;
+use super::scatter::Distribution;
+use super::sections::Case;
+
+impl Case {
+    /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys
+    /// of the references; each text stands once.
+    pub fn sources(&self) -> Vec<&'static str> {
+        let mut found = vec![self.model.law.0.row.source];
+        found.extend(self.correction.alpha.map(|it| it.0.source()));
+        found.extend(self.correction.surface.map(|it| it.0.source()));
+        let fracture = self.fracture.as_ref();
+        let criteria = fracture.and_then(|it| it.criteria.as_deref());
+        for criterion in criteria.into_iter().flatten() {
+            found.extend([criterion.kind.0.source, criterion.after.0.source]);
+        }
+        if let Some(scatter) = fracture.and_then(|it| it.scatter.as_ref()) {
+            found.push(match scatter.distribution {
+                Distribution::Weibull => "Weibull 1951",
+                Distribution::Normal => "",
+            });
+            if scatter.correlation_length > 0.0 {
+                found.push("Shinozuka and Jan 1972");
+            }
+        }
+        let motion = self.motion.as_ref();
+        if motion.is_some_and(|it| it.scheme != Scheme::Explicit) {
+            found.push("Hilber 1977");
+        }
+        if !self.quiet.is_empty() {
+            found.push("Lysmer and Kuhlemeyer 1969");
+        }
+        let mut each = Vec::new();
+        for source in found {
+            if !source.is_empty() && !each.contains(&source) {
+                each.push(source);
+            }
+        }
+        each
+    }
+}
