@@ -103,7 +103,7 @@ impl Reference {
         };
         let whole = |it: &&str| it.chars().all(|it| it.is_ascii_digit());
         let words = self.place.split([' ', ',', '(', ')']);
-        words.filter(is_year).filter(whole).next_back()
+        words.filter(is_year).rfind(whole)
     }
 
     /// Journal and volume of `Journal 48, 2000, 175-209` and of `Journal 48 (2000), 175-209`.

@@ -1,5 +1,9 @@
 //! The examples run, and find what they assert.
 #![allow(
+    clippy::duplicate_mod,
+    reason = "each example is a program of its own, and one breaks the plate of another"
+)]
+#![allow(
     clippy::print_stdout,
     clippy::unwrap_used,
     reason = "examples show what they find"
