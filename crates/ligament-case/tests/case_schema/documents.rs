@@ -211,6 +211,8 @@ centre = [0, 9]
 size = [1, 1]
 velocity = { y = -1 }
 mass = 2
+inertia = 1
+acceleration = { y = -1 }
 [motion]
 duration = 1e-2
 damping = {}
