@@ -13,6 +13,10 @@ use crate::surfaces::Touching;
 use crate::unbalanced::Unbalanced;
 
 /// Result of an attempt to bring a state into equilibrium.
+#[allow(
+    clippy::large_enum_variant,
+    reason = "an equilibrium is the usual result, and its arrays are on the heap as they are"
+)]
 #[derive(Debug, Clone, PartialEq)]
 pub enum Attempt {
     /// The state is in equilibrium.

@@ -53,9 +53,33 @@ fn moving() -> String {
     let steps = "[fracture]\nsteps = 10";
     let motion = "[fracture]\n[motion]\nduration = 3e-4\nrows = 30";
     let load = "displacement = { x = 4e-4 }";
-    BAR.replace(steps, motion)
+    let ball = "shape = \"circle\"\ncentre = [0.3, 0.03]\nradius = 0.1\nvelocity = { x = -1.0 }\n";
+    let bar = BAR
+        .replace(steps, motion)
         .replace(load, "force = { x = 600.0 }")
-        .replace("young = 1e9", "young = 1e9\ndensity = 2000.0")
+        .replace("young = 1e9", "young = 1e9\ndensity = 2000.0");
+    format!("{bar}{BALL}{ball}")
+}
+
+/// A rigid ball that flies towards the bar and turns.
+const BALL: &str = r#"
+[[rigid]]
+name = "ball"
+mass = 1.0
+inertia = 1e-3
+"#;
+
+/// The solid bar as a motion, beside a ball.
+fn moving_solid() -> String {
+    let steps = "[fracture]\nsteps = 12\nstop = { load_fraction = 0.1 }";
+    let motion = "[motion]\nduration = 1e-5\nrows = 2";
+    let load = "displacement = { x = 2.4e-4 }";
+    let ball =
+        "shape = \"sphere\"\ncentre = [0.2, 0.02, 0.02]\nradius = 0.05\nvelocity = { x = -1.0 }\n";
+    let solid = SOLID
+        .replace(steps, motion)
+        .replace(load, "force = { x = 60.0 }");
+    format!("{solid}{BALL}{ball}")
 }
 
 /// A bar in space of 8 x 4 x 4 cells.
@@ -205,7 +229,7 @@ fn compare(heading: &str, written: &[Vec<String>], names: &Names, wrong: &mut Ve
 
 /// Runs whose tables together have all columns: on a lattice, brittle and softening; with strains of their own; on a mesh; with cracks that close; in stages;
 /// in space; between points of a table; in time; modes.
-fn runs(place: &Place) -> [&'static str; 9] {
+fn runs(place: &Place) -> [&'static str; 10] {
     fs::write(place.path("bar.toml"), BAR).unwrap();
     let meshes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes");
     let case = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/brazilian-disk/case.toml");
@@ -256,8 +280,19 @@ fn runs(place: &Place) -> [&'static str; 9] {
     );
     fs::write(place.path("moving.toml"), moving()).unwrap();
     place.call("run moving.toml --out moving --quiet");
+    fs::write(place.path("moving-solid.toml"), moving_solid()).unwrap();
+    place.call("run moving-solid.toml --out moving-solid --quiet");
     [
-        "brittle", "soft", "mbb", "mesh", "closing", "stages", "solid", "cloud", "moving",
+        "brittle",
+        "soft",
+        "mbb",
+        "mesh",
+        "closing",
+        "stages",
+        "solid",
+        "cloud",
+        "moving",
+        "moving-solid",
     ]
 }
 
@@ -279,6 +314,8 @@ fn the_page_has_every_column_that_is_written() {
         ]),
     );
     names.insert("LOAD", set(&["right"]));
+    names.insert("CONTACT", set(&["ball"]));
+    names.insert("RIGID", set(&["ball"]));
     names.insert("PROBE", set(&["elongation"]));
     names.insert("FIELD", set(&["damage", "displacement.x"]));
     names.insert(

@@ -135,7 +135,7 @@ fn each_analysis_says_what_contact_it_has() {
             &[
                 "fracture={criterion=[{kind=\"tension\",limit=1.0}]}",
                 "rigid.0.displacement.y=1.0",
-                "stage=[{loads={load-1=1.0},steps=2}]",
+                "stage=[{loads={left=1.0},steps=2}]",
             ],
             "rigid.0.displacement: with stages",
         ),

@@ -268,7 +268,7 @@ pub(super) fn documents() -> Vec<Value> {
     let scheme = "duration = 1e-2\nscheme = \"auto\"\nstep = 1e-4";
     let implicit = MOTION.replace("duration = 1e-2", scheme);
     // A rigid body with a mass takes explicit steps.
-    let implicit = implicit.replace("mass = 2\n", "");
+    let implicit = implicit.replace("mass = 2\ninertia = 1\nacceleration = { y = -1 }\n", "");
     [
         mesh.as_str(),
         LATTICE,

@@ -692,8 +692,7 @@ class RigidAcceleration(TypedDict, total=False):
 
 
 class Rigid(TypedDict, total=False):
-    """A rigid body that parts of the body meet; it does not turn."""
-    """A rigid body that parts of the body meet in a motion."""
+    """A rigid body that parts of the body meet."""
 
     name: str
     """Name in results."""

@@ -156,8 +156,9 @@ fn a_bar_follows_equilibria_until_it_snaps() {
         for it in at_rest {
             let half = 0.5 * it.reaction * it.displacement;
             let apart = (it.stored_energy - half).abs();
+            // The rounding of the work is left where the bar has parted.
             assert!(
-                apart <= 1e-9 * half,
+                apart <= 1e-9 * half + 1e-12 * last.external_work,
                 "{name}, row {}: {apart:e} of {half:e}",
                 it.step
             );
