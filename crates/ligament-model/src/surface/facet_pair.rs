@@ -6,11 +6,11 @@ use super::cells::Bonded;
 use super::facet::{Facet, Surface};
 use super::nearest::nearest_weights;
 use super::pair::{Pose, Step, SurfacePair};
-use super::rigid::RigidShape;
+use super::rigid::{RigidShape, in_space, turned};
 use super::search::{Search, Sought};
 use super::touch::{Touch, Vector, held_slip};
 use super::{Corners, normal, tangential, weighted};
-use crate::tensor::{cross, dot, minus, norm};
+use crate::tensor::{dot, minus, norm};
 
 /// Cosine between the outward normals of two surfaces above which they do not face each other.
 const FACING: f64 = -0.1;
@@ -482,22 +482,4 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         };
         [facets.map(of_facet).sum(), reach]
     }
-}
-
-/// A way turned by rotations about the axes: exactly in the plane, to the first order in space.
-fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
-    if by == [0.0; 3] {
-        return way;
-    }
-    if let [x, y] = way.as_slice() {
-        let (sine, cosine) = by[2].sin_cos();
-        let turned = [cosine * x - sine * y, sine * x + cosine * y];
-        return std::array::from_fn(|axis| turned[axis]);
-    }
-    let added = cross(by, in_space(way));
-    std::array::from_fn(|axis| way[axis] + added[axis])
-}
-
-fn in_space<const D: usize>(vector: [f64; D]) -> Vector {
-    std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }

@@ -1,6 +1,7 @@
 //! Rigid shapes with their signed distance and outward normal.
 
-use crate::tensor::{dot, minus, norm};
+use super::touch::Vector;
+use crate::tensor::{cross, dot, minus, norm};
 
 /// A rigid shape in D dimensions, in the coordinates of its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -111,6 +112,25 @@ fn direction<const D: usize>(way: [f64; D], length: f64, axis: usize) -> [f64; D
         return way.map(|it| it / length);
     }
     std::array::from_fn(|it| if it == axis { 1.0 } else { 0.0 })
+}
+
+/// A way turned by rotations about the axes: exactly in the plane, to the first order in space.
+pub(super) fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
+    if by == [0.0; 3] {
+        return way;
+    }
+    if let [x, y] = way.as_slice() {
+        let (sine, cosine) = by[2].sin_cos();
+        let turned = [cosine * x - sine * y, sine * x + cosine * y];
+        return std::array::from_fn(|axis| turned[axis]);
+    }
+    let added = cross(by, in_space(way));
+    std::array::from_fn(|axis| way[axis] + added[axis])
+}
+
+/// A vector with three components, the third of which is zero in the plane.
+pub(super) fn in_space<const D: usize>(vector: [f64; D]) -> Vector {
+    std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }
 
 #[cfg(test)]
