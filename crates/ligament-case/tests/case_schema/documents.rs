@@ -213,6 +213,13 @@ velocity = { y = -1 }
 mass = 2
 inertia = 1
 acceleration = { y = -1 }
+[[rigid]]
+name = "shot"
+shape = "circle"
+centre = [0, 99]
+radius = 1
+mass = 2
+acceleration = { x = 1 }
 [motion]
 duration = 1e-2
 damping = {}
@@ -268,7 +275,9 @@ pub(super) fn documents() -> Vec<Value> {
     let scheme = "duration = 1e-2\nscheme = \"auto\"\nstep = 1e-4";
     let implicit = MOTION.replace("duration = 1e-2", scheme);
     // A rigid body with a mass takes explicit steps.
-    let implicit = implicit.replace("mass = 2\ninertia = 1\nacceleration = { y = -1 }\n", "");
+    let implicit = implicit
+        .replace("mass = 2\ninertia = 1\nacceleration = { y = -1 }\n", "")
+        .replace("mass = 2\nacceleration = { x = 1 }\n", "");
     [
         mesh.as_str(),
         LATTICE,
