@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use ligament::run::{self, NoObserver, Posed, Solution};
+use ligament::run::{self, Posed};
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::history::{
@@ -11,7 +11,7 @@ use ligament_analysis::history::{
 };
 use ligament_model::surface::Touch;
 use rayon::ThreadPoolBuilder;
-use verification::bench::case;
+use verification::bench::{case, missing_energy, solved};
 
 /// A block of 20 x 10 cells of 1 mm on a rigid floor with friction; loads press and slide its top.
 const BLOCK: &str = r#"
@@ -35,20 +35,6 @@ load = [{ name = "press", group = "top", displacement = { y = -1e-5 } }, { name 
 stage = [{ name = "press", loads = { press = 1.0 }, steps = 1 }, { name = "slide", loads = { slide = [1.0, -1.0] }, steps = 20 }]
 "#;
 
-fn solved(text: &str, settings: &[&str]) -> Solution {
-    let setup = case(text, settings).setup(&mut ()).unwrap();
-    setup.solve(&mut NoObserver).unwrap()
-}
-
-/// Largest of what the ledger of energy misses, over the largest work.
-fn missing(outcome: &Outcome) -> f64 {
-    let largest = |of: &dyn Fn(&StepRecord) -> f64| {
-        let values = outcome.history.iter().map(|it| of(it).abs());
-        values.fold(0.0, f64::max)
-    };
-    largest(&|it| it.missing_energy()) / largest(&|it| it.external_work)
-}
-
 /// Contacts that press in the last equilibrium.
 fn pressed(outcome: &Outcome) -> Vec<Touch> {
     let all = outcome.state.surfaces.touching().touches.iter().flatten();
@@ -60,7 +46,7 @@ fn pressed(outcome: &Outcome) -> Vec<Touch> {
 #[test]
 fn a_block_slides_off_where_the_force_exceeds_its_friction() {
     let outcome = solved(&format!("{BLOCK}{BY_FORCES}"), &[]).outcome;
-    let miss = missing(&outcome);
+    let miss = missing_energy(&outcome);
     println!(
         "{} rows, {}, energies miss {miss:.1e}",
         outcome.history.len(),
@@ -94,7 +80,7 @@ fn a_block_that_is_moved_slides_with_mu_times_the_pressure() {
     let floor: f64 = pressed(&outcome).iter().map(by_depth).sum();
     let pressing = -outcome.history.last().unwrap().group_forces[0][1];
     assert!((floor / pressing - 1.0).abs() < 1e-8, "{floor} {pressing}");
-    assert!(missing(&outcome) < 1e-9);
+    assert!(missing_energy(&outcome) < 1e-9);
 }
 
 /// Two blocks that are pressed together over a gap transmit the load through all their facets alike: with a Poisson's ratio of zero the pressure
@@ -128,7 +114,7 @@ load = [{ group = "top", displacement = { x = 0.0, y = -1.01e-3 } }]
     );
     assert_eq!(all.len(), 64);
     assert!(worst < 0.25, "{worst}");
-    assert!(missing(&outcome) < 1e-9);
+    assert!(missing_energy(&outcome) < 1e-9);
 }
 
 /// A rigid cylinder on a block, 16 facets wide in contact (Johnson 1985, section 4.2): p_0 = sqrt(P E/(pi R)) in plane stress for the load P over
@@ -159,7 +145,7 @@ rigid = [{ name = "punch", shape = "circle", centre = [0.0, 0.13], radius = 0.1,
     let support = outcome.history.last().unwrap().group_forces[0][1];
     let down: f64 = all.iter().map(|it| -it.force()[1]).sum();
     assert!((support / down - 1.0).abs() < 1e-8, "{support} {down}");
-    assert!(missing(&outcome) < 1e-9);
+    assert!(missing_energy(&outcome) < 1e-9);
 }
 
 /// A rigid sphere on a block of a solid (Johnson 1985, section 4.2): the load P is 4 E* a^3/(3 R) with E* = E/(1 - nu^2) and the radius a of the

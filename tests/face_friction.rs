@@ -1,10 +1,8 @@
 //! Friction on the faces of cracks in load steps, against closed forms.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::run::{NoObserver, Solution};
-use ligament_analysis::driver::Outcome;
 use ligament_analysis::history::StepRecord;
-use verification::bench::{Bench, Run, case};
+use verification::bench::{Bench, Run, missing_energy, solved};
 
 /// A bar 20 x 12 mm on a lattice that a crack goes all through, which is pressed along x; its right end slides along y.
 const BAR: &str = r#"
@@ -33,20 +31,6 @@ const CYCLES: &str = r#"
 stage = [{ name = "press", loads = { press = 1.0 }, steps = 1 }, { name = "slide", loads = { slide = [4.0, -4.0, 4.0] }, steps = 60 }]
 fracture = { criterion = [{ kind = "tension", limit = 1.0 }] }
 "#;
-
-fn solved(text: &str, settings: &[&str]) -> Solution {
-    let setup = case(text, settings).setup(&mut ()).unwrap();
-    setup.solve(&mut NoObserver).unwrap()
-}
-
-/// Largest of what the ledger of energy misses, over the largest work.
-fn missing(outcome: &Outcome) -> f64 {
-    let largest = |of: &dyn Fn(&StepRecord) -> f64| {
-        let values = outcome.history.iter().map(|it| of(it).abs());
-        values.fold(0.0, f64::max)
-    };
-    largest(&|it| it.missing_energy()) / largest(&|it| it.external_work)
-}
 
 /// Forces of the left end on the body: the pressure, and the shear force along the way of the slide.
 fn carried(record: &StepRecord, way: &[f64]) -> [f64; 2] {
@@ -83,7 +67,7 @@ fn a_bar_slides_with_mu_times_its_pressure() {
         let [_, turned] = carried(&history[22], way);
         let stiffness = (carried(&history[21], way)[1] - turned) / 4e-6;
         let expected = 4.0 * limit * (4e-5 - limit / stiffness);
-        let miss = missing(&outcome);
+        let miss = missing_energy(&outcome);
         println!(
             "{name}: friction takes {:.4} of the closed form, energies miss {miss:.1e}",
             taken / expected

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ligament::Loading;
-use ligament::run::follow;
+use ligament::run::{NoObserver, Solution, follow};
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::driver::{self, Outcome, Problem};
@@ -59,6 +59,21 @@ pub fn case(text: &str, settings: &[&str]) -> CaseFile {
         Ok(case) => case,
         Err(error) => panic!("{error}"),
     }
+}
+
+/// Solution of a case that lies in `tests/`; `settings` are `key=value` each.
+pub fn solved(text: &str, settings: &[&str]) -> Solution {
+    let setup = case(text, settings).setup(&mut ()).unwrap();
+    setup.solve(&mut NoObserver).unwrap()
+}
+
+/// Largest of what the ledger of energy misses in a history, over the largest work.
+pub fn missing_energy(outcome: &Outcome) -> f64 {
+    let largest = |of: &dyn Fn(&StepRecord) -> f64| {
+        let values = outcome.history.iter().map(|it| of(it).abs());
+        values.fold(0.0, f64::max)
+    };
+    largest(&|it| it.missing_energy()) / largest(&|it| it.external_work)
 }
 
 /// Writes a mesh into a folder and returns the setting that makes a case use it.

@@ -3,6 +3,8 @@
 //! The law is that of a motion ([`ligament_model::surface`]) at the present positions. The last equilibrium takes the place of the last time
 //! step: friction and the depth of contacts that began with an overlap follow from it.
 
+use std::borrow::Cow;
+
 use ligament_model::held::held_motions;
 use ligament_model::layout::Layout;
 use ligament_model::surface::{Bonded, Pose, Search, Step, Touch, Vector};
@@ -233,18 +235,10 @@ impl Surfaces {
         if last.motions == motions && last.touching.rigid == rigid {
             return last.touching.clone();
         }
-        let still = vec![
-            0.0;
-            if last.motions.is_empty() {
-                motions.len()
-            } else {
-                0
-            }
-        ];
-        let before = if last.motions.is_empty() {
-            &still
-        } else {
-            &last.motions
+        // Before the first equilibrium nothing has moved.
+        let before = match last.motions.is_empty() {
+            true => Cow::Owned(vec![0.0; motions.len()]),
+            false => Cow::Borrowed(&last.motions),
         };
         let contacts = self.problem.contacts.iter().zip(&mut self.searches);
         let touches = contacts.enumerate().map(|(index, (contact, search))| {
@@ -256,7 +250,7 @@ impl Surfaces {
                 }
             };
             let step = Step {
-                before,
+                before: &before,
                 now: motions,
                 rigid: [place(&last.touching.rigid), place(&rigid)],
                 bonds,

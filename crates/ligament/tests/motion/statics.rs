@@ -174,7 +174,7 @@ fn a_bar_follows_equilibria_until_it_snaps() {
     }
 }
 
-/// The same bits with two threads, and from a checkpoint before and after the bar has snapped.
+/// A motion with equilibria has the same bits with two threads, and from a checkpoint before and after the bar has snapped.
 #[test]
 fn a_motion_with_equilibria_goes_on_with_its_bits() {
     let settings = slowly(Some(setup::STATICS));
