@@ -152,7 +152,7 @@ impl<'a> Reach<'a> {
                     &mut *of_group
                 }
             };
-            let mut add_others = |bonds: Range<usize>, sums: &mut [S]| {
+            let add_others = |bonds: Range<usize>, sums: &mut [S]| {
                 if bonds.is_empty() {
                     return;
                 }

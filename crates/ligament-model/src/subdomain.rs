@@ -273,7 +273,7 @@ impl Subdomain {
 }
 
 /// Forces and bonds that this process sums: a type parameter, so that a loop over bonds checks once whether the body is divided.
-pub(crate) trait Share: Copy {
+pub(crate) trait Share: Copy + Sync {
     /// Position of a point in an array over the owned points; `None` for points of other processes.
     fn row(self, point: u32) -> Option<usize>;
 
