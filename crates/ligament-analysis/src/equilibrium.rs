@@ -8,6 +8,7 @@ mod dissipating;
 mod earlier_equilibria;
 mod equations;
 mod external;
+mod intact;
 mod iterate;
 mod line;
 mod line_search;
@@ -45,6 +46,7 @@ use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
 
 pub(crate) use dissipating::Dissipation;
+pub(crate) use intact::IntactEquilibrium;
 pub(crate) use residual::ROUNDING;
 pub(crate) use target::Target;
 

@@ -10,6 +10,7 @@ pub(crate) mod unsymmetric;
 
 use ligament_linalg::{FactorError, Factorisation, ForwardSubstituted, Inertia};
 
+use self::direct::DirectSolver;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -122,6 +123,11 @@ pub(crate) trait TangentSolver {
 
     /// Makes the solver recompute K from the bonds the next time.
     fn discard(&mut self);
+
+    /// A direct solver with the same factor, which changes by itself from then on; None for other solvers.
+    fn copied(&self) -> Option<DirectSolver> {
+        None
+    }
 
     /// Numbers of positive and negative eigenvalues of K; none where they are not known.
     fn inertia(&self) -> Option<Inertia>;

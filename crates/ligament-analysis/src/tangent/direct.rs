@@ -61,6 +61,22 @@ impl DirectSolver {
         }
     }
 
+    /// A solver with the same factor, which changes by itself from then on.
+    pub(crate) fn copy(&self) -> Self {
+        Self {
+            stiffness: self.stiffness.clone(),
+            factor: self.factor.as_ref().map(|it| it.copied()),
+            stale: None,
+            making: self.making.clone(),
+            remaining: self.remaining.clone(),
+            closed: self.closed.clone(),
+            presses: self.presses,
+            coupled_by_contact: self.coupled_by_contact.clone(),
+            lacks_coupled: self.lacks_coupled,
+            n_changed: self.n_changed,
+        }
+    }
+
     fn coupled(&self) -> Coupled<'_> {
         Coupled {
             system: self.stiffness.system(),
@@ -343,6 +359,10 @@ impl TangentSolver for DirectSolver {
 
     fn discard(&mut self) {
         self.stale = self.factor.take().or(self.stale.take());
+    }
+
+    fn copied(&self) -> Option<DirectSolver> {
+        Some(self.copy())
     }
 
     fn inertia(&self) -> Option<Inertia> {
