@@ -69,13 +69,15 @@ impl Ensemble {
             Analysis::Event(settings) => (settings.energy_tolerance, settings.stop),
             Analysis::Stepped(settings) => (settings.energy_tolerance, settings.stop),
             _ => {
-                let advice = "the samples of an ensemble break along the exact path or in load steps";
+                let advice =
+                    "the samples of an ensemble break along the exact path or in load steps";
                 let fault = Fault::Contradiction(advice.into());
                 return Err(Field::whole("analysis").error(fault).into());
             }
         };
         if stop.wall_time.is_some() {
-            let advice = "the samples of an ensemble may not depend on the time that they take: remove it";
+            let advice =
+                "the samples of an ensemble may not depend on the time that they take: remove it";
             let fault = Fault::Contradiction(advice.into());
             return Err(Field::whole("analysis.stop.wall_time").error(fault).into());
         }
@@ -191,7 +193,8 @@ impl Ensemble {
                 let (next, sender) = (&next, sender.clone());
                 scope.spawn(move || {
                     let work = || {
-                        while let Some(&number) = numbers.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        while let Some(&number) = numbers.get(next.fetch_add(1, Ordering::Relaxed))
+                        {
                             // A receiver that is gone wants no more samples.
                             if sender.send(self.sample(number)).is_err() {
                                 return;

@@ -1,6 +1,7 @@
 //! `ligament ensemble`.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
 use clap::Args;
 
@@ -8,6 +9,7 @@ use super::case_args::CaseArgs;
 use super::numbers::positive;
 use super::output;
 use super::sweep::shard;
+use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_study::ensemble::{Request, Settings, Task, ensemble};
@@ -72,8 +74,9 @@ pub struct EnsembleArgs {
 
 impl EnsembleArgs {
     /// Does it.
-    pub(super) fn execute(self) -> anyhow::Result<()> {
+    pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         let case = self.case.load()?;
+        let stop = StopSignal::awaited()?;
         let usual = || Path::new("results").join(format!("{}-ensemble", case.name()));
         let out = self.out.unwrap_or_else(usual);
         let task = match self.collect {
@@ -92,9 +95,11 @@ impl EnsembleArgs {
             points: self.points as usize,
             displacement: self.to,
             out: &out,
+            is_stopped: &|| stop.came(),
             task,
         };
-        ensemble(&request, &mut terminal::stdout())
+        let end = ensemble(&request, &mut terminal::stdout())?;
+        Ok(ExitCode::from(end.exit_code()))
     }
 }
 

@@ -229,7 +229,7 @@ impl Cli {
             Command::Resume(args) => return args.execute(),
             Command::Repeat(args) => return args.execute(),
             Command::Sweep(args) => args.execute(program),
-            Command::Ensemble(args) => args.execute(),
+            Command::Ensemble(args) => return args.execute(),
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),

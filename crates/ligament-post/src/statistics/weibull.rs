@@ -53,7 +53,10 @@ impl WeibullFit {
         // Logarithms of the strengths over the largest, so that no power overflows.
         let logarithms: Vec<f64> = strengths.iter().map(|it| (it / largest).ln()).collect();
         let modulus = modulus(&logarithms);
-        let mean = logarithms.iter().map(|it| (modulus * it).exp()).sum::<f64>();
+        let mean = logarithms
+            .iter()
+            .map(|it| (modulus * it).exp())
+            .sum::<f64>();
         let mean = mean / strengths.len() as f64;
         Ok(Self {
             modulus,
@@ -164,7 +167,10 @@ mod tests {
     fn two_strengths_have_the_modulus_of_the_closed_form() {
         let strengths = [-1.0f64, 1.0].map(f64::exp);
         let fit = WeibullFit::through(&strengths).unwrap();
-        assert!((fit.modulus - 1.199_678_640_257_734).abs() < 1e-12, "{fit:?}");
+        assert!(
+            (fit.modulus - 1.199_678_640_257_734).abs() < 1e-12,
+            "{fit:?}"
+        );
         // x_0^m is the mean of x^m, here cosh(m).
         let scale = fit.modulus.cosh().powf(1.0 / fit.modulus);
         assert!((fit.scale / scale - 1.0).abs() < 1e-14);

@@ -52,7 +52,9 @@ impl Collected {
             all.rows.extend(part.rows);
         }
         all.rows.sort_by_key(|it| it.sample);
-        all.loads.iter_mut().for_each(|it| it.sort_by(f64::total_cmp));
+        all.loads
+            .iter_mut()
+            .for_each(|it| it.sort_by(f64::total_cmp));
         Ok(all)
     }
 

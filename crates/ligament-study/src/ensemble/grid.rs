@@ -33,7 +33,9 @@ impl Grid {
     /// The displacements, shape (n).
     pub(super) fn displacements(self) -> Vec<f64> {
         let last = self.n.saturating_sub(1).max(1) as f64;
-        (0..self.n).map(|it| self.end.0 * (it as f64 / last)).collect()
+        (0..self.n)
+            .map(|it| self.end.0 * (it as f64 / last))
+            .collect()
     }
 
     /// Loads of a path at the displacements, shape (n), with straight lines between its points; 0 beyond the end of a path on which
@@ -89,7 +91,12 @@ mod tests {
     /// A curve that rises to (2, 4), drops to 1 and rises to (4, 2): by hand.
     #[test]
     fn loads_lie_on_straight_lines_and_after_drops() {
-        let curve = [point(0.0, 0.0), point(2.0, 4.0), point(2.0, 1.0), point(4.0, 2.0)];
+        let curve = [
+            point(0.0, 0.0),
+            point(2.0, 4.0),
+            point(2.0, 1.0),
+            point(4.0, 2.0),
+        ];
         let found = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0].map(|it| load_at(&curve, it));
         let known = [Some(0.0), Some(2.0), Some(1.0), Some(1.5), Some(2.0), None];
         assert_eq!(found, known);

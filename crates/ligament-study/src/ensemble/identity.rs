@@ -127,7 +127,12 @@ impl Wanted<'_> {
 /// Inputs of a case but those that change no sample: the seed of its scatter and its output.
 fn inputs(case: &CaseFile) -> anyhow::Result<String> {
     let mut plain = case.clone();
-    if let Some(scatter) = plain.case.fracture.as_mut().and_then(|it| it.scatter.as_mut()) {
+    if let Some(scatter) = plain
+        .case
+        .fracture
+        .as_mut()
+        .and_then(|it| it.scatter.as_mut())
+    {
         scatter.seed = 0;
     }
     plain.case.output = Default::default();

@@ -26,8 +26,10 @@ use ligament::ensemble::{Ensemble, Sample};
 use ligament::run::on_threads;
 use ligament_case::case::CaseFile;
 use ligament_output::{remove_if_there, replace_file};
+use ligament_run::end::End;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::run::IsStopped;
 use ligament_run::stages::Stages;
 
 use crate::sweep::StudyError;
@@ -48,7 +50,6 @@ const PARTS: &str = "parts";
 const WHOLE: &str = "whole";
 
 /// Request for an ensemble.
-#[derive(Debug, Clone)]
 pub struct Request<'a> {
     /// The case, with a `fracture.scatter`.
     pub case: &'a CaseFile,
@@ -62,6 +63,8 @@ pub struct Request<'a> {
     pub displacement: Option<f64>,
     /// Folder of the ensemble.
     pub out: &'a Path,
+    /// Whether the user wants to stop; samples that have ended are stored.
+    pub is_stopped: IsStopped<'a>,
     /// Task of the request.
     pub task: Task,
 }
@@ -88,15 +91,15 @@ pub struct Settings {
     pub progress: ProgressMode,
 }
 
-/// Executes the request, with its output on `out`.
+/// Executes the request, with its output on `out`; returns whether it was done or stopped.
 ///
 /// # Errors
 ///
 /// If the case is wrong or has nothing that varies at random, the folder is of another ensemble or in use, or a sample cannot be followed.
-pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<()> {
+pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<End> {
     match &request.task {
         Task::Run(settings) => run(request, settings, out),
-        Task::Collect(from) => collect(request, from, out),
+        Task::Collect(from) => collect(request, from, out).map(|()| End::Done),
     }
 }
 
@@ -117,7 +120,7 @@ impl<'a> Request<'a> {
 }
 
 /// Computes the samples that are missing, and writes the tables and plots unless the samples are those of a shard.
-fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<()> {
+fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<End> {
     let ensemble = on_threads(request.case.threads(), || prepared(request))??;
     let found = StudyFolder::marked_by(MARKER, request.out);
     let wanted = request.wanted();
@@ -139,14 +142,16 @@ fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyho
     let identity = Identity::of_folder(&folder)?;
     identity.require(&wanted, folder.path())?;
     let todo = missing(request, settings, &folder, &identity)?;
-    compute(request, settings, &ensemble, (&folder, &identity), &todo)?;
-    match settings.shard {
-        None => report(request, std::slice::from_ref(&folder), &folder, out),
-        Some(Shard { number, count }) => Ok(writeln!(
+    let end = compute(request, settings, &ensemble, (&folder, &identity), &todo)?;
+    match (end, settings.shard) {
+        (End::Stopped, _) => writeln!(out, "stopped; the same command goes on")?,
+        (_, None) => report(request, std::slice::from_ref(&folder), &folder, out)?,
+        (_, Some(Shard { number, count })) => writeln!(
             out,
             "shard {number} of {count} is done; tables and plots of all: ligament ensemble --collect"
-        )?),
+        )?,
     }
+    Ok(end)
 }
 
 /// The ensemble of the case, ready for samples.
@@ -176,7 +181,11 @@ fn missing(
     let parts = part::stored(&folder.path().join(PARTS), identity.grid)?;
     let rows = parts.iter().flat_map(|part| &part.rows);
     let done: BTreeSet<u64> = rows.map(|row| row.sample).collect();
-    let is_mine = |it: &u64| settings.shard.is_none_or(|shard| shard.contains(*it as usize));
+    let is_mine = |it: &u64| {
+        settings
+            .shard
+            .is_none_or(|shard| shard.contains(*it as usize))
+    };
     let mine = (0..request.samples).filter(is_mine);
     Ok(mine.filter(|it| !done.contains(it)).collect())
 }
@@ -188,9 +197,9 @@ fn compute(
     ensemble: &Ensemble,
     (folder, identity): (&StudyFolder, &Identity),
     todo: &[u64],
-) -> anyhow::Result<()> {
+) -> anyhow::Result<End> {
     if todo.is_empty() {
-        return Ok(());
+        return Ok(End::Done);
     }
     let name = match settings.shard {
         None => WHOLE.to_owned(),
@@ -210,15 +219,20 @@ fn compute(
         part.add((&sample, &row), identity.grid, ensemble.problem())
             .map_err(Fault::Stored)?;
         progress.ended();
-        Ok(())
+        match (request.is_stopped)() {
+            true => Err(Fault::Stopped),
+            false => Ok(()),
+        }
     });
     progress.finish();
     // What was computed before a fault is kept.
     part.store()?;
-    added.map_err(|fault| match fault {
-        Fault::Sample(error) => request.case.explained(error),
-        Fault::Stored(error) => error,
-    })
+    match added {
+        Ok(()) => Ok(End::Done),
+        Err(Fault::Stopped) => Ok(End::Stopped),
+        Err(Fault::Sample(error)) => Err(request.case.explained(error)),
+        Err(Fault::Stored(error)) => Err(error),
+    }
 }
 
 /// Reason why no further sample is computed.
@@ -227,6 +241,8 @@ enum Fault {
     Sample(ligament::Error),
     /// Error of the folder.
     Stored(anyhow::Error),
+    /// The user wants to stop.
+    Stopped,
 }
 
 impl From<ligament::Error> for Fault {

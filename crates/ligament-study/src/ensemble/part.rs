@@ -213,5 +213,9 @@ fn unreadable(path: &Path, reason: String) -> Error {
 /// Columns of the rows of a part: those of a sample, and the loads at the displacements of the grid.
 fn columns(grid: Grid) -> Vec<String> {
     let loads = (0..grid.n).map(|it| format!("load_{it}"));
-    COLUMNS.iter().map(|it| (*it).to_owned()).chain(loads).collect()
+    COLUMNS
+        .iter()
+        .map(|it| (*it).to_owned())
+        .chain(loads)
+        .collect()
 }

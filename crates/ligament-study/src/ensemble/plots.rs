@@ -36,16 +36,32 @@ fn curves(title: &str, units: Units, identity: &Identity, collected: &Collected)
     let displacements = identity.grid.displacements();
     let over = |load: &dyn Fn(usize) -> Option<f64>| -> Vec<[f64; 2]> {
         let places = displacements.iter().enumerate();
-        places.filter_map(|(place, x)| Some([*x, load(place)?])).collect()
+        places
+            .filter_map(|(place, x)| Some([*x, load(place)?]))
+            .collect()
     };
-    let colours = [Colour::Sky, Colour::Blue, Colour::Black, Colour::Blue, Colour::Sky];
+    let colours = [
+        Colour::Sky,
+        Colour::Blue,
+        Colour::Black,
+        Colour::Blue,
+        Colour::Sky,
+    ];
     let of_probability = |(probability, colour): (f64, Colour)| {
         let points = over(&|place| quantile(&collected.loads[place], probability));
         Series::curve(format!("{:.0} %", 100.0 * probability), colour, points)
     };
-    let mut series: Vec<Series> = PROBABILITIES.into_iter().zip(colours).map(of_probability).collect();
+    let mut series: Vec<Series> = PROBABILITIES
+        .into_iter()
+        .zip(colours)
+        .map(of_probability)
+        .collect();
     let sound = over(&|place| identity.sound[place].map(|it| it.0));
-    series.push(Series::dashes("without random factors", Colour::Vermilion, sound));
+    series.push(Series::dashes(
+        "without random factors",
+        Colour::Vermilion,
+        sound,
+    ));
     let axes = [
         format!("displacement, {}", units.displacement),
         format!("load, {}", units.force),
@@ -105,7 +121,9 @@ fn band(fit: &WeibullFit, n: usize) -> [Vec<[f64; 2]>; 3] {
     });
     let places: Vec<(f64, f64)> = places.collect();
     let line = |load: &dyn Fn(f64) -> f64| {
-        let points = places.iter().map(|&(w, probability)| [load(probability).ln(), w]);
+        let points = places
+            .iter()
+            .map(|&(w, probability)| [load(probability).ln(), w]);
         points.collect()
     };
     [
@@ -135,8 +153,18 @@ pub(super) fn maps(title: &str, grid: &BodyGrid, collected: &Collected) -> Vec<M
         })
     };
     let maps = [
-        map("first-break", "where fracture begins", "share of samples", first),
-        map("damaged", "where bonds are broken", "share of samples", damaged),
+        map(
+            "first-break",
+            "where fracture begins",
+            "share of samples",
+            first,
+        ),
+        map(
+            "damaged",
+            "where bonds are broken",
+            "share of samples",
+            damaged,
+        ),
     ];
     maps.into_iter().flatten().collect()
 }

@@ -4,6 +4,7 @@ use std::io::Write;
 use std::path::Path;
 
 use ligament::Setup;
+use ligament_model::BodyGrid;
 use ligament_output::csv::{self, Value};
 use ligament_output::quantity::quantity;
 use ligament_output::replace_file;
@@ -31,9 +32,12 @@ const CURVE_COLUMNS: &str =
 const WEIBULL_COLUMNS: &str =
     "load,samples,mean,deviation,modulus,modulus_low,modulus_high,scale,scale_low,scale_high";
 
+/// Columns of `points.csv`.
+const POINT_COLUMNS: &str = "tag,x,y,z,first_break_share,damaged_share";
+
 /// Names of the fields.
-pub(super) const FIRST_BREAK_SHARE: &str = "first_break_share";
-pub(super) const DAMAGED_SHARE: &str = "damaged_share";
+const FIRST_BREAK_SHARE: &str = "first_break_share";
+const DAMAGED_SHARE: &str = "damaged_share";
 
 /// Loads of the samples with their statistics.
 pub(super) struct Strengths {
@@ -94,7 +98,16 @@ pub(super) fn write(
     write("samples.csv", samples(collected))?;
     write("curves.csv", curves(identity, collected))?;
     write("weibull.csv", weibull(&strengths))?;
-    write_fields(&setup, collected, folder)?;
+    let grid = setup.body.grid();
+    if collected.counts.damaged.len() == grid.positions.len() {
+        let [first, damaged] = shares(collected);
+        let fields = [
+            Field::scalar(FIRST_BREAK_SHARE, &first),
+            Field::scalar(DAMAGED_SHARE, &damaged),
+        ];
+        write_points(&folder.join("ensemble.vtu"), &grid, &fields)?;
+        write("points.csv", points(&grid, &first, &damaged))?;
+    }
     let title = match request.case.case.title.as_str() {
         "" => request.case.name(),
         title => title.to_owned(),
@@ -105,10 +118,16 @@ pub(super) fn write(
             write_plot(folder, &plot.name, &drawing)?;
         }
     }
-    for maps in plots::maps(&title, &setup.body.grid(), collected) {
+    for maps in plots::maps(&title, &grid, collected) {
         write_plot(folder, &maps.name, &maps.draw(WIDTH)?)?;
     }
-    tell(request, &setup, (&title, identity), (collected, &strengths), out)?;
+    tell(
+        request,
+        &setup,
+        (&title, identity),
+        (collected, &strengths),
+        out,
+    )?;
     Ok(writeln!(out, "  results in {}", folder.display())?)
 }
 
@@ -126,7 +145,10 @@ fn curves(identity: &Identity, collected: &Collected) -> String {
     let mut text = format!("{CURVE_COLUMNS}\n");
     let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
     let displacements = identity.grid.displacements();
-    let at = displacements.iter().zip(&collected.loads).zip(&identity.sound);
+    let at = displacements
+        .iter()
+        .zip(&collected.loads)
+        .zip(&identity.sound);
     for ((&displacement, loads), sound) in at {
         let mut values = vec![Value::Float(displacement), Value::from(loads.len())];
         values.extend(PROBABILITIES.map(|it| number(quantile(loads, it))));
@@ -143,7 +165,10 @@ fn weibull(strengths: &[Strengths]) -> String {
     let mut text = format!("{WEIBULL_COLUMNS}\n");
     for it in strengths {
         let mut values = vec![Value::Text(it.name), Value::from(it.loads.len())];
-        values.extend(it.moments().map_or([Value::Missing; 2], |it| it.map(Value::Float)));
+        values.extend(
+            it.moments()
+                .map_or([Value::Missing; 2], |it| it.map(Value::Float)),
+        );
         match &it.fit {
             None => values.extend([Value::Missing; 6]),
             Some(fit) => {
@@ -162,19 +187,17 @@ fn weibull(strengths: &[Strengths]) -> String {
     text
 }
 
-/// Writes the shares of the samples at the points of the body.
-fn write_fields(setup: &Setup, collected: &Collected, folder: &Path) -> anyhow::Result<()> {
-    let [first, damaged] = shares(collected);
-    let fields = [
-        Field::scalar(FIRST_BREAK_SHARE, &first),
-        Field::scalar(DAMAGED_SHARE, &damaged),
-    ];
-    let (path, grid) = (folder.join("ensemble.vtu"), setup.body.grid());
-    let n_points = grid.positions.len();
-    if first.len() == n_points {
-        write_points(&path, &grid, &fields)?;
+/// Text of `points.csv`: the points of a body in the order of its file, with the shares of the samples (n_points).
+fn points(grid: &BodyGrid, first: &[f64], damaged: &[f64]) -> String {
+    let mut text = format!("{POINT_COLUMNS}\n");
+    for in_file in 0..grid.positions.len() as u32 {
+        let point = grid.numbering.point(in_file) as usize;
+        let mut values = vec![Value::Integer(grid.tags[point])];
+        values.extend(grid.positions[point].map(Value::Float));
+        values.extend([first[point], damaged[point]].map(Value::Float));
+        text += &csv::line(&values);
     }
-    Ok(())
+    text
 }
 
 /// Shares of the samples in which fracture begins at each point, and in which it is damaged, shape (n_points).
@@ -196,7 +219,11 @@ fn tell(
     writeln!(out, "{title}")?;
     let (n, wanted) = (collected.rows.len() as u64, request.samples);
     match n > wanted {
-        true => writeln!(out, "  {n} samples, more than the {wanted} asked for, seed {}", identity.seed)?,
+        true => writeln!(
+            out,
+            "  {n} samples, more than the {wanted} asked for, seed {}",
+            identity.seed
+        )?,
         false => writeln!(out, "  {n} of {wanted} samples, seed {}", identity.seed)?,
     }
     if let Some(sound) = identity.sound_peak {
@@ -208,7 +235,12 @@ fn tell(
             continue;
         };
         let mean = quantity(mean, unit);
-        write!(out, "  {:<15} mean {mean}, deviation {:.1} %", it.words, 100.0 * deviation)?;
+        write!(
+            out,
+            "  {:<15} mean {mean}, deviation {:.1} %",
+            it.words,
+            100.0 * deviation
+        )?;
         if let Some(fit) = &it.fit {
             let [low, high] = fit.modulus_within(NINETY_PERCENT);
             let scale = quantity(fit.scale, unit);
