@@ -10,7 +10,6 @@ pub(crate) mod unsymmetric;
 
 use ligament_linalg::{FactorError, Factorisation, ForwardSubstituted, Inertia};
 
-use self::direct::DirectSolver;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -124,8 +123,8 @@ pub(crate) trait TangentSolver {
     /// Makes the solver recompute K from the bonds the next time.
     fn discard(&mut self);
 
-    /// A direct solver with the same factor, which changes by itself from then on; None for other solvers.
-    fn copied(&self) -> Option<DirectSolver> {
+    /// The solver as it is now, for runs that begin from here; None where it cannot be copied.
+    fn intact(&self) -> Option<Box<dyn IntactSolver>> {
         None
     }
 
@@ -141,4 +140,10 @@ pub(crate) trait TangentSolver {
     ///
     /// If the bytes are damaged or belong to another model, or if the factor differs in any bit.
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError>;
+}
+
+/// A solver of an intact body, which does not change: each run begins with a copy.
+pub(crate) trait IntactSolver: Send + Sync {
+    /// A solver that is ready, and changes by itself from then on.
+    fn copied(&self) -> Box<dyn TangentSolver>;
 }

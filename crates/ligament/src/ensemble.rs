@@ -79,7 +79,10 @@ impl Ensemble {
             let advice =
                 "the samples of an ensemble may not depend on the time that they take: remove it";
             let fault = Fault::Contradiction(advice.into());
-            return Err(Field::whole("analysis.stop.wall_time").error(fault).into());
+            return Err(Field::whole("analysis.stop")
+                .part("wall_time")
+                .error(fault)
+                .into());
         }
         let problem = Loading::new(&model)?.problem(&model);
         let prepared = Prepared::new(&problem, energy_tolerance, &mut NoObserver)?;

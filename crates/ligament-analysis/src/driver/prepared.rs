@@ -54,8 +54,7 @@ impl Prepared {
         let Some((intact, start)) = &self.shared else {
             return Path::begin(problem, self.energy_tolerance, stop, observer);
         };
-        let mut equilibrium = intact.begun();
-        equilibrium.judge_by(problem.criteria.clone());
+        let equilibrium = intact.judged_by(&problem.criteria);
         let mut start = start.clone();
         start.read_off(problem, equilibrium.fragments());
         Ok(Path::begun(problem, (equilibrium, start), stop, observer))

@@ -11,7 +11,7 @@ use ligament_model::element::StiffnessFactors;
 use super::factor_record::FactorRecord;
 use super::iterative;
 use super::terms::{Coupled, due_bonds};
-use super::{AllowedResidual, HalfUpdated, SOFT_HOLD, TangentSolver, Unsolved};
+use super::{AllowedResidual, HalfUpdated, IntactSolver, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -62,7 +62,7 @@ impl DirectSolver {
     }
 
     /// A solver with the same factor, which changes by itself from then on.
-    pub(crate) fn copy(&self) -> Self {
+    fn copy(&self) -> Self {
         Self {
             stiffness: self.stiffness.clone(),
             factor: self.factor.as_ref().map(|it| it.copied()),
@@ -186,6 +186,12 @@ impl DirectSolver {
                 *value = 0.0;
             }
         }
+    }
+}
+
+impl IntactSolver for DirectSolver {
+    fn copied(&self) -> Box<dyn TangentSolver> {
+        Box::new(self.copy())
     }
 }
 
@@ -361,8 +367,8 @@ impl TangentSolver for DirectSolver {
         self.stale = self.factor.take().or(self.stale.take());
     }
 
-    fn copied(&self) -> Option<DirectSolver> {
-        Some(self.copy())
+    fn intact(&self) -> Option<Box<dyn IntactSolver>> {
+        Some(Box::new(self.copy()))
     }
 
     fn inertia(&self) -> Option<Inertia> {

@@ -13,6 +13,7 @@ pub fn quantile(ascending: &[f64], probability: f64) -> Option<f64> {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
 

@@ -140,6 +140,7 @@ pub fn plotting_position(rank: usize, n: usize) -> f64 {
 }
 
 #[cfg(test)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
 

@@ -62,4 +62,12 @@ impl Collected {
     pub(super) fn strengths(&self, load: fn(&Row) -> Option<f64>) -> Vec<f64> {
         self.rows.iter().filter_map(load).collect()
     }
+
+    /// Shares of the samples in which fracture begins at each point, and in which it is damaged, shape (n_points).
+    pub(super) fn shares(&self) -> [Vec<f64>; 2] {
+        let n = self.rows.len().max(1) as f64;
+        let counts = &self.counts;
+        [&counts.first_break, &counts.damaged]
+            .map(|it| it.iter().map(|it| *it as f64 / n).collect())
+    }
 }

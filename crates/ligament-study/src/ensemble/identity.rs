@@ -9,10 +9,12 @@ use ligament_output::read_text;
 use ligament_run::inputs::{Contents, Inputs};
 use serde::{Deserialize, Serialize};
 
-use super::MARKER;
 use super::exact::Exact;
 use super::grid::Grid;
 use crate::sweep::folder::StudyFolder;
+
+/// File that marks the folder of an ensemble.
+pub(super) const MARKER: &str = "ensemble.json";
 
 /// What the samples of a folder are of, with the path of the body without random factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

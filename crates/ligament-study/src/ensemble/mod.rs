@@ -13,83 +13,37 @@ mod part;
 mod plots;
 mod progress;
 mod report;
+mod request;
 mod row;
+mod strengths;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
-use std::num::NonZero;
-use std::path::{Path, PathBuf};
-use std::thread;
+use std::path::PathBuf;
 
 use ligament::ensemble::{Ensemble, Sample};
 use ligament::run::on_threads;
-use ligament_case::case::CaseFile;
 use ligament_output::{remove_if_there, replace_file};
 use ligament_run::end::End;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
-use ligament_run::run::IsStopped;
 use ligament_run::stages::Stages;
 
 use crate::sweep::StudyError;
 use crate::sweep::folder::{Shard, StudyFolder};
 use collected::Collected;
-use identity::{Identity, Wanted};
+use identity::{Identity, MARKER};
 use part::Part;
 use progress::SampleProgress;
+pub use request::{Request, Settings, Task};
 use row::Row;
-
-/// File that marks the folder of an ensemble.
-const MARKER: &str = "ensemble.json";
 
 /// Subfolder of the stored samples.
 const PARTS: &str = "parts";
 
 /// Name of the part of a process that computes all samples.
 const WHOLE: &str = "whole";
-
-/// Request for an ensemble.
-pub struct Request<'a> {
-    /// The case, with a `fracture.scatter`.
-    pub case: &'a CaseFile,
-    /// Number of samples.
-    pub samples: u64,
-    /// Seed of the ensemble.
-    pub seed: u64,
-    /// Number of displacements at which curves are compared.
-    pub points: usize,
-    /// Largest of these displacements; by default 1.25 times that of the body without random factors.
-    pub displacement: Option<f64>,
-    /// Folder of the ensemble.
-    pub out: &'a Path,
-    /// Whether the user wants to stop; samples that have ended are stored.
-    pub is_stopped: IsStopped<'a>,
-    /// Task of the request.
-    pub task: Task,
-}
-
-/// Task of a request.
-#[derive(Debug, Clone)]
-pub enum Task {
-    /// Compute the samples that are missing.
-    Run(Settings),
-    /// Write the tables and plots of the samples in the folder of the ensemble, or in the folders named here.
-    Collect(Vec<PathBuf>),
-}
-
-/// Settings for computing samples.
-#[derive(Debug, Clone)]
-pub struct Settings {
-    /// Part of the samples to compute.
-    pub shard: Option<Shard>,
-    /// Largest number of simultaneous samples; by default the number of threads.
-    pub jobs: Option<usize>,
-    /// Whether stored samples are removed first.
-    pub force: bool,
-    /// Display of progress.
-    pub progress: ProgressMode,
-}
 
 /// Executes the request, with its output on `out`; returns whether it was done or stopped.
 ///
@@ -100,22 +54,6 @@ pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<En
     match &request.task {
         Task::Run(settings) => run(request, settings, out),
         Task::Collect(from) => collect(request, from, out).map(|()| End::Done),
-    }
-}
-
-impl<'a> Request<'a> {
-    fn wanted(&self) -> Wanted<'a> {
-        Wanted {
-            case: self.case,
-            seed: self.seed,
-            grid: (self.points, self.displacement),
-        }
-    }
-
-    /// Numbers of threads of all samples together: those of the case, or as many as there are processors.
-    fn threads(&self) -> usize {
-        let all = thread::available_parallelism().map_or(1, NonZero::get);
-        self.case.threads().unwrap_or(all)
     }
 }
 

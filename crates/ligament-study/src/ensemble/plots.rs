@@ -9,7 +9,7 @@ use ligament_post::statistics::{WeibullFit, plotting_position, quantile};
 
 use super::collected::Collected;
 use super::identity::Identity;
-use super::report::{NINETY_PERCENT, PROBABILITIES, Strengths, shares};
+use super::strengths::{NINETY_PERCENT, PROBABILITIES, Strengths};
 
 /// Largest number of circles of a Weibull plot; of more samples every so manieth is drawn.
 const MOST_CIRCLES: usize = 1000;
@@ -140,7 +140,7 @@ fn reduced(probability: f64) -> f64 {
 
 /// Maps of a body in the plane: where fracture begins, and where the body is damaged in the end.
 pub(super) fn maps(title: &str, grid: &BodyGrid, collected: &Collected) -> Vec<Maps> {
-    let [first, damaged] = shares(collected);
+    let [first, damaged] = collected.shares();
     let map = |name: &str, words: &str, quantity: &str, values: Vec<f64>| {
         Some(Maps {
             name: name.to_owned(),

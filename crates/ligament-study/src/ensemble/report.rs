@@ -1,28 +1,23 @@
 //! Results of an ensemble: tables, fields on the body, plots, and the short text at its end.
 
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 
-use ligament::Setup;
 use ligament_model::BodyGrid;
 use ligament_output::csv::{self, Value};
 use ligament_output::quantity::quantity;
 use ligament_output::replace_file;
 use ligament_output::results::write_points;
 use ligament_output::vtu::Field;
-use ligament_post::statistics::{WeibullFit, quantile};
+use ligament_post::statistics::quantile;
 
 use super::collected::Collected;
 use super::identity::Identity;
-use super::row::{COLUMNS, Row};
-use super::{Request, plots};
+use super::plots;
+use super::request::Request;
+use super::row::COLUMNS;
+use super::strengths::{NINETY_PERCENT, PROBABILITIES, Strengths, strengths};
 use crate::sweep::report::{WIDTH, write_plot};
-
-/// Probabilities of the quantiles of curves.
-pub(super) const PROBABILITIES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
-
-/// Standard deviations of a normal number between which 90 % lie.
-pub(super) const NINETY_PERCENT: f64 = 1.644_853_626_951_472_7;
 
 /// Columns of `curves.csv`.
 const CURVE_COLUMNS: &str =
@@ -39,47 +34,6 @@ const POINT_COLUMNS: &str = "tag,x,y,z,first_break_share,damaged_share";
 const FIRST_BREAK_SHARE: &str = "first_break_share";
 const DAMAGED_SHARE: &str = "damaged_share";
 
-/// Loads of the samples with their statistics.
-pub(super) struct Strengths {
-    /// Name in tables.
-    pub(super) name: &'static str,
-    /// Name in words.
-    pub(super) words: &'static str,
-    /// Loads in the order of the samples that have one.
-    pub(super) loads: Vec<f64>,
-    /// Fitted distribution; none where there is none.
-    pub(super) fit: Option<WeibullFit>,
-}
-
-impl Strengths {
-    fn new(
-        name: &'static str,
-        words: &'static str,
-        load: fn(&Row) -> Option<f64>,
-        collected: &Collected,
-    ) -> Self {
-        let loads = collected.strengths(load);
-        Self {
-            name,
-            words,
-            fit: WeibullFit::through(&loads).ok(),
-            loads,
-        }
-    }
-
-    /// Mean of the loads, and their standard deviation over the mean; sums are in the order of the samples.
-    fn moments(&self) -> Option<[f64; 2]> {
-        let n = self.loads.len();
-        if n < 2 {
-            return None;
-        }
-        let mean = self.loads.iter().sum::<f64>() / n as f64;
-        let squares = self.loads.iter().map(|it| (it - mean).powi(2));
-        let variance = squares.sum::<f64>() / (n - 1) as f64;
-        Some([mean, variance.sqrt() / mean])
-    }
-}
-
 /// Writes the results into a folder, and prints their main contents.
 pub(super) fn write(
     request: &Request<'_>,
@@ -89,18 +43,14 @@ pub(super) fn write(
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let setup = request.case.setup(&mut ())?;
-    let strengths = [
-        Strengths::new("first", "first breakage", Row::first_load, collected),
-        Strengths::new("first_peak", "first peak", Row::first_peak_load, collected),
-        Strengths::new("peak", "peak", Row::peak_load, collected),
-    ];
+    let strengths = strengths(collected);
     let write = |name: &str, text: String| replace_file(&folder.join(name), text.as_bytes());
     write("samples.csv", samples(collected))?;
     write("curves.csv", curves(identity, collected))?;
     write("weibull.csv", weibull(&strengths))?;
     let grid = setup.body.grid();
     if collected.counts.damaged.len() == grid.positions.len() {
-        let [first, damaged] = shares(collected);
+        let [first, damaged] = collected.shares();
         let fields = [
             Field::scalar(FIRST_BREAK_SHARE, &first),
             Field::scalar(DAMAGED_SHARE, &damaged),
@@ -121,13 +71,14 @@ pub(super) fn write(
     for maps in plots::maps(&title, &grid, collected) {
         write_plot(folder, &maps.name, &maps.draw(WIDTH)?)?;
     }
-    tell(
-        request,
-        &setup,
-        (&title, identity),
-        (collected, &strengths),
-        out,
-    )?;
+    writeln!(out, "{title}")?;
+    tell_samples(request, identity, collected, out)?;
+    let unit = setup.units().force;
+    if let Some(sound) = identity.sound_peak {
+        let peak = quantity(sound.0, unit);
+        writeln!(out, "  {:<15} {peak} without random factors", "peak")?;
+    }
+    tell_strengths(&strengths, unit, out)?;
     Ok(writeln!(out, "  results in {}", folder.display())?)
 }
 
@@ -200,54 +151,41 @@ fn points(grid: &BodyGrid, first: &[f64], damaged: &[f64]) -> String {
     text
 }
 
-/// Shares of the samples in which fracture begins at each point, and in which it is damaged, shape (n_points).
-pub(super) fn shares(collected: &Collected) -> [Vec<f64>; 2] {
-    let n = collected.rows.len().max(1) as f64;
-    let counts = &collected.counts;
-    [&counts.first_break, &counts.damaged].map(|it| it.iter().map(|it| *it as f64 / n).collect())
-}
-
-/// Prints the number of samples and the statistics of their loads.
-fn tell(
+/// Prints the number of samples.
+fn tell_samples(
     request: &Request<'_>,
-    setup: &Setup,
-    (title, identity): (&str, &Identity),
-    (collected, strengths): (&Collected, &[Strengths]),
+    identity: &Identity,
+    collected: &Collected,
     out: &mut dyn Write,
-) -> anyhow::Result<()> {
-    let unit = setup.units().force;
-    writeln!(out, "{title}")?;
-    let (n, wanted) = (collected.rows.len() as u64, request.samples);
+) -> io::Result<()> {
+    let (n, wanted, seed) = (collected.rows.len() as u64, request.samples, identity.seed);
     match n > wanted {
         true => writeln!(
             out,
-            "  {n} samples, more than the {wanted} asked for, seed {}",
-            identity.seed
-        )?,
-        false => writeln!(out, "  {n} of {wanted} samples, seed {}", identity.seed)?,
+            "  {n} samples, more than the {wanted} asked for, seed {seed}"
+        ),
+        false => writeln!(out, "  {n} of {wanted} samples, seed {seed}"),
     }
-    if let Some(sound) = identity.sound_peak {
-        let peak = quantity(sound.0, unit);
-        writeln!(out, "  {:<15} {peak} without random factors", "peak")?;
-    }
+}
+
+/// Prints the statistics of the loads.
+fn tell_strengths(strengths: &[Strengths], unit: &str, out: &mut dyn Write) -> io::Result<()> {
     for it in strengths {
         let Some([mean, deviation]) = it.moments() else {
             continue;
         };
-        let mean = quantity(mean, unit);
+        let (mean, percent) = (quantity(mean, unit), 100.0 * deviation);
         write!(
             out,
-            "  {:<15} mean {mean}, deviation {:.1} %",
-            it.words,
-            100.0 * deviation
+            "  {:<15} mean {mean}, deviation {percent:.1} %",
+            it.words
         )?;
         if let Some(fit) = &it.fit {
             let [low, high] = fit.modulus_within(NINETY_PERCENT);
-            let scale = quantity(fit.scale, unit);
+            let (modulus, scale) = (fit.modulus, quantity(fit.scale, unit));
             write!(
                 out,
-                ", Weibull modulus {:.2} ({low:.2} to {high:.2} with 90 %), scale {scale}",
-                fit.modulus
+                ", Weibull modulus {modulus:.2} ({low:.2} to {high:.2} with 90 %), scale {scale}"
             )?;
         }
         writeln!(out)?;
