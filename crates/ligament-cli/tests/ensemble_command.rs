@@ -1,7 +1,7 @@
 //! `ligament ensemble`: the same files from one process, from shards, and after a stop; each sample as a run of its own.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -160,36 +160,24 @@ fn rows_and_fields_are_those_of_runs() {
             fs::read_to_string(place.path(&format!("run-{sample}/summary.json"))).unwrap();
         let summary: Value = serde_json::from_str(&summary).unwrap();
         // Numbers of JSON are read to the last bit but one.
-        let is = |name: &str, value: f64| {
-            let found = summary[name]["reaction"].as_f64().unwrap();
-            assert!(
-                (found / value - 1.0).abs() < 1e-15,
-                "{name}: {found} {value}"
-            );
-        };
-        is("first_break", first[sample]);
-        is("peak", peak[sample]);
-        let broken = Sheet::read(place.path(&format!("run-{sample}/broken_bonds.csv"))).unwrap();
-        let [steps, a, b] = ["step", "node_a", "node_b"].map(|it| {
-            let it = if it == "step" {
-                it.to_owned()
-            } else {
-                it.replace("node", "cell")
-            };
-            broken.values::<usize>(&it).unwrap()
-        });
-        let mut is_first = BTreeMap::new();
-        let mut is_damaged = BTreeMap::new();
+        let found = summary["peak"]["reaction"].as_f64().unwrap();
+        assert!((found / peak[sample] - 1.0).abs() < 1e-15, "{found}");
+        let broken = Sheet::read(place.path(&format!("run-{sample}/breaks.csv"))).unwrap();
+        let column = |it| broken.values::<usize>(it).unwrap();
+        let [steps, a, b] = ["step", "cell_a", "cell_b"].map(column);
+        assert_eq!(broken.values::<f64>("reaction").unwrap()[0], first[sample]);
+        let mut is_first = BTreeSet::new();
+        let mut is_damaged = BTreeSet::new();
         for bond in 0..steps.len() {
             for point in [a[bond], b[bond]] {
-                is_damaged.insert(point, ());
+                is_damaged.insert(point);
                 if steps[bond] == steps[0] {
-                    is_first.insert(point, ());
+                    is_first.insert(point);
                 }
             }
         }
-        is_first.keys().for_each(|it| firsts[it - 1] += 1.0 / n);
-        is_damaged.keys().for_each(|it| damaged[it - 1] += 1.0 / n);
+        is_first.iter().for_each(|it| firsts[it - 1] += 1.0 / n);
+        is_damaged.iter().for_each(|it| damaged[it - 1] += 1.0 / n);
     }
     for (field, known) in [("first_break_share", firsts), ("damaged_share", damaged)] {
         let file = VtuFile::open(place.path("out/ensemble.vtu")).unwrap();
