@@ -116,6 +116,7 @@ fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let distribution = match scatter.distribution {
         Distribution::Weibull { modulus } => format!("Weibull modulus {modulus}"),
         Distribution::Normal { deviation } => format!("normal by {} %", 100.0 * deviation),
+        Distribution::Lognormal { deviation } => format!("lognormal by {} %", 100.0 * deviation),
     };
     let correlation = match scatter.correlation_length {
         0.0 => "each point independent".to_owned(),
