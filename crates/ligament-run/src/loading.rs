@@ -15,7 +15,7 @@ use crate::processes::broadcast_path;
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{Noted, summary};
+use crate::summary::{Noted, certificate, summary};
 use crate::watch::Watch;
 
 /// A body under loads.
@@ -85,10 +85,12 @@ impl LoadedBody<'_> {
 
         let (notices, first, checkpoints) = watch.into_parts();
         let boundary = &loading.boundary;
+        let certificate = certificate(folder.path(), model, &outcome)?;
         let noted = Noted {
             provenance,
             notices,
             first,
+            certificate,
             stages: stages.done().to_vec(),
         };
         let summary = summary(case, model, boundary, &outcome, noted);
