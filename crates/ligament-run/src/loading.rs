@@ -84,16 +84,14 @@ impl LoadedBody<'_> {
         let outcome = outcome.map_err(|it| case.explained(it))?;
 
         let (notices, first, checkpoints) = watch.into_parts();
-        let boundary = &loading.boundary;
-        let certificate = certificate(folder.path(), model, &outcome)?;
         let noted = Noted {
             provenance,
             notices,
             first,
-            certificate,
+            certificate: certificate(folder.path(), model, &outcome)?,
             stages: stages.done().to_vec(),
         };
-        let summary = summary(case, model, boundary, &outcome, noted);
+        let summary = summary(case, model, &loading.boundary, &outcome, noted);
         summary::write(folder, &summary)?;
         checkpoints.end(&outcome.termination)?;
         Ok(summary)

@@ -75,8 +75,7 @@ pub fn summary(
     outcome: &Outcome,
     noted: Noted,
 ) -> Summary {
-    let units = model.setup.units();
-    let history = &outcome.history;
+    let (units, history) = (model.setup.units(), &outcome.history);
     let without_equilibrium = outcome.is_without_equilibrium();
     let loaded = |point: Option<LoadPoint>| {
         let point = point.filter(|_| !without_equilibrium);

@@ -72,11 +72,10 @@ impl MeasuredCurve {
 
 /// Point with the largest y; of equal ones the first.
 pub(super) fn peak(points: &Points) -> [f64; 2] {
-    let largest =
-        points
-            .iter()
-            .copied()
-            .reduce(|best, point| if point[1] > best[1] { point } else { best });
+    let largest = points
+        .iter()
+        .copied()
+        .reduce(|best, point| if point[1] > best[1] { point } else { best });
     largest.unwrap_or([f64::NAN; 2])
 }
 

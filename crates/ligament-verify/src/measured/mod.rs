@@ -8,18 +8,19 @@
 //! | `reading` | one run of a test, and what is read from it |
 //! | `judgement` | values of a run against the bands |
 //! | `size_effect` | Bazant's law through peaks of several sizes |
+//! | `places` | folders of the repository |
 //! | `figure` | the figure of a test |
 //! | [`scoreboard`] | scores of the runs, for the page of measured tests |
 
 mod curve;
 mod figure;
 mod judgement;
+mod places;
 mod reading;
 pub mod scoreboard;
 mod size_effect;
 pub mod test;
 
-use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
 use super::experiment::{Compute, Experiment, Findings};
@@ -27,22 +28,13 @@ use super::table::Extent;
 
 use curve::MeasuredCurve;
 use judgement::Judgement;
+use places::folder;
 use reading::Reading;
 use scoreboard::Scores;
 pub use test::MeasuredTest;
 
 /// Beginning of the names of all measured tests on the command line.
 const GROUP: &str = "experiments_";
-
-/// The repository in which the program was built: cases, meshes and curves are read from there.
-fn repository() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
-
-/// Folder of the table and of the measured curves.
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments")
-}
 
 /// The measured tests as experiments, in the order of their table.
 ///

@@ -14,7 +14,7 @@ use ligament_run::run::{Report, run};
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 use rustix::time::{ClockId, clock_gettime};
 
-use super::repository;
+use super::places::repository;
 use super::test::{Axis, MeasuredTest, Quantity, Variant};
 
 /// What a run gave.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::{folder, repository};
+use super::places::{folder, repository};
 
 /// A measured test.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -202,3 +202,78 @@ fn push_test(text: &mut String, test: &Test<'_>) {
     let _ = writeln!(text, "| *band* | {} |", allowed.join(" | "));
     let _ = write!(text, "\nBands: {}\n", table.heading.tolerance);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiment::Compute;
+    use crate::published::known_values;
+    use crate::table::Extent;
+
+    const ROWS: &str = "\
+# title: Beam
+# source: Author 2019
+# quantity: computed over measured
+# known: measured
+# tolerance: peak: two specimens.
+run,quantity,known,allowed,subset,standing,instead,reason
+4 mm,peak,1.000,-0.1 to 0.1,fast,,,
+3 mm,peak,1.000,-0.1 to 0.1,fast,missed,1.3,coarse mesh
+";
+
+    fn test(name: &'static str, second: f64) -> (Experiment, Findings) {
+        let experiment = Experiment {
+            name,
+            title: "Beam",
+            source: "Author 2019",
+            setup: "",
+            cases: &[],
+            compute: Compute::Code(|_| Ok(Findings::default())),
+        };
+        let mut values = [1.04, second].into_iter();
+        let table = known_values(name, ROWS).unwrap();
+        let table = table.judge(Extent::Full, |_| Ok(values.next().unwrap()));
+        let score = |run: &str, failed| Score {
+            run: run.to_owned(),
+            points: 400,
+            increments: 50,
+            failed,
+            seconds: 3.4,
+            spent: Some(0.98),
+        };
+        let scores = Scores {
+            case: "cases/a/case.toml".to_owned(),
+            material: "E 30 GPa.".to_owned(),
+            runs: vec![score("4 mm", 0), score("3 mm", 2)],
+        };
+        let findings = Findings {
+            tables: vec![table.unwrap()],
+            scores: Some(scores),
+            ..Findings::default()
+        };
+        (experiment, findings)
+    }
+
+    /// The test that missed stands first, in every part of the page; its value is bold, and how far it is off and why are told.
+    #[test]
+    fn what_missed_stands_first_and_is_not_hidden() {
+        let text = text(&[test("met", 0.95), test("missed", 1.3)]).unwrap();
+        for line in [
+            "1 of 4 values.",
+            "| [missed](#missed) | 3 mm | peak | +0.3000, allowed -0.1 to +0.1 | coarse mesh |",
+            "| [missed](#missed) | 3 mm | 400 | **1.30** |  | 0.98 | 3 | 50 | 2 |",
+            "| [met](#met) | 3 mm | 400 | 0.95 |  | 0.98 | 3 | 50 | 2 |",
+            "| 3 mm | **1.30** |",
+            "| *band* | 1.000 (-0.1 to +0.1) |",
+        ] {
+            assert!(text.lines().any(|it| it == line), "{line}\n{text}");
+        }
+        assert!(text.find("## missed").unwrap() < text.find("## met").unwrap());
+    }
+
+    #[test]
+    fn without_measured_tests_there_is_no_page() {
+        let (experiment, _) = test("met", 1.0);
+        assert_eq!(text(&[(experiment, Findings::default())]), None);
+    }
+}
