@@ -68,23 +68,31 @@ fn sections_of<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
     })
 }
 
-/// Ends of straight pre-cracks in the plane that lie in the body, with the areas (m^2) between them and the other side along their lines.
+/// Ends of pre-cracks in the plane that lie in the body, with the areas (m^2) between them and the other side, or the next pre-crack, along
+/// their lines.
 fn ahead_of_precracks(model: &Model) -> Vec<([f64; 2], f64)> {
     let Some(system) = model.system.of_dimension::<2>() else {
         return Vec::new();
     };
     let cloud = &system.cloud;
+    let lines = || model.setup.precracks.iter().map(|crack| crack.line());
     let mut found = Vec::new();
-    for crack in &model.setup.precracks {
-        let [first, .., last] = crack.line() else {
+    for (number, line) in lines().enumerate() {
+        let [first, .., last] = line else {
             continue;
         };
-        let line = crack.line();
-        let ends = [(line[1], *first), (line[line.len() - 2], *last)];
-        for (from, tip) in ends {
-            let length = length_ahead(cloud, from, tip);
-            let point = cloud.nearest_points(&[tip])[0];
-            if length > cloud.spacing[point as usize] {
+        for (from, tip) in [(line[1], *first), (line[line.len() - 2], *last)] {
+            let Some(ray) = Ray::new(from, tip) else {
+                continue;
+            };
+            let spacing = cloud.spacing[cloud.nearest_points(&[tip])[0] as usize];
+            let others = lines().enumerate().filter(|(other, _)| *other != number);
+            let ahead = others.flat_map(|(_, line)| line).filter_map(|&vertex| {
+                let [along, aside] = ray.coordinates(vertex);
+                (along > 0.0 && aside.abs() < 0.5 * spacing).then_some(along)
+            });
+            let length = ahead.fold(length_ahead(cloud, &ray), f64::min);
+            if length > spacing {
                 found.push((tip, length * cloud.thickness));
             }
         }
@@ -92,33 +100,68 @@ fn ahead_of_precracks(model: &Model) -> Vec<([f64; 2], f64)> {
     found
 }
 
-/// Length of the line from a tip on, away from `from`, while a point of the body is nearer than three quarters of its distance to the next,
-/// m; right to half that distance, and 0 where it is no longer than that.
-fn length_ahead(cloud: &PointCloud<2>, from: [f64; 2], tip: [f64; 2]) -> f64 {
-    let along = [tip[0] - from[0], tip[1] - from[1]];
-    let size = along[0].hypot(along[1]);
-    let smallest = cloud.spacing.iter().copied().fold(f64::INFINITY, f64::min);
-    let step = smallest / PARTS;
-    if !(size > 0.0 && step > 0.0) {
-        return 0.0;
+/// A straight line from the tip of a pre-crack on.
+struct Ray {
+    tip: [f64; 2],
+    /// Unit vector along the line.
+    along: [f64; 2],
+}
+
+impl Ray {
+    /// The line through a tip, away from `from`; None if they are one place.
+    fn new(from: [f64; 2], tip: [f64; 2]) -> Option<Self> {
+        let along = [tip[0] - from[0], tip[1] - from[1]];
+        let size = along[0].hypot(along[1]);
+        (size > 0.0).then(|| Self {
+            tip,
+            along: along.map(|it| it / size),
+        })
     }
+
+    /// Distances of a position from the tip along the line and across it, m.
+    fn coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [a, b] = [x - self.tip[0], y - self.tip[1]];
+        let [cos, sin] = self.along;
+        [a * cos + b * sin, b * cos - a * sin]
+    }
+
+    /// Position at a distance from the tip, m.
+    fn at(&self, length: f64) -> [f64; 2] {
+        [0, 1].map(|axis| self.tip[axis] + length * self.along[axis])
+    }
+}
+
+/// Length of a ray through the body, m: up to the farthest of the points that are nearest to its places, and on a lattice half a cell
+/// farther; right to half the distance of points. A place is in the body if its nearest point is not farther than three quarters of the
+/// distance between points.
+fn length_ahead(cloud: &PointCloud<2>, ray: &Ray) -> f64 {
+    let smallest = cloud.spacing.iter().copied().fold(f64::INFINITY, f64::min);
     let [width, height] = [0, 1].map(|axis| {
         let values = || cloud.positions.iter().map(|it| it[axis]);
         values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min)
     });
     // From a tip in the body no line is longer than its diagonal.
     let longest = width.hypot(height) + smallest;
-    let at = |length: f64| [0, 1].map(|axis| tip[axis] + length * along[axis] / size);
+    let step = smallest / PARTS;
+    if !(step > 0.0 && longest.is_finite()) {
+        return 0.0;
+    }
     let lengths = (0..).map(|part| f64::from(part) * step);
-    let lengths: Vec<f64> = lengths.take_while(|length| *length <= longest).collect();
-    let places: Vec<[f64; 2]> = lengths.iter().map(|length| at(*length)).collect();
+    let lengths = lengths.take_while(|length| *length <= longest);
+    let places: Vec<[f64; 2]> = lengths.map(|length| ray.at(length)).collect();
     let nearest = cloud.nearest_points(&places);
-    let is_inside = |(place, point): (&[f64; 2], &u32)| {
-        let [x, y] = cloud.positions[*point as usize];
+    let mut length = 0.0_f64;
+    for (place, point) in places.iter().zip(nearest) {
+        let [x, y] = cloud.positions[point as usize];
         let [to_x, to_y] = cloud.local(*place);
-        (x - to_x).hypot(y - to_y) <= 0.75 * cloud.spacing[*point as usize]
-    };
-    let inside = places.iter().zip(&nearest).take_while(|it| is_inside(*it));
-    let last = lengths.iter().zip(inside).last();
-    last.map_or(0.0, |(length, _)| *length)
+        if (x - to_x).hypot(y - to_y) > 0.75 * cloud.spacing[point as usize] {
+            break;
+        }
+        let at = [x + cloud.origin[0], y + cloud.origin[1]];
+        let cell = cloud.lattice_cell.map_or(0.0, |cell| {
+            0.5 * (cell[0] * ray.along[0]).hypot(cell[1] * ray.along[1])
+        });
+        length = length.max(ray.coordinates(at)[0] + cell);
+    }
+    length
 }
