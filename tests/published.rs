@@ -58,6 +58,7 @@ fn is_stored(experiment: &Experiment, table: &Table) {
         "motion_kalthoff",
     ]
     .contains(&experiment.name)
+        || matches!(experiment.compute, Compute::Measured(_))
     {
         1e-2
     } else {
