@@ -254,7 +254,7 @@ run,quantity,known,allowed,subset,standing,instead,reason
         (experiment, findings)
     }
 
-    /// The test that missed stands first, in every part of the page; its value is bold, and how far it is off and why are told.
+    /// Misses stand first in every part of the page, in bold, with how far they are off and why.
     #[test]
     fn what_missed_stands_first_and_is_not_hidden() {
         let text = text(&[test("met", 0.95), test("missed", 1.3)]).unwrap();
