@@ -439,7 +439,10 @@ fn a_precrack_beside_a_solid_is_told() {
 fn what_a_crack_will_spend_is_foretold() {
     let folder = tempfile::tempdir().unwrap();
     let load = format!("displacement = {{ x = {AT_STRENGTH:e} }}");
-    let case = bar(&load, "[fracture]\nsteps = 4\n[[fracture.criterion]]\nkind = \"bond-energy\"");
+    let case = bar(
+        &load,
+        "[fracture]\nsteps = 4\n[[fracture.criterion]]\nkind = \"bond-energy\"",
+    );
     let said = |settings: &[&str]| {
         let (code, said, error) = check(folder.path(), &case, settings);
         assert_eq!(code, Some(0), "{error}");

@@ -88,7 +88,7 @@ impl Reading {
             let share = (x - from) / (to - from);
             (0.0..=1.0)
                 .contains(&share)
-                .then(|| low + share * (high - low))
+                .then_some(low + share * (high - low))
         });
         let nearest = |one: f64, other: f64| {
             if (other - expected).abs() < (one - expected).abs() {
