@@ -13,6 +13,7 @@ use ligament_run::model::Model;
 use ligament_run::summary::scatter;
 
 use super::characteristic_length::{self, young};
+use super::crack_work;
 use super::entry::entry;
 
 /// Writes the criteria with their limits over the bonds.
@@ -30,6 +31,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         }
     }
     write_cracks(out, model)?;
+    crack_work::write(out, model)?;
     characteristic_length::write(out, model)?;
     write_scatter(out, model)
 }
