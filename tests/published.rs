@@ -56,6 +56,7 @@ fn is_stored(experiment: &Experiment, table: &Table) {
         "strength_glass",
         "motion_branching",
         "motion_kalthoff",
+        "contact_flaw",
     ]
     .contains(&experiment.name)
     {
@@ -149,5 +150,8 @@ experiments!(
     motion_disk,
     motion_splitting,
     motion_contact,
-    motion_schemes
+    motion_schemes,
+    contact_sliding,
+    contact_hertz,
+    contact_flaw
 );

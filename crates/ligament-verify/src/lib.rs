@@ -24,6 +24,7 @@ use ligament_output::folder::{Kind, ResultFolder};
 
 mod anisotropy;
 mod bars;
+mod contact;
 mod cost;
 mod crack_path;
 mod cracks;
@@ -76,7 +77,7 @@ use table::Extent;
 use tally::Tally;
 
 /// All experiments, in the order of the report.
-pub static EXPERIMENTS: [Experiment; 43] = [
+pub static EXPERIMENTS: [Experiment; 46] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -120,6 +121,9 @@ pub static EXPERIMENTS: [Experiment; 43] = [
     motion::splitting::EXPERIMENT,
     motion::contact::EXPERIMENT,
     motion::schemes::EXPERIMENT,
+    contact::sliding::EXPERIMENT,
+    contact::hertz::EXPERIMENT,
+    contact::flaw::EXPERIMENT,
 ];
 
 const EXAMPLES: &str = "\
