@@ -112,13 +112,12 @@ fn start(labels: Labels<'_>) -> anyhow::Result<f64> {
 /// Stress at which cracks are so long, over that of the formula.
 fn growth(labels: Labels<'_>, grown: &mut Memory<Vec<[f64; 2]>>) -> anyhow::Result<f64> {
     let (lateral, length) = (labels.number("lambda")?, labels.number("L")?);
-    let under = |stress: f64| {
+    let under = |stress: f64, steps: u32| {
         let trial = (MESH.trial().on_mesh(&POINTS)).set("load.0.pressure", 1e6 * stress);
-        trial.set("fracture.steps", stress as u32)
+        trial.set("fracture.steps", steps)
     };
-    // The largest load of the pulled plate, with the width of the plate (Feddersen).
-    let pulled = under(-PULLED)
-        .set("fracture.steps", 50)
+    // The largest load of the pulled plate, by the secant of its width.
+    let pulled = under(-PULLED, 50)
         .set("fracture.stop.bonds", 300)
         .set("precrack.0.angle", 0.0);
     let largest = grown.reading(&pulled, |solution| {
@@ -129,7 +128,7 @@ fn growth(labels: Labels<'_>, grown: &mut Memory<Vec<[f64; 2]>>) -> anyhow::Resu
     let toughness = largest * (PI * HALF / (PI * HALF / WIDTH).cos()).sqrt();
     let end = PRESSED.iter().find(|it| it.0 == lateral);
     let end = end.with_context(|| format!("no lambda {lateral}"))?.1;
-    let mut trial = under(end);
+    let mut trial = under(end, end as u32);
     if lateral > 0.0 {
         let side = |group: &str, pressure: f64| {
             format!("{{ group = \"{group}\", pressure = {pressure:?} }}")
