@@ -106,7 +106,7 @@ fracture = { criterion = [{ kind = "mohr-coulomb", cohesion = 5e6, friction_angl
 "#;
 
 /// What failed by shear under pressure keeps mu times the pressure: after all bonds across the plane have softened and broken, the faces carry the
-/// pressure of the sound strip under the same approach, to 1 % (measured 0.3: they lack Poisson's effect), and mu times it along the plane, to
+/// pressure of the sound strip under the same approach, to 1 % (measured 0.06), and mu times it along the plane, to
 /// 2 % (measured 1.2 above: at both ends the normals of the crack are not quite those of the plane). Before it failed
 /// the strip carried more than three times as much.
 #[test]
