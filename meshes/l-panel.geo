@@ -2,6 +2,7 @@
 DefineConstant[ size = 0.02 ];       // mesh size
 DefineConstant[ side = 0.5 ];        // of the square
 DefineConstant[ arm = 0.03 ];        // from the free end of the arm to the load at its lower edge
+DefineConstant[ algorithm = 6 ];      // 5: Delaunay, 6: Frontal-Delaunay
 
 h = side / 2;
 Point(1) = {0, 0, 0};
@@ -30,5 +31,5 @@ Field[1].F = Sprintf("%g", size);
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
-Mesh.Algorithm = 6;                  // Frontal-Delaunay
+Mesh.Algorithm = algorithm;
 Mesh.MshFileVersion = 4.1;

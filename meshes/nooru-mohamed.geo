@@ -6,6 +6,7 @@ DefineConstant[ side = 0.2 ];
 DefineConstant[ depth = 0.025 ];     // of a notch
 DefineConstant[ width = 0.005 ];     // of a notch
 DefineConstant[ band = 0.055 ];      // half-height of the fine strip
+DefineConstant[ algorithm = 5 ];      // 5: Delaunay, 6: Frontal-Delaunay
 
 below = (side - width) / 2;
 above = (side + width) / 2;
@@ -45,5 +46,5 @@ Field[1].Thickness = 0.03;
 Background Field = 1;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
-Mesh.Algorithm = 5;
+Mesh.Algorithm = algorithm;
 Mesh.MshFileVersion = 4.1;

@@ -6,6 +6,7 @@ DefineConstant[ growth = 0.2 ];      // by how much the size grows with the dist
 DefineConstant[ band = 0.06 ];       // half-width of the fine band
 DefineConstant[ half_span = 1.0 ];
 DefineConstant[ depth = 0.2 ];
+DefineConstant[ algorithm = 6 ];      // 5: Delaunay, 6: Frontal-Delaunay
 
 Point(1) = {-half_span, 0, 0};
 Point(2) = {half_span, 0, 0};
@@ -34,5 +35,5 @@ Field[3].FieldsList = {1, 2};
 Background Field = 3;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
-Mesh.Algorithm = 6;                  // Frontal-Delaunay
+Mesh.Algorithm = algorithm;
 Mesh.MshFileVersion = 4.1;

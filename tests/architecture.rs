@@ -149,6 +149,7 @@ const RESERVED: [(&str, &[&str]); 17] = [
             "ligament-output",
             "ligament-plot",
             "ligament-study",
+            "ligament-verify",
         ],
     ),
     (
@@ -171,12 +172,13 @@ const RESERVED: [(&str, &[&str]); 17] = [
             "ligament-cli",
             "ligament-plot",
             "ligament-report",
+            "ligament-verify",
         ],
     ),
     ("toml_edit", &["ligament-case", "ligament-study"]),
     ("roxmltree", &["ligament-cli", "ligament-output"]),
     ("csv", &["ligament-output"]),
-    ("rustix", &["ligament-run"]),
+    ("rustix", &["ligament-run", "ligament-verify"]),
     ("skrifa", &["ligament-plot"]),
     ("tiny-skia", &["ligament-plot"]),
 ];

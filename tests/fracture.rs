@@ -7,6 +7,7 @@ mod contact_at_rest;
 mod crack_lines;
 mod crack_surfaces;
 mod determinism;
+mod ensembles;
 mod every_law;
 mod exact_path;
 mod face_friction;

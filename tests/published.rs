@@ -5,7 +5,7 @@ use ligament_output::csv::read::records;
 use ligament_verify::entry::Verdict;
 use ligament_verify::table::{Extent, Table};
 use ligament_verify::tally::Tally;
-use ligament_verify::{EXPERIMENTS, Experiment};
+use ligament_verify::{Compute, EXPERIMENTS, Experiment, experiments};
 use verification::numbers::largest;
 use verification::repository;
 
@@ -59,6 +59,7 @@ fn is_stored(experiment: &Experiment, table: &Table) {
         "contact_flaw",
     ]
     .contains(&experiment.name)
+        || matches!(experiment.compute, Compute::Measured(_))
     {
         1e-2
     } else {
@@ -155,3 +156,19 @@ experiments!(
     contact_hertz,
     contact_flaw
 );
+
+/// Measured tests: those with a fast run are run, and every value lies in the band that was written down before, or is missed for the reason
+/// in the table.
+#[test]
+fn measured_tests() {
+    let is_fast = |it: &&Experiment| match it.compute {
+        Compute::Measured(test) => test.run.iter().any(|run| run.fast),
+        Compute::Code(_) => false,
+    };
+    let mut run = 0;
+    for experiment in experiments().unwrap().iter().filter(is_fast) {
+        passes(experiment);
+        run += 1;
+    }
+    assert!(run > 0, "no measured test is among the tests");
+}

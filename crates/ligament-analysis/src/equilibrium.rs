@@ -8,6 +8,7 @@ mod dissipating;
 mod earlier_equilibria;
 mod equations;
 mod external;
+mod intact;
 mod iterate;
 mod line;
 mod line_search;
@@ -39,6 +40,7 @@ use crate::problem::Problem;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
+use crate::tangent::IntactSolver;
 use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
 use earlier_equilibria::EarlierEquilibria;
@@ -78,7 +80,42 @@ pub struct Equilibrium {
     held: Option<ControlledQuantity>,
 }
 
+/// Equilibrium equations of an intact body with its factor, which do not change: each run begins with a copy.
+pub(crate) struct IntactEquilibrium {
+    equations: Equations<dyn IntactSolver>,
+    connectivity: Connectivity,
+    numbers: Arc<BondNumbers>,
+    iteration: Iteration,
+}
+
+impl IntactEquilibrium {
+    /// A copy for a run with other criteria of the same bonds and measures.
+    pub(crate) fn judged_by(&self, criteria: &Arc<Criteria>) -> Equilibrium {
+        let solver = self.equations.solver.copied();
+        let mut equations = self.equations.with_solver(solver);
+        equations.problem.criteria = criteria.clone();
+        Equilibrium {
+            equations,
+            connectivity: self.connectivity.clone(),
+            numbers: self.numbers.clone(),
+            iteration: self.iteration,
+            held: None,
+        }
+    }
+}
+
 impl Equilibrium {
+    /// The present equations for runs that begin from here; None where the solver cannot be copied.
+    pub(crate) fn intact(&self) -> Option<IntactEquilibrium> {
+        let solver = self.equations.solver.intact()?;
+        Some(IntactEquilibrium {
+            equations: self.equations.with_solver(solver),
+            connectivity: self.connectivity.clone(),
+            numbers: self.numbers.clone(),
+            iteration: self.iteration,
+        })
+    }
+
     /// Numbers the unknowns and analyses the sparsity pattern, without factorising. `energy_tolerance` is the relative change of
     /// the energy that ends an iteration (NHPD eq. 21). Bonds are taken as intact or broken, without softening.
     ///

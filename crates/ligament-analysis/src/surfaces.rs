@@ -181,7 +181,7 @@ impl LastTouching {
 }
 
 /// Finds where surfaces touch. What was found before only saves time.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Surfaces {
     problem: ContactProblem,
     searches: Vec<Search>,

@@ -123,6 +123,11 @@ pub(crate) trait TangentSolver {
     /// Makes the solver recompute K from the bonds the next time.
     fn discard(&mut self);
 
+    /// The solver as it is now, for runs that begin from here; None where it cannot be copied.
+    fn intact(&self) -> Option<Box<dyn IntactSolver>> {
+        None
+    }
+
     /// Numbers of positive and negative eigenvalues of K; none where they are not known.
     fn inertia(&self) -> Option<Inertia>;
 
@@ -135,4 +140,10 @@ pub(crate) trait TangentSolver {
     ///
     /// If the bytes are damaged or belong to another model, or if the factor differs in any bit.
     fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError>;
+}
+
+/// A solver of an intact body, which does not change: each run begins with a copy.
+pub(crate) trait IntactSolver: Send + Sync {
+    /// A solver that is ready, and changes by itself from then on.
+    fn copied(&self) -> Box<dyn TangentSolver>;
 }

@@ -409,6 +409,16 @@ fn of_studies(place: &Place, names: &mut Names, wrong: &mut Vec<String>) {
         names,
         wrong,
     );
+    place.call("ensemble bar.toml --set fracture.scatter.of=strength --set fracture.scatter.modulus=8 --samples 2 --points 3 --out many");
+    for table in ["samples.csv", "curves.csv", "weibull.csv", "points.csv"] {
+        let header = place.header(&format!("many/{table}"));
+        compare(
+            &format!("{table} of `ligament ensemble`"),
+            &[header],
+            names,
+            wrong,
+        );
+    }
     place.call("calibrate bar.toml --key material.tensile_strength --of first_break.reaction --target 1000 --within 0.5 --out sought");
     compare(
         "calibration.csv",

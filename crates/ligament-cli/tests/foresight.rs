@@ -432,3 +432,38 @@ fn a_precrack_beside_a_solid_is_told() {
     let (row, _) = run(folder.path());
     assert_eq!(row.map(|(step, _)| step as f64), Some(step), "{said}");
 }
+
+/// By hand, with 60 J/m^2: the sections of the bar are 0.1 m and 0.3 m by 0.02 m, and take 0.12 and 0.36 J; a notch of 0.04 m leaves 0.06 m,
+/// 0.072 J, and one from the other side as well leaves 0.03 m.
+#[test]
+fn what_a_crack_will_spend_is_foretold() {
+    let folder = tempfile::tempdir().unwrap();
+    let load = format!("displacement = {{ x = {AT_STRENGTH:e} }}");
+    let case = bar(
+        &load,
+        "[fracture]\nsteps = 4\n[[fracture.criterion]]\nkind = \"bond-energy\"",
+    );
+    let said = |settings: &[&str]| {
+        let (code, said, error) = check(folder.path(), &case, settings);
+        assert_eq!(code, Some(0), "{error}");
+        let mut lines = said.lines().filter(|line| line.contains("a crack through"));
+        let line = lines.next().unwrap_or_default().to_owned();
+        assert!(!line.is_empty(), "{said}");
+        line
+    };
+    let line = said(&[]);
+    assert!(
+        line.contains("across x takes 120.0 mJ (2000 mm^2)"),
+        "{line}"
+    );
+    assert!(
+        line.contains("across y takes 360.0 mJ (6000 mm^2)"),
+        "{line}"
+    );
+    let lower = "{points=[[0.15,-0.01],[0.15,0.04]]}";
+    let line = said(&[&format!("precrack=[{lower}]")]);
+    assert!(line.contains("takes 72.00 mJ (1200 mm^2)"), "{line}");
+    let upper = "{points=[[0.15,0.11],[0.15,0.07]]}";
+    let line = said(&[&format!("precrack=[{lower},{upper}]")]);
+    assert!(line.contains("takes 36.00 mJ (600"), "{line}");
+}

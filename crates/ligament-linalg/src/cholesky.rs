@@ -97,6 +97,17 @@ impl Factorisation for Cholesky {
         .collect()
     }
 
+    fn copied(&self) -> Box<dyn Factorisation> {
+        Box::new(Self {
+            symbolic: self.symbolic.clone(),
+            kind: self.kind,
+            values: self.values.clone(),
+            diagonal: self.diagonal.clone(),
+            negative_pivots: self.negative_pivots,
+            modification: None,
+        })
+    }
+
     fn digest(&self) -> u64 {
         digest(&self.values)
     }

@@ -44,6 +44,9 @@ pub trait Factorisation: Send + Sync {
     /// Numbers of positive and negative pivots. The eigenvalues have the same signs (Sylvester's law of inertia).
     fn inertia(&self) -> Inertia;
 
+    /// A factor with the same values, which changes by itself from then on.
+    fn copied(&self) -> Box<dyn Factorisation>;
+
     /// A hash of the values of the factor: values that differ in a bit give, almost certainly, different hashes.
     fn digest(&self) -> u64;
 }

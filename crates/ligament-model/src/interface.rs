@@ -14,7 +14,7 @@ use crate::failure::Criterion;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
 use crate::layout::{Component, Layout};
-use crate::product::{ForceSum, NearLimits};
+use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::point_strain::Motion;
 use crate::subdomain::Subdomain;
@@ -203,13 +203,13 @@ pub trait BondKinetics: BondTopology {
     fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]);
 
     /// The product K u, as [`BondKinetics::multiply`], and the unbroken bonds near their limits, ascending, in one sweep. The forces overwrite
-    /// `sum`.
+    /// `forces`.
     fn forces_near_limits(
         &self,
         bonds: UnbrokenBonds<'_>,
         motions: &[f64],
         limits: NearLimits<'_>,
-        sum: &mut ForceSum,
+        forces: &mut [f64],
     ) -> Vec<u32>;
 
     /// Adds the derivatives of the forces by the displacements: row, column, value.

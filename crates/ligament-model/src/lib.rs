@@ -39,6 +39,7 @@ pub mod layout;
 pub mod mass;
 pub mod material;
 pub mod moduli;
+mod point_sums;
 mod predicates;
 pub mod product;
 pub mod rigid_motions;

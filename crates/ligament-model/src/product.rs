@@ -1,43 +1,15 @@
 //! Forces of bonds that are linear in the displacements, in one sweep over the bonds that stores no deformation.
 //!
 //! Iterative solvers need the product of the stiffness with a vector several times per bond breakage; explicit motion needs it in every time
-//! step, with the bonds that come near their limits. The result does not depend on the number of threads: the bonds are divided into fixed
-//! parts, those of a part are summed by one thread in their order, and the parts one after another.
-
-use std::ops::Range;
-
-use rayon::prelude::*;
+//! step, with the bonds that come near their limits.
 
 use crate::deformation::Deformation;
 use crate::element::{Element, Elements};
 use crate::failure::{Criteria, Measure};
+use crate::interface::BondTopology;
+use crate::point_sums::{BondForces, Reach};
+use crate::subdomain::Whole;
 use crate::system::{ElementSystem, UnbrokenBonds};
-
-/// Number of parts into which the bonds are divided; fixed, so that the order of summation is fixed. Each part but the first adds to forces
-/// of its own at all points.
-const PARTS: usize = 4;
-
-/// Number of points that make a task worth while.
-const TASK: usize = 2048;
-
-/// Sum of the forces of the bonds, with reusable memory for the parts of the bonds.
-#[derive(Debug, Clone, Default)]
-pub struct ForceSum {
-    /// Sum of the end forces at each degree of freedom, shape (n_degrees_of_freedom), N and N m.
-    pub values: Vec<f64>,
-    /// Forces of all parts but the first, shape (n_parts - 1, n_degrees_of_freedom).
-    others: Vec<Vec<f64>>,
-}
-
-impl ForceSum {
-    /// Zero forces at degrees of freedom.
-    pub fn new(n_degrees_of_freedom: usize) -> Self {
-        Self {
-            values: vec![0.0; n_degrees_of_freedom],
-            others: vec![vec![0.0; n_degrees_of_freedom]; PARTS - 1],
-        }
-    }
-}
 
 /// Limits near which a sweep finds bonds.
 #[derive(Debug, Clone, Copy)]
@@ -102,51 +74,39 @@ impl<'a> NearLimits<'a> {
     }
 }
 
-/// Sums forces at points with M components over bonds that are divided into fixed parts: `add` adds those of a range of bonds to the forces
-/// of all points. The result overwrites `forces` (M n_points). Returns what `add` returned for each part, in order.
-fn over_parts<const M: usize, T: Send>(
-    n_bonds: usize,
-    forces: &mut [f64],
-    others: &mut [Vec<f64>],
-    add: impl Fn(Range<usize>, &mut [[f64; M]]) -> T + Sync,
-) -> Vec<T> {
-    let range = |part: usize| part * n_bonds / PARTS..(part + 1) * n_bonds / PARTS;
-    let first = std::iter::once(&mut *forces);
-    let sums: Vec<&mut [f64]> = first
-        .chain(others.iter_mut().map(Vec::as_mut_slice))
-        .collect();
-    let results = (sums.into_par_iter().enumerate())
-        .map(|(part, sums)| {
-            let (of_points, _) = sums.as_chunks_mut::<M>();
-            of_points.fill([0.0; M]);
-            add(range(part), of_points)
-        })
-        .collect();
-    let (of_points, _) = forces.as_chunks_mut::<M>();
-    of_points
-        .par_iter_mut()
-        .with_min_len(TASK)
-        .enumerate()
-        .for_each(|(point, sum)| {
-            for part in &*others {
-                let (of_points, _) = part.as_chunks::<M>();
-                add_to(sum, of_points[point]);
-            }
-        });
-    results
+/// Forces of unbroken bonds at motions of the points, and the bonds near their limits.
+struct LinearForces<'a, const D: usize, const M: usize, E, J> {
+    typed: &'a ElementSystem<D, M, E>,
+    bonds: UnbrokenBonds<'a>,
+    motions: &'a [f64],
+    judge: J,
 }
 
-/// Adds a force to a sum.
-#[inline(always)]
-fn add_to<const M: usize>(sum: &mut [f64; M], force: [f64; M]) {
-    *sum = std::array::from_fn(|place| sum[place] + force[place]);
+impl<const D: usize, const M: usize, E: Elements<D, M>, J: Judge> BondForces<M>
+    for LinearForces<'_, D, M, E, J>
+{
+    /// Bonds near their limits.
+    type Found = Vec<u32>;
+
+    #[inline(always)]
+    fn add(&self, bond: usize, near: Option<&mut Vec<u32>>, add: impl FnMut(u32, [f64; M])) {
+        let Some(element) = self.typed.left(self.bonds, bond) else {
+            return;
+        };
+        let deformation = element.deformation(self.motions);
+        if let Some(near) = near
+            && self.judge.is_near(bond, &deformation)
+        {
+            near.push(bond as u32);
+        }
+        element.forces(&deformation, add);
+    }
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// Product of the stiffness of the unbroken bonds with motions, shape (M n_points) both.
     pub(crate) fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
-        let mut others = vec![vec![0.0; forces.len()]; PARTS - 1];
-        self.swept(bonds, motions, &Unlimited, (forces, &mut others));
+        self.swept(bonds, motions, Unlimited, forces);
     }
 
     /// Product of the stiffness of the unbroken bonds with motions (M n_points), and the unbroken bonds near their limits, ascending.
@@ -155,39 +115,31 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         bonds: UnbrokenBonds<'_>,
         motions: &[f64],
         limits: NearLimits<'_>,
-        sum: &mut ForceSum,
+        forces: &mut [f64],
     ) -> Vec<u32> {
-        let sums = (&mut *sum.values, &mut *sum.others);
         match (limits.criteria.list.is_empty(), limits.of_stretch()) {
-            (true, _) => self.swept(bonds, motions, &Unlimited, sums),
-            (false, Some(of_stretch)) => self.swept(bonds, motions, &of_stretch, sums),
-            (false, None) => self.swept(bonds, motions, &limits, sums),
+            (true, _) => self.swept(bonds, motions, Unlimited, forces),
+            (false, Some(of_stretch)) => self.swept(bonds, motions, of_stretch, forces),
+            (false, None) => self.swept(bonds, motions, limits, forces),
         }
     }
 
-    /// Sums the forces over the bonds, and returns those near their limits.
+    /// Sums the forces over the bonds, and returns the bonds near their limits.
     fn swept(
         &self,
         bonds: UnbrokenBonds<'_>,
         motions: &[f64],
-        judge: &impl Judge,
-        (forces, others): (&mut [f64], &mut [Vec<f64>]),
+        judge: impl Judge,
+        forces: &mut [f64],
     ) -> Vec<u32> {
-        let near = over_parts::<M, _>(self.system.bonds.len(), forces, others, |of_part, sums| {
-            let mut near = Vec::new();
-            for bond in of_part {
-                if let Some(element) = self.left(bonds, bond) {
-                    let deformation = element.deformation(motions);
-                    if judge.is_near(bond, &deformation) {
-                        near.push(bond as u32);
-                    }
-                    element.forces(&deformation, |point, force| {
-                        add_to(&mut sums[point as usize], force);
-                    });
-                }
-            }
-            near
-        });
-        near.concat()
+        let linear = LinearForces {
+            typed: self,
+            bonds,
+            motions,
+            judge,
+        };
+        let (of_points, _) = forces.as_chunks_mut::<M>();
+        let reach = Reach::new(&self.system.bonds, self.elements_at_points());
+        reach.sum(Whole, &linear, of_points).concat()
     }
 }

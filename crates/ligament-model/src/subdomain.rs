@@ -273,9 +273,12 @@ impl Subdomain {
 }
 
 /// Forces and bonds that this process sums: a type parameter, so that a loop over bonds checks once whether the body is divided.
-pub(crate) trait Share: Copy {
+pub(crate) trait Share: Copy + Sync {
     /// Position of a point in an array over the owned points; `None` for points of other processes.
     fn row(self, point: u32) -> Option<usize>;
+
+    /// Number of owned points before a point.
+    fn rows_before(self, point: u32) -> usize;
 
     /// Whether this process owns a bond with given ends.
     fn owns_bond(self, ends: [u32; 2]) -> bool;
@@ -291,6 +294,10 @@ impl Share for Whole {
         Some(point as usize)
     }
 
+    fn rows_before(self, point: u32) -> usize {
+        point as usize
+    }
+
     #[inline(always)]
     fn owns_bond(self, _: [u32; 2]) -> bool {
         true
@@ -303,6 +310,13 @@ impl Share for &Subdomain {
         let place = self.partition.place(point);
         let is_owned = self.owned.contains(&place);
         is_owned.then(|| place - self.owned.start)
+    }
+
+    fn rows_before(self, point: u32) -> usize {
+        match &self.partition.order {
+            None => point as usize,
+            Some([points, _]) => points[self.owned.clone()].partition_point(|it| *it < point),
+        }
     }
 
     #[inline]

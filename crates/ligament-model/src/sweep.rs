@@ -4,17 +4,14 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::cloud::PointCloud;
 use crate::deformation::{Deformation, Deformations};
 use crate::element::{DeformationOf, Element, Elements};
+use crate::interface::BondTopology;
 use crate::layout::Component;
+use crate::point_sums::{BondForces, GROUPS, PointSum, Reach, group};
 use crate::subdomain::{Share, Subdomain, Whole};
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
-
-/// Number of parts into which the bonds are divided for the sum of their forces; fixed, so that the order of summation is fixed. Each part
-/// has forces of its own at all points, so more parts cost memory.
-const PARTS: usize = 4;
 
 /// Number of bonds that make a task worth while.
 const TASK: usize = 2048;
@@ -87,52 +84,97 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     }
 
     /// Forces and energy of bonds with given deformations (n_bonds).
-    /// The result does not depend on the number of threads: the bonds of a part are summed by one thread in their order, and the parts one
-    /// after another.
     pub(crate) fn forces(
         &self,
         bonds: UnbrokenBonds<'_>,
         deformations: Deformations,
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
-        let n_bonds = deformations.len();
         let subdomain = &self.system.cloud.subdomain;
         let of_bonds: &[DeformationOf<D, M, E>] = Deformation::of_bonds(&deformations);
-        let made = |number: usize| {
-            let of_part = || number * n_bonds / PARTS..(number + 1) * n_bonds / PARTS;
-            let mut part = match subdomain.is_whole() {
-                true => Part::of_bonds(self, Whole, bonds, of_bonds, of_part()),
-                false => Part::of_bonds(self, subdomain, bonds, of_bonds, of_part()),
-            };
-            if !expansion.is_none() {
-                part.add_expansion(self, bonds, of_bonds, expansion, of_part());
-            }
-            part
+        let (at_points, energies) = match subdomain.is_whole() {
+            true => self.sums(Whole, bonds, of_bonds),
+            false => self.sums(subdomain, bonds, of_bonds),
         };
-        let parts: Vec<Part<M>> = (0..PARTS).into_par_iter().map(made).collect();
-        BondSweep::of_parts(&parts, &E::COMPONENTS, deformations, subdomain)
+        let n_bonds = of_bonds.len();
+        let of_group = |number: usize| {
+            let group = group(number, n_bonds);
+            let [thermal, of_expansion] = match expansion.is_none() {
+                true => [0.0; 2],
+                false => self.expansion_energies(bonds, of_bonds, expansion, group.clone()),
+            };
+            let stored = energies[group].iter().fold(0.0, |sum, energy| sum + energy);
+            [thermal, stored, of_expansion]
+        };
+        let of_groups: Vec<[f64; 3]> = (0..GROUPS).into_par_iter().map(of_group).collect();
+        let mut energies = std::array::from_fn(|place| of_groups.iter().map(|it| it[place]).sum());
+        subdomain.all_reduce_sum(&mut energies);
+        BondSweep::new(
+            &at_points,
+            &E::COMPONENTS,
+            energies,
+            deformations,
+            subdomain,
+        )
+    }
+
+    /// Sums of the forces at the points of a share, and the energies (n_bonds) of its bonds.
+    fn sums(
+        &self,
+        share: impl Share,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &[DeformationOf<D, M, E>],
+    ) -> (Vec<PointForces<M>>, Vec<f64>) {
+        let deformed = DeformedBonds {
+            typed: self,
+            share,
+            bonds,
+            deformations,
+        };
+        let n_owned = self.system.cloud.subdomain.owned().len();
+        let mut sums = vec![PointForces::NONE; n_owned];
+        let reach = Reach::new(&self.system.bonds, self.elements_at_points());
+        let energies = reach.sum(share, &deformed, &mut sums).concat();
+        (sums, energies)
+    }
+
+    /// Work -force . thermal deformation, J, and energy of the thermal deformation, J, of a group of bonds at load factor 1.
+    fn expansion_energies(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        deformations: &[DeformationOf<D, M, E>],
+        expansion: ThermalStrain<'_>,
+        group: Range<usize>,
+    ) -> [f64; 2] {
+        let at_full_load = expansion.at_full_load();
+        let subdomain = &self.system.cloud.subdomain;
+        let [mut work, mut energy] = [0.0; 2];
+        for bond in group {
+            let ends = self.system.bonds.ends[bond];
+            let element = self.left(bonds, bond).filter(|_| subdomain.owns_bond(ends));
+            let Some(element) = element else {
+                continue;
+            };
+            let thermal = element.deformation_in(&at_full_load.of_bond(ends));
+            work -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
+            energy += element.mutual_energy(&thermal, &thermal);
+        }
+        [work, energy]
     }
 }
 
 impl BondSweep {
-    /// Sums the sweeps over the parts of the bonds, between points with given components, and over the processes.
-    fn of_parts<const M: usize>(
-        parts: &[Part<M>],
+    /// The sweep with the sums of the forces at the owned points, whose motions have given components, and with the thermal work, stored and
+    /// expansion energies of the whole body, J.
+    fn new<const M: usize>(
+        at_points: &[PointForces<M>],
         components: &[Component; M],
+        [thermal, stored_energy, expansion_energy]: [f64; 3],
         deformations: Deformations,
         subdomain: &Subdomain,
     ) -> Self {
-        let sums: Vec<PointForces<M>> = (0..parts[0].forces.len())
-            .into_par_iter()
-            .with_min_len(TASK)
-            .map(|point| {
-                let of_parts = parts.iter().map(|part| part.forces[point]);
-                of_parts.fold(PointForces::NONE, PointForces::plus)
-            })
-            .collect();
         let collected = |of_point: fn(&PointForces<M>) -> [f64; M]| {
-            let of_points: Vec<[f64; M]> = sums.iter().map(of_point).collect();
-            subdomain.from_owned(of_points)
+            subdomain.from_owned(at_points.iter().map(of_point).collect())
         };
         let (values, sizes) = (
             collected(|forces| forces.sum),
@@ -143,17 +185,9 @@ impl BondSweep {
             let sizes = places.flat_map(|place| sizes.iter().skip(place).step_by(M).copied());
             sizes.fold(0.0, f64::max)
         };
-        let of_parts = |of: fn(&Part<M>) -> f64| parts.iter().map(of).sum();
         let mut scales = [largest(false), largest(true)];
-        let mut over_bonds: [f64; 3] = [
-            of_parts(|part| part.thermal),
-            of_parts(|part| part.energy),
-            of_parts(|part| part.expansion_energy),
-        ];
-        subdomain.all_reduce_sum(&mut over_bonds);
         subdomain.all_reduce_max(&mut scales);
         let [force_scale, moment_scale] = scales;
-        let [thermal, stored_energy, expansion_energy] = over_bonds;
         Self {
             internal: InternalForces {
                 force_scale,
@@ -169,15 +203,6 @@ impl BondSweep {
     }
 }
 
-/// Sums over the bonds of one part.
-struct Part<const M: usize> {
-    /// Forces at the owned points.
-    forces: Vec<PointForces<M>>,
-    energy: f64,
-    thermal: f64,
-    expansion_energy: f64,
-}
-
 /// Sum of the end forces at a point.
 #[derive(Debug, Clone, Copy)]
 struct PointForces<const M: usize> {
@@ -186,13 +211,13 @@ struct PointForces<const M: usize> {
     size: [f64; M],
 }
 
-impl<const M: usize> PointForces<M> {
+impl<const M: usize> PointSum<M> for PointForces<M> {
     const NONE: Self = Self {
         sum: [0.0; M],
         size: [0.0; M],
     };
 
-    #[inline]
+    #[inline(always)]
     fn add(&mut self, end_force: [f64; M]) {
         for (component, value) in end_force.into_iter().enumerate() {
             self.sum[component] += value;
@@ -200,81 +225,41 @@ impl<const M: usize> PointForces<M> {
         }
     }
 
+    #[inline(always)]
     fn plus(self, other: Self) -> Self {
         Self {
-            sum: std::array::from_fn(|place| self.sum[place] + other.sum[place]),
-            size: std::array::from_fn(|place| self.size[place] + other.size[place]),
+            sum: self.sum.plus(other.sum),
+            size: self.size.plus(other.size),
         }
     }
 }
 
-impl<const M: usize> Part<M> {
-    /// A part without bonds, for the owned points of a cloud.
-    fn new<const D: usize>(cloud: &PointCloud<D>) -> Self {
-        Self {
-            forces: vec![PointForces::NONE; cloud.subdomain.owned().len()],
-            energy: 0.0,
-            thermal: 0.0,
-            expansion_energy: 0.0,
-        }
-    }
+/// Unbroken bonds with their deformations (n_bonds), of which a share is summed.
+struct DeformedBonds<'a, const D: usize, const M: usize, E: Elements<D, M>, S> {
+    typed: &'a ElementSystem<D, M, E>,
+    share: S,
+    bonds: UnbrokenBonds<'a>,
+    deformations: &'a [DeformationOf<D, M, E>],
+}
 
-    fn of_bonds<const D: usize, E: Elements<D, M>>(
-        typed: &ElementSystem<D, M, E>,
-        share: impl Share,
-        bonds: UnbrokenBonds<'_>,
-        deformations: &[DeformationOf<D, M, E>],
-        of_part: Range<usize>,
-    ) -> Self {
-        let Self {
-            mut forces,
-            mut energy,
-            ..
-        } = Self::new(&typed.system.cloud);
-        for bond in of_part {
-            let Some(element) = typed.left(bonds, bond) else {
-                continue;
-            };
-            let deformation = &deformations[bond];
-            if share.owns_bond(typed.system.bonds.ends[bond]) {
-                energy += element.mutual_energy(deformation, deformation);
-            }
-            element.forces(deformation, |point, force| {
-                if let Some(row) = share.row(point) {
-                    forces[row].add(force);
-                }
-            });
-        }
-        Self {
-            forces,
-            energy,
-            thermal: 0.0,
-            expansion_energy: 0.0,
-        }
-    }
+impl<const D: usize, const M: usize, E: Elements<D, M>, S: Share> BondForces<M>
+    for DeformedBonds<'_, D, M, E, S>
+{
+    /// Energy of each bond, J; zero for bonds of other processes.
+    type Found = Vec<f64>;
 
-    /// Adds the thermal work and energy of the bonds of the part.
-    fn add_expansion<const D: usize, E: Elements<D, M>>(
-        &mut self,
-        typed: &ElementSystem<D, M, E>,
-        bonds: UnbrokenBonds<'_>,
-        deformations: &[DeformationOf<D, M, E>],
-        expansion: ThermalStrain<'_>,
-        of_part: Range<usize>,
-    ) {
-        let at_full_load = expansion.at_full_load();
-        let subdomain = &typed.system.cloud.subdomain;
-        for bond in of_part {
-            let ends = typed.system.bonds.ends[bond];
-            let element = typed
-                .left(bonds, bond)
-                .filter(|_| subdomain.owns_bond(ends));
-            let Some(element) = element else {
-                continue;
-            };
-            let thermal = element.deformation_in(&at_full_load.of_bond(ends));
-            self.thermal -= 2.0 * element.mutual_energy(&deformations[bond], &thermal);
-            self.expansion_energy += element.mutual_energy(&thermal, &thermal);
+    #[inline(always)]
+    fn add(&self, bond: usize, energies: Option<&mut Vec<f64>>, add: impl FnMut(u32, [f64; M])) {
+        let element = self.typed.left(self.bonds, bond);
+        let deformation = &self.deformations[bond];
+        if let Some(energies) = energies {
+            let ends = self.typed.system.bonds.ends[bond];
+            let owned = element.as_ref().filter(|_| self.share.owns_bond(ends));
+            let energy = owned.map(|it| it.mutual_energy(deformation, deformation));
+            energies.push(energy.unwrap_or(0.0));
+        }
+        if let Some(element) = element {
+            element.forces(deformation, add);
         }
     }
 }

@@ -1,5 +1,6 @@
 //! `summary.json` of a run, or of an analysis of natural modes; writers and readers share these types.
 
+mod certificate;
 mod modal;
 mod model;
 mod motion;
@@ -20,6 +21,7 @@ use crate::atomic::read_text;
 use crate::folder::ResultFolder;
 use crate::quantity::{place, quantity};
 
+pub use certificate::CertificateSummary;
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 pub use motion::{EnergiesSummary, MotionSummary};
@@ -85,6 +87,9 @@ pub struct Summary {
     /// Largest |external work - stored - released energy| over the largest external work, dimensionless.
     #[serde(deserialize_with = "number")]
     pub energy_balance_error: f64,
+    /// Energies, crack area, residual and ties of a run in statics.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<CertificateSummary>,
     /// Deepest overlap of crack faces, where it exceeds a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap: Option<OverlapSummary>,

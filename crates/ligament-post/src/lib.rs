@@ -5,6 +5,7 @@
 //! | module | content |
 //! |---|---|
 //! | [`crack`] | cracks of a body in the plane as lines |
+//! | [`statistics`] | quantiles and Weibull moduli of many specimens |
 //! | [`surfaces`] | cracks of a solid as triangles, and level sets of fields |
 //! | [`yielding`] | first yield of a family of bonds under a uniform strain |
 //!
@@ -12,6 +13,7 @@
 
 pub mod crack;
 mod opened;
+pub mod statistics;
 pub mod surfaces;
 pub mod yielding;
 

@@ -10,6 +10,7 @@
 //! | `case` | cases |
 //! | `keys` | the keys of a case |
 //! | `solution` | a run on a separate thread, with progress and Ctrl-C |
+//! | `ensemble` | samples of a case whose strength varies at random, in a folder |
 //! | `folder` | results of a run in their folder, as arrays and words |
 //! | `arrays` | arrays that are moved and not copied |
 //! | `drawing` | pictures in memory |
@@ -23,6 +24,7 @@ mod calibration;
 mod case;
 mod document;
 mod drawing;
+mod ensemble;
 mod errors;
 mod folder;
 mod keys;
@@ -40,6 +42,8 @@ mod native {
     use crate::case::Case;
     #[pymodule_export]
     use crate::drawing::{Drawn, draw_curves, draw_fields};
+    #[pymodule_export]
+    use crate::ensemble::compute_ensemble;
     #[pymodule_export]
     use crate::folder::{Folder, report};
     #[pymodule_export]

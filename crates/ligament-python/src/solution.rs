@@ -30,7 +30,7 @@ impl Stop {
     }
 
     /// Whether there were at least `times` requests.
-    fn asked(&self, times: u8) -> bool {
+    pub(crate) fn asked(&self, times: u8) -> bool {
         self.0.load(Ordering::Relaxed) >= times
     }
 }

@@ -15,7 +15,7 @@ use crate::processes::broadcast_path;
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{Noted, summary};
+use crate::summary::{Noted, certificate, summary};
 use crate::watch::Watch;
 
 /// A body under loads.
@@ -84,14 +84,14 @@ impl LoadedBody<'_> {
         let outcome = outcome.map_err(|it| case.explained(it))?;
 
         let (notices, first, checkpoints) = watch.into_parts();
-        let boundary = &loading.boundary;
         let noted = Noted {
             provenance,
             notices,
             first,
+            certificate: certificate(folder.path(), model, &outcome)?,
             stages: stages.done().to_vec(),
         };
-        let summary = summary(case, model, boundary, &outcome, noted);
+        let summary = summary(case, model, &loading.boundary, &outcome, noted);
         summary::write(folder, &summary)?;
         checkpoints.end(&outcome.termination)?;
         Ok(summary)

@@ -1,5 +1,6 @@
 //! `summary.json` of a run, and the report for the user at its end.
 
+mod certificate;
 mod modal;
 mod model;
 mod motion;
@@ -14,13 +15,16 @@ use ligament_analysis::history::StepRecord;
 use ligament_analysis::{ProportionalLoading, Termination};
 use ligament_output::quantity::{between, quantity, settled};
 use ligament_output::summary::{
-    OverlapSummary, PathPoint, Provenance, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
+    CertificateSummary, OverlapSummary, PathPoint, Provenance, Spread, StabilitySummary, Stage,
+    Summary, UnitsSummary,
 };
 
 use crate::end::{End, UP_TO_THERE};
 use ligament::Model;
 use ligament_case::case::CaseFile;
 
+pub(crate) use certificate::certificate;
+use certificate::write_certificate;
 pub use modal::{modal_summary, write_modal};
 pub use model::{correction_line, family, formulation_line, heading, scatter};
 use motion::{motion_summary, write_motion};
@@ -57,6 +61,8 @@ pub struct Noted {
     pub notices: Vec<String>,
     /// First bonds that softened and broke.
     pub first: FirstBonds,
+    /// Certificate of a run in statics.
+    pub certificate: Option<CertificateSummary>,
     /// Stages of the run with their times.
     pub stages: Vec<Stage>,
 }
@@ -69,8 +75,7 @@ pub fn summary(
     outcome: &Outcome,
     noted: Noted,
 ) -> Summary {
-    let units = model.setup.units();
-    let history = &outcome.history;
+    let (units, history) = (model.setup.units(), &outcome.history);
     let without_equilibrium = outcome.is_without_equilibrium();
     let loaded = |point: Option<LoadPoint>| {
         let point = point.filter(|_| !without_equilibrium);
@@ -108,6 +113,7 @@ pub fn summary(
         without_equilibrium,
         last_state_not_at_rest: history.last().is_some_and(|last| !last.at_rest),
         energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
+        certificate: noted.certificate,
         overlap: outcome.overlap.map(|it| OverlapSummary {
             depth: it.depth,
             step: it.step,
@@ -157,6 +163,9 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         "  energy balance     off by {:.1e} of the work",
         summary.energy_balance_error
     )?;
+    if let Some(certificate) = &summary.certificate {
+        write_certificate(certificate, out)?;
+    }
     writeln!(out, "  ended because      {}", summary.termination_message)?;
     if summary.without_equilibrium {
         let none = "there is no equilibrium under any load, so there are no results";

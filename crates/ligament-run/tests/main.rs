@@ -2,3 +2,4 @@
 
 mod case_precrack;
 mod case_temperature;
+mod certificate;

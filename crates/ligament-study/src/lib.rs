@@ -3,6 +3,7 @@
 //! | module | determines |
 //! |---|---|
 //! | [`sweep`] | the results of a case over all combinations of some of its settings |
+//! | [`ensemble`] | samples of a case whose strength or fracture energy varies at random |
 //! | [`calibrate`] | the value of a key with which a result equals a target |
 //! | [`bond_stiffness`] | the stiffness of bonds over their direction |
 //! | [`yielding`] | the load at which the first bond yields, and its distortion by the directions of the bonds |
@@ -16,6 +17,7 @@
 
 pub mod bond_stiffness;
 pub mod calibrate;
+pub mod ensemble;
 pub mod line_fit;
 pub mod meshing;
 pub mod quantities;

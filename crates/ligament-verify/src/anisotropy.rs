@@ -7,7 +7,7 @@ use ligament_model::failure::Criteria;
 use ligament_post::yielding::field::{Distribution, families, mean_error};
 use ligament_post::yielding::{Family, PrincipalStretches, lattice};
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{Memory, StoredMesh, Template, stored_mesh, template};
@@ -33,7 +33,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             in the same directions. With the strength of NHPD the scatter of s_0 among the bonds of a family outweighs their directions \
             (disk: 38 to 17 % in the mean), and more bonds help little; its common part is small on the disk again.",
     cases: &[&DISK, &PLATE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static DISK: Template = template!("brazilian-disk/case.toml");

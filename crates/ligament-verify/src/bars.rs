@@ -3,7 +3,7 @@
 use anyhow::Context;
 use ligament::run::Solution;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, StoredMesh, Template, stored_mesh, template};
@@ -18,7 +18,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             deflection of the end against P L^3/(3 E I) + 6 P L/(5 G A). E = 15 GPa, nu = 0.21, plane stress, NHPD. What the domain \
             correction gives is shown.",
     cases: &[&BAR, &CANTILEVER],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static BAR: Template = template!("plate-tension/case.toml");

@@ -3,7 +3,7 @@
 use anyhow::bail;
 
 use super::equations::Equations;
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels};
 use super::trial::{Memory, Template, template};
@@ -17,7 +17,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             the stiffness, values of its Cholesky factor and multiplications that make it, with the order of elimination that the program \
             chooses. The time of a run goes with these numbers; it is no entry, as it is another on every machine.",
     cases: &[&PLATE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static PLATE: Template = template!("mbb-plate/tension.toml");

@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 use ligament::run::Solution;
 use ligament_analysis::fields::point_damage;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels};
 use super::trial::{Memory, Template, Trial, template};
@@ -24,7 +24,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             (C.3, C.4) and printed-mixed (22 to 24, C.9, C.10), with the angle of C.10 by the differences of the ends (A.5), both \
             on the repaired elasticity. XFEM of the paper is in its figures alone: fracture mechanics stands in its place.",
     cases: &[&CENTRAL, &THREE, &HOLE, &STEPPED],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CENTRAL: Template = template!("mbb-central-crack/case.toml");

@@ -1,6 +1,6 @@
 //! A thick cylinder of imaginary elements under internal pressure (MBB-PD section 4.2).
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
 use super::trial::{Template, Trial, displacements, template};
@@ -17,7 +17,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             leave u_r/r out of the hoop strain. Square cells with steps at the rims stand in its place; of 1 mm they would be 8 million \
             points.",
     cases: &[&RING],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static RING: Template = template!("thick-cylinder/case.toml");

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use anyhow::Context;
 use ligament::direction::{InDirection, over_direction};
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, Template, template};
@@ -20,7 +20,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             GPa, 0.25, 50 GPa; lamina 15 GPa, 5 GPa, 0.25, 4.8 GPa. The figures have curves without numbers, so that what they \
             show is worked out apart from the printed equations; Fig. 10 turns the axes.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/lamina-tension.toml");

@@ -4,7 +4,7 @@ use anyhow::{Context, bail};
 
 use super::disk_test::{CLOSED_FORM, DiskTest};
 use super::equations::Equations;
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::spread::spread;
 use super::table::{Extent, LabelError, Labels, Table};
@@ -25,7 +25,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             above 0.3 are cracked. Computing times are not compared, because they are another machine's: the size of the \
             equations is, which is why the paper has them grow.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("brazilian-disk/case.toml");

@@ -3,7 +3,7 @@
 use anyhow::Context;
 use ligament_analysis::modal::ModeKind;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
 use super::trial::{Memory, StoredMesh, Template, stored_mesh, template};
@@ -17,7 +17,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             nowhere. The three rigid motions are left out. Modes with n waves around the disk come in pairs, which the mesh parts a little: \
             both are judged.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/free-disk.toml");

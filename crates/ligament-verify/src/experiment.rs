@@ -4,10 +4,12 @@ use anyhow::Context;
 use ligament_plot::picture::maps::Maps;
 use ligament_plot::plots::Plot;
 
+use super::measured::MeasuredTest;
+use super::measured::scoreboard::Scores;
 use super::table::{Extent, Table};
 use super::trial::Template;
 
-/// One or several related published cases.
+/// One or several related published cases, or a measured test.
 #[derive(Debug, Clone, Copy)]
 pub struct Experiment {
     /// Name on the command line.
@@ -20,8 +22,17 @@ pub struct Experiment {
     pub setup: &'static str,
     /// Cases that are run, with settings of each entry.
     pub cases: &'static [&'static Template],
-    /// Computes the tables, or their fast subset.
-    pub compute: fn(Extent) -> anyhow::Result<Findings>,
+    /// Way to the tables.
+    pub compute: Compute,
+}
+
+/// Way to the tables of an experiment.
+#[derive(Debug, Clone, Copy)]
+pub enum Compute {
+    /// Function that computes the tables, or their fast subset.
+    Code(fn(Extent) -> anyhow::Result<Findings>),
+    /// Entry of the table of measured tests.
+    Measured(&'static MeasuredTest),
 }
 
 impl Experiment {
@@ -31,8 +42,12 @@ impl Experiment {
     ///
     /// If a case of the experiment cannot be run.
     pub fn run(&self, extent: Extent) -> anyhow::Result<Findings> {
-        let mut findings = (self.compute)(extent)
-            .with_context(|| format!("experiment {} cannot be run", self.name))?;
+        let findings = match self.compute {
+            Compute::Code(compute) => compute(extent),
+            Compute::Measured(test) => test.compute(extent),
+        };
+        let mut findings =
+            findings.with_context(|| format!("experiment {} cannot be run", self.name))?;
         findings.tables.retain(|table| !table.rows.is_empty());
         Ok(findings)
     }
@@ -47,4 +62,6 @@ pub struct Findings {
     pub plots: Vec<Plot>,
     /// Pictures of bodies.
     pub maps: Vec<Maps>,
+    /// Scores of a measured test.
+    pub scores: Option<Scores>,
 }

@@ -1,6 +1,6 @@
 //! Natural frequencies of a square lamina with PDS and the micropolar model (MPPD Tables 4 to 6).
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::named_modes::{self, Frequencies};
 use super::published::{Published, published};
 use super::square_elements;
@@ -19,7 +19,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             the axial one is the lowest for nu < 0. Finite elements: 60 x 60 squares with four nodes (bilinear, \
             2 x 2 Gauss points), a diagonal mass matrix, the nodes of the lowest 30 mm held.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 pub(super) static CASE: Template = template!("verification/square-modes.toml");

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use anyhow::{Context, ensure};
 
 use super::crack_path::ends;
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{Memory, StoredMesh, Template, Trial, stored_mesh, template};
@@ -22,7 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             15.2 mm, a line that bonds do not cross, under equal forces on the ends: the largest force of the exact path \
             over that at which K = sqrt(E G_c). And an edge crack of 30 mm, opened until the plate is in two.",
     cases: &[&ON_MESH, &ON_LATTICE, &MODE_ONE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static ON_MESH: Template = template!("central-crack/case.toml");

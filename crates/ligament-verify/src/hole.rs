@@ -7,7 +7,7 @@ use ligament_analysis::interface::StressReading;
 use ligament_model::UnbrokenBonds;
 use ligament_model::thermal::ThermalStrain;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
 use super::trial::{Memory, StoredMesh, Template, displacements, stored_mesh, template};
@@ -23,7 +23,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             times E, from the virial stress of the points and from the traction, are fitted by a + b cos(2 theta): K_t is a + b over the \
             stress at the ends, the scatter the root mean square of what the fit leaves over a + b.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/plate-with-hole.toml");

@@ -5,7 +5,7 @@ use ligament::run::Solution;
 use ligament_analysis::history::BreakRecord;
 
 use super::crack_path::{Crack, Segment, distance, middle};
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::spread::spread;
 use super::table::{Extent, Labels};
@@ -33,7 +33,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         &PLATES[3].1,
         &PLATES[4].1,
     ],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 /// Cases by the angle theta of the slot.

@@ -1,6 +1,6 @@
 //! Natural frequencies of an orthotropic lamina with a hole, and their convergence (OMPPD Tables 3 to 5, Fig. 18).
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::finite_elements::Mode;
 use super::lamina_elements;
 use super::named_modes::{self, Frequencies};
@@ -22,7 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             coarse and the fine lattice have 748 and 11,988 points (cells of 10 and 2.5 mm). Finite elements: 1,824 \
             quadrilaterals with nine nodes around the round hole, a diagonal mass matrix, 10 mm at the left end held.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 pub(super) static CASE: Template = template!("verification/lamina-modes.toml");

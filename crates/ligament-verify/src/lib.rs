@@ -7,6 +7,7 @@
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | `disk`, `poisson`, ... | the experiments, one file each |
 //! | [`finite_elements`] | classical elasticity, for comparison with the lattices of the papers |
+//! | [`measured`] | measured tests with bands of acceptance, from a table |
 //! | `papers` | the papers' tables and figures, and the tables of this report that compare them |
 //! | `report`, [`tally`] | console, the page of the papers, the long report, CSV and SVG |
 #![cfg_attr(
@@ -44,6 +45,7 @@ mod inclined;
 mod lamina;
 mod lamina_elements;
 mod maps;
+pub mod measured;
 mod moduli;
 mod motion;
 mod named_modes;
@@ -68,15 +70,16 @@ mod tension;
 mod trial;
 mod yielding;
 
-pub use experiment::{Experiment, Findings};
+pub use experiment::{Compute, Experiment, Findings};
+pub use measured::experiments;
 pub use trial::Template;
 
 use entry::Verdict;
-use report::{console, files, markdown, page};
+use report::{console, files, markdown, page, scoreboard};
 use table::Extent;
 use tally::Tally;
 
-/// All experiments, in the order of the report.
+/// Experiments that are written as code, in the order of the report; the measured tests follow them ([`experiments`]).
 pub static EXPERIMENTS: [Experiment; 46] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
@@ -131,6 +134,7 @@ Examples:
   ligament-verify                    everything: results/verification/README.md
   ligament-verify disk --fast        one experiment, and of it what the tests run
   ligament-verify strength           all whose names begin with strength_
+  ligament-verify experiments        the measured tests: experiments.md
   ligament-verify --list             the experiments
 
 The exit code is 1 if a value that should agree does not.";
@@ -193,7 +197,7 @@ pub enum VerifyError {
 /// If a name is unknown, the folder cannot be used, an experiment cannot be run, or, after the report is written, if an entry fails.
 pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     if request.list {
-        return Ok(console::list(screen, &EXPERIMENTS)?);
+        return Ok(console::list(screen, &all()?)?);
     }
     let extent = match request.fast {
         true => Extent::Fast,
@@ -205,15 +209,18 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
     let mut summary = files::Summary::create(&folder)?;
     let mut done = Vec::new();
     for experiment in chosen {
-        console::announce(screen, experiment)?;
+        console::announce(screen, &experiment)?;
         let findings = experiment.run(extent)?;
         console::write(screen, &findings)?;
         files::write(&folder, &findings)?;
-        summary.append(experiment, &Tally::from_findings(&findings))?;
+        summary.append(&experiment, &Tally::from_findings(&findings))?;
         done.push((experiment, findings));
     }
     folder.write("README.md", page::text(&done, extent)?)?;
     folder.write("report.md", markdown::text(&done))?;
+    if let Some(text) = scoreboard::text(&done) {
+        folder.write(scoreboard::PAGE, text)?;
+    }
     folder.finish()?;
     let all: Tally = done
         .iter()
@@ -238,34 +245,42 @@ fn conclude(all: &Tally) -> Result<(), VerifyError> {
     }
 }
 
+/// All experiments, in the order of the report.
+///
+/// # Errors
+///
+/// If the table of measured tests is wrong.
+pub fn all() -> anyhow::Result<Vec<Experiment>> {
+    let measured = experiments()?.iter();
+    Ok(EXPERIMENTS.iter().chain(measured).copied().collect())
+}
+
 /// The experiments of these names, in the order of the report; all without names. A name that no experiment has is that of a group: of all
 /// experiments whose names begin with it and an underscore.
 ///
 /// # Errors
 ///
-/// If a name is unknown.
-pub fn select(names: &[String]) -> Result<Vec<&'static Experiment>, VerifyError> {
-    let known = || {
-        EXPERIMENTS
-            .iter()
-            .map(|experiment| experiment.name.to_owned())
-    };
+/// If a name is unknown, or the table of measured tests is wrong.
+pub fn select(names: &[String]) -> anyhow::Result<Vec<Experiment>> {
+    let all = all()?;
+    let known = || all.iter().map(|experiment| experiment.name.to_owned());
     let is_of = |experiment: &Experiment, name: &str| {
         let is_group = known().all(|it| it != name);
         let rest = experiment.name.strip_prefix(name);
         rest.is_some_and(|rest| rest.is_empty() || is_group && rest.starts_with('_'))
     };
-    let is_known = |name: &str| EXPERIMENTS.iter().any(|it| is_of(it, name));
+    let is_known = |name: &str| all.iter().any(|it| is_of(it, name));
     if let Some(name) = names.iter().find(|name| !is_known(name)) {
         return Err(VerifyError::UnknownExperiment {
             name: name.clone(),
             known: known().collect(),
-        });
+        }
+        .into());
     }
     let is_chosen = |experiment: &&Experiment| {
         names.is_empty() || names.iter().any(|name| is_of(experiment, name))
     };
-    Ok(EXPERIMENTS.iter().filter(is_chosen).collect())
+    Ok(all.iter().filter(is_chosen).copied().collect())
 }
 
 #[cfg(test)]
@@ -295,8 +310,10 @@ mod tests {
             let chosen: Vec<String> = chosen.iter().map(|&name| name.to_owned()).collect();
             select(&chosen).map(|list| list.iter().map(|it| it.name).collect::<Vec<_>>())
         };
-        assert_eq!(names(&[]).unwrap().len(), EXPERIMENTS.len());
-        assert_eq!(names(&["disk", "poisson"]), Ok(vec!["poisson", "disk"]));
+        assert_eq!(names(&[]).unwrap().len(), all().unwrap().len());
+        assert_eq!(names(&["disk", "poisson"]).unwrap(), ["poisson", "disk"]);
+        let measured = experiments().unwrap();
+        assert_eq!(names(&["experiments"]).unwrap().len(), measured.len());
         let group = names(&["strength"]).unwrap();
         assert_eq!((group.len(), group[0]), (7, "strength_squares"));
         assert!(names(&["stren"]).is_err());

@@ -5,7 +5,7 @@ use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 
 use anyhow::Context;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{Memory, Template, template};
@@ -23,7 +23,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             decides what other horizons miss; the beam form (MPPD eqs 42, 43) weighs short bonds more, and sums \
             over the family in place of integrals halve what E and nu miss and overshoot G.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/lattice.toml");

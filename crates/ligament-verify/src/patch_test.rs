@@ -6,7 +6,7 @@ use ligament::body::{AnyBody, MeshBody};
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament_mesh::gmsh;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, StoredMesh, Template, Trial, stored_mesh, template};
@@ -22,7 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             strain of the body, and the root mean square over the bonds of what their strain has more than it, over its size: the worst \
             of strains along x, along y and in shear. With NHPD's domain correction all is shown, not judged.",
     cases: &[&CASE, &TWO_MATERIALS, &LATTICE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/patch-test.toml");

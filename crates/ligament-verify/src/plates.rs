@@ -2,7 +2,7 @@
 
 use anyhow::{Context, bail};
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels, Table};
 use super::trial::{Memory, Template, Trial, displacement_at, probe, template};
@@ -21,7 +21,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             23e-6 1/K, upper and lower row held (thermal), and the left column too (thermal-left). The elements end at the rows \
             that are prescribed.",
     cases: &[&TENSION_Y, &TENSION_X, &SHEAR, &THERMAL, &THERMAL_LEFT],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 pub(super) static TENSION_Y: Template = template!("mbb-plate/tension.toml");

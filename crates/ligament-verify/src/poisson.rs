@@ -1,6 +1,6 @@
 //! Poisson's ratio from uniaxial tension, as measured in a test.
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::{StoredMesh, Template, probe, stored_mesh, template};
@@ -17,7 +17,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             an irregular mesh of 4 mm (1,543 points), E = 15 GPa, plane stress, NHPD; pulled along x, free to \
             contract. Two strain gauges in the middle, 100 mm along and 55.4 mm across, give nu.",
     cases: &[&LATTICE, &PLATE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static LATTICE: Template = template!("verification/lattice-tension.toml");

@@ -2,7 +2,7 @@
 
 use anyhow::ensure;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::frequencies;
 use super::named_modes::{self, Frequencies};
 use super::published::published;
@@ -28,7 +28,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         &statics::BENDING,
         &frequencies::CASE,
     ],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 /// Number of points along a side of the static plates.

@@ -2,7 +2,7 @@
 
 use ligament::run::Solution;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
 use super::trial::{Memory, StoredMesh, Template, displacements, stored_mesh, template};
@@ -16,7 +16,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             4.85 mm (4,995 points, 20 from the inside to the outside). u_r less the rigid motion that leaves nothing of it in the mean: its \
             mean over the points of the inside and of the outside over Lame's, and the L2 norm of what all points miss over that of Lame's u_r.",
     cases: &[&RING],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static RING: Template = template!("pressure-annulus/case.toml");

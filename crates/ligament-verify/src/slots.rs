@@ -7,7 +7,7 @@ use ligament::run::Solution;
 use ligament_analysis::history::BreakRecord;
 
 use super::crack_path::{Crack, Segment, distance, middle};
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::spread::spread;
 use super::table::{Extent, LabelError, Labels};
@@ -37,7 +37,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         &SLOTS[6].1,
         &SLOTS[7].1,
     ],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 /// Cases by the angle of their slot, or by the number of slots.

@@ -3,7 +3,7 @@
 use anyhow::{Context, bail};
 use ligament_analysis::driver::LoadPoint;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels};
 use super::trial::{Template, Trial, template};
@@ -19,7 +19,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             exponential), by a law that takes the fracture energy, or by one that ends at 20 times that strain whatever the \
             horizon. The area is that under force over displacement of the end.",
     cases: &[&BAR],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static BAR: Template = template!("softening-bar/case.toml");

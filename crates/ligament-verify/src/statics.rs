@@ -1,6 +1,6 @@
 //! Static tables of the micropolar model: a square plate in traction, shear and bending (MPPD Tables 1 to 3).
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
 use super::square_elements::{SquareLoad, largest_displacements as elements};
 use super::table::{Extent, Labels, Table};
@@ -24,7 +24,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             middles; 61 x 61 in traction and shear, 60 x 60 in bending, the largest displacements of all nodes. With this \
             reading 29 of the 30 printed values are met to the digits.",
     cases: &[&TRACTION, &SHEAR, &BENDING],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 pub(super) static TRACTION: Template = template!("verification/square-traction.toml");

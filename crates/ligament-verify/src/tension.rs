@@ -1,6 +1,6 @@
 //! An orthotropic lamina with a hole in tension, compared with finite elements (OMPPD Figs 16, 17).
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::Extent;
 use super::trial::{Memory, Template, displacement_at, displacements, template};
@@ -17,7 +17,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             columns at its ends, free along y (u_y is given less its mean over all points). Displacements of the \
             upper row of cells against an independent solution by finite elements at the same points.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 pub(super) static CASE: Template = template!("verification/lamina-tension.toml");

@@ -4,7 +4,7 @@ use anyhow::Context;
 use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch};
 use ligament_post::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, Labels, Table};
 use super::trial::{Template, template};
@@ -22,7 +22,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             it. A bar: the strains of a bar of E = 70 GPa, F_t = 1 MPa, F_c = 3 MPa, on the criteria that a case gives the \
             bonds of a lattice, in the worst direction of a bond.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/lattice.toml");

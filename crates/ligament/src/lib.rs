@@ -51,6 +51,7 @@ mod coordinates;
 pub mod counts;
 pub mod crack_energy;
 pub mod direction;
+pub mod ensemble;
 pub mod error;
 mod faces;
 pub mod foresight;

@@ -19,6 +19,7 @@ use super::course::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
 use super::path::Path;
 use super::prediction::{self, Prediction};
+use super::prepared::Prepared;
 use super::recorder::{Energies, StepCounters, largest_ratio};
 use super::stop::StopRules;
 use crate::balanced::{Attempt, Balanced};
@@ -52,8 +53,33 @@ pub fn run(
     settings: &EventSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let is_staged = problem.loads.course().is_some();
-    let (mut path, at_one) = begin(problem, settings, observer)?;
+    refuse(problem)?;
+    let begun = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    run_begun(begun, settings)
+}
+
+/// Follows the path of a problem that differs from the prepared one in its criteria, to the bits of [`run`].
+///
+/// # Errors
+///
+/// If the path cannot be followed, as in [`run`].
+pub fn run_from(
+    prepared: &Prepared,
+    problem: &Problem,
+    settings: &EventSettings,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    refuse(problem)?;
+    run_begun(prepared.begun(problem, settings.stop, observer)?, settings)
+}
+
+/// Follows the path from the unloaded body; with its equilibrium at load factor one, if there is one.
+fn run_begun(
+    (mut path, at_one): (Path<'_>, Option<State>),
+    settings: &EventSettings,
+) -> Result<Outcome, SetupError> {
+    path.require_resistance(at_one.as_ref())?;
+    let is_staged = path.problem.loads.course().is_some();
     let unloaded = match path.balance(0, &Breakage::default())? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => {
@@ -87,7 +113,9 @@ pub fn predict(
     settings: &EventSettings,
     observer: &mut dyn Observer,
 ) -> Result<Prediction, SetupError> {
-    let (path, at_one) = begin(problem, settings, observer)?;
+    refuse(problem)?;
+    let (path, at_one) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    path.require_resistance(at_one.as_ref())?;
     prediction::predict(path, at_one, None)
 }
 
@@ -114,18 +142,6 @@ pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
         }),
         None => Ok(()),
     }
-}
-
-/// Run before its first event, and its equilibrium at load factor one, if there is one.
-fn begin<'a>(
-    problem: &'a Problem,
-    settings: &EventSettings,
-    observer: &'a mut dyn Observer,
-) -> Result<(Path<'a>, Option<State>), SetupError> {
-    refuse(problem)?;
-    let (path, at_one) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
-    path.require_resistance(at_one.as_ref())?;
-    Ok((path, at_one))
 }
 
 /// Restores a run from a checkpoint.

@@ -57,11 +57,24 @@ impl<'a> Path<'a> {
         observer: &'a mut dyn Observer,
     ) -> Result<(Self, Option<State>), SetupError> {
         let mut equilibrium = Equilibrium::new(problem, energy_tolerance)?;
+        let start = begin(problem, &mut equilibrium, observer)?;
+        Ok(Self::begun(problem, (equilibrium, start), stop, observer))
+    }
+
+    /// Begins with the unloaded body of a start and the equations after it; also returns the equilibrium at load factor one, if there is
+    /// one.
+    pub(super) fn begun(
+        problem: &Problem,
+        (equilibrium, start): (Equilibrium, Start),
+        stop: StopRules,
+        observer: &'a mut dyn Observer,
+    ) -> (Self, Option<State>) {
         let Start {
             unloaded,
             elastic,
             at_one,
-        } = begin(problem, &mut equilibrium, observer)?;
+            ..
+        } = start;
         let solves = [equilibrium.costs().solves; 2];
         let path = Self {
             problem: problem.clone(),
@@ -90,7 +103,7 @@ impl<'a> Path<'a> {
             stop,
             started: Instant::now(),
         };
-        Ok((path, at_one))
+        (path, at_one)
     }
 
     /// Refuses loads that cause no deformation; `at_one` is the equilibrium at load factor one, if there is one.

@@ -13,15 +13,19 @@ use crate::serial;
 use crate::state::State;
 
 /// State and elastic solution before the first load step.
+#[derive(Clone)]
 pub(super) struct Start {
     /// Unloaded body, with its added supports.
     pub(super) unloaded: State,
     pub(super) elastic: ElasticAnswer,
     /// Equilibrium at load factor one, if there is one.
     pub(super) at_one: Option<State>,
+    /// Deformed body at load factor one, whose bonds tell the first breakage; none in a programme of stages.
+    deformed: Option<Balanced>,
 }
 
 /// Results of the elastic solution.
+#[derive(Clone)]
 pub(super) struct ElasticAnswer {
     /// Force over displacement of the control load, N/m; NaN where there is no equilibrium or nothing resists the load.
     pub(super) stiffness: f64,
@@ -56,6 +60,7 @@ pub(super) fn begin(
     let mut start = begin_proportional(&alone, equilibrium, observer)?;
     equilibrium.load_with(problem.loads.clone());
     start.elastic.first_break = None;
+    start.deformed = None;
     Ok(start)
 }
 
@@ -88,6 +93,7 @@ fn begin_proportional(
             stability: None,
         },
         at_one: None,
+        deformed: None,
     };
     // Without an equilibrium the first load step fails too, and reports the reason.
     if let Attempt::Balanced(balanced) =
@@ -97,10 +103,11 @@ fn begin_proportional(
         start.unloaded.held.clone_from(&at_one.held);
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
         match is_deformed(problem, &at_one, &balanced) {
-            true => start.read_off(problem, &at_one, &balanced, equilibrium.fragments()),
+            true => start.deformed = Some(balanced),
             false => observer.notice(&Notice::Undeformed)?,
         }
         start.at_one = Some(at_one);
+        start.read_off(problem, equilibrium.fragments());
     }
     Ok(start)
 }
@@ -117,13 +124,10 @@ fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
 impl Start {
     /// Sets the stiffness and first breakage from the elastic solution: everything is proportional to the load factor, except with
     /// true strains, which predict no breakage.
-    fn read_off(
-        &mut self,
-        problem: &Problem,
-        at_one: &State,
-        balanced: &Balanced,
-        fragments: &Fragments,
-    ) {
+    pub(super) fn read_off(&mut self, problem: &Problem, fragments: &Fragments) {
+        let Some((at_one, balanced)) = self.at_one.as_ref().zip(self.deformed.as_ref()) else {
+            return;
+        };
         let record = step_record(
             problem,
             problem.solution(at_one, balanced),

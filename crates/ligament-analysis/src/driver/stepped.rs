@@ -9,6 +9,7 @@ use super::course::{InLoadStep, Place, Restored};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::path::Path;
 use super::prediction::{self, Prediction};
+use super::prepared::Prepared;
 use super::recorder::{StepCounters, largest_ratio};
 use super::start::ElasticAnswer;
 use super::stop::StopRules;
@@ -46,7 +47,30 @@ pub fn run(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, _, plan) = begin(problem, settings, observer)?;
+    let begun = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    run_begun(begun, settings)
+}
+
+/// Follows the load program of a problem that differs from the prepared one in its criteria, to the bits of [`run`].
+///
+/// # Errors
+///
+/// If nothing resists the loads, or the observer fails.
+pub fn run_from(
+    prepared: &Prepared,
+    problem: &Problem,
+    settings: &SteppedSettings,
+    observer: &mut dyn Observer,
+) -> Result<Outcome, SetupError> {
+    run_begun(prepared.begun(problem, settings.stop, observer)?, settings)
+}
+
+/// Follows the load program from the unloaded body; with its equilibrium at load factor one, if there is one.
+fn run_begun(
+    begun: (Path<'_>, Option<State>),
+    settings: &SteppedSettings,
+) -> Result<Outcome, SetupError> {
+    let (mut path, _, plan) = planned(begun, settings)?;
     path.soften();
     let mut stepping = Stepping {
         path,
@@ -68,21 +92,19 @@ pub fn predict(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Prediction, SetupError> {
-    let (path, at_one, plan) = begin(problem, settings, observer)?;
+    let begun = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let (path, at_one, plan) = planned(begun, settings)?;
     let factors: Vec<f64> = plan.iter().skip(1).map(|it| it.load_factor).collect();
     prediction::predict(path, at_one, Some(&factors))
 }
 
 /// Run before its first load step, its equilibrium at load factor one, if there is one, and all load steps.
-fn begin<'a>(
-    problem: &'a Problem,
+fn planned<'a>(
+    (mut path, at_one): (Path<'a>, Option<State>),
     settings: &SteppedSettings,
-    observer: &'a mut dyn Observer,
 ) -> Result<(Path<'a>, Option<State>, Vec<LoadStep>), SetupError> {
-    let (mut path, at_one) =
-        Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     path.require_resistance(at_one.as_ref())?;
-    let plan = plan(problem, settings, &path.course.elastic);
+    let plan = plan(&path.problem, settings, &path.course.elastic);
     if let (Some(at_one), Some(first)) = (&at_one, plan.get(1)) {
         path.report_first_step(at_one, first.load_factor)?;
     }
@@ -207,14 +229,14 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
 }
 
 /// Run through load steps.
-struct Stepping<'a> {
+struct Stepping<'a, 'b> {
     path: Path<'a>,
-    settings: &'a SteppedSettings,
+    settings: &'b SteppedSettings,
     /// All load steps, the unloaded body first.
-    plan: &'a [LoadStep],
+    plan: &'b [LoadStep],
 }
 
-impl Stepping<'_> {
+impl Stepping<'_, '_> {
     /// Performs the load steps from `first` on, and returns the reason why the run ends.
     fn steps_from(&mut self, first: usize) -> Result<Termination, SetupError> {
         for step in first..self.plan.len() {

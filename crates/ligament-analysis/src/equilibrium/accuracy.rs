@@ -18,6 +18,7 @@ const SURELY: f64 = 0.3;
 const LARGEST_LEVERAGE: f64 = 1e6;
 
 /// Scales by which residual forces are judged.
+#[derive(Clone)]
 pub(super) struct Accuracy {
     pub(super) local_stiffness: LocalStiffness,
     /// Loaded degrees of freedom without a prescribed motion, ascending.

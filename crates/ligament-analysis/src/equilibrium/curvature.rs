@@ -8,6 +8,7 @@ use crate::unbalanced::Unbalanced;
 const DEPTH: usize = 20;
 
 /// A step du of an iteration and the change K du of the residual force, both of shape (n_unknowns).
+#[derive(Clone)]
 struct Pair {
     step: Vec<f64>,
     change: Vec<f64>,
@@ -16,7 +17,7 @@ struct Pair {
 }
 
 /// Recorded steps of an iteration, the newest first.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Curvature {
     pairs: Vec<Pair>,
 }

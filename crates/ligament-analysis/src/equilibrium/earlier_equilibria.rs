@@ -13,7 +13,7 @@ use ligament_model::subdomain::Subdomain;
 const GROWTH: f64 = 2.0;
 
 /// Curvature and equilibria from earlier iterations.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct EarlierEquilibria {
     /// Stiffness along the last corrections.
     pub(super) curvature: Curvature,
@@ -22,6 +22,7 @@ pub(super) struct EarlierEquilibria {
 }
 
 /// Load factor and displacements of an earlier equilibrium.
+#[derive(Clone)]
 struct Precedent {
     load_factor: f64,
     /// Shape (n_degrees_of_freedom).

@@ -40,14 +40,14 @@ use crate::vectors::dot_of_all;
 const CANCELLED: f64 = 1e-10;
 
 /// Equations of a problem and their solver.
-pub(super) struct Equations {
+pub(super) struct Equations<S: ?Sized = dyn TangentSolver> {
     pub(super) problem: Problem,
     pub(super) unknowns: Arc<Unknowns>,
     pub(super) halo: HaloExchange,
     /// None where the solver has no matrix.
     pub(super) stiffness: Option<Arc<Stiffness>>,
     pub(super) choice: SolverChoice,
-    pub(super) solver: Box<dyn TangentSolver>,
+    pub(super) solver: Box<S>,
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
     pub(super) accuracy: Accuracy,

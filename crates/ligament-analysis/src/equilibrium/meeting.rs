@@ -17,6 +17,7 @@ use crate::state::State;
 use crate::surfaces::{LastTouching, Surfaces, Touching};
 
 /// What may meet in a body.
+#[derive(Clone)]
 pub(super) struct Meeting {
     system: Arc<dyn Bonds>,
     layout: Layout,

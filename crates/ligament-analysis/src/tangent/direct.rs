@@ -11,7 +11,7 @@ use ligament_model::element::StiffnessFactors;
 use super::factor_record::FactorRecord;
 use super::iterative;
 use super::terms::{Coupled, due_bonds};
-use super::{AllowedResidual, HalfUpdated, SOFT_HOLD, TangentSolver, Unsolved};
+use super::{AllowedResidual, HalfUpdated, IntactSolver, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
@@ -58,6 +58,22 @@ impl DirectSolver {
             remaining: Vec::new(),
             closed: Vec::new(),
             n_changed: 0,
+        }
+    }
+
+    /// A solver with the same factor, which changes by itself from then on.
+    fn copy(&self) -> Self {
+        Self {
+            stiffness: self.stiffness.clone(),
+            factor: self.factor.as_ref().map(|it| it.copied()),
+            stale: None,
+            making: self.making.clone(),
+            remaining: self.remaining.clone(),
+            closed: self.closed.clone(),
+            presses: self.presses,
+            coupled_by_contact: self.coupled_by_contact.clone(),
+            lacks_coupled: self.lacks_coupled,
+            n_changed: self.n_changed,
         }
     }
 
@@ -170,6 +186,12 @@ impl DirectSolver {
                 *value = 0.0;
             }
         }
+    }
+}
+
+impl IntactSolver for DirectSolver {
+    fn copied(&self) -> Box<dyn TangentSolver> {
+        Box::new(self.copy())
     }
 }
 
@@ -343,6 +365,10 @@ impl TangentSolver for DirectSolver {
 
     fn discard(&mut self) {
         self.stale = self.factor.take().or(self.stale.take());
+    }
+
+    fn intact(&self) -> Option<Box<dyn IntactSolver>> {
+        Some(Box::new(self.copy()))
     }
 
     fn inertia(&self) -> Option<Inertia> {

@@ -71,6 +71,7 @@ impl Case {
             "criteria" => "fracture.criterion",
             "scatter" => "fracture.scatter",
             "analysis.load_factors" => "fracture.steps",
+            "analysis.stop" => "fracture.stop",
             other => other,
         };
         let Some(index) = field.index else {

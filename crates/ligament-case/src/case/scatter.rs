@@ -21,8 +21,8 @@ pub struct Scatter {
     /// Weibull modulus; of `weibull`: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %.
     #[schemars(range(min = 1, max = 10_000))]
     pub modulus: Option<f64>,
-    /// Standard deviation over the mean; of `normal`.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 0.25))]
+    /// Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`.
+    #[schemars(range(max = 10), extend("exclusiveMinimum" = 0))]
     pub deviation: Option<f64>,
     /// Seed of the random numbers: another one is another specimen.
     #[serde(default)]
@@ -42,6 +42,8 @@ pub enum Distribution {
     Weibull,
     /// Normal with a `deviation`, cut off at four of them.
     Normal,
+    /// Lognormal with a `deviation`.
+    Lognormal,
 }
 
 impl Scatter {
@@ -55,11 +57,12 @@ impl Scatter {
                 scatter::Distribution::Weibull { modulus }
             }
             Distribution::Normal => {
-                let given = [("modulus", self.modulus.is_some())];
-                let reason = "it has a `deviation`";
-                refuse(key, given, "distribution = \"normal\"", reason)?;
-                let deviation = self.deviation.ok_or_else(|| missing(key, "deviation"))?;
+                let deviation = self.given_deviation(key, "distribution = \"normal\"")?;
                 scatter::Distribution::Normal { deviation }
+            }
+            Distribution::Lognormal => {
+                let deviation = self.given_deviation(key, "distribution = \"lognormal\"")?;
+                scatter::Distribution::Lognormal { deviation }
             }
         };
         Ok(scatter::Scatter {
@@ -68,5 +71,12 @@ impl Scatter {
             seed: self.seed,
             correlation_length: self.correlation_length,
         })
+    }
+
+    /// The deviation of a distribution that has no modulus, with the words for it.
+    fn given_deviation(&self, key: &KeyPath, words: &'static str) -> Result<f64, KeyFault> {
+        let given = [("modulus", self.modulus.is_some())];
+        refuse(key, given, words, "it has a `deviation`")?;
+        self.deviation.ok_or_else(|| missing(key, "deviation"))
     }
 }

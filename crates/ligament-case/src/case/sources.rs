@@ -20,6 +20,7 @@ impl Case {
             found.push(match scatter.distribution {
                 Distribution::Weibull => "Weibull 1951",
                 Distribution::Normal => "",
+                Distribution::Lognormal => "Aitchison and Brown 1957",
             });
             if scatter.correlation_length > 0.0 {
                 found.push("Shinozuka and Jan 1972");

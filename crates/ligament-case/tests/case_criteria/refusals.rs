@@ -131,7 +131,7 @@ fn random_factors_go_with_their_distribution_and_with_what_criteria_take() {
         (
             "tension",
             "of = \"strength\", distribution = \"normal\", deviation = 0.3",
-            "deviation: must be greater than 0 and less than 0.25, found 0.3",
+            "deviation: must be greater than 0 and less than 0.25, so that no strength is negative, found 0.3",
         ),
         (
             "tension",

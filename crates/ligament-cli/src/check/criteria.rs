@@ -13,6 +13,7 @@ use ligament_run::model::Model;
 use ligament_run::summary::scatter;
 
 use super::characteristic_length::{self, young};
+use super::crack_work;
 use super::entry::entry;
 
 /// Writes the criteria with their limits over the bonds.
@@ -30,6 +31,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         }
     }
     write_cracks(out, model)?;
+    crack_work::write(out, model)?;
     characteristic_length::write(out, model)?;
     write_scatter(out, model)
 }
@@ -116,6 +118,7 @@ fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let distribution = match scatter.distribution {
         Distribution::Weibull { modulus } => format!("Weibull modulus {modulus}"),
         Distribution::Normal { deviation } => format!("normal by {} %", 100.0 * deviation),
+        Distribution::Lognormal { deviation } => format!("lognormal by {} %", 100.0 * deviation),
     };
     let correlation = match scatter.correlation_length {
         0.0 => "each point independent".to_owned(),

@@ -3,6 +3,7 @@
 mod bending_test;
 mod body;
 mod characteristic_length;
+mod crack_work;
 mod criteria;
 mod entry;
 mod equations;

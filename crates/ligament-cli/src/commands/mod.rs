@@ -6,6 +6,7 @@ mod check;
 mod cite;
 mod completions;
 mod crack;
+mod ensemble;
 mod explain;
 mod inspect;
 mod mesh;
@@ -35,6 +36,7 @@ pub use check::CheckArgs;
 pub use cite::CiteArgs;
 pub use completions::CompletionsArgs;
 pub use crack::CrackArgs;
+pub use ensemble::EnsembleArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
 pub use inspect::InspectArgs;
 pub use mesh::MeshArgs;
@@ -73,6 +75,7 @@ Examples:
   ligament resume results/disk              continue a run that was stopped
   ligament repeat results/disk              run it again and compare all bits
   ligament sweep study.toml                 a case over horizons, meshes, strengths
+  ligament ensemble case.toml               a thousand samples of a random strength
   ligament plot results/disk                a picture of its damage
   ligament report results/disk              a page for a browser: fields, curves, bonds
   ligament crack results/disk               its cracks: path, tips, length, energy release rate
@@ -115,6 +118,13 @@ pub enum Command {
     /// Writes a table of all runs (CSV), plots (SVG) and least-squares lines.
     #[command(after_help = sweep::EXAMPLES)]
     Sweep(SweepArgs),
+    /// Run many samples of a case whose strength or fracture energy varies at random
+    ///
+    /// All samples share the body, its corrections and its intact factor. Writes a row for each sample (CSV), quantiles of
+    /// the load over the displacement, Weibull plots (SVG), and where fracture begins on the body (VTU). Nothing that is
+    /// stored grows with samples times points.
+    #[command(after_help = ensemble::EXAMPLES)]
+    Ensemble(EnsembleArgs),
     /// Check a case and its mesh without running it
     ///
     /// Reads the case and its mesh, builds points and bonds, and reports what a run would use:
@@ -219,6 +229,7 @@ impl Cli {
             Command::Resume(args) => return args.execute(),
             Command::Repeat(args) => return args.execute(),
             Command::Sweep(args) => args.execute(program),
+            Command::Ensemble(args) => return args.execute(),
             Command::Check(args) => args.execute(),
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),

@@ -107,7 +107,7 @@ fn gigabytes(text: &str) -> Result<f64, String> {
     positive(text).ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
 }
 
-fn shard(text: &str) -> Result<Shard, String> {
+pub(super) fn shard(text: &str) -> Result<Shard, String> {
     let numbers = text.split_once('/');
     let numbers = numbers.and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
     match numbers {

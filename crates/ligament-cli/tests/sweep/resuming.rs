@@ -158,7 +158,7 @@ fn two_sweeps_at_once_are_refused() {
         if sweep.try_wait().unwrap().is_none() {
             assert_eq!(second.status.code(), Some(1));
             assert!(
-                stderr(&second).contains("another sweep works on out"),
+                stderr(&second).contains("another study works on out"),
                 "{}",
                 stderr(&second)
             );

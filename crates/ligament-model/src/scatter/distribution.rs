@@ -21,6 +21,11 @@ pub enum Distribution {
         /// Standard deviation over the mean, less than 0.25.
         deviation: f64,
     },
+    /// Lognormal distribution: ln f is normal with the variance s^2 = ln(1 + c^2) and the mean -s^2/2 (Aitchison and Brown 1957).
+    Lognormal {
+        /// Standard deviation c over the mean.
+        deviation: f64,
+    },
 }
 
 impl Distribution {
@@ -41,6 +46,10 @@ impl Distribution {
                 libm::pow(exponent, 1.0 / modulus) / libm::tgamma(1.0 + 1.0 / modulus)
             }
             Self::Normal { deviation } => 1.0 + deviation * normal.clamp(-CUT, CUT),
+            Self::Lognormal { deviation } => {
+                let variance = libm::log1p(deviation * deviation);
+                libm::exp(variance.sqrt() * normal - 0.5 * variance)
+            }
         }
     }
 
@@ -52,7 +61,7 @@ impl Distribution {
                 let second = libm::tgamma(1.0 + 2.0 / modulus);
                 (second / (first * first) - 1.0).sqrt()
             }
-            Self::Normal { deviation } => deviation,
+            Self::Normal { deviation } | Self::Lognormal { deviation } => deviation,
         }
     }
 }
@@ -67,7 +76,8 @@ mod tests {
     fn the_mean_is_one_and_the_deviation_that_of_the_distribution() {
         let all = [3.0, 5.0, 12.0, 25.0].map(|modulus| Distribution::Weibull { modulus });
         let normal = Distribution::Normal { deviation: 0.1 };
-        for distribution in all.into_iter().chain([normal]) {
+        let lognormal = [0.1, 0.5].map(|deviation| Distribution::Lognormal { deviation });
+        for distribution in all.into_iter().chain([normal]).chain(lognormal) {
             let moment = |power: i32| {
                 let steps = 20_000;
                 let width = 17.0 / f64::from(steps);

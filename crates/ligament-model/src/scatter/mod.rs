@@ -48,6 +48,12 @@ impl Scattered {
     }
 }
 
+/// Seed of sample `number` of an ensemble, which depends on nothing but the seed of the ensemble and this number. It has 53 bits, so that
+/// tables and case files hold it exactly.
+pub fn seed_of_sample(seed: u64, number: u64) -> u64 {
+    random::bits(seed, number) >> 11
+}
+
 /// Factors of a property over the points.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Factors {

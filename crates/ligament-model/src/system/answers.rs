@@ -17,7 +17,7 @@ use crate::interface::{
     PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
-use crate::product::{ForceSum, NearLimits};
+use crate::product::NearLimits;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::point_strain::Motion;
 use crate::stress::traction;
@@ -260,9 +260,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         bonds: UnbrokenBonds<'_>,
         motions: &[f64],
         limits: NearLimits<'_>,
-        sum: &mut ForceSum,
+        forces: &mut [f64],
     ) -> Vec<u32> {
-        self.forces_near_limits(bonds, motions, limits, sum)
+        self.forces_near_limits(bonds, motions, limits, forces)
     }
 
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any
 
 from ligament import examples
 from ligament._case import Case, Setup
+from ligament._ensemble import Ensemble, Weibull, ensemble
 from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, NotCalibrated, SolutionError
 from ligament._keys import Key, Keys, keys
 from ligament._modes import Modes
@@ -51,6 +52,7 @@ __all__ = [
     "CaseError",
     "CrackLine",
     "CrackSurface",
+    "Ensemble",
     "Interrupted",
     "Key",
     "Keys",
@@ -62,8 +64,10 @@ __all__ = [
     "Setup",
     "SolutionError",
     "Sweep",
+    "Weibull",
     "__version__",
     "calibrate",
+    "ensemble",
     "examples",
     "keys",
     "modal",

@@ -75,6 +75,7 @@ def run(
     replace: bool,
     report: Callable[[int, float, float, float, int], object] | None,
 ) -> bool: ...
+def compute_ensemble(case: Case, wanted: tuple[int, int, int], folder: Path) -> bool: ...
 def report(
     folders: Sequence[Path],
     labels: Sequence[str],

@@ -825,15 +825,16 @@ class FractureScatter(TypedDict, total=False):
 
 - `strength`: Strengths, and limits given in their place.
 - `fracture-energy`: Fracture energies."""
-    distribution: Literal["weibull", "normal"]
+    distribution: Literal["weibull", "normal", "lognormal"]
     """Distribution of the factors.
 
 - `weibull`: Weibull's with two parameters, by its `modulus`.
-- `normal`: Normal with a `deviation`, cut off at four of them. Default "weibull"."""
+- `normal`: Normal with a `deviation`, cut off at four of them.
+- `lognormal`: Lognormal with a `deviation`. Default "weibull"."""
     modulus: float
     """Weibull modulus; of `weibull`: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %."""
     deviation: float
-    """Standard deviation over the mean; of `normal`."""
+    """Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`."""
     seed: int
     """Seed of the random numbers: another one is another specimen. Default 0."""
     correlation_length: float

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use ligament_output::summary::{
-    BondEvent, CorrectionSummary, IterationSummary, ModalSummary, ModeSummary, ModelSummary,
-    MotionSummary, OverlapSummary, PathPoint, ScatterSummary, SolverSummary, Spread,
+    BondEvent, CertificateSummary, CorrectionSummary, IterationSummary, ModalSummary, ModeSummary,
+    ModelSummary, MotionSummary, OverlapSummary, PathPoint, ScatterSummary, SolverSummary, Spread,
     StabilitySummary, Summary, UnitsSummary,
 };
 use serde::Serialize;
@@ -80,6 +80,13 @@ fn complete_summary() -> Summary {
         without_equilibrium: false,
         last_state_not_at_rest: false,
         energy_balance_error: 0.0,
+        certificate: Some(CertificateSummary {
+            crack_area: Some(0.0),
+            dissipated_per_area: Some(0.0),
+            fracture_energy: Some(0.0),
+            largest_residual: Some(0.0),
+            ..CertificateSummary::default()
+        }),
         overlap: Some(OverlapSummary {
             depth: 0.0,
             step: 0,

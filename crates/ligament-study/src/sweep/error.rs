@@ -53,7 +53,7 @@ pub enum StudyError {
     },
     /// The folder is in use.
     #[error(
-        "another sweep works on {} ({what}); wait for its end, or give this one its own folder by --out", folder.display()
+        "another study works on {} ({what}); wait for its end, or give this one its own folder by --out", folder.display()
     )]
     Busy {
         /// The folder.

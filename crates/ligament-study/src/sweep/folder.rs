@@ -24,6 +24,8 @@ const PAUSE: Duration = Duration::from_millis(50);
 #[derive(Debug, Clone)]
 pub struct StudyFolder {
     path: PathBuf,
+    /// File that marks a folder of this kind of study.
+    marker: &'static str,
 }
 
 /// A part of the runs: those whose index, from 0, is `number - 1` modulo `count`.
@@ -51,9 +53,15 @@ pub struct StudyLocks {
 }
 
 impl StudyFolder {
-    /// The folder at a path, existing or not.
+    /// The folder of a sweep at a path, existing or not.
     pub fn at(path: impl Into<PathBuf>) -> Self {
-        Self { path: path.into() }
+        Self::marked_by(MARKER, path)
+    }
+
+    /// The folder at a path, existing or not, of a study whose folders have a file of this name.
+    pub(crate) fn marked_by(marker: &'static str, path: impl Into<PathBuf>) -> Self {
+        let path = path.into();
+        Self { path, marker }
     }
 
     /// Creates the folder, or opens that of an earlier sweep.
@@ -63,45 +71,55 @@ impl StudyFolder {
     /// If the path is something else, or cannot be written.
     pub fn open(path: &Path, study: &Study) -> anyhow::Result<Self> {
         let folder = Self::at(path);
+        refuse_link(&folder.meshes())?;
+        let marker = json!({
+            "study": study.source.path.to_string_lossy(),
+            "title": study.title,
+            "version": env!("CARGO_PKG_VERSION"),
+        });
+        folder.opened(&format!("{marker:#}\n"), &["runs", "records", "logs"])
+    }
+
+    /// Creates the folder with the text of its marker, or opens an earlier one, with subfolders and that of the locks.
+    ///
+    /// # Errors
+    ///
+    /// If the path is something else, or cannot be written.
+    pub(crate) fn opened(self, marker: &str, subfolders: &[&str]) -> anyhow::Result<Self> {
         for look in 0.. {
-            if folder.is_marked() {
+            if self.is_marked() {
                 break;
             }
-            match ResultFolder::create_marked(path, Kind::marked(MARKER), false) {
+            match ResultFolder::create_marked(&self.path, Kind::marked(self.marker), false) {
                 Ok(new) => {
-                    let marker = json!({
-                        "study": study.source.path.to_string_lossy(),
-                        "title": study.title,
-                        "version": env!("CARGO_PKG_VERSION"),
-                    });
-                    new.write(MARKER, format!("{marker:#}\n"))?;
+                    new.write(self.marker, marker)?;
                     break;
                 }
                 // Another shard may have created the folder without marking it yet.
-                Err(_) if look < LOOKS && folder.is_fresh() => thread::sleep(PAUSE),
+                Err(_) if look < LOOKS && self.is_fresh() => thread::sleep(PAUSE),
                 Err(error) => return Err(error.into()),
             }
         }
-        refuse_link(&folder.meshes())?;
-        for name in ["runs", "records", "logs", "locks"] {
-            let path = folder.path.join(name);
+        for name in subfolders.iter().chain(&["locks"]) {
+            let path = self.path.join(name);
             refuse_link(&path)?;
             fs::create_dir_all(&path).map_err(|source| file_error("create", &path, source))?;
         }
-        Ok(folder)
+        Ok(self)
     }
 
     /// Whether the folder is marked as the folder of a study.
     pub fn is_marked(&self) -> bool {
-        self.path.join(MARKER).is_file()
+        self.path.join(self.marker).is_file()
     }
 
     /// Whether the folder has no files but those of a shard that is marking it.
     fn is_fresh(&self) -> bool {
-        let hidden = format!(".{MARKER}.");
+        let marker = self.marker;
+        let hidden = format!(".{marker}.");
         let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
         let mut names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
-        names.all(|name| name == MARKER || name == ".lock" || name.starts_with(&hidden))
+        names.all(|name| name == marker || name == ".lock" || name.starts_with(&hidden))
     }
 
     /// Path of the folder.

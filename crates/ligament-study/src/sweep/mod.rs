@@ -14,7 +14,7 @@ mod meshes;
 pub mod plan;
 mod progress;
 mod record;
-mod report;
+pub(crate) mod report;
 pub mod study;
 mod table;
 pub mod written;

@@ -1,6 +1,7 @@
 //! Results of a study: its table, its fits and plots, and the short text at its end.
 
 use std::io::{self, Write};
+use std::path::Path;
 
 use ligament_output::columns::aligned;
 use ligament_output::csv::{self, Value};
@@ -19,7 +20,7 @@ use ligament_case::case::{CaseError, Fault};
 use ligament_plot::drawing::Drawing;
 
 /// Width of a plot, mm.
-const WIDTH: f64 = 160.0;
+pub(crate) const WIDTH: f64 = 160.0;
 
 /// Dots per inch of a plot's PNG.
 const DPI: f64 = 300.0;
@@ -66,7 +67,7 @@ pub(super) fn write(
         write_fits(curves, out)?;
         let plot = curves.drawn(&title);
         match plot.for_paper(WIDTH) {
-            Ok(drawing) => write_plot(folder, &curves.name, &drawing)?,
+            Ok(drawing) => write_plot(folder.path(), &curves.name, &drawing)?,
             Err(error) => problems.push(error.to_string()),
         }
     }
@@ -151,8 +152,8 @@ pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> V
 }
 
 /// Writes a plot as SVG and PNG.
-fn write_plot(folder: &StudyFolder, name: &str, drawing: &Drawing) -> anyhow::Result<()> {
-    let file = |ending| folder.path().join(format!("{name}.{ending}"));
+pub(crate) fn write_plot(folder: &Path, name: &str, drawing: &Drawing) -> anyhow::Result<()> {
+    let file = |ending| folder.join(format!("{name}.{ending}"));
     replace_file(&file("svg"), drawing.to_svg(name).as_bytes())?;
     replace_file(&file("png"), &drawing.to_png(DPI)?)?;
     Ok(())

@@ -7,7 +7,7 @@ mod intact;
 mod laminas;
 mod squares;
 
-use super::experiment::{Experiment, Findings};
+use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::statics::{BENDING, SHEAR, TRACTION};
 use super::table::Extent;
@@ -34,7 +34,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         &tension::CASE,
         &lamina::CASE,
     ],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {

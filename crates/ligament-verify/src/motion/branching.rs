@@ -5,7 +5,7 @@ use ligament::Model;
 use ligament_analysis::history::BreakRecord;
 
 use super::fast_crack::{Break, breaks, largest_speed, rayleigh};
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, Trial, template};
@@ -21,7 +21,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             bonds break more than 2.5 mm above and below the line of the notch; place and time are those of the first one. Speeds are those of the broken bond \
             farthest from the notch, over 5 us.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("branching/case.toml");

@@ -9,7 +9,7 @@ use ligament_analysis::{Component, Observer};
 
 use super::record::Record;
 use super::waves::with_law;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Template, template};
@@ -25,7 +25,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             Slope: a block of 8 x 4 points of 1 mm on a rigid slope of 25 degrees, with damping; its mean acceleration once gravity is constant, over g, and its last \
             velocity over that without friction.",
     cases: &[&COLLISION, &CIRCLE, &SLOPE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static COLLISION: Template = template!("verification/motion-collision.toml");

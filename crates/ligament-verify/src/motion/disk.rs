@@ -8,7 +8,7 @@ use ligament_analysis::history::StepRecord;
 use super::fast_crack::distance;
 use super::record::Record;
 use crate::crack_path::middle;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, template};
@@ -23,7 +23,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             break, over P = pi D t F_t/2 alpha/(sin 2 alpha - alpha) for the half-width alpha of the contacts; distance of this break from the middle over D; \
             difference of the forces of both walls over P.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/motion-disk.toml");

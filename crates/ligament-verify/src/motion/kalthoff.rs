@@ -5,7 +5,7 @@ use ligament::Model;
 use ligament_analysis::history::BreakRecord;
 
 use super::fast_crack::{Break, breaks, direction, distance, largest_speed, rayleigh};
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, template};
@@ -21,7 +21,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             with the notch: the mean of both cracks. A crack has started \
             when it is a horizon away from the tip. Speeds are those of the farthest broken bond over 8 us.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("kalthoff/case.toml");

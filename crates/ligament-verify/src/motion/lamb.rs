@@ -3,7 +3,7 @@
 use anyhow::bail;
 
 use super::record::Record;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, template};
@@ -19,7 +19,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             from the peak of the force on; u_x is positive away from the force, u_y along it. The P wave is read as the smallest u_x before the Rayleigh wave \
             comes, the Rayleigh wave as the largest and the smallest u_y and u_x. c_R is from the largest u_y at 40 and 80 mm.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/motion-lamb.toml");

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, template};
@@ -15,7 +15,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     setup: "The plate of `motion_branching` (Borden) with 100 x 40 points of 1 mm, bbpd, both schemes with steps of 0.1 us. Bonds that are broken by both up to a \
             time over those that one of them broke more of.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("branching/case.toml");

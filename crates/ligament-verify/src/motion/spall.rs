@@ -3,7 +3,7 @@
 use anyhow::{Context, bail};
 
 use crate::crack_path::middle;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, template};
@@ -18,7 +18,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             stress first reaches the strength at d = F_t c 32 us/(2 x 41.5 MPa) = 29.5 mm from this end, 140 mm/c + 8 us + d/c after the beginning. Distance and time of \
             the first broken bond.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/motion-spall.toml");

@@ -4,7 +4,7 @@ use anyhow::{Context, bail};
 
 use super::fast_crack::breaks;
 use super::record::Record;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, template};
@@ -19,7 +19,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             the energy release rate 3/4 E h^3 d^2/(a + 0.64 h)^4 with the depth h of an arm. Force of a block at 1 ms, before the crack of 20 mm grows; the opening at the first \
             break; the length of the crack at 1.8 ms, up to the broken bond farthest from the blocks.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/motion-splitting.toml");

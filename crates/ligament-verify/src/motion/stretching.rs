@@ -2,7 +2,7 @@
 
 use anyhow::{Context, bail};
 
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, Trial, template};
@@ -19,7 +19,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             kinetic energy rho rate^2 s^3/24 about its middle and the strain energy s F_t^2/(2 E) for each area; where all of it makes cracks, \
             both are G_c together.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/motion-stretching.toml");

@@ -3,7 +3,7 @@
 use anyhow::Context;
 
 use super::record::Record;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Template, template};
@@ -17,7 +17,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             times 4. A force on its end is a half sine of 0.5 ms, then the bar swings until 6 ms. The frequency is from the times at which the end falls \
             through zero, over the first frequency of the modal analysis.",
     cases: &[&CASE, &MODES],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/motion-cantilever.toml");

@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 use ligament_plot::plots::{Colour, Series};
 
 use super::record::Record;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels, Table};
 use crate::trial::{Memory, Template, Trial, template};
@@ -23,7 +23,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             wave; a Ricker wavelet of 400 kHz comes from the left. The phase speed is from the phases of the Fourier transforms at points of the middle \
             row, 10.5 and 50.5 mm from the left. Waves shorter than 6 spacings have not passed when the record ends.",
     cases: &[&PLANE, &SOLID, &WAVE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static PLANE: Template = template!("wave-bar/case.toml");

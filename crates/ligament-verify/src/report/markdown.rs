@@ -9,7 +9,7 @@ use crate::table::Table;
 use crate::tally::Tally;
 
 /// The long report, with all entries of every table, and the curves.
-pub(crate) fn text(done: &[(&Experiment, Findings)]) -> String {
+pub(crate) fn text(done: &[(Experiment, Findings)]) -> String {
     let mut text = String::from(INTRODUCTION);
     let words = Verdict::ALL.map(Verdict::words).join(" | ");
     let dashes = "---|".repeat(3 + Verdict::ALL.len());
@@ -29,17 +29,14 @@ pub(crate) fn text(done: &[(&Experiment, Findings)]) -> String {
     for (experiment, findings) in done {
         let _ = write!(
             text,
-            "\n## {}\n\n**{}.** {}\n\nCases: {}.\n",
-            experiment.name,
-            experiment.title,
-            experiment.setup,
-            experiment
-                .cases
-                .iter()
-                .map(|case| format!("`{}`", case.path))
-                .collect::<Vec<_>>()
-                .join(", ")
+            "\n## {}\n\n**{}.** {}\n",
+            experiment.name, experiment.title, experiment.setup
         );
+        let cases = experiment.cases.iter();
+        let cases: Vec<String> = cases.map(|case| format!("`{}`", case.path)).collect();
+        if !cases.is_empty() {
+            let _ = write!(text, "\nCases: {}.\n", cases.join(", "));
+        }
         for table in &findings.tables {
             push_table(&mut text, table);
         }

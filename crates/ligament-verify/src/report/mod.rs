@@ -9,6 +9,7 @@ pub(super) mod console;
 pub(super) mod files;
 pub(super) mod markdown;
 pub(super) mod page;
+pub(super) mod scoreboard;
 
 /// A table as text.
 struct Printable {
@@ -76,7 +77,7 @@ mod tests {
     use super::files::{SUMMARY, Summary};
     use super::*;
     use crate::entry::Verdict;
-    use crate::experiment::{Experiment, Findings};
+    use crate::experiment::{Compute, Experiment, Findings};
     use crate::published::known_values;
     use crate::table::{Extent, Labels};
     use crate::tally::Tally;
@@ -111,7 +112,7 @@ nu,known,allowed,subset,standing,instead,reason
         source: "Author 2019",
         setup: "A lamina.",
         cases: &[&CASES[0], &CASES[1]],
-        compute: |_| findings(),
+        compute: Compute::Code(|_| findings()),
     };
 
     fn findings() -> anyhow::Result<Findings> {
@@ -149,7 +150,7 @@ nu,known,allowed,subset,standing,instead,reason
 
     #[test]
     fn markdown_has_counts_tables_and_notes() {
-        let text = markdown::text(&[(&EXPERIMENT, findings().unwrap())]);
+        let text = markdown::text(&[(EXPERIMENT, findings().unwrap())]);
         for line in [
             "| [modes](#modes) | Author 2019 | 3 | 1 | 0 | 0 | 1 | 0 | 0 | 0 | 1 |",
             "| nu | printed | computed | difference | allowed | verdict |",
@@ -165,7 +166,7 @@ nu,known,allowed,subset,standing,instead,reason
     /// A table that no paper has stands below them, with counts and the largest difference.
     #[test]
     fn the_page_has_a_line_a_table() {
-        let done = [(&EXPERIMENT, findings().unwrap())];
+        let done = [(EXPERIMENT, findings().unwrap())];
         let text = page::text(&done, Extent::Fast).unwrap();
         for line in [
             "This is the fast subset (`--fast`).",
@@ -184,7 +185,7 @@ nu,known,allowed,subset,standing,instead,reason
             tables: vec![table.unwrap()],
             ..Findings::default()
         };
-        let text = page::text(&[(&EXPERIMENT, findings)], Extent::Full).unwrap();
+        let text = page::text(&[(EXPERIMENT, findings)], Extent::Full).unwrap();
         let outcome = "stated: 1 refuted; stated: 2 FAILED |";
         assert!(text.contains(outcome), "{text}");
     }

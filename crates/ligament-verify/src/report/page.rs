@@ -17,7 +17,7 @@ type Compared<'a> = (&'a Table, &'a Row);
 /// # Errors
 ///
 /// If the list of the papers' contents is wrong.
-pub(crate) fn text(done: &[(&Experiment, Findings)], extent: Extent) -> anyhow::Result<String> {
+pub(crate) fn text(done: &[(Experiment, Findings)], extent: Extent) -> anyhow::Result<String> {
     let items = items()?;
     let findings = || done.iter().map(|(_, findings)| findings);
     let mut compared = Vec::new();
@@ -116,7 +116,7 @@ fn push_counts(text: &mut String, compared: &[(&Item, Vec<Compared<'_>>)]) {
 /// Appends the experiments with tables that compare with no paper.
 fn push_others(
     text: &mut String,
-    done: &[(&Experiment, Findings)],
+    done: &[(Experiment, Findings)],
     compared: &[(&Item, Vec<Compared<'_>>)],
 ) {
     let is_told = |table: &Table| {

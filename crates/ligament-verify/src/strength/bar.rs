@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::Extent;
 use crate::trial::{Memory, StoredMesh, Template, stored_mesh, template};
@@ -15,7 +15,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     setup: "Bar 0.05 x 0.1 m, h = 5 mm (272 points), pulled by its ends, F_t = 3.81 MPa, E = 15 GPa, nu = 0.21, plane stress, NHPD, criterion `rankine`, \
             after which bonds soften along a straight line; G_c = 10, 40 and 160 J/m^2, so that l_ch = 10 to 165 mm. Largest mean stress over F_t.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/strength-bar.toml");

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use anyhow::Context;
 
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::Extent;
 use crate::trial::{Memory, StoredMesh, Template, Trial, stored_mesh, template};
@@ -20,7 +20,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             Largest load over that of linear fracture mechanics. The process zone lowers it: an estimate is a crack longer by 0.44 l_ch, \
             0.915 and 0.978.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/strength-crack.toml");

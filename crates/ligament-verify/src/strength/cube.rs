@@ -1,7 +1,7 @@
 //! First failure in space: a cube under uniform stresses, and a spherical cavity.
 
 use super::uniform::{first_failure, of_cube};
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{StoredMesh, Template, Trial, stored_mesh, template};
@@ -17,7 +17,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             NHPD, lambda = 3 (of the cavity also 2.5). Not run: the penny-shaped crack of `cases/penny-crack` with `rankine`, whose horizon there is six tenths of the \
             crack's radius, and which had not got to its largest load after five minutes.",
     cases: &[&CUBE, &CAVITY],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CUBE: Template = template!("verification/strength-cube.toml");

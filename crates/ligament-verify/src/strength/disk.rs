@@ -6,7 +6,7 @@ use ligament_analysis::history::BreakRecord;
 
 use crate::crack_path::middle;
 use crate::disk_test::CLOSED_FORM;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::{Published, published};
 use crate::spread::spread;
 use crate::table::{Extent, Labels, Table};
@@ -23,7 +23,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             bonds beside the platens, which pressure across them stretches. No platens of 1.5 mm: they would be narrower than the \
             distance of two points.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/strength-disk.toml");

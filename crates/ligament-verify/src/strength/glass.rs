@@ -9,7 +9,7 @@ use ligament_run::summary::DROP;
 
 use super::cube::cube;
 use super::uniform::{SQUARE, extremes, of_cube};
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, StoredMesh, Template, Trial, stored_mesh, template};
@@ -29,7 +29,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             what needs large strains of a nearly incompressible elastomer, which the laws here do not have (poker chip, trousers, and all \
             problems in polyurethane).",
     cases: &[&SQUARE, &NOTCH, &STRIP, &BEAM],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static NOTCH: Template = template!("verification/strength-glass-edge-crack.toml");

@@ -5,7 +5,7 @@ use ligament::run::Solution;
 use ligament_analysis::history::BreakRecord;
 
 use crate::crack_path::middle;
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::Extent;
 use crate::trial::{Memory, StoredMesh, Template, stored_mesh, template};
@@ -20,7 +20,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             F_t over the stress on the ends at the first breakage; place is the distance of the broken bond from the nearer flank of the \
             hole, where the stress is largest, over R.",
     cases: &[&CASE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CASE: Template = template!("verification/strength-hole.toml");

@@ -1,7 +1,7 @@
 //! Squares under uniform stresses.
 
 use super::uniform::{SQUARE, extremes};
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Trial};
@@ -16,7 +16,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             breakage over that of the surface, the smallest and the largest of the four. `tension` stands beside them for contrast: it compares \
             stretches.",
     cases: &[&SQUARE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 /// Tensile and compressive strength, Pa.

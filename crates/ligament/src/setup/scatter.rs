@@ -28,6 +28,12 @@ impl Setup {
                 "greater than 0 and less than 0.25, so that no strength is negative",
                 deviation,
             )?,
+            Distribution::Lognormal { deviation } => require(
+                deviation > 0.0 && deviation <= 10.0,
+                field.part("deviation"),
+                "greater than 0 and at most 10",
+                deviation,
+            )?,
         }
         let length = scatter.correlation_length;
         let is_length = length >= 0.0 && length.is_finite();

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{Criteria, Criterion};
-use ligament_model::product::{ForceSum, NearLimits};
+use ligament_model::product::NearLimits;
 use ligament_model::surface::Bonded;
 use ligament_model::thermal::ThermalStrain;
 
@@ -53,8 +53,8 @@ pub(super) struct Body {
     pub(super) state: State,
     /// Deformations, forces and energy of the bonds at the time of the state.
     pub(super) balanced: Balanced,
-    /// Memory of forces in one sweep without deformations; None where the bonds are not linear up to limits of their own.
-    sum: Option<ForceSum>,
+    /// Whether the bonds are linear up to limits of their own, so that one sweep needs no deformations.
+    in_one_sweep: bool,
     /// Number of broken bonds.
     pub(super) broken: usize,
     /// Bonds that broke in the last step.
@@ -89,8 +89,8 @@ struct Beyond {
     deformations: Vec<BondDeformation>,
 }
 
-/// Forces in one sweep without deformations; None where the bonds are not linear up to limits of their own.
-fn in_one_sweep(problem: &Problem) -> Option<ForceSum> {
+/// Whether the bonds of a problem are linear up to limits of their own.
+fn in_one_sweep(problem: &Problem) -> bool {
     let Problem {
         system,
         criteria,
@@ -101,8 +101,7 @@ fn in_one_sweep(problem: &Problem) -> Option<ForceSum> {
     let are_plain = criteria.list.iter().all(is_plain);
     let is_cold = loads.temperature_change(0.0).is_empty();
     let is_linear = system.is_linear() && !system.faces_close();
-    let n = system.layout().n_degrees_of_freedom();
-    (are_plain && is_cold && is_linear).then(|| ForceSum::new(n))
+    are_plain && is_cold && is_linear
 }
 
 impl Body {
@@ -129,7 +128,7 @@ impl Body {
             friction,
             of_friction: FrictionEnergies::default(),
             balanced: Balanced::unloaded(system),
-            sum: in_one_sweep(problem),
+            in_one_sweep: in_one_sweep(problem),
             problem: problem.clone(),
             costs: Costs::default(),
             numbers,
@@ -158,16 +157,9 @@ impl Body {
     ) -> Result<Breakage, SetupError> {
         let start = Instant::now();
         self.broken_last.clear();
-        let breakage = match (self.sum.take(), is_whole) {
-            (Some(mut sum), false) => {
-                let breakage = self.move_in_one_sweep(step, &mut sum, observer);
-                self.sum = Some(sum);
-                breakage?
-            }
-            (sum, _) => {
-                self.sum = sum;
-                self.move_with_deformations(step, observer)?
-            }
+        let breakage = match self.in_one_sweep && !is_whole {
+            true => self.move_in_one_sweep(step, observer)?,
+            false => self.move_with_deformations(step, observer)?,
         };
         self.costs.bonds += start.elapsed();
         Ok(breakage)
@@ -213,7 +205,6 @@ impl Body {
     fn move_in_one_sweep(
         &mut self,
         step: &TimeStep<'_>,
-        sum: &mut ForceSum,
         observer: &mut dyn Observer,
     ) -> Result<Breakage, SetupError> {
         let problem = self.problem.clone();
@@ -227,8 +218,8 @@ impl Body {
             criteria,
             factor: RULE.near(),
         };
-        let near = system.forces_near_limits(self.state.bonds(), displacement, limits, sum);
-        std::mem::swap(&mut self.balanced.internal.values, &mut sum.values);
+        let forces = &mut self.balanced.internal.values;
+        let near = system.forces_near_limits(self.state.bonds(), displacement, limits, forces);
         if near.is_empty() {
             return Ok(Breakage::default());
         }

@@ -1,0 +1,310 @@
+//! Sums of the forces of bonds at points, in tasks of adjacent points.
+//!
+//! A task makes the sums at its points over all bonds that reach them, and writes nothing else. A bond that reaches points of two tasks is
+//! evaluated in both. The forces at a point are added in an order that the bonds alone determine: those of a group of bonds in the order of
+//! the bonds, then the groups. The sums therefore have the same bits for any number of tasks and of threads.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::bonds::{BondSet, Incidence};
+use crate::subdomain::Share;
+
+/// Number of groups of bonds.
+pub(crate) const GROUPS: usize = 4;
+
+/// Tasks of each thread: a thread that is late leaves tasks to the others.
+const TASKS: usize = 4;
+
+/// Number of bonds that make a task worth while.
+const TASK: usize = 4096;
+
+/// Bonds of a group.
+pub(crate) fn group(number: usize, n_bonds: usize) -> Range<usize> {
+    number * n_bonds / GROUPS..(number + 1) * n_bonds / GROUPS
+}
+
+/// Sum of forces with M components at a point.
+pub(crate) trait PointSum<const M: usize>: Copy + Send + Sync {
+    /// Sum of no forces.
+    const NONE: Self;
+
+    /// Adds a force.
+    fn add(&mut self, force: [f64; M]);
+
+    /// Sum of two sums.
+    fn plus(self, other: Self) -> Self;
+}
+
+impl<const M: usize> PointSum<M> for [f64; M] {
+    const NONE: Self = [0.0; M];
+
+    #[inline(always)]
+    fn add(&mut self, force: [f64; M]) {
+        *self = self.plus(force);
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        std::array::from_fn(|place| self[place] + other[place])
+    }
+}
+
+/// Forces of bonds.
+pub(crate) trait BondForces<const M: usize>: Sync {
+    /// What is found in each bond once, beside its forces.
+    type Found: Default + Send;
+
+    /// Adds the forces of a bond at the points that the bond reaches. The task of the first end of the bond gives `found`.
+    fn add(&self, bond: usize, found: Option<&mut Self::Found>, add: impl FnMut(u32, [f64; M]));
+}
+
+/// Bonds with the points that their elements reach.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reach<'a> {
+    /// Ends of the bonds, shape (n_bonds), in the order of [`BondSet`].
+    ends: &'a [[u32; 2]],
+    /// Bonds that reach each point, ascending.
+    bonds: &'a Incidence,
+}
+
+impl<'a> Reach<'a> {
+    /// The bonds of a set; `bonds` reach each point.
+    pub(crate) fn new<const D: usize>(set: &'a BondSet<D>, bonds: &'a Incidence) -> Self {
+        Self {
+            ends: &set.ends,
+            bonds,
+        }
+    }
+
+    /// Sums the forces at the points of a share. Overwrites `sums` (n_rows); returns what each task found, in the order of the bonds.
+    pub(crate) fn sum<const M: usize, S: PointSum<M>, F: BondForces<M>>(
+        self,
+        share: impl Share,
+        forces: &F,
+        sums: &mut [S],
+    ) -> Vec<F::Found> {
+        let n_tasks = match rayon::current_num_threads() {
+            1 => 1,
+            n_threads => (TASKS * n_threads).min(self.ends.len() / TASK).max(1),
+        };
+        self.sum_in(n_tasks, share, forces, sums)
+    }
+
+    /// Sums the forces in a number of tasks.
+    fn sum_in<const M: usize, S: PointSum<M>, F: BondForces<M>>(
+        self,
+        n_tasks: usize,
+        share: impl Share,
+        forces: &F,
+        sums: &mut [S],
+    ) -> Vec<F::Found> {
+        let mut tasks = Vec::new();
+        let mut left = sums;
+        for borders in self.borders(n_tasks).windows(2) {
+            let points = borders[0]..borders[1];
+            let n_rows = share.rows_before(points.end) - share.rows_before(points.start);
+            let (sums, others) = left.split_at_mut(n_rows);
+            left = others;
+            tasks.push((points, sums));
+        }
+        let run = |(points, sums)| self.task(share, forces, points, sums);
+        tasks.into_par_iter().map(run).collect()
+    }
+
+    /// First points of the tasks, and the number of points: about as many bonds begin in each task.
+    fn borders(&self, n_tasks: usize) -> Vec<u32> {
+        let (n_points, n_bonds) = (self.bonds.n_points(), self.ends.len());
+        let inner = (1..n_tasks).map(|task| self.ends[task * n_bonds / n_tasks][0]);
+        let mut borders: Vec<u32> = std::iter::once(0).chain(inner).collect();
+        borders.push(n_points as u32);
+        borders.dedup();
+        borders
+    }
+
+    /// Number of bonds that begin at points before a point.
+    fn bonds_before(&self, point: u32) -> usize {
+        self.ends.partition_point(|[first, _]| *first < point)
+    }
+
+    /// Sums the forces at points; `sums` has a row for each point of the share.
+    fn task<const M: usize, S: PointSum<M>, F: BondForces<M>>(
+        self,
+        share: impl Share,
+        forces: &F,
+        points: Range<u32>,
+        sums: &mut [S],
+    ) -> F::Found {
+        let own = self.bonds_before(points.start)..self.bonds_before(points.end);
+        let first_row = share.rows_before(points.start);
+        let mut found = F::Found::default();
+        let mut of_group = Vec::new();
+        sums.fill(S::NONE);
+        for number in 0..GROUPS {
+            let group = group(number, self.ends.len());
+            // Sums of the first group are the sums so far.
+            let sums_of_group = match number {
+                0 => &mut *sums,
+                _ => {
+                    of_group.clear();
+                    of_group.resize(sums.len(), S::NONE);
+                    &mut *of_group
+                }
+            };
+            let add_others = |bonds: Range<usize>, sums: &mut [S]| {
+                if bonds.is_empty() {
+                    return;
+                }
+                for point in points.clone() {
+                    let Some(row) = share.row(point) else {
+                        continue;
+                    };
+                    for bond in within(self.bonds.at(point), &bonds) {
+                        forces.add(*bond as usize, None, |reached, force| {
+                            if reached == point {
+                                sums[row - first_row].add(force);
+                            }
+                        });
+                    }
+                }
+            };
+            add_others(group.start..group.end.min(own.start), sums_of_group);
+            for bond in group.start.max(own.start)..group.end.min(own.end) {
+                forces.add(bond, Some(&mut found), |point, force| {
+                    if points.contains(&point)
+                        && let Some(row) = share.row(point)
+                    {
+                        sums_of_group[row - first_row].add(force);
+                    }
+                });
+            }
+            add_others(group.start.max(own.end)..group.end, sums_of_group);
+            if number > 0 {
+                for (sum, of_group) in sums.iter_mut().zip(&of_group) {
+                    *sum = sum.plus(*of_group);
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Numbers of an ascending list within a range.
+fn within<'a>(list: &'a [u32], range: &Range<usize>) -> &'a [u32] {
+    let first = list.partition_point(|it| (*it as usize) < range.start);
+    let length = list[first..].partition_point(|it| (*it as usize) < range.end);
+    &list[first..first + length]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::communicator::Solo;
+    use crate::subdomain::{Partition, Subdomain, Whole};
+    use std::sync::Arc;
+
+    /// Forces of one component that rounding tells apart, at up to six points of each bond.
+    struct Forces {
+        points: Vec<Vec<u32>>,
+    }
+
+    impl BondForces<1> for Forces {
+        type Found = Vec<usize>;
+
+        fn add(
+            &self,
+            bond: usize,
+            found: Option<&mut Vec<usize>>,
+            mut add: impl FnMut(u32, [f64; 1]),
+        ) {
+            if let Some(found) = found {
+                found.push(bond);
+            }
+            for (place, point) in self.points[bond].iter().enumerate() {
+                add(*point, [1.0 / (1.0 + (7 * bond + place) as f64)]);
+            }
+        }
+    }
+
+    /// Bonds between points whose numbers differ by at most nine, some of which reach points beyond their ends.
+    fn bonds(n_points: u32) -> (Vec<[u32; 2]>, Forces) {
+        let ends: Vec<[u32; 2]> = (0..n_points)
+            .flat_map(|a| (a + 1..n_points.min(a + 10)).map(move |b| [a, b]))
+            .collect();
+        let reached = |(bond, [a, b]): (usize, &[u32; 2])| match bond % 3 {
+            0 => vec![*a, *b],
+            _ => vec![*b, *a, (a + 40) % n_points, a / 2],
+        };
+        let points = ends.iter().enumerate().map(reached).collect();
+        (ends, Forces { points })
+    }
+
+    fn reaching(forces: &Forces, n_points: usize) -> Incidence {
+        let of_bonds = forces.points.iter().enumerate().flat_map(|(bond, points)| {
+            let mut points = points.clone();
+            points.sort_unstable();
+            points.dedup();
+            points.into_iter().map(move |point| (point, bond as u32))
+        });
+        Incidence::from_pairs(of_bonds.collect::<Vec<_>>().into_iter(), n_points)
+    }
+
+    #[test]
+    fn sums_have_the_bits_of_groups_summed_bond_by_bond_in_any_number_of_tasks() {
+        let n_points = 97;
+        let (ends, forces) = bonds(n_points as u32);
+        let bonds = reaching(&forces, n_points);
+        let mut expected = vec![0.0; n_points];
+        for number in 0..GROUPS {
+            let mut of_group = vec![0.0; n_points];
+            for bond in group(number, ends.len()) {
+                forces.add(bond, None, |point, [force]| {
+                    of_group[point as usize] += force
+                });
+            }
+            for (sum, of_group) in expected.iter_mut().zip(of_group) {
+                *sum += of_group;
+            }
+        }
+        let reach = Reach {
+            ends: &ends,
+            bonds: &bonds,
+        };
+        for n_tasks in [1, 2, 3, 7, 30, 500] {
+            let mut sums = vec![[f64::NAN]; n_points];
+            let found = reach.sum_in(n_tasks, Whole, &forces, &mut sums).concat();
+            assert_eq!(sums.as_flattened(), expected, "{n_tasks} tasks");
+            assert_eq!(
+                found,
+                (0..ends.len()).collect::<Vec<_>>(),
+                "{n_tasks} tasks"
+            );
+        }
+    }
+
+    #[test]
+    fn a_share_has_the_sums_at_its_own_points() {
+        let n_points = 60;
+        let (ends, forces) = bonds(n_points as u32);
+        let bonds = reaching(&forces, n_points);
+        let reach = Reach {
+            ends: &ends,
+            bonds: &bonds,
+        };
+        let mut all = vec![[0.0]; n_points];
+        reach.sum_in(1, Whole, &forces, &mut all);
+        // Every second point belongs to the first of two processes.
+        let even_first = |points: &mut [u32]| points.sort_unstable_by_key(|it| (it % 2, *it));
+        let partition = Partition::new(n_points, 2, &even_first);
+        let subdomain = Subdomain::new(partition, Arc::new(Solo));
+        let owned: Vec<u32> = subdomain.owned().collect();
+        assert_eq!(owned.len(), n_points / 2);
+        for n_tasks in [1, 4, 11] {
+            let mut sums = vec![[f64::NAN]; owned.len()];
+            reach.sum_in(n_tasks, &subdomain, &forces, &mut sums);
+            let expected: Vec<[f64; 1]> = owned.iter().map(|it| all[*it as usize]).collect();
+            assert_eq!(sums, expected, "{n_tasks} tasks");
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! The certificate of a run in statics, from its outcome and its tables.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::Path;
+
+use ligament::Model;
+use ligament_analysis::driver::{Outcome, Rows};
+use ligament_output::csv::read::Sheet;
+use ligament_output::quantity::{four_digits, quantity};
+use ligament_output::results::cracks::StoredCracks;
+use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
+use ligament_output::summary::CertificateSummary;
+
+/// Largest number of points of a body whose cracks are traced at the end of a run, which takes a second.
+const MOST_POINTS: usize = 100_000;
+
+/// Relative difference of utilisations below which breakages are tied, that of the choice of the next bonds.
+const TIED: f64 = 1e-8;
+
+/// Certificate of a run whose tables are complete in a folder; none of a motion.
+///
+/// # Errors
+///
+/// If a table cannot be read.
+pub(crate) fn certificate(
+    folder: &Path,
+    model: &Model,
+    outcome: &Outcome,
+) -> Result<Option<CertificateSummary>, ligament_output::Error> {
+    let Some(last) = outcome
+        .history
+        .last()
+        .filter(|_| outcome.rows != Rows::Times)
+    else {
+        return Ok(None);
+    };
+    let is_cracked = outcome.broken_bonds > 0 || outcome.softened_bonds > 0;
+    let is_traced = model.system.subdomain().is_whole() && model.system.n_points() <= MOST_POINTS;
+    let area = match is_cracked && is_traced {
+        // A body whose points have no cells has no faces along which a crack could be traced.
+        true => crack_area(folder).ok().filter(|area| *area > 0.0),
+        false => None,
+    };
+    Ok(Some(CertificateSummary {
+        work: last.external_work,
+        stored: last.stored_energy,
+        released: last.released_energy,
+        dissipated: last.dissipated_energy,
+        crack_area: area,
+        dissipated_per_area: area.map(|area| last.dissipated_energy / area),
+        fracture_energy: fracture_energy(model),
+        largest_residual: largest_residual(&folder.join("iterations.csv"))?,
+        ties: ties(&folder.join("breaks.csv"))?,
+    }))
+}
+
+/// Area of the cracks in the last state, m^2.
+fn crack_area(folder: &Path) -> Result<f64, ligament_output::Error> {
+    if has_solid(folder)? {
+        return Ok(SolidCracks::open(folder)?.surface(usize::MAX).area());
+    }
+    let cracks = StoredCracks::open(folder)?;
+    let lines = cracks.lines(usize::MAX);
+    Ok(cracks.thickness * lines.iter().map(|line| line.length()).sum::<f64>())
+}
+
+/// Fracture energy of all materials, where a criterion uses it and they have the same, J/m^2.
+fn fracture_energy(model: &Model) -> Option<f64> {
+    let mut criteria = model.setup.criteria.iter();
+    if !criteria.any(|it| it.spends_fracture_energy() || it.after.law.softens) {
+        return None;
+    }
+    let materials = model.setup.materials();
+    let first = materials.first()?.fracture_energy?;
+    let is_same = materials.iter().all(|it| it.fracture_energy == Some(first));
+    is_same.then_some(first)
+}
+
+/// Largest residual of the last iteration of each round; none without iterations.
+fn largest_residual(path: &Path) -> Result<Option<f64>, ligament_output::Error> {
+    let mut ends = BTreeMap::new();
+    for [step, round, residual] in Sheet::read(path)?.numbers(["step", "round", "residual"])? {
+        ends.insert((step as usize, round as usize), residual);
+    }
+    Ok(ends.into_values().reduce(f64::max))
+}
+
+/// Number of breakages in the round of the one before with the same utilisation.
+fn ties(path: &Path) -> Result<usize, ligament_output::Error> {
+    let rows = Sheet::read(path)?.numbers(["step", "round", "utilisation"])?;
+    let is_tied = |pair: &&[[f64; 3]]| {
+        let [[step, round, one], [next_step, next_round, other]] = [pair[0], pair[1]];
+        [step, round] == [next_step, next_round] && (one - other).abs() <= TIED * one.abs()
+    };
+    Ok(rows.windows(2).filter(is_tied).count())
+}
+
+/// Writes the lines of a certificate.
+pub(super) fn write_certificate(
+    certificate: &CertificateSummary,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    let energies = [certificate.work, certificate.stored, certificate.dissipated];
+    let [work, stored, spent] = energies.map(|it| quantity(it, "J"));
+    writeln!(
+        out,
+        "  energies           {work} of work, {stored} stored, {spent} spent"
+    )?;
+    if let Some((area, per_area)) = certificate.crack_area.zip(certificate.dissipated_per_area) {
+        let over = certificate.spent_ratio().map_or(String::new(), |ratio| {
+            format!(", {} of the fracture_energy", four_digits(ratio))
+        });
+        writeln!(
+            out,
+            "  cracks             {}, over which {} were spent{over}",
+            quantity(area, "m^2"),
+            quantity(per_area, "J/m^2")
+        )?;
+    }
+    let residual = certificate.largest_residual;
+    let residual = residual.map_or("none".to_owned(), |it| format!("{it:.1e}"));
+    let ties = certificate.ties;
+    writeln!(
+        out,
+        "  largest residual   {residual} of the forces at a point; {ties} breakages tied"
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(text: &str) -> (tempfile::TempDir, std::path::PathBuf) {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("table.csv");
+        std::fs::write(&path, text).unwrap();
+        (folder, path)
+    }
+
+    /// The last iteration of a round counts, not those on the way to it.
+    #[test]
+    fn the_largest_residual_is_that_of_a_state_found() {
+        let rows = "step,round,iteration,residual\n1,1,1,0.5\n1,1,2,1e-9\n1,2,1,1e-8\n2,1,1,3e-9\n";
+        let (_folder, path) = file(rows);
+        assert_eq!(largest_residual(&path).unwrap(), Some(1e-8));
+        let (_folder, path) = file("step,round,iteration,residual\n");
+        assert_eq!(largest_residual(&path).unwrap(), None);
+    }
+
+    /// Equal utilisations are ties within a round alone.
+    #[test]
+    fn ties_are_counted_in_their_round() {
+        let rows = "step,round,utilisation\n1,1,1.5\n1,1,1.5\n1,1,1.2\n1,2,1.2\n2,2,1.2\n2,2,1.200000000001\n";
+        let (_folder, path) = file(rows);
+        assert_eq!(ties(&path).unwrap(), 2);
+    }
+}

@@ -1,0 +1,231 @@
+//! `ligament ensemble`: samples of a case whose strength or fracture energy varies at random.
+//!
+//! All samples share the body, its corrections and its intact factor ([`ligament::ensemble`]). A folder has an identity (`identity`): the case,
+//! the seed and the displacements at which curves are compared (`grid`). Samples are stored in parts (`part`), one of each shard, as rows (`row`)
+//! and counts at the points of the body, whose size does not grow with the samples; locks and shards are those of a
+//! [sweep](crate::sweep). What all parts have together (`collected`) becomes tables, fields and plots (`report`).
+
+mod collected;
+mod exact;
+mod grid;
+mod identity;
+mod part;
+mod plots;
+mod progress;
+mod report;
+mod request;
+mod row;
+mod strengths;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+
+use ligament::ensemble::{Ensemble, Sample};
+use ligament::run::on_threads;
+use ligament_output::{remove_if_there, replace_file};
+use ligament_run::end::End;
+use ligament_run::model::build_model;
+use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stages::Stages;
+
+use crate::sweep::StudyError;
+use crate::sweep::folder::{Shard, StudyFolder};
+use collected::Collected;
+use identity::{Identity, MARKER};
+use part::Part;
+use progress::SampleProgress;
+pub use request::{Request, Settings, Task};
+use row::Row;
+
+/// Subfolder of the stored samples.
+const PARTS: &str = "parts";
+
+/// Name of the part of a process that computes all samples.
+const WHOLE: &str = "whole";
+
+/// Executes the request, with its output on `out`; returns whether it was done or stopped.
+///
+/// # Errors
+///
+/// If the case is wrong or has nothing that varies at random, the folder is of another ensemble or in use, or a sample cannot be followed.
+pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<End> {
+    match &request.task {
+        Task::Run(settings) => run(request, settings, out),
+        Task::Collect(from) => collect(request, from, out).map(|()| End::Done),
+    }
+}
+
+/// Computes the samples that are missing, and writes the tables and plots unless the samples are those of a shard.
+fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<End> {
+    let ensemble = on_threads(request.case.threads(), || prepared(request))??;
+    let found = StudyFolder::marked_by(MARKER, request.out);
+    let wanted = request.wanted();
+    let is_begun = found.is_marked() && !settings.force;
+    let identity = match is_begun {
+        true => Identity::of_folder(&found)?,
+        false => on_threads(request.case.threads(), || wanted.begun(&ensemble))??,
+    };
+    if is_begun {
+        identity.require(&wanted, found.path())?;
+    }
+    // Nothing is written before the case is checked.
+    let folder = found.opened(&identity.text()?, &[PARTS])?;
+    let _claim = folder.claim(settings.shard)?;
+    if settings.force {
+        begin_anew(&folder, &identity)?;
+    }
+    // Another shard may have begun the folder meanwhile.
+    let identity = Identity::of_folder(&folder)?;
+    identity.require(&wanted, folder.path())?;
+    let todo = missing(request, settings, &folder, &identity)?;
+    let end = compute(request, settings, &ensemble, (&folder, &identity), &todo)?;
+    match (end, settings.shard) {
+        (End::Stopped, _) => writeln!(out, "stopped; the same command goes on")?,
+        (_, None) => report(request, std::slice::from_ref(&folder), &folder, out)?,
+        (_, Some(Shard { number, count })) => writeln!(
+            out,
+            "shard {number} of {count} is done; tables and plots of all: ligament ensemble --collect"
+        )?,
+    }
+    Ok(end)
+}
+
+/// The ensemble of the case, ready for samples.
+fn prepared(request: &Request<'_>) -> anyhow::Result<Ensemble> {
+    let case = request.case;
+    let quiet = Progress::new(ProgressMode::Quiet);
+    let model = build_model(case, &mut Stages::default(), &quiet)?;
+    Ensemble::new(model, request.seed).map_err(|error| case.explained(error))
+}
+
+/// Removes stored samples; the folder is then of the new identity.
+fn begin_anew(folder: &StudyFolder, identity: &Identity) -> anyhow::Result<()> {
+    for entry in fs::read_dir(folder.path().join(PARTS))? {
+        remove_if_there(&entry?.path())?;
+    }
+    let text = identity.text()?;
+    Ok(replace_file(&folder.path().join(MARKER), text.as_bytes())?)
+}
+
+/// Numbers of the samples that this process has to compute.
+fn missing(
+    request: &Request<'_>,
+    settings: &Settings,
+    folder: &StudyFolder,
+    identity: &Identity,
+) -> anyhow::Result<Vec<u64>> {
+    let parts = part::stored(&folder.path().join(PARTS), identity.grid)?;
+    let rows = parts.iter().flat_map(|part| &part.rows);
+    let done: BTreeSet<u64> = rows.map(|row| row.sample).collect();
+    let is_mine = |it: &u64| {
+        settings
+            .shard
+            .is_none_or(|shard| shard.contains(*it as usize))
+    };
+    let mine = (0..request.samples).filter(is_mine);
+    Ok(mine.filter(|it| !done.contains(it)).collect())
+}
+
+/// Computes samples and stores them in the part of this process.
+fn compute(
+    request: &Request<'_>,
+    settings: &Settings,
+    ensemble: &Ensemble,
+    (folder, identity): (&StudyFolder, &Identity),
+    todo: &[u64],
+) -> anyhow::Result<End> {
+    if todo.is_empty() {
+        return Ok(End::Done);
+    }
+    let name = match settings.shard {
+        None => WHOLE.to_owned(),
+        Some(Shard { number, count }) => format!("shard-{number}-of-{count}"),
+    };
+    let body = ensemble.model().body();
+    let tags = body.grid().tags;
+    let n_points = tags.len();
+    let parts = folder.path().join(PARTS);
+    let mut part = Part::open(&parts, &name, identity.grid, n_points)?;
+    let mut progress = SampleProgress::new(settings.progress, todo.len());
+    let threads = request.threads();
+    let workers = settings.jobs.unwrap_or(threads).min(todo.len());
+    let at_once = [workers, (threads / workers).max(1)];
+    let added = ensemble.for_each(todo, at_once, |sample: Sample| {
+        let row = Row::new(&sample, body, &tags);
+        part.add((&sample, &row), identity.grid, ensemble.problem())
+            .map_err(Fault::Stored)?;
+        progress.ended();
+        match (request.is_stopped)() {
+            true => Err(Fault::Stopped),
+            false => Ok(()),
+        }
+    });
+    progress.finish();
+    // What was computed before a fault is kept.
+    part.store()?;
+    match added {
+        Ok(()) => Ok(End::Done),
+        Err(Fault::Stopped) => Ok(End::Stopped),
+        Err(Fault::Sample(error)) => Err(request.case.explained(error)),
+        Err(Fault::Stored(error)) => Err(error),
+    }
+}
+
+/// Reason why no further sample is computed.
+enum Fault {
+    /// Error of a sample.
+    Sample(ligament::Error),
+    /// Error of the folder.
+    Stored(anyhow::Error),
+    /// The user wants to stop.
+    Stopped,
+}
+
+impl From<ligament::Error> for Fault {
+    fn from(error: ligament::Error) -> Self {
+        Self::Sample(error)
+    }
+}
+
+/// Writes the tables and plots of the samples in the folder of the ensemble or in others.
+fn collect(request: &Request<'_>, from: &[PathBuf], out: &mut dyn Write) -> anyhow::Result<()> {
+    let own = [request.out.to_owned()];
+    let paths = if from.is_empty() { &own[..] } else { from };
+    let mut folders = Vec::new();
+    for path in paths {
+        let folder = StudyFolder::marked_by(MARKER, path);
+        if !folder.is_marked() {
+            let (folder, marker) = (path.clone(), MARKER);
+            return Err(StudyError::NoStudy { folder, marker }.into());
+        }
+        Identity::of_folder(&folder)?.require(&request.wanted(), path)?;
+        folders.push(folder);
+    }
+    let identity = Identity::of_folder(&folders[0])?;
+    let to = StudyFolder::marked_by(MARKER, request.out).opened(&identity.text()?, &[PARTS])?;
+    report(request, &folders, &to, out)
+}
+
+/// Writes the tables and plots of the samples of some folders into one of them or another.
+fn report(
+    request: &Request<'_>,
+    folders: &[StudyFolder],
+    to: &StudyFolder,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let identity = Identity::of_folder(to)?;
+    let mut parts = Vec::new();
+    for folder in folders {
+        anyhow::ensure!(
+            Identity::of_folder(folder)?.is_of_same(&identity),
+            "the samples in {} are of another ensemble than those in {}",
+            folder.path().display(),
+            to.path().display()
+        );
+        parts.extend(part::stored(&folder.path().join(PARTS), identity.grid)?);
+    }
+    let collected = Collected::of_parts(parts, &identity)?;
+    report::write(request, &identity, &collected, to.path(), out)
+}

@@ -1,0 +1,181 @@
+//! Values of the runs of a measured test against its bands.
+
+use super::curve::{MeasuredCurve, area, peak};
+use super::reading::Reading;
+use super::size_effect::Law;
+use super::test::{Band, MeasuredTest, Quantity};
+use crate::entry::{Entry, Reliability};
+use crate::printed::{Allowed, Printed};
+use crate::table::{Heading, Row, Table};
+
+/// Judged values of a test.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Judgement {
+    /// One row for each run and band, the labels being the run and the quantity.
+    pub(super) rows: Vec<Row>,
+    /// Size effect laws of the series.
+    pub(super) laws: Vec<Law>,
+}
+
+impl Judgement {
+    /// Judges the runs of a test.
+    ///
+    /// # Errors
+    ///
+    /// If a number cannot be written.
+    pub(super) fn new(
+        test: &MeasuredTest,
+        measured: Option<&MeasuredCurve>,
+        readings: &[Reading],
+    ) -> anyhow::Result<Self> {
+        let theory = test.size_effect.as_ref();
+        let laws = theory.map_or_else(Vec::new, |it| Law::of_series(it, readings));
+        let mut rows = Vec::new();
+        for band in &test.band {
+            let of_laws = theory.into_iter().flat_map(|theory| {
+                let value = |law: &Law| match band.of {
+                    Quantity::SizeEffectEnergy => Some(law.energy_ratio(theory)),
+                    Quantity::SizeEffectLength => Some(law.length_ratio(theory)),
+                    _ => None,
+                };
+                laws.iter()
+                    .filter_map(move |law| Some((&*law.series, value(law)?)))
+            });
+            let of_runs = readings.iter().filter_map(|reading| {
+                let value = value(band, measured, reading)?;
+                Some((&*reading.run, value))
+            });
+            for (name, computed) in of_laws.chain(of_runs) {
+                rows.push(row(band, name, computed)?);
+            }
+        }
+        Ok(Self { rows, laws })
+    }
+
+    /// The rows as a table of the report.
+    pub(super) fn table(&self, test: &MeasuredTest) -> Table {
+        let reasons = test.band.iter().map(|band| {
+            let reason = band.because.trim_end_matches('.');
+            format!("{}: {reason}", band.of.words())
+        });
+        Table {
+            heading: Heading {
+                name: format!("experiments-{}", test.name),
+                title: test.title.clone(),
+                source: test.source.clone(),
+                quantity: "computed over measured; of a crack its height, mm".to_owned(),
+                known: "measured".to_owned(),
+                tolerance: format!("{}.", reasons.collect::<Vec<_>>().join("; ")),
+                keys: ["run", "quantity"].map(str::to_owned).to_vec(),
+            },
+            rows: self.rows.clone(),
+        }
+    }
+}
+
+/// Value of a run for a band: a ratio to the measured value, or the height of a crack, mm. None for quantities of series.
+fn value(band: &Band, measured: Option<&MeasuredCurve>, reading: &Reading) -> Option<f64> {
+    let known = |of_curve: fn(&MeasuredCurve) -> f64| {
+        let of_curve = || measured.map(of_curve);
+        band.measured.or_else(of_curve).unwrap_or(f64::NAN)
+    };
+    let end = match band.measured {
+        None => measured.map_or(f64::INFINITY, MeasuredCurve::end),
+        Some(_) => f64::INFINITY,
+    };
+    match band.of {
+        Quantity::Peak => Some(peak(&reading.curve)[1] / known(|it| it.peak()[1])),
+        Quantity::XAtPeak => Some(peak(&reading.curve)[0] / known(|it| it.peak()[0])),
+        Quantity::Area => Some(area(&reading.curve, end) / known(MeasuredCurve::area)),
+        Quantity::CrackY => {
+            let (at, known) = band.at.zip(band.measured)?;
+            Some(1e3 * reading.crack_height(at, 1e-3 * known))
+        }
+        Quantity::SizeEffectEnergy | Quantity::SizeEffectLength => None,
+    }
+}
+
+/// Judged row of a computed value. A value out of its band keeps the reason of the band, or fails without one.
+fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
+    let of_crack = band.of == Quantity::CrackY;
+    let known = match band.measured.filter(|_| of_crack) {
+        Some(known) => printed(format!("{known}"))?,
+        None => printed("1.000".to_owned())?,
+    };
+    let [least, most] = band.between;
+    let about = if of_crack { 0.0 } else { 1.0 };
+    let [least, most] = [least, most].map(|it| (1e6 * (it - about)).round() / 1e6);
+    let standing = match &band.missed {
+        Some(reason) if computed.is_finite() => Reliability::Missed {
+            instead: printed(format!("{computed:.4}"))?,
+            reason: reason.clone(),
+        },
+        _ => Reliability::Sound,
+    };
+    let allowed = Allowed::Between(least, most);
+    // Only what misses its band is shown with the reason.
+    let standing = match allowed.admits(&known, computed) {
+        true => Reliability::Sound,
+        false => standing,
+    };
+    let entry = Entry {
+        labels: vec![name.to_owned(), band.of.words().to_owned()],
+        known,
+        allowed,
+        standing,
+        is_fast: true,
+    };
+    Ok(Row {
+        verdict: entry.verdict(computed),
+        computed,
+        entry,
+    })
+}
+
+fn printed(text: String) -> anyhow::Result<Printed> {
+    Printed::parse(&text).ok_or_else(|| anyhow::anyhow!("`{text}` is no number"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::entry::Verdict;
+
+    fn band(of: Quantity, measured: Option<f64>, between: [f64; 2], missed: Option<&str>) -> Band {
+        Band {
+            of,
+            at: None,
+            measured,
+            between,
+            because: String::new(),
+            missed: missed.map(str::to_owned),
+        }
+    }
+
+    /// A value in its band is within, at the bounds as well; one outside fails, or is missed where the reason is known.
+    #[test]
+    fn a_band_accepts_what_lies_in_it() {
+        let verdict = |missed, value| {
+            let band = band(Quantity::Peak, None, [0.9, 1.2], missed);
+            row(&band, "4 mm", value).unwrap().verdict
+        };
+        for value in [0.9, 1.07, 1.2] {
+            assert_eq!(verdict(None, value), Verdict::Within, "{value}");
+        }
+        for value in [0.899, 1.201, f64::NAN] {
+            assert_eq!(verdict(None, value), Verdict::Failed, "{value}");
+        }
+        assert_eq!(verdict(Some("coarse"), 0.8), Verdict::Missed);
+        assert_eq!(verdict(Some("coarse"), 1.1), Verdict::Within);
+        assert_eq!(verdict(Some("coarse"), f64::NAN), Verdict::Failed);
+    }
+
+    /// Heights of cracks are judged by their distance, mm, and not as ratios.
+    #[test]
+    fn a_crack_is_judged_by_its_distance() {
+        let band = band(Quantity::CrackY, Some(273.5), [-12.0, 12.0], None);
+        let verdict = |value| row(&band, "4 mm", value).unwrap().verdict;
+        assert_eq!(verdict(262.0), Verdict::Within);
+        assert_eq!(verdict(261.0), Verdict::Failed);
+    }
+}

@@ -1,0 +1,13 @@
+//! Places of the cases, the meshes and the measured curves.
+
+use std::path::{Path, PathBuf};
+
+/// The repository in which the program was built: cases, meshes and curves are read from there.
+pub(super) fn repository() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
+}
+
+/// Folder of the table and of the measured curves.
+pub(super) fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("experiments")
+}
