@@ -56,6 +56,7 @@ fn is_stored(experiment: &Experiment, table: &Table) {
         "strength_glass",
         "motion_branching",
         "motion_kalthoff",
+        "contact_flaw",
     ]
     .contains(&experiment.name)
         || matches!(experiment.compute, Compute::Measured(_))
@@ -150,7 +151,10 @@ experiments!(
     motion_disk,
     motion_splitting,
     motion_contact,
-    motion_schemes
+    motion_schemes,
+    contact_sliding,
+    contact_hertz,
+    contact_flaw
 );
 
 /// Measured tests: those with a fast run are run, and every value lies in the band that was written down before, or is missed for the reason

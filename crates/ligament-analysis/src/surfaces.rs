@@ -42,21 +42,24 @@ impl Touching {
         touches.map(Touch::energy).fold(0.0, |sum, it| sum + it)
     }
 
-    /// Resultants of each contact.
-    pub(crate) fn readings(&self) -> Vec<ContactReading> {
-        let touches = self.touches.iter();
-        touches.map(|it| ContactReading::new(it)).collect()
+    /// Resultants of each contact of a problem; none before the first equilibrium.
+    pub(crate) fn readings(&self, problem: &ContactProblem) -> Vec<ContactReading> {
+        let touches = |contact: usize| self.touches.get(contact).map_or(&[][..], |it| it);
+        let contacts = 0..problem.contacts.len();
+        contacts
+            .map(|it| ContactReading::new(touches(it)))
+            .collect()
     }
 
     /// States of the rigid bodies of a problem, at rest.
     pub(crate) fn rigid_states(&self, problem: &ContactProblem) -> Vec<RigidState> {
-        let places = self.rigid.iter().zip(self.on_rigid_bodies(problem));
-        let state = |(&displacement, force)| RigidState {
-            displacement,
+        let forces = self.on_rigid_bodies(problem).into_iter().enumerate();
+        let state = |(body, force)| RigidState {
+            displacement: self.rigid.get(body).copied().unwrap_or_default(),
             force,
             ..RigidState::default()
         };
-        places.map(state).collect()
+        forces.map(state).collect()
     }
 
     /// Forces of the contacts on the points of a body, shape (n), N and N m.

@@ -254,3 +254,46 @@ fn bonds_and_the_page_tell_times() {
     let time = columns.iter().find(|it| it["name"] == "time").unwrap();
     assert_eq!((&time["unit"], &time["si"]), (&"µs".into(), &"s".into()));
 }
+
+/// An implicit motion writes the columns of a rigid body: a wall that comes at 0.1 m/s has moved by 0.1 m/s times 20 us, and presses
+/// the bar.
+#[test]
+fn an_implicit_motion_writes_its_rigid_bodies() {
+    const BAR: &str = r#"title = "A wall comes against a bar"
+analysis = "motion"
+[lattice]
+cells = [12, 4]
+spacing = 1e-3
+[lattice.set]
+left = { left = 1 }
+[material]
+young = 1e9
+poisson = 0.2
+density = 1000.0
+[model]
+law = "nhpd"
+horizon_factor = 3.0
+[motion]
+duration = 20e-6
+rows = 4
+scheme = "implicit"
+step = 1e-6
+[[support]]
+group = "left"
+displacement = { x = 0.0, y = 0.0 }
+[[rigid]]
+name = "wall"
+shape = "wall"
+centre = [0.012, 0.0]
+normal = [-1.0, 0.0]
+velocity = { x = -0.1 }
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.toml"), BAR).unwrap();
+    said(folder.path(), "run case.toml --out results");
+    let rows = table(&folder.path().join("results/history.csv"));
+    let last = rows.last().unwrap();
+    assert!((last["wall.displacement_x"] + 2e-6).abs() < 1e-15);
+    assert_eq!(last["wall.velocity_x"], -0.1);
+    assert!(last["wall.force_x"] < 0.0, "{}", last["wall.force_x"]);
+}

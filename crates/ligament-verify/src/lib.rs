@@ -25,6 +25,7 @@ use ligament_output::folder::{Kind, ResultFolder};
 
 mod anisotropy;
 mod bars;
+mod contact;
 mod cost;
 mod crack_path;
 mod cracks;
@@ -79,7 +80,7 @@ use table::Extent;
 use tally::Tally;
 
 /// Experiments that are written as code, in the order of the report; the measured tests follow them ([`experiments`]).
-pub static EXPERIMENTS: [Experiment; 43] = [
+pub static EXPERIMENTS: [Experiment; 46] = [
     frequencies::EXPERIMENT,
     statics::EXPERIMENT,
     readings::EXPERIMENT,
@@ -123,6 +124,9 @@ pub static EXPERIMENTS: [Experiment; 43] = [
     motion::splitting::EXPERIMENT,
     motion::contact::EXPERIMENT,
     motion::schemes::EXPERIMENT,
+    contact::sliding::EXPERIMENT,
+    contact::hertz::EXPERIMENT,
+    contact::flaw::EXPERIMENT,
 ];
 
 const EXAMPLES: &str = "\

@@ -123,6 +123,14 @@ impl Trial {
         self.with_setup(|case, setup| run(case, setup, observer))
     }
 
+    /// Runs the case up to where no equilibrium follows.
+    pub(super) fn solve_to_the_end(&self) -> anyhow::Result<Solution> {
+        self.with_setup(|case, setup| {
+            let solution = setup.solve(&mut NoObserver);
+            Ok(solution.map_err(|error| case.explained(error))?)
+        })
+    }
+
     /// Runs the case, and returns all breakages in their order.
     pub(super) fn solve_with_breakages(&self) -> anyhow::Result<(Solution, Vec<BreakRecord>)> {
         let mut breakages = Breakages::default();

@@ -369,7 +369,7 @@ pub(super) fn step_record(
         negative_eigenvalues: counters.negative_eigenvalues,
         closed_pairs: balanced.closed.len(),
         motion: None,
-        contacts: balanced.touching.readings(),
+        contacts: balanced.touching.readings(&problem.contact),
         rigid_bodies: balanced.touching.rigid_states(&problem.contact),
         group_forces: group_forces(problem, state.load_factor, &reactions),
         probes: probe::values(&problem.probes, solution),

@@ -172,7 +172,7 @@ impl ContactForces {
     /// length (s). Surfaces that overlap there begin without force.
     pub fn new(problem: ContactProblem, motions: &[f64], bonds: Bonded<'_>, step: f64) -> Self {
         let rigid = problem.rigid_bodies.iter().map(|it| RigidState {
-            velocity: it.motion.first_velocity(),
+            velocity: it.motion.velocity(0.0),
             ..RigidState::default()
         });
         let state = ContactState {

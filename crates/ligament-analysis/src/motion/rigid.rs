@@ -91,14 +91,14 @@ impl RigidMotion {
         }
     }
 
-    /// Velocity at time zero, m/s.
-    pub(super) fn first_velocity(&self) -> Vector {
+    /// Velocity at a time (s) of a body with a prescribed motion, m/s; of a free one that at time zero.
+    pub(crate) fn velocity(&self, time: f64) -> Vector {
         match self {
             Self::Prescribed {
                 velocity,
                 amplitude,
             } => {
-                let factor = amplitude.value(0.0);
+                let factor = amplitude.value(time);
                 velocity.map(|it| factor * it)
             }
             Self::Free { velocity, .. } => *velocity,
@@ -108,13 +108,9 @@ impl RigidMotion {
     /// Moves a body to a time (s) after a step (s).
     pub(super) fn advance(&self, time: f64, step: f64, state: &mut RigidState) {
         match self {
-            Self::Prescribed {
-                velocity,
-                amplitude,
-            } => {
-                let (now, so_far) = (amplitude.value(time), amplitude.integral(time));
-                state.velocity = velocity.map(|it| now * it);
-                state.displacement = velocity.map(|it| so_far * it);
+            Self::Prescribed { .. } => {
+                state.velocity = self.velocity(time);
+                state.displacement = self.displacement(time);
             }
             Self::Free {
                 mass,

@@ -106,7 +106,7 @@ columns! { "Columns of a history of a motion in time, by the time and what is re
     "damping_energy" "J" ANY "energy that damping and quiet edges took so far" => |it| it.1.damping_energy.into();
     "contact_energy" "J" ANY "energy stored in contacts between surfaces" => |it| it.1.contact_energy.into();
     "friction_energy" "J" ANY "energy that friction and the birth and end of contacts took so far" => |it| it.1.friction_energy.into();
-    "initial_energy" "J" ANY "energy of the body at time zero" => |it| it.1.initial_energy.into();
+    "initial_energy" "J" ANY "energy of the body at time zero; below zero by the kinetic energy of half a step where forces begin suddenly" => |it| it.1.initial_energy.into();
 }
 
 columns! { "Columns of a history for each group with supports or loads."

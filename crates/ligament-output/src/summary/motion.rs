@@ -32,7 +32,7 @@ pub struct MotionSummary {
 pub struct EnergiesSummary {
     /// Work of loads and supports.
     pub external_work: f64,
-    /// Energy at time zero.
+    /// Energy at time zero; of central differences below zero where forces begin suddenly, by the kinetic energy that they give in half a step.
     pub initial_energy: f64,
     /// Kinetic energy.
     pub kinetic_energy: f64,
@@ -51,9 +51,13 @@ pub struct EnergiesSummary {
 impl EnergiesSummary {
     /// The energies with their names in words, in the order of the ledger: first what came in.
     pub fn named(&self) -> [(&'static str, f64); 8] {
+        let start = match self.initial_energy < 0.0 {
+            true => "before the sudden start",
+            false => "at the start",
+        };
         [
             ("work", self.external_work),
-            ("at the start", self.initial_energy),
+            (start, self.initial_energy),
             ("kinetic", self.kinetic_energy),
             ("stored", self.stored_energy),
             ("released", self.released_energy),

@@ -6,7 +6,7 @@ pub(super) mod disk;
 mod fast_crack;
 pub(super) mod kalthoff;
 pub(super) mod lamb;
-mod record;
+pub(super) mod record;
 pub(super) mod schemes;
 pub(super) mod spall;
 pub(super) mod splitting;

@@ -11,16 +11,16 @@ const FADE: f64 = 0.8;
 
 /// Values at equal times.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Record {
+pub(crate) struct Record {
     /// Times, s.
-    pub(super) times: Vec<f64>,
+    pub(crate) times: Vec<f64>,
     /// Values at the times.
-    pub(super) values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
 impl Record {
     /// A quantity of every row of a motion.
-    pub(super) fn of_rows(solution: &Solution, value: impl Fn(&StepRecord) -> f64) -> Self {
+    pub(crate) fn of_rows(solution: &Solution, value: impl Fn(&StepRecord) -> f64) -> Self {
         let rows = &solution.outcome.history;
         Self {
             times: rows.iter().map(|row| row.load_factor).collect(),
@@ -29,14 +29,14 @@ impl Record {
     }
 
     /// The values of a probe.
-    pub(super) fn of_probe(solution: &Solution, name: &str) -> anyhow::Result<Self> {
+    pub(crate) fn of_probe(solution: &Solution, name: &str) -> anyhow::Result<Self> {
         let place = solution.probes.iter().position(|probe| probe.name == name);
         let place = place.with_context(|| format!("the run has no probe `{name}`"))?;
         Ok(Self::of_rows(solution, |row| row.probes[place]))
     }
 
     /// The record with the weighted values of another one at the same times added.
-    pub(super) fn plus(mut self, weight: f64, other: &Self) -> Self {
+    pub(crate) fn plus(mut self, weight: f64, other: &Self) -> Self {
         for (value, added) in self.values.iter_mut().zip(&other.values) {
             *value += weight * added;
         }
@@ -44,13 +44,13 @@ impl Record {
     }
 
     /// The record times a factor.
-    pub(super) fn times_factor(mut self, factor: f64) -> Self {
+    pub(crate) fn times_factor(mut self, factor: f64) -> Self {
         self.values.iter_mut().for_each(|value| *value *= factor);
         self
     }
 
     /// Value at a time within the record, between rows by a straight line.
-    pub(super) fn at(&self, time: f64) -> anyhow::Result<f64> {
+    pub(crate) fn at(&self, time: f64) -> anyhow::Result<f64> {
         let after = self.times.partition_point(|it| *it < time);
         let value = |place: usize| self.times.get(place).copied().zip(self.values.get(place));
         let (late, end) = value(after).context("the motion ends before the time")?;
@@ -61,7 +61,7 @@ impl Record {
     }
 
     /// Time and size of the largest value within a window of time, by the parabola through it and its neighbours.
-    pub(super) fn peak(&self, [from, to]: [f64; 2]) -> anyhow::Result<[f64; 2]> {
+    pub(crate) fn peak(&self, [from, to]: [f64; 2]) -> anyhow::Result<[f64; 2]> {
         let inner = 1..self.values.len().saturating_sub(1);
         let places = inner.filter(|&it| (from..=to).contains(&self.times[it]));
         let place = places.max_by(|&one, &other| self.values[one].total_cmp(&self.values[other]));
@@ -80,12 +80,12 @@ impl Record {
     }
 
     /// First time after `from` at which the values fall through zero, between rows by a straight line.
-    pub(super) fn fall(&self, from: f64) -> anyhow::Result<f64> {
+    pub(crate) fn fall(&self, from: f64) -> anyhow::Result<f64> {
         self.falls(from).first().copied().context("no zero follows")
     }
 
     /// All times after `from` at which the values fall through zero.
-    pub(super) fn falls(&self, from: f64) -> Vec<f64> {
+    pub(crate) fn falls(&self, from: f64) -> Vec<f64> {
         let pairs = self.times.windows(2).zip(self.values.windows(2));
         let falling =
             pairs.filter(|(times, values)| times[0] >= from && values[0] > 0.0 && values[1] <= 0.0);
@@ -112,7 +112,7 @@ impl Record {
     }
 
     /// Phases, rad, by which another record is behind this one at multiples of a small angular frequency.
-    pub(super) fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
+    pub(crate) fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
         let mut last = 0.0;
         let mut delays = Vec::with_capacity(count);
         for place in 1..=count {

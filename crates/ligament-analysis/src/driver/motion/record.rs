@@ -82,14 +82,19 @@ impl Now<'_> {
             motion: Some(self.rates),
             ..problem.solution(state, balanced)
         };
-        StepRecord {
-            motion: Some(progress.motion),
-            contacts: self.contacts.map_or_else(Vec::new, ContactForces::readings),
-            rigid_bodies: self
-                .contacts
-                .map_or_else(Vec::new, |it| it.rigid_bodies().to_vec()),
-            ..step_record(problem, solution, self.energies, self.fragments, counters)
+        let mut record = step_record(problem, solution, self.energies, self.fragments, counters);
+        record.motion = Some(progress.motion);
+        // Explicit steps have contacts of their own, implicit ones those of their equilibria, in which rigid bodies rest.
+        if let Some(contacts) = self.contacts {
+            record.contacts = contacts.readings();
+            record.rigid_bodies = contacts.rigid_bodies().to_vec();
+            return record;
         }
+        let bodies = &problem.contact.rigid_bodies;
+        for (place, body) in record.rigid_bodies.iter_mut().zip(bodies) {
+            place.velocity = body.motion.velocity(state.load_factor);
+        }
+        record
     }
 
     /// Passes a record to the observer.
