@@ -7,7 +7,7 @@ use ligament::Model;
 use ligament_analysis::history::BreakRecord;
 
 use crate::crack_path::{ends, middle};
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, StoredMesh, Template, Trial, probe, stored_mesh, template};
@@ -25,7 +25,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             in the mean, up to the farthest broken bond, over that at which K = sigma sqrt(pi a) (1 - lambda - mu (1 + lambda) - 4.3 lambda L) (0.23 L + 1/sqrt(3 (1 + L)))/(1 + L)^1.5 \
             is the toughness. A strength alone has none; that of the pulled plate under its largest load stands for it.",
     cases: &[&LATTICE, &MESH],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static LATTICE: Template = template!("verification/contact-flaw.toml");

@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use anyhow::{Context, bail};
 use ligament::run::Solution;
 
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::published::published;
 use crate::table::{Extent, Labels};
 use crate::trial::{Memory, Template, template};
@@ -21,7 +21,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             least squares. All quantities are over those of Hertz for the force F on the block: p_0, the half-width or radius a, the force of the fit, \
             pi a p_0/2 for each length or 2 pi a^2 p_0/3, and the largest pressure of a side.",
     cases: &[&CYLINDER, &SPHERE],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static CYLINDER: Template = template!("verification/contact-cylinder.toml");

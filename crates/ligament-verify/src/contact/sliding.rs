@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 use ligament::run::Solution;
 use ligament_analysis::Termination;
 
-use crate::experiment::{Experiment, Findings};
+use crate::experiment::{Compute, Experiment, Findings};
 use crate::motion::record::Record;
 use crate::published::published;
 use crate::table::{Extent, Labels};
@@ -25,7 +25,7 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
             once the spring has mu N, by v (1 - cos omega t). Half a period later the far end stops, and the block runs on and sticks. The spring \
             has mu N + v sqrt(k m) at most, and mu N - 2 v sqrt(k m) at rest.",
     cases: &[&FLOOR, &WEDGE, &SPRING],
-    compute,
+    compute: Compute::Code(compute),
 };
 
 static FLOOR: Template = template!("verification/contact-floor.toml");
