@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::bonds::{BondSet, Incidence};
+use crate::bonds::Incidence;
 use crate::subdomain::Share;
 
 /// Number of groups of bonds.
@@ -63,21 +63,13 @@ pub(crate) trait BondForces<const M: usize>: Sync {
 /// Bonds with the points that their elements reach.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Reach<'a> {
-    /// Ends of the bonds, shape (n_bonds), in the order of [`BondSet`].
-    ends: &'a [[u32; 2]],
+    /// Ends of the bonds, shape (n_bonds), by their first ends.
+    pub(crate) ends: &'a [[u32; 2]],
     /// Bonds that reach each point, ascending.
-    bonds: &'a Incidence,
+    pub(crate) bonds: &'a Incidence,
 }
 
-impl<'a> Reach<'a> {
-    /// The bonds of a set; `bonds` reach each point.
-    pub(crate) fn new<const D: usize>(set: &'a BondSet<D>, bonds: &'a Incidence) -> Self {
-        Self {
-            ends: &set.ends,
-            bonds,
-        }
-    }
-
+impl Reach<'_> {
     /// Sums the forces at the points of a share. Overwrites `sums` (n_rows); returns what each task found, in the order of the bonds.
     pub(crate) fn sum<const M: usize, S: PointSum<M>, F: BondForces<M>>(
         self,

@@ -6,8 +6,7 @@
 use crate::deformation::Deformation;
 use crate::element::{Element, Elements};
 use crate::failure::{Criteria, Measure};
-use crate::interface::BondTopology;
-use crate::point_sums::{BondForces, Reach};
+use crate::point_sums::BondForces;
 use crate::subdomain::Whole;
 use crate::system::{ElementSystem, UnbrokenBonds};
 
@@ -139,7 +138,6 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             judge,
         };
         let (of_points, _) = forces.as_chunks_mut::<M>();
-        let reach = Reach::new(&self.system.bonds, self.elements_at_points());
-        reach.sum(Whole, &linear, of_points).concat()
+        self.reach().sum(Whole, &linear, of_points).concat()
     }
 }

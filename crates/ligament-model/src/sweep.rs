@@ -6,9 +6,8 @@ use rayon::prelude::*;
 
 use crate::deformation::{Deformation, Deformations};
 use crate::element::{DeformationOf, Element, Elements};
-use crate::interface::BondTopology;
 use crate::layout::Component;
-use crate::point_sums::{BondForces, GROUPS, PointSum, Reach, group};
+use crate::point_sums::{BondForces, GROUPS, PointSum, group};
 use crate::subdomain::{Share, Subdomain, Whole};
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
@@ -133,8 +132,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         };
         let n_owned = self.system.cloud.subdomain.owned().len();
         let mut sums = vec![PointForces::NONE; n_owned];
-        let reach = Reach::new(&self.system.bonds, self.elements_at_points());
-        let energies = reach.sum(share, &deformed, &mut sums).concat();
+        let energies = self.reach().sum(share, &deformed, &mut sums).concat();
         (sums, energies)
     }
 
@@ -169,7 +167,7 @@ impl BondSweep {
     fn new<const M: usize>(
         at_points: &[PointForces<M>],
         components: &[Component; M],
-        [thermal, stored_energy, expansion_energy]: [f64; 3],
+        energies: [f64; 3],
         deformations: Deformations,
         subdomain: &Subdomain,
     ) -> Self {
@@ -188,6 +186,7 @@ impl BondSweep {
         let mut scales = [largest(false), largest(true)];
         subdomain.all_reduce_max(&mut scales);
         let [force_scale, moment_scale] = scales;
+        let [thermal, stored_energy, expansion_energy] = energies;
         Self {
             internal: InternalForces {
                 force_scale,

@@ -17,6 +17,7 @@ use crate::element::strain_stiffness::StrainStiffness;
 use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
 use crate::material::Stiffness;
+use crate::point_sums::Reach;
 
 /// Points and bonds in D dimensions with their rigidities; constant after construction.
 #[derive(Debug, Clone)]
@@ -140,6 +141,18 @@ impl<'a> UnbrokenBonds<'a> {
             intact,
             remaining: &[],
         }
+    }
+}
+
+impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+    /// Bonds with the points that their elements reach.
+    pub(crate) fn reach(&self) -> Reach<'_> {
+        let BondSet {
+            ends, incidence, ..
+        } = &self.system.bonds;
+        let couplings = self.elements.couplings();
+        let bonds = couplings.map_or(incidence, |[elements, _]| elements);
+        Reach { ends, bonds }
     }
 }
 

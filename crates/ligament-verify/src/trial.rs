@@ -127,7 +127,7 @@ impl Trial {
     pub(super) fn solve_to_the_end(&self) -> anyhow::Result<Solution> {
         self.with_setup(|case, setup| {
             let solution = setup.solve(&mut NoObserver);
-            Ok(solution.map_err(|error| case.explained(error))?)
+            solution.map_err(|error| case.explained(error))
         })
     }
 

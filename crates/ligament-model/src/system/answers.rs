@@ -56,8 +56,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for Element
     }
 
     fn elements_at_points(&self) -> &Incidence {
-        let couplings = self.elements.couplings();
-        couplings.map_or(&self.system.bonds.incidence, |[elements, _]| elements)
+        self.reach().bonds
     }
 
     fn coupled_points(&self) -> CoupledPoints<'_> {

@@ -86,8 +86,8 @@ fn wedge(labels: Labels<'_>, memory: &mut Memory<[f64; 3]>) -> anyhow::Result<f6
         trial = trial.set(side, friction);
     }
     let [along, across, opening] = memory.reading(&trial, |solution| {
-        let rows = solution.outcome.history.iter();
-        let before = rows.filter(|row| row.broken_bonds == 0).next_back();
+        let mut rows = solution.outcome.history.iter();
+        let before = rows.rfind(|row| row.broken_bonds == 0);
         let before = before.context("no step without a broken bond")?;
         let side = before.rigid_bodies.first().context("no wedge")?.force;
         let sloping = (ANGLE.to_radians() + friction.atan()).tan();
