@@ -50,3 +50,16 @@ def test_modes_of_a_free_plate(plate: dict[str, Any]) -> None:
     assert list(found.table["kind"]) == found.kind
     with pytest.raises(ligament.LigamentError, match="modal"):
         ligament.run({**plate, "analysis": "modal"})
+
+
+def test_a_sample_of_an_ensemble_is_the_run_of_its_seed(plate: dict[str, Any]) -> None:
+    plate["lattice"]["cells"] = [12, 18]
+    plate["lattice"]["spacing"] = 0.005
+    plate["fracture"] = {"control": "event", "stop": {"bonds": 5}, "scatter": {"of": "strength", "modulus": 12.0, "seed": 1}}
+    found = ligament.ensemble(plate, samples=3, seed=7)
+    assert len(found) == 3 and len(set(found.seeds)) == 3
+    assert found.first_break.sum() > 0.0 and np.all(found.damaged >= found.first_break)
+    plate["fracture"]["scatter"]["seed"] = int(found.seeds[2])
+    alone = ligament.run(plate, progress=False)
+    # To rounding: the two files sum the reactions of the points at another place.
+    assert found.first[2] == pytest.approx(alone.number("first_break.reaction"), rel=1e-14)

@@ -130,8 +130,11 @@ def ensemble(
     displacements. Ctrl-C stops it; the same call with the same folder goes on.
     """
     meant = case_of(case, changes)
-    home = Home() if folder is None else None
-    place = Path(folder) if home is None else home.path / "ensemble"
+    home = None
+    if folder is None:
+        home = Home()
+        folder = home.path / "ensemble"
+    place = Path(folder)
     if _native.compute_ensemble(meant._native, (samples, seed, points), place):
         raise KeyboardInterrupt
     return Ensemble(place, home)
