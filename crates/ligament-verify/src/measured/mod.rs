@@ -3,7 +3,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`test`] | entries of the table, and their reader |
+//! | [`test`](mod@test) | entries of the table, and their reader |
 //! | `curve` | measured and computed curves: peaks, areas |
 //! | `reading` | one run of a test, and what is read from it |
 //! | `judgement` | values of a run against the bands |
