@@ -1,7 +1,6 @@
 //! The cases and studies of the repository: each is documented, and loads and checks on its mesh.
 #![allow(clippy::unwrap_used)]
 
-use std::fs;
 use std::path::PathBuf;
 
 use ligament::setup::Surface;
@@ -105,17 +104,11 @@ fn every_case_names_a_mesh_of_the_repository() {
 }
 
 /// Every case passes `ligament check`: groups exist, supports and loads go together, and the equations can be set up. Its
-/// domain correction, if it has one, converges unless the case says by a horizon factor below 2 that it may not. The patch correction is
-/// made without the last digits, which take most of the time and decide nothing here.
+/// domain correction, if it has one, converges unless the case says by a horizon factor below 2 that it may not.
 #[test]
 fn every_case_passes_the_check() {
     for path in cases() {
-        let text = fs::read_to_string(&path).unwrap();
-        let settings = match text.contains("surface = \"patch\"") {
-            true => vec!["correction.regularisation=1e-3".to_owned()],
-            false => Vec::new(),
-        };
-        let case = CaseFile::load(&path, &settings).unwrap_or_else(|error| panic!("{error}"));
+        let case = CaseFile::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let mut report = Vec::new();
         check(&case, Extent::Matrix, None, &mut report)
             .unwrap_or_else(|error| panic!("{}: {error:#}", path.display()));

@@ -17,7 +17,7 @@ use serde_json::Value;
 use verification::repository;
 
 /// Numbers of threads that are compared with one.
-const THREADS: [usize; 2] = [3, 8];
+const THREADS: [usize; 3] = [2, 3, 8];
 
 /// The disk of 4808 points.
 const DISK: &str = "mesh.file=../../meshes/disk-1.5mm.msh";
@@ -49,7 +49,7 @@ fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// Runs a case of the repository on 1, 3 and 8 threads. Gives the results, which are the same.
+/// Runs a case of the repository on 1, 2, 3 and 8 threads. Gives the results, which are the same.
 fn assert_same(case: &str, settings: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let place = tempfile::tempdir().unwrap();
     let start = Instant::now();

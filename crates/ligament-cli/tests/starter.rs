@@ -39,8 +39,7 @@ fn with_all_settings(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Every mesh of the repository gets a case that checks, and so it does with all settings that are there as comments. What the finest
-/// correction takes most of the time for, its last digits, is not what is checked.
+/// Every mesh of the repository gets a case that checks, and so it does with all settings that are there as comments.
 #[test]
 fn every_mesh_has_a_case_that_checks() {
     let folder = TempDir::new().unwrap();
@@ -58,9 +57,6 @@ fn every_mesh_has_a_case_that_checks() {
             path.display(),
             starter.warnings
         );
-        let fine = "regularisation = 3e-7";
-        assert!(starter.text.contains(fine), "{}", starter.text);
-        starter.text = starter.text.replace(fine, "regularisation = 1e-3");
         let report = checked(&case(&starter, folder.path()), Extent::Model);
         assert!(report.contains("surface correction: patch"), "{report}");
         starter.text = with_all_settings(&starter.text);

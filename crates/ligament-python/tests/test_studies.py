@@ -61,5 +61,5 @@ def test_a_sample_of_an_ensemble_is_the_run_of_its_seed(plate: dict[str, Any]) -
     assert found.first_break.sum() > 0.0 and np.all(found.damaged >= found.first_break)
     plate["fracture"]["scatter"]["seed"] = int(found.seeds[2])
     alone = ligament.run(plate, progress=False)
-    # The same to rounding.
-    assert found.first[2] == pytest.approx(alone.number("first_break.reaction"), rel=1e-14)
+    # Of the summary `first_break` is foretold from the elastic solution; the history has the event itself.
+    assert found.first[2] == alone.history["reaction"].iloc[1], "the same bits"

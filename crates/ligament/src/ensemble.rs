@@ -10,7 +10,9 @@ use std::sync::mpsc::sync_channel;
 use std::thread;
 
 use ligament_analysis::Observer;
-use ligament_analysis::driver::{Outcome, Prepared, Problem, event, stepped};
+use ligament_analysis::driver::event::{self, EventSettings};
+use ligament_analysis::driver::stepped::{self, SteppedSettings};
+use ligament_analysis::driver::{Outcome, Prepared, Problem};
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 use ligament_model::failure::Criteria;
 use ligament_model::scatter::{self, Scatter};
@@ -31,6 +33,15 @@ pub struct Ensemble {
     prepared: Prepared,
     scatter: Scatter,
     seed: u64,
+    breaking: Breaking,
+}
+
+/// How the samples break.
+enum Breaking {
+    /// Along the exact path.
+    Exact(EventSettings),
+    /// In load steps.
+    Steps(SteppedSettings),
 }
 
 /// Path of a sample.
@@ -65,10 +76,10 @@ impl Ensemble {
             let advice = "an ensemble needs a strength or a fracture energy that varies at random";
             Field::whole("scatter").error(Fault::Contradiction(advice.into()))
         })?;
-        let (energy_tolerance, stop) = match &model.setup.analysis {
-            Analysis::Event(settings) => (settings.energy_tolerance, settings.stop),
-            Analysis::Stepped(settings) => (settings.energy_tolerance, settings.stop),
-            _ => {
+        let (breaking, energy_tolerance, stop) = match &model.setup.analysis {
+            Analysis::Event(it) => (Breaking::Exact(it.clone()), it.energy_tolerance, it.stop),
+            Analysis::Stepped(it) => (Breaking::Steps(it.clone()), it.energy_tolerance, it.stop),
+            Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
                 let advice =
                     "the samples of an ensemble break along the exact path or in load steps";
                 let fault = Fault::Contradiction(advice.into());
@@ -92,6 +103,7 @@ impl Ensemble {
             prepared,
             scatter,
             seed,
+            breaking,
         })
     }
 
@@ -160,16 +172,12 @@ impl Ensemble {
     pub fn followed(&self, problem: &Problem) -> Result<SampledPath, Error> {
         let mut observer = FirstBreaks(Vec::new());
         let prepared = &self.prepared;
-        let outcome = match &self.model.setup.analysis {
-            Analysis::Stepped(settings) => {
-                stepped::run_from(prepared, problem, settings, &mut observer)?
-            }
-            Analysis::Event(settings) => {
+        let outcome = match &self.breaking {
+            Breaking::Exact(settings) => {
                 event::run_from(prepared, problem, settings, &mut observer)?
             }
-            Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
-                let fault = Fault::Contradiction("no bond breaks in this analysis".into());
-                return Err(Field::whole("analysis").error(fault).into());
+            Breaking::Steps(settings) => {
+                stepped::run_from(prepared, problem, settings, &mut observer)?
             }
         };
         Ok(SampledPath {

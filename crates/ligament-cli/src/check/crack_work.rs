@@ -17,17 +17,9 @@ const PARTS: f64 = 8.0;
 /// Writes the energy G_c A of a crack through the body, where all materials have the same fracture energy and a criterion uses it: on from
 /// each end of a straight pre-crack that lies in the body, otherwise through the mean section across each axis, volume over length.
 pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let criteria = &model.setup.criteria;
-    let uses =
-        |it: &ligament_model::failure::Choice| it.spends_fracture_energy() || it.after.law.softens;
-    let materials = model.setup.materials();
-    let given = materials.first().and_then(|it| it.fracture_energy);
-    let Some(given) = given.filter(|_| criteria.iter().any(uses)) else {
+    let Some(given) = model.setup.spent_fracture_energy() else {
         return Ok(());
     };
-    if materials.iter().any(|it| it.fracture_energy != Some(given)) {
-        return Ok(());
-    }
     let taken = |area: f64| {
         let [work, area] = [quantity(given * area, "J"), quantity(area, "m^2")];
         format!("takes {work} ({area})")

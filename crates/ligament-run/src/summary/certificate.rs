@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Model;
+use ligament::setup::Analysis;
 use ligament_analysis::driver::{Outcome, Rows};
 use ligament_output::csv::read::Sheet;
 use ligament_output::quantity::{four_digits, quantity};
@@ -14,9 +15,6 @@ use ligament_output::summary::CertificateSummary;
 
 /// Largest number of points of a body whose cracks are traced at the end of a run, which takes a second.
 const MOST_POINTS: usize = 100_000;
-
-/// Relative difference of utilisations below which breakages are tied, that of the choice of the next bonds.
-const TIED: f64 = 1e-8;
 
 /// Certificate of a run whose tables are complete in a folder; none of a motion.
 ///
@@ -49,9 +47,9 @@ pub(crate) fn certificate(
         dissipated: last.dissipated_energy,
         crack_area: area,
         dissipated_per_area: area.map(|area| last.dissipated_energy / area),
-        fracture_energy: fracture_energy(model),
+        fracture_energy: model.setup.spent_fracture_energy(),
         largest_residual: largest_residual(&folder.join("iterations.csv"))?,
-        ties: ties(&folder.join("breaks.csv"))?,
+        ties: ties(&folder.join("breaks.csv"), tie_tolerance(model, outcome))?,
     }))
 }
 
@@ -65,18 +63,6 @@ fn crack_area(folder: &Path) -> Result<f64, ligament_output::Error> {
     Ok(cracks.thickness * lines.iter().map(|line| line.length()).sum::<f64>())
 }
 
-/// Fracture energy of all materials, where a criterion uses it and they have the same, J/m^2.
-fn fracture_energy(model: &Model) -> Option<f64> {
-    let mut criteria = model.setup.criteria.iter();
-    if !criteria.any(|it| it.spends_fracture_energy() || it.after.law.softens) {
-        return None;
-    }
-    let materials = model.setup.materials();
-    let first = materials.first()?.fracture_energy?;
-    let is_same = materials.iter().all(|it| it.fracture_energy == Some(first));
-    is_same.then_some(first)
-}
-
 /// Largest residual of the last iteration of each round; none without iterations.
 fn largest_residual(path: &Path) -> Result<Option<f64>, ligament_output::Error> {
     let mut ends = BTreeMap::new();
@@ -86,12 +72,22 @@ fn largest_residual(path: &Path) -> Result<Option<f64>, ligament_output::Error> 
     Ok(ends.into_values().reduce(f64::max))
 }
 
-/// Number of breakages in the round of the one before with the same utilisation.
-fn ties(path: &Path) -> Result<usize, ligament_output::Error> {
+/// Relative difference of utilisations up to which the run took bonds as tied.
+fn tie_tolerance(model: &Model, outcome: &Outcome) -> f64 {
+    let asked = match &model.setup.analysis {
+        Analysis::Event(settings) => settings.tie_tolerance,
+        Analysis::Stepped(settings) => settings.rule.tie_tolerance,
+        Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => 0.0,
+    };
+    outcome.solver.tie_tolerance(asked)
+}
+
+/// Number of breakages in the round of the one before with the same utilisation, to a relative tolerance.
+fn ties(path: &Path, tolerance: f64) -> Result<usize, ligament_output::Error> {
     let rows = Sheet::read(path)?.numbers(["step", "round", "utilisation"])?;
     let is_tied = |pair: &&[[f64; 3]]| {
         let [[step, round, one], [next_step, next_round, other]] = [pair[0], pair[1]];
-        [step, round] == [next_step, next_round] && (one - other).abs() <= TIED * one.abs()
+        [step, round] == [next_step, next_round] && (one - other).abs() <= tolerance * one.abs()
     };
     Ok(rows.windows(2).filter(is_tied).count())
 }
@@ -153,6 +149,7 @@ mod tests {
     fn ties_are_counted_in_their_round() {
         let rows = "step,round,utilisation\n1,1,1.5\n1,1,1.5\n1,1,1.2\n1,2,1.2\n2,2,1.2\n2,2,1.200000000001\n";
         let (_folder, path) = file(rows);
-        assert_eq!(ties(&path).unwrap(), 2);
+        assert_eq!(ties(&path, 1e-8).unwrap(), 2);
+        assert_eq!(ties(&path, 0.5).unwrap(), 3);
     }
 }

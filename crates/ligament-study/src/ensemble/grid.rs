@@ -3,7 +3,6 @@
 use ligament_analysis::Termination;
 use ligament_analysis::driver::{LoadPoint, Outcome};
 
-use super::exact::Exact;
 use serde::{Deserialize, Serialize};
 
 /// Share by which the grid goes beyond the largest displacement of the body without random factors.
@@ -13,7 +12,7 @@ const BEYOND: f64 = 1.25;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Grid {
     /// Largest displacement, in the unit of the control load.
-    pub(super) end: Exact,
+    pub(super) end: f64,
     /// Number of displacements.
     pub(super) n: usize,
 }
@@ -27,14 +26,14 @@ impl Grid {
             _ => two_digits(BEYOND * largest),
         };
         let end = given.unwrap_or(end);
-        Self { end: Exact(end), n }
+        Self { end, n }
     }
 
     /// The displacements, shape (n).
     pub(super) fn displacements(self) -> Vec<f64> {
         let last = self.n.saturating_sub(1).max(1) as f64;
         (0..self.n)
-            .map(|it| self.end.0 * (it as f64 / last))
+            .map(|it| self.end * (it as f64 / last))
             .collect()
     }
 

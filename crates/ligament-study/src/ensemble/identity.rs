@@ -9,7 +9,6 @@ use ligament_output::read_text;
 use ligament_run::inputs::{Contents, Inputs};
 use serde::{Deserialize, Serialize};
 
-use super::exact::Exact;
 use super::grid::Grid;
 use crate::sweep::folder::StudyFolder;
 
@@ -27,9 +26,9 @@ pub(super) struct Identity {
     /// Displacements at which curves are compared.
     pub(super) grid: Grid,
     /// Largest load of the body without random factors.
-    pub(super) sound_peak: Option<Exact>,
+    pub(super) sound_peak: Option<f64>,
     /// Loads of the body without random factors at the displacements of the grid.
-    pub(super) sound: Vec<Option<Exact>>,
+    pub(super) sound: Vec<Option<f64>>,
     /// Inputs of the case but the seed of its scatter.
     inputs: String,
 }
@@ -49,8 +48,8 @@ impl Identity {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             seed,
             grid,
-            sound_peak: sound.outcome.peak().map(|it| Exact(it.reaction)),
-            sound: loads.map(|it| it.map(Exact)).collect(),
+            sound_peak: sound.outcome.peak().map(|it| it.reaction),
+            sound: loads.collect(),
             inputs: inputs(case)?,
         })
     }
@@ -86,7 +85,7 @@ impl Identity {
             return Err(other(&format!("seed, {}", self.seed)));
         }
         let (n, end) = wanted.grid;
-        if n != self.grid.n || end.is_some_and(|it| it != self.grid.end.0) {
+        if n != self.grid.n || end.is_some_and(|it| it != self.grid.end) {
             return Err(other("grid"));
         }
         let inputs = inputs(wanted.case)?;
@@ -119,7 +118,7 @@ impl Wanted<'_> {
         let (n, end) = self.grid;
         let grid = Grid::new(n, end, &sound.outcome);
         anyhow::ensure!(
-            grid.end.0 > 0.0,
+            grid.end > 0.0,
             "without random factors the body does not move: give the largest displacement of the curves by --to"
         );
         Identity::new(self.case, self.seed, grid, &sound)

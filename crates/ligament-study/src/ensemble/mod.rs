@@ -6,7 +6,6 @@
 //! [sweep](crate::sweep). What all parts have together (`collected`) becomes tables, fields and plots (`report`).
 
 mod collected;
-mod exact;
 mod grid;
 mod identity;
 mod part;

@@ -56,7 +56,7 @@ fn curves(title: &str, units: Units, identity: &Identity, collected: &Collected)
         .zip(colours)
         .map(of_probability)
         .collect();
-    let sound = over(&|place| identity.sound[place].map(|it| it.0));
+    let sound = over(&|place| identity.sound[place]);
     series.push(Series::dashes(
         "without random factors",
         Colour::Vermilion,

@@ -72,13 +72,13 @@ pub(super) fn write(
         write_plot(folder, &maps.name, &maps.draw(WIDTH)?)?;
     }
     writeln!(out, "{title}")?;
-    tell_samples(request, identity, collected, out)?;
+    write_samples(request, identity, collected, out)?;
     let unit = setup.units().force;
     if let Some(sound) = identity.sound_peak {
-        let peak = quantity(sound.0, unit);
+        let peak = quantity(sound, unit);
         writeln!(out, "  {:<15} {peak} without random factors", "peak")?;
     }
-    tell_strengths(&strengths, unit, out)?;
+    write_strengths(&strengths, unit, out)?;
     Ok(writeln!(out, "  results in {}", folder.display())?)
 }
 
@@ -105,7 +105,7 @@ fn curves(identity: &Identity, collected: &Collected) -> String {
         values.extend(PROBABILITIES.map(|it| number(quantile(loads, it))));
         let mean = loads.iter().sum::<f64>() / loads.len() as f64;
         values.push(number(Some(mean).filter(|it| it.is_finite())));
-        values.push(number(sound.map(|it| it.0)));
+        values.push(number(*sound));
         text += &csv::line(&values);
     }
     text
@@ -152,7 +152,7 @@ fn points(grid: &BodyGrid, first: &[f64], damaged: &[f64]) -> String {
 }
 
 /// Prints the number of samples.
-fn tell_samples(
+fn write_samples(
     request: &Request<'_>,
     identity: &Identity,
     collected: &Collected,
@@ -169,7 +169,7 @@ fn tell_samples(
 }
 
 /// Prints the statistics of the loads.
-fn tell_strengths(strengths: &[Strengths], unit: &str, out: &mut dyn Write) -> io::Result<()> {
+fn write_strengths(strengths: &[Strengths], unit: &str, out: &mut dyn Write) -> io::Result<()> {
     for it in strengths {
         let Some([mean, deviation]) = it.moments() else {
             continue;

@@ -180,6 +180,18 @@ impl Setup {
         regions.map(|region| region.material.clone()).collect()
     }
 
+    /// Fracture energy G_c of all materials, J/m^2, where a criterion or a softening law spends it; `None` where they differ.
+    pub fn spent_fracture_energy(&self) -> Option<f64> {
+        let mut criteria = self.criteria.iter();
+        if !criteria.any(|it| it.spends_fracture_energy() || it.after.law.softens) {
+            return None;
+        }
+        let mut regions = self.materials.iter();
+        let first = regions.next()?.material.fracture_energy?;
+        let is_same = regions.all(|it| it.material.fracture_energy == Some(first));
+        is_same.then_some(first)
+    }
+
     /// The setup with one isotropic material in all regions; `None` where it has that already.
     pub(crate) fn of_one_material(&self) -> Option<Self> {
         let mut first = self.materials.first()?.material.clone();
