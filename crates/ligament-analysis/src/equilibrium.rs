@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod active_set;
+mod contact_line;
 mod controlled;
 mod curvature;
 mod dissipating;
@@ -46,6 +47,7 @@ use crate::unknowns::Unknowns;
 use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
 
+pub(crate) use contact_line::Heading;
 pub(crate) use dissipating::Dissipation;
 pub(crate) use residual::ROUNDING;
 pub(crate) use target::Target;
@@ -342,6 +344,34 @@ impl Equilibrium {
             Some(reason) => Err(reason),
             None => Ok(growth),
         }
+    }
+
+    /// Rate of the displacements with the load factor in a direction, shape (n_degrees_of_freedom), where contacts open and close, for the
+    /// bonds of an equilibrium state.
+    ///
+    /// # Errors
+    ///
+    /// If the stiffness has no factor, the rate is not found, or an added support would carry a load.
+    pub(crate) fn growth_in_contact(
+        &mut self,
+        state: &mut State,
+        heading: Heading,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        let loads = self.equations.problem.loads.clone();
+        contact_line::growth(&mut self.equations, state, &*loads, heading)
+    }
+
+    /// Change of the load factor along a rate of the displacements (n_degrees_of_freedom) to where the first contact opens or closes.
+    pub(crate) fn reach(&mut self, state: &State, growth: &[f64], heading: Heading) -> f64 {
+        let loads = self.equations.problem.loads.clone();
+        contact_line::reach(&mut self.equations, state, (&*loads, growth), heading)
+    }
+
+    /// Measures a state known to be in equilibrium, whose contacts are those of the last equilibrium from then on.
+    pub(crate) fn arrived(&mut self, state: &mut State) -> Balanced {
+        let balanced = self.equations.measured(state);
+        self.equations.meeting.settle(state, &balanced);
+        balanced
     }
 
     /// Whether [`Equilibrium::update_and_forward_solve`] can update the factor for a breakage.

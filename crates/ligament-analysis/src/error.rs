@@ -34,9 +34,9 @@ pub enum SetupError {
         "the exact path goes in straight lines from breakage to breakage, and softening bonds bend them: take load steps"
     )]
     Softening,
-    /// The exact path through stages was required with a criterion whose measure has no closed form along a line.
+    /// The exact path through stages or with contact was required with a criterion whose measure has no closed form along a line.
     #[error(
-        "the exact path through stages needs to know where a bond reaches its limit along a line, which the criterion \"{criterion}\" \
+        "the exact path through stages or with contact needs to know where a bond reaches its limit along a line, which the criterion \"{criterion}\" \
          does not tell: take load steps"
     )]
     UnknownAlongLines {
@@ -49,16 +49,16 @@ pub enum SetupError {
          part of it by a support"
     )]
     NothingResists,
-    /// The exact path through stages was required with crack faces that close.
+    /// The exact path through stages was required with crack faces that close, or with contact.
     #[error(
-        "faces of cracks open and close on the way from breakage to breakage where one load stays and another grows, which the exact path \
-         through stages does not follow: take load steps, or leave the faces open"
+        "faces of cracks and surfaces open and close on the way from breakage to breakage where one load stays and another grows, which the \
+         exact path through stages does not follow: take load steps, or leave the faces open"
     )]
     ClosingFaces,
-    /// The exact path was required with friction or contact between surfaces.
+    /// The exact path was required with friction, or with contact between surfaces in present positions.
     #[error(
-        "friction and contact between surfaces depend on the way to a state, which the exact path from breakage to breakage does not follow: \
-         take load steps"
+        "friction, and contact between surfaces in their present positions, depend on the way to a state, which the exact path from breakage \
+         to breakage does not follow: take load steps"
     )]
     ContactOnExactPath,
     /// A motion in time cannot be computed.

@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 
-use ligament_model::held::held_motions;
+use ligament_model::held::{HeldMotion, held_motions};
 use ligament_model::layout::Layout;
 use ligament_model::surface::{Bonded, Pose, Search, Step, Touch, Vector};
 use ligament_model::sweep::BondSweep;
@@ -102,30 +102,63 @@ impl Touching {
 
     /// What the contacts resist, in the order of the keys, behind those of the faces of cracks.
     pub(crate) fn resisting(&self, problem: &ContactProblem, layout: Layout) -> Vec<Resisting> {
-        let numbered = (1_u64..).zip(problem.contacts.iter().zip(&self.touches));
-        let of_contact = |(number, (contact, touches)): (u64, (&SurfaceContact, &Vec<Touch>))| {
-            let surfaces = &contact.surfaces;
-            let pressed = touches.iter().filter(|it| it.depth() > 0.0);
-            let of_touch = |touch: &Touch| {
-                let number = (number << 32) | u64::from(touch.place);
-                let term = |motion: usize, way: Vector, share: f64| Resisting {
-                    key: (number, motion),
-                    way,
-                    stiffness: share * touch.stiffness,
-                    row: surfaces.row(touch, way),
-                };
-                let mut all = vec![term(ACROSS, touch.normal, 1.0)];
-                if surfaces.friction() > 0.0 {
-                    let share = share_held(touch, surfaces.friction());
-                    let held = held_motions(layout, touch.normal, (touch.friction_force(), share));
-                    let held = held.into_iter();
-                    all.extend(held.map(|it| term(it.number, it.way, it.share)));
-                }
-                all
-            };
-            pressed.flat_map(of_touch).collect::<Vec<Resisting>>()
+        let of_touch = |(number, contact, touch): (u64, &SurfaceContact, &Touch)| {
+            let friction = contact.surfaces.friction();
+            let mut all = vec![across(number, contact, touch)];
+            if friction > 0.0 {
+                let share = share_held(touch, friction);
+                let held = held_motions(layout, touch.normal, (touch.friction_force(), share));
+                let held = held.into_iter();
+                all.extend(held.map(|it| along(number, contact, touch, it)));
+            }
+            all
         };
-        numbered.flat_map(of_contact).collect()
+        let pressed = self.numbered(problem).filter(|it| it.2.depth() > 0.0);
+        pressed.flat_map(of_touch).collect()
+    }
+
+    /// What each contact resists where it is closed, its gap (m), and the change of the gap by a rigid body with the load factor (m); open
+    /// ones as well where surfaces list them. In the order of the keys.
+    pub(crate) fn gaps(&self, problem: &ContactProblem) -> Vec<(Resisting, f64, f64)> {
+        let of_touch = |(number, contact, touch): (u64, &SurfaceContact, &Touch)| {
+            let body = contact.rigid_body.map(|it| &problem.rigid_bodies[it]);
+            let carried = body.map_or([0.0; 3], |it| it.motion.displacement(1.0));
+            let shift = -dot(carried, touch.normal);
+            (across(number, contact, touch), -touch.depth(), shift)
+        };
+        self.numbered(problem).map(of_touch).collect()
+    }
+
+    /// Integration points in contact, each with its number and its contact.
+    fn numbered<'a>(
+        &'a self,
+        problem: &'a ContactProblem,
+    ) -> impl Iterator<Item = (u64, &'a SurfaceContact, &'a Touch)> {
+        let contacts = (1_u64..).zip(problem.contacts.iter().zip(&self.touches));
+        contacts.flat_map(|(number, (contact, touches))| {
+            let touches = touches.iter();
+            touches.map(move |it| ((number << 32) | u64::from(it.place), contact, it))
+        })
+    }
+}
+
+/// What a contact with a number resists along its normal.
+fn across(number: u64, contact: &SurfaceContact, touch: &Touch) -> Resisting {
+    Resisting {
+        key: (number, ACROSS),
+        way: touch.normal,
+        stiffness: touch.stiffness,
+        row: contact.surfaces.row(touch, touch.normal),
+    }
+}
+
+/// What the friction of a contact with a number resists of a motion.
+fn along(number: u64, contact: &SurfaceContact, touch: &Touch, held: HeldMotion) -> Resisting {
+    Resisting {
+        key: (number, held.number),
+        way: held.way,
+        stiffness: held.share * touch.stiffness,
+        row: contact.surfaces.row(touch, held.way),
     }
 }
 

@@ -3,11 +3,12 @@
 //! Between two breakages the body is linear, and the load factor at which the next bond reaches its limit is known in closed form:
 //! in proportion to the load factor (`proportional`), or along the line A + w B of a part of a programme (`affine`). The bond
 //! breaks at fixed load; the new equilibrium is in general not admissible at this load (or admissible beyond it), and the path
-//! continues along its line to the next critical load factor, which may be lower. The path thus includes snap-back without a step
-//! size. A test under displacement control follows its envelope, [`super::Outcome::envelope`].
+//! continues along its line to the next critical load factor, which may be lower. Where surfaces meet, the path is a chain of such lines, each
+//! from one contact that opens or closes to the next (`in_contact`). The path thus includes snap-back without a step size. A test under displacement control follows its envelope, [`super::Outcome::envelope`].
 
 mod affine;
 mod equilibrium_line;
+mod in_contact;
 mod passing;
 mod proportional;
 
@@ -30,7 +31,8 @@ use crate::history::{Observer, Termination};
 use crate::lagging::Body;
 use crate::problem::Problem;
 use crate::state::State;
-use equilibrium_line::{EquilibriumLine, Goal};
+use crate::surfaces::LastTouching;
+use equilibrium_line::{EquilibriumLine, Event, Goal};
 use passing::Passed;
 
 /// Settings of the exact path, with its stop rules. The path ends at load factor one in any case, or with the last stage.
@@ -80,6 +82,7 @@ fn run_begun(
 ) -> Result<Outcome, SetupError> {
     path.require_resistance(at_one.as_ref())?;
     let is_staged = path.problem.loads.course().is_some();
+    let begins_unloaded = is_staged || !path.problem.contact.is_empty();
     let unloaded = match path.balance(0, &Breakage::default())? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => {
@@ -93,9 +96,9 @@ fn run_begun(
     };
     path.record(&unloaded, counters, false)?;
     // A missing equilibrium at load factor one is reported by the first event, with its reason.
-    match at_one.filter(|_| !is_staged) {
+    match at_one.filter(|_| !begins_unloaded) {
         Some(at_one) => path.state = at_one,
-        None if is_staged => {}
+        None if begins_unloaded => {}
         None => path.state.load_factor = 1.0,
     }
     let mut following = Following::new(path, settings, Vec::new());
@@ -123,20 +126,23 @@ pub fn predict(
 ///
 /// # Errors
 ///
-/// If bonds soften, or friction or surfaces meet; in stages, also if crack faces close or a criterion has no closed form along a line.
+/// If bonds soften, or friction acts; in stages, also if crack faces or surfaces meet; in stages and with surfaces that meet, also if a
+/// criterion has no closed form along a line.
 pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
     if problem.criteria.soften() {
         return Err(SetupError::Softening);
     }
-    if problem.has_contact_at_rest() {
+    if problem.has_contact_at_rest()
+        && (problem.face_friction > 0.0 || !problem.contact.is_linear())
+    {
         return Err(SetupError::ContactOnExactPath);
     }
     let is_staged = problem.loads.course().is_some();
-    if is_staged && problem.system.faces_close() {
+    if is_staged && problem.may_press() {
         return Err(SetupError::ClosingFaces);
     }
     let unknown = problem.criteria.unknown_along_lines();
-    match unknown.filter(|_| is_staged) {
+    match unknown.filter(|_| is_staged || !problem.contact.is_empty()) {
         Some(criterion) => Err(SetupError::UnknownAlongLines {
             criterion: criterion.name,
         }),
@@ -194,6 +200,7 @@ struct Following<'a> {
 struct Before {
     load_factor: f64,
     displacement: Vec<f64>,
+    surfaces: LastTouching,
     energies: Energies,
 }
 
@@ -202,6 +209,7 @@ impl Before {
         Self {
             load_factor: path.state.load_factor,
             displacement: path.state.displacement.clone(),
+            surfaces: path.state.surfaces.clone(),
             energies: path.energies.clone(),
         }
     }
@@ -210,6 +218,7 @@ impl Before {
     fn swap(&mut self, path: &mut Path<'_>) {
         mem::swap(&mut self.load_factor, &mut path.state.load_factor);
         mem::swap(&mut self.displacement, &mut path.state.displacement);
+        mem::swap(&mut self.surfaces, &mut path.state.surfaces);
         mem::swap(&mut self.energies, &mut path.energies);
     }
 }
@@ -221,6 +230,9 @@ impl<'a> Following<'a> {
         let tie_tolerance = choice.tie_tolerance(settings.tie_tolerance);
         let way: Box<dyn EquilibriumLine> = match loads.course() {
             Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
+            None if !path.problem.contact.is_empty() => {
+                Box::new(in_contact::InContact::new(tie_tolerance, growth))
+            }
             None => Box::new(proportional::Proportional::new(tie_tolerance, loads)),
         };
         Self {
@@ -287,10 +299,15 @@ impl<'a> Following<'a> {
             };
             self.path.account(step, &breakage, &line)?;
             step += 1;
-            if self.path.carries_nothing(&line) {
+            if self.fell_apart(&line) {
                 return self.end(step, &line, Termination::FellApart);
             }
         }
+    }
+
+    /// Whether a body without contacts, which may carry it, carries no load any more.
+    fn fell_apart(&self, line: &Balanced) -> bool {
+        self.path.problem.contact.is_empty() && self.path.carries_nothing(line)
     }
 
     /// Parts of the body whose displacements may be updated later in a step; None where the step needs the whole body.
@@ -324,6 +341,10 @@ impl<'a> Following<'a> {
             let before = Before::new(&self.path);
             let critical = self.way.follow(&mut self.path, line, goal.load_factor);
             self.path.account(*step, &Breakage::default(), &critical)?;
+            if goal.event == Event::ContactChangesBeyond {
+                *line = critical;
+                continue;
+            }
             let end = (goal.end.clone())
                 .or_else(|| self.path.interruption())
                 .or_else(|| self.path.end_at_rest(&critical))
@@ -333,8 +354,10 @@ impl<'a> Following<'a> {
             if let Some(end) = end {
                 return Ok(Err(end));
             }
-            if goal.ends_part {
-                self.path.begin_part(self.path.course.part + 1);
+            if goal.event != Event::Breakage {
+                if goal.event == Event::PartEnds {
+                    self.path.begin_part(self.path.course.part + 1);
+                }
                 *line = critical;
                 *step += 1;
                 continue;
@@ -353,7 +376,7 @@ impl<'a> Following<'a> {
         is_last: bool,
     ) -> Result<(), SetupError> {
         self.path.enter(step, 0)?;
-        let breaks = usize::from(!is_last && !goal.ends_part);
+        let breaks = usize::from(!is_last && goal.event == Event::Breakage);
         let counters = StepCounters {
             step,
             broken_in_step: breaks * goal.bonds.len(),

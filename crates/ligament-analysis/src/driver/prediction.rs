@@ -172,7 +172,8 @@ pub(super) fn predict(
     let list = &path.problem.criteria.list;
     let begins_by_stress = list.iter().any(|it| it.starting().is_some());
     let turns_back = steps.is_some_and(|it| it.iter().any(|factor| *factor < 0.0));
-    let is_linear = system.is_linear() && !(begins_by_stress && turns_back);
+    let is_bent = path.problem.contact.is_linear();
+    let is_linear = system.is_linear() && !(begins_by_stress && turns_back) && !is_bent;
     match path.problem.loads.course() {
         _ if !is_linear => Ok(Prediction::Nonlinear),
         None => in_proportion(path, at_one, steps),

@@ -123,7 +123,7 @@ fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
 
 impl Start {
     /// Sets the stiffness and first breakage from the elastic solution: everything is proportional to the load factor, except with
-    /// true strains, which predict no breakage.
+    /// true strains and with contacts along the exact path, which predict no breakage.
     pub(super) fn read_off(&mut self, problem: &Problem, fragments: &Fragments) {
         let Some((at_one, balanced)) = self.at_one.as_ref().zip(self.deformed.as_ref()) else {
             return;
@@ -138,7 +138,8 @@ impl Start {
         self.elastic.stiffness = record.reaction / record.displacement;
         let criteria = problem.criteria_at_start(at_one, balanced);
         let ratio = largest_ratio_by(&criteria, problem, at_one, balanced);
-        let is_predicted = ratio > 0.0 && problem.system.is_linear();
+        let is_bent = problem.contact.is_linear();
+        let is_predicted = ratio > 0.0 && problem.system.is_linear() && !is_bent;
         self.elastic.first_break = is_predicted.then(|| LoadPoint {
             load_factor: 1.0 / ratio,
             displacement: record.displacement / ratio,

@@ -21,20 +21,20 @@ use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
 /// Largest number of iterations. Faces that close as a whole take some five; a detached part that is pushed away takes all.
-const ITERATION_LIMIT: usize = 60;
+pub(super) const ITERATION_LIMIT: usize = 60;
 
 /// Ratio of the final to the initial slope of the energy along a step up to which the whole step is taken.
-const ACCEPTED_SLOPE: f64 = 0.1;
+pub(super) const ACCEPTED_SLOPE: f64 = 0.1;
 
 /// Largest number of iterations with friction, which converge linearly, and with surfaces that move towards each other in parts.
 const WAY_LIMIT: usize = 300;
 
 /// Residual that is sought as long as it falls from iteration to iteration.
-const REFINED: f64 = 1e-12;
+pub(super) const REFINED: f64 = 1e-12;
 
 /// Ratio of successive residuals below which the residual counts as falling. Where it does not fall with the same pairs closed, an
 /// updated factor has lost its accuracy.
-const FALLS: f64 = 0.1;
+pub(super) const FALLS: f64 = 0.1;
 
 /// Ratio of successive residuals with friction below which the residual counts as falling: it falls by a constant factor.
 const WAY_FALLS: f64 = 0.9;
@@ -195,17 +195,17 @@ fn search_along_way(
 }
 
 /// A pair whose gap changes along a step.
-struct Moved {
+pub(super) struct Moved {
     /// N/m.
-    stiffness: f64,
+    pub(super) stiffness: f64,
     /// Gap at the start, m.
-    gap: f64,
+    pub(super) gap: f64,
     /// Change of the gap over the step, m.
-    change: f64,
+    pub(super) change: f64,
 }
 
 /// Part of a step at which the slope of the energy is zero, from the slopes at its ends and the gaps of the pairs.
-fn lowest(start: f64, end: f64, moved: &[Moved]) -> f64 {
+pub(super) fn lowest(start: f64, end: f64, moved: &[Moved]) -> f64 {
     let force = |it: &Moved, part: f64| it.stiffness * (it.gap + part * it.change).min(0.0);
     let of_contact = |part: f64| -> f64 {
         let slopes = moved.iter();

@@ -14,11 +14,11 @@ const LINE: f64 = 0.1;
 const MOST_SOLUTIONS: usize = 8;
 
 /// Forces of a line under its loads at load factor 1.
-struct Forces {
-    extents: Extents,
+pub(super) struct Forces {
+    pub(super) extents: Extents,
     /// External minus internal forces at the unknowns, shape (n_unknowns), N and N m.
-    out_of_balance: Vec<f64>,
-    residual: Residual,
+    pub(super) out_of_balance: Vec<f64>,
+    pub(super) residual: Residual,
 }
 
 /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom), for the bonds of a state under loads at load
@@ -49,7 +49,7 @@ pub(super) fn growth(
     };
     let sought = (LINE * tolerance).max(RESIDUAL_TOLERANCE);
     for solutions in 1.. {
-        let forces = measured(equations, &line, loads);
+        let forces = measured(equations, &line, loads, &[]);
         if forces.residual.relative <= sought {
             break;
         }
@@ -75,7 +75,7 @@ pub(super) fn load_on_added_support(
         return None;
     }
     let line = at_one(state, growth.to_vec());
-    let (dof, force) = measured(equations, &line, loads).residual.carried?;
+    let (dof, force) = measured(equations, &line, loads, &[]).residual.carried?;
     let place = equations.place(dof as usize);
     Some(Unbalanced::LoadOnAddedSupport { place, force })
 }
@@ -99,7 +99,7 @@ pub(super) fn rate(
 }
 
 /// State with displacements (n_degrees_of_freedom) at load factor 1, with the bonds and added supports of another state.
-fn at_one(state: &State, displacement: Vec<f64>) -> State {
+pub(super) fn at_one(state: &State, displacement: Vec<f64>) -> State {
     State {
         displacement,
         load_factor: 1.0,
@@ -107,7 +107,11 @@ fn at_one(state: &State, displacement: Vec<f64>) -> State {
     }
 }
 
-fn loaded<'a>(equations: &'a Equations, line: &'a State, loads: &'a dyn LoadProgram) -> Loaded<'a> {
+pub(super) fn loaded<'a>(
+    equations: &'a Equations,
+    line: &'a State,
+    loads: &'a dyn LoadProgram,
+) -> Loaded<'a> {
     Loaded {
         loads,
         unknowns: &equations.unknowns,
@@ -115,8 +119,18 @@ fn loaded<'a>(equations: &'a Equations, line: &'a State, loads: &'a dyn LoadProg
     }
 }
 
-fn measured(equations: &Equations, line: &State, loads: &dyn LoadProgram) -> Forces {
-    let swept = equations.swept(line, loads.thermal_strain(1.0));
+/// Forces of a line under its loads, with some internal forces of contacts by degree of freedom, N and N m.
+pub(super) fn measured(
+    equations: &Equations,
+    line: &State,
+    loads: &dyn LoadProgram,
+    of_contacts: &[(usize, f64)],
+) -> Forces {
+    let mut swept = equations.swept(line, loads.thermal_strain(1.0));
+    for &(dof, force) in of_contacts {
+        swept.internal.values[dof] += force;
+        swept.sizes[dof] += force.abs();
+    }
     let accuracy = &equations.accuracy;
     let extents = accuracy.extents(&swept.sizes);
     let displacement = accuracy.largest_displacement(equations.layout(), line);

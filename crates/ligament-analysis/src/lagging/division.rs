@@ -111,7 +111,7 @@ fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
     system.is_linear()
         && system.has_energy()
         && !system.some_negative()
-        && !system.faces_close()
+        && !problem.may_press()
         && std::ptr::eq(system.elements_at_points(), system.incidence())
         && loads.course().is_none()
         && loads.restraints().is_empty()

@@ -41,6 +41,11 @@ impl ContactProblem {
         self.contacts.is_empty()
     }
 
+    /// Whether there are contacts, and the gaps of all are linear in the motions.
+    pub fn is_linear(&self) -> bool {
+        !self.is_empty() && self.contacts.iter().all(|it| it.surfaces.is_linear())
+    }
+
     /// Bound of what the contacts add to the squared frequencies of a body with a layout.
     pub fn stiffness(&self, layout: Layout) -> ContactStiffness {
         if self.is_empty() {

@@ -35,13 +35,13 @@ pub enum Opposite<const D: usize> {
 /// The facets of a body, and what they may meet.
 #[derive(Debug, Clone)]
 pub struct FacetPair<const D: usize> {
-    surface: Surface<D>,
+    pub(super) surface: Surface<D>,
     opposite: Opposite<D>,
     friction: f64,
     /// Mean stiffness of each side, Pa/m.
     of_sides: Vec<f64>,
     /// Length of the longest edge of a facet, m.
-    reach: f64,
+    pub(super) reach: f64,
 }
 
 /// What an integration point meets.
@@ -75,6 +75,8 @@ struct Present<'a, const D: usize> {
     now: Vec<Corners<D>>,
     /// Outward normals; none of a facet without area.
     normals: Vec<Option<[f64; D]>>,
+    /// Largest gap below which an integration point meets what it faces, m.
+    within: f64,
 }
 
 impl<const D: usize> FacetPair<D> {
@@ -130,7 +132,7 @@ impl<const D: usize> FacetPair<D> {
         of_other.map_or(own, |other| 2.0 * own * other / (own + other))
     }
 
-    fn present<'a>(&self, numbers: &'a [u32], step: Step<'_>) -> Present<'a, D> {
+    fn present<'a>(&self, numbers: &'a [u32], step: Step<'_>, within: f64) -> Present<'a, D> {
         let surface = &self.surface;
         let moved = |motions: &[f64]| -> Vec<Corners<D>> {
             let facets = numbers.par_iter().map(|&it| surface.facet(it as usize));
@@ -142,6 +144,7 @@ impl<const D: usize> FacetPair<D> {
             before: moved(step.before),
             normals: now.par_iter().map(normal).collect(),
             now,
+            within,
         }
     }
 
@@ -165,8 +168,8 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// The facet that an integration point of the facet at a place meets, among some places: the nearest one that faces its own and that it
-    /// is behind, within reach.
+    /// The facet that an integration point of the facet at a place meets, among some places: the nearest one within reach that faces its own,
+    /// with less than the largest gap.
     fn facet_met(
         &self,
         (at, place): (usize, Place),
@@ -176,7 +179,7 @@ impl<const D: usize> FacetPair<D> {
     ) -> Option<Meeting<D>> {
         let position = weighted(&present.now[at], &place.weights);
         let own_normal = present.normals[at]?;
-        let mut nearest = self.reach;
+        let mut nearest = self.reach.max(present.within);
         let mut met = None;
         for &other in near {
             let other = other as usize;
@@ -191,7 +194,7 @@ impl<const D: usize> FacetPair<D> {
             let way = minus(position, weighted(corners, &weights));
             let distance = norm(way);
             let gap = dot(way, normal);
-            if distance >= nearest || gap >= 0.0 {
+            if distance >= nearest || gap >= present.within {
                 continue;
             }
             let beside = norm(tangential(way, normal));
@@ -219,7 +222,7 @@ impl<const D: usize> FacetPair<D> {
         })
     }
 
-    /// The rigid shape, where an integration point is in it and faces its surface.
+    /// The rigid shape, where an integration point faces its surface with less than the largest gap.
     fn shape_met(
         shape: &RigidShape<D>,
         (at, place): (usize, Place),
@@ -240,7 +243,7 @@ impl<const D: usize> FacetPair<D> {
         }
         let (gap, outward) = shape.distance(position);
         let outward = turned(outward, angle);
-        let meets = gap < 0.0 && dot(outward, present.normals[at]?) < FACING;
+        let meets = gap < present.within && dot(outward, present.normals[at]?) < FACING;
         meets.then(|| Meeting {
             onto: None,
             weights: [0.0; 3],
@@ -294,6 +297,52 @@ impl<const D: usize> FacetPair<D> {
 }
 
 impl<const D: usize> FacetPair<D> {
+    /// Integration points that meet what they face with less than a gap (m) after a step, ascending, given those in contact before it.
+    pub(super) fn met(
+        &self,
+        search: &mut Search,
+        step: Step<'_>,
+        before: &[Touch],
+        within: f64,
+    ) -> Vec<Touch> {
+        let facets = search.facets().to_vec();
+        let present = self.present(&facets, step, within);
+        let known = |place: Place| {
+            let known = before.binary_search_by_key(&place.number, |it| it.place);
+            known.ok().map(|it| &before[it])
+        };
+        let of_facet = |at: usize| (0..D as u32).map(move |corner| (at, corner));
+        let place = |(at, corner): (usize, u32)| (at, Self::place(D as u32 * facets[at] + corner));
+        let places = (0..facets.len())
+            .into_par_iter()
+            .flat_map_iter(of_facet)
+            .map(place);
+        let mut touches: Vec<Touch> = if let Opposite::Rigid(shape, _) = &self.opposite {
+            let met = places.filter_map(|place| {
+                let meeting = Self::shape_met(shape, place, &present, step.rigid)?;
+                Some(self.touch(place, &meeting, &present, known(place.1)))
+            });
+            met.collect()
+        } else {
+            let skin = SKIN * self.reach;
+            let sought = Sought {
+                corners: &present.now,
+                within: self.reach.max(within) + skin,
+                may_meet: &|own, other| self.may_meet(own, other),
+            };
+            search.update(&sought, skin);
+            let search = &*search;
+            let met = places.filter_map(|place| {
+                let near = search.near(place.0);
+                let meeting = self.facet_met(place, &present, near, step.bonds)?;
+                Some(self.touch(place, &meeting, &present, known(place.1)))
+            });
+            met.collect()
+        };
+        touches.sort_unstable_by_key(|it| it.place);
+        touches
+    }
+
     /// Whether the first of two facets comes first among the sides, or, of cells of one side, by its point.
     fn is_first(&self, one: usize, other: usize) -> bool {
         let order = |it: usize| (self.known(it).0, self.surface.facet(it).corners[0].point);
@@ -336,42 +385,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
     }
 
     fn touches(&self, search: &mut Search, step: Step<'_>, before: &[Touch]) -> Vec<Touch> {
-        let facets = search.facets().to_vec();
-        let present = self.present(&facets, step);
-        let known = |place: Place| {
-            let known = before.binary_search_by_key(&place.number, |it| it.place);
-            known.ok().map(|it| &before[it])
-        };
-        let of_facet = |at: usize| (0..D as u32).map(move |corner| (at, corner));
-        let place = |(at, corner): (usize, u32)| (at, Self::place(D as u32 * facets[at] + corner));
-        let places = (0..facets.len())
-            .into_par_iter()
-            .flat_map_iter(of_facet)
-            .map(place);
-        let mut touches: Vec<Touch> = if let Opposite::Rigid(shape, _) = &self.opposite {
-            let met = places.filter_map(|place| {
-                let meeting = Self::shape_met(shape, place, &present, step.rigid)?;
-                Some(self.touch(place, &meeting, &present, known(place.1)))
-            });
-            met.collect()
-        } else {
-            let skin = SKIN * self.reach;
-            let sought = Sought {
-                corners: &present.now,
-                within: self.reach + skin,
-                may_meet: &|own, other| self.may_meet(own, other),
-            };
-            search.update(&sought, skin);
-            let search = &*search;
-            let met = places.filter_map(|place| {
-                let near = search.near(place.0);
-                let meeting = self.facet_met(place, &present, near, step.bonds)?;
-                Some(self.touch(place, &meeting, &present, known(place.1)))
-            });
-            met.collect()
-        };
-        touches.sort_unstable_by_key(|it| it.place);
-        touches
+        self.met(search, step, before, 0.0)
     }
 
     fn add_forces(&self, touches: &[Touch], forces: &mut [f64]) {

@@ -24,6 +24,7 @@ mod pair;
 mod rigid;
 mod search;
 mod touch;
+mod undeformed;
 
 pub use cell_facets::CellFaces;
 pub use cells::{Bonded, Boundaries, CrackFaces, InnerFace};
@@ -33,6 +34,7 @@ pub use pair::{Pose, Step, SurfacePair};
 pub use rigid::RigidShape;
 pub use search::Search;
 pub use touch::{Touch, Vector};
+pub use undeformed::UndeformedPair;
 
 use crate::tensor::{dot, minus, norm};
 

@@ -44,6 +44,11 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// the two surfaces there; by degree of freedom, ascending.
     fn row(&self, touch: &Touch, direction: Vector) -> Vec<(usize, f64)>;
 
+    /// Whether gaps are linear in the motions, and the contacts of a step contain all integration points that may ever touch.
+    fn is_linear(&self) -> bool {
+        false
+    }
+
     /// Coefficient of Coulomb's friction.
     fn friction(&self) -> f64;
 

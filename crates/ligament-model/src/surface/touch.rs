@@ -56,7 +56,8 @@ impl Touch {
 
     /// Stored energy, J.
     pub fn energy(&self) -> f64 {
-        0.5 * self.stiffness * (self.depth().powi(2) + dot(self.slip, self.slip))
+        let depth = self.depth().max(0.0);
+        0.5 * self.stiffness * (depth.powi(2) + dot(self.slip, self.slip))
     }
 }
 

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use ligament_analysis::motion::contact::{ContactProblem, RigidBody, RigidMotion, SurfaceContact};
 use ligament_model::System;
 use ligament_model::surface::{
-    Boundaries, CellFaces, CrackFaces, Facet, FacetPair, Opposite, RigidShape, Surface,
+    Bonded, Boundaries, CellFaces, CrackFaces, Facet, FacetPair, Opposite, RigidShape, Surface,
+    SurfacePair, UndeformedPair,
 };
 
 use super::places::unknown_group;
@@ -15,7 +16,7 @@ use crate::error::{Fault, Field, SetupError};
 use crate::model::Model;
 use crate::parts::Parts;
 use crate::setup::check::contradiction;
-use crate::setup::{Between, ContactLaw, Rigid, RigidForm, Setup};
+use crate::setup::{Analysis, Between, ContactLaw, Rigid, RigidForm, Setup};
 use crate::system::over_dimension;
 
 /// Depth in a rigid body over the spacing of the points, beyond which the start is not one of surfaces that touch.
@@ -64,7 +65,7 @@ pub(super) fn contacts<const D: usize>(
         };
         problem.contacts.push(SurfaceContact {
             name: contact.between.name(),
-            surfaces: Arc::new(surfaces),
+            surfaces,
             rigid_body: None,
         });
     }
@@ -141,7 +142,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         let opposite = Opposite::Rigid(shape, body.mass.is_some());
         problem.contacts.push(SurfaceContact {
             name: body.name.clone(),
-            surfaces: Arc::new(self.pair(sides, body.law, opposite)),
+            surfaces: self.pair(sides, body.law, opposite),
             rigid_body: Some(index),
         });
         problem.rigid_bodies.push(RigidBody {
@@ -151,8 +152,21 @@ impl<'a, const D: usize> Outline<'a, D> {
         Ok(())
     }
 
-    /// The surface of these sides against what they may meet.
-    fn pair(&self, sides: Sides, law: ContactLaw, opposite: Opposite<D>) -> FacetPair<D> {
+    /// The surface of these sides against what they may meet: on the exact path as in the undeformed body, elsewhere in present positions.
+    fn pair(&self, sides: Sides, law: ContactLaw, opposite: Opposite<D>) -> Arc<dyn SurfacePair> {
+        let surface = self.surface(sides, law);
+        if !matches!(self.setup.analysis, Analysis::Event(_)) {
+            return Arc::new(FacetPair::new(surface, opposite, law.friction));
+        }
+        let bonds = Bonded {
+            topology: self.system.topology(),
+            intact: &vec![true; self.system.ends().len()],
+        };
+        Arc::new(UndeformedPair::new(surface, opposite, bonds))
+    }
+
+    /// The surface of these sides.
+    fn surface(&self, sides: Sides, law: ContactLaw) -> Surface<D> {
         let of_point = |point: u32| self.stiffness[point as usize];
         let numbered = self.facets.iter().zip(&sides.of_facets);
         let facets = numbered.filter_map(|(facet, side)| {
@@ -170,7 +184,7 @@ impl<'a, const D: usize> Outline<'a, D> {
                 of_points: points.map(of_point).collect(),
             });
         }
-        FacetPair::new(surface, opposite, law.friction)
+        surface
     }
 
     /// Whether each point is in a group.

@@ -92,16 +92,27 @@ impl Setup {
             Analysis::Motion(_) | Analysis::Stepped(_) | Analysis::Elastic { .. } => {
                 self.check_contact_in_equilibria(field)
             }
-            Analysis::Event(_) => {
-                let reason = "surfaces meet after a way, so that between two breakages the body is not linear in the load, and the exact \
-                    path does not follow it: take load steps";
-                contradiction(field, reason)
-            }
+            Analysis::Event(_) => self.check_contact_on_exact_path(field, friction),
             Analysis::Modal(_) => {
                 let reason = "natural modes assume that no surfaces touch: remove it";
                 contradiction(field, reason)
             }
         }
+    }
+
+    /// Refuses contact that bends the lines of the exact path.
+    fn check_contact_on_exact_path(&self, field: Field, friction: f64) -> Checked {
+        if friction > 0.0 {
+            let reason = "what slides depends on the way and not on the load alone, and the exact path goes from breakage to breakage in straight \
+                lines: remove the friction, or take load steps";
+            return contradiction(field.part("friction"), reason);
+        }
+        if !self.stages.is_empty() {
+            let reason = "the exact path through stages does not follow surfaces that meet on the way: let all loads grow together, or take \
+                load steps";
+            return contradiction(field, reason);
+        }
+        self.check_contact_in_equilibria(field)
     }
 
     /// Refuses contact in the equilibria of what they cannot solve with it.

@@ -12,7 +12,7 @@
 use std::mem;
 use std::time::Instant;
 
-use super::equilibrium_line::{EquilibriumLine, Goal};
+use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
 use crate::driver::path::Path;
@@ -55,18 +55,7 @@ impl Affine {
             self.growth = path.equilibrium.growth(&mut path.state, rate)?;
             path.course.solves[0] = path.equilibrium.costs().solves;
         }
-        let motion = Motion {
-            intact: &path.state.intact,
-            displacement: &self.growth,
-            expansion: rate.thermal_strain(1.0),
-        };
-        let Problem {
-            system, criteria, ..
-        } = &path.problem;
-        let slopes = system.deformations(motion.intact, motion.displacement, motion.expansion);
-        let stresses = criteria.stresses(&**system, motion, &slopes);
-        let rates = criteria.in_state(&stresses, motion.intact, &slopes);
-        Ok((slopes, rates.into_owned()))
+        Ok(slopes(path, &self.growth, rate))
     }
 }
 
@@ -102,7 +91,7 @@ impl EquilibriumLine for Affine {
                 ratio: largest_ratio(&path.problem, &path.state, line),
                 bonds: Vec::new(),
                 is_held: false,
-                ends_part: false,
+                event: Event::Breakage,
                 end: Some(Termination::NothingBreaks),
             },
             Some([_, upper]) => {
@@ -122,7 +111,11 @@ impl EquilibriumLine for Affine {
                     ratio,
                     bonds,
                     is_held: false,
-                    ends_part,
+                    event: if ends_part {
+                        Event::PartEnds
+                    } else {
+                        Event::Breakage
+                    },
                     end: (ends_part && is_last).then_some(end),
                 }
             }
@@ -145,6 +138,28 @@ impl EquilibriumLine for Affine {
     }
 }
 
+/// Rate of the deformations (n_bonds) with the load factor for a rate of the displacements (n_degrees_of_freedom), and the criteria with the
+/// rates of the stresses around the bonds.
+pub(super) fn slopes(
+    path: &Path<'_>,
+    growth: &[f64],
+    rate: &dyn LoadProgram,
+) -> (Deformations, Criteria) {
+    let motion = Motion {
+        intact: &path.state.intact,
+        displacement: growth,
+        expansion: rate.thermal_strain(1.0),
+    };
+    let Problem {
+        system, criteria, ..
+    } = &path.problem;
+    let slopes = system.deformations(motion.intact, motion.displacement, motion.expansion);
+    let stresses = criteria.stresses(&**system, motion, &slopes);
+    let rates = criteria.in_state(&stresses, motion.intact, &slopes);
+    let rates = rates.into_owned();
+    (slopes, rates)
+}
+
 /// Intersection of the admissible intervals of all processes.
 fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Interval> {
     let [lower, upper] = here.unwrap_or(EVERYWHERE);
@@ -155,7 +170,7 @@ fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Int
 }
 
 /// Goal at fixed load, where no load is admissible.
-fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
+pub(super) fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
     let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &line.deformations, criteria);
     Goal {
         load_factor: path.state.load_factor,
@@ -163,13 +178,13 @@ fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal
         bonds,
         // A bond that just reached its limit breaks as on any other line.
         is_held: ratio > 1.0 + tie,
-        ends_part: false,
+        event: Event::Breakage,
         end: None,
     }
 }
 
 /// The goal, or the load before it at which the control load reaches the displacement that ends the run.
-fn up_to_displacement(goal: Goal, path: &Path<'_>, growth: &[f64]) -> Goal {
+pub(super) fn up_to_displacement(goal: Goal, path: &Path<'_>, growth: &[f64]) -> Goal {
     let (state, loads) = (&path.state, &path.problem.loads);
     let at = |load_factor: f64| {
         let by = load_factor - state.load_factor;
@@ -188,7 +203,7 @@ fn up_to_displacement(goal: Goal, path: &Path<'_>, growth: &[f64]) -> Goal {
     let displacement = wanted;
     Goal {
         load_factor: state.load_factor + share * (goal.load_factor - state.load_factor),
-        ends_part: false,
+        event: Event::Breakage,
         end: Some(Termination::DisplacementReached { displacement }),
         ..goal
     }

@@ -17,6 +17,19 @@ pub(super) trait EquilibriumLine {
     fn growth(&self) -> &[f64];
 }
 
+/// What happens at the end of a line.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Event {
+    /// Bonds break, or the run ends.
+    Breakage,
+    /// A part of a programme ends.
+    PartEnds,
+    /// A contact opens or closes.
+    ContactChanges,
+    /// A contact opens or closes where some bonds are still beyond their limits, so that the path does not consist of such states.
+    ContactChangesBeyond,
+}
+
 /// End of the line of the present bonds.
 pub(super) struct Goal {
     pub(super) load_factor: f64,
@@ -26,8 +39,8 @@ pub(super) struct Goal {
     pub(super) bonds: Vec<u32>,
     /// Whether no load in the part of a programme is admissible, so that the bonds break beyond their limits at fixed load.
     pub(super) is_held: bool,
-    /// Whether a part of a programme ends there.
-    pub(super) ends_part: bool,
+    /// What happens there.
+    pub(super) event: Event,
     /// Reason why the run ends there, if it does.
     pub(super) end: Option<Termination>,
 }

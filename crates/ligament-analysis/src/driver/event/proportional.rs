@@ -5,7 +5,7 @@
 
 use std::time::Instant;
 
-use super::equilibrium_line::{EquilibriumLine, Goal};
+use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
 use crate::driver::ends::NO_LOAD;
@@ -43,7 +43,7 @@ impl EquilibriumLine for Proportional {
             ratio: 1.0,
             bonds,
             is_held: false,
-            ends_part: false,
+            event: Event::Breakage,
             end: None,
         };
         if goal.load_factor > 1.0 {

@@ -1,0 +1,131 @@
+//! Chains of lines where surfaces or faces of cracks meet, from one contact that opens or closes to the next.
+//!
+//! For given bonds and a growing load the contacts without friction determine one equilibrium u(lambda) for each load factor, which is
+//! piecewise linear: the minimum of an energy that is piecewise quadratic. Where all bonds are within their limits, the path goes up along
+//! u(lambda) to the first load factor at which one reaches its limit. Where some are beyond, as after a breakage, it goes down to the first at
+//! which none is. The smallest change of the load factor decides which event is next; contacts whose gaps are zero together, within the
+//! tolerance of ties, open and close together.
+
+use std::time::Instant;
+
+use super::affine::{held, slopes, up_to_displacement};
+use super::equilibrium_line::{EquilibriumLine, Event, Goal};
+use crate::balanced::Balanced;
+use crate::breaking::FirstToBreak;
+use crate::driver::ends::NO_LOAD;
+use crate::driver::path::Path;
+use crate::driver::recorder::largest_ratio;
+use crate::equilibrium::Heading;
+use crate::history::Termination;
+use crate::unbalanced::Unbalanced;
+
+/// Lines between two contacts that open or close.
+pub(super) struct InContact {
+    tie_tolerance: f64,
+    growth: Vec<f64>,
+    /// Whether the growth is that of the present bonds and contacts.
+    is_present: bool,
+}
+
+impl InContact {
+    /// Lines with the growth of a checkpoint, which is empty at the start.
+    pub(super) fn new(tie_tolerance: f64, growth: Vec<f64>) -> Self {
+        Self {
+            tie_tolerance,
+            is_present: !growth.is_empty(),
+            growth,
+        }
+    }
+
+    /// Finds the growth in a direction of the load, unless it is present.
+    fn grow(&mut self, path: &mut Path<'_>, heading: Heading) -> Result<(), Unbalanced> {
+        if !std::mem::replace(&mut self.is_present, false) {
+            let equilibrium = &mut path.equilibrium;
+            self.growth = equilibrium.growth_in_contact(&mut path.state, heading)?;
+            path.course.solves[0] = path.equilibrium.costs().solves;
+        }
+        Ok(())
+    }
+}
+
+impl EquilibriumLine for InContact {
+    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
+        let ratio = largest_ratio(&path.problem, &path.state, line);
+        let rises = ratio <= 1.0 + self.tie_tolerance;
+        let heading = Heading {
+            sign: if rises { 1.0 } else { -1.0 },
+            tie_tolerance: self.tie_tolerance,
+        };
+        self.grow(path, heading)?;
+        let start = Instant::now();
+        let now = path.state.load_factor;
+        let to_contact = path.equilibrium.reach(&path.state, &self.growth, heading);
+        let left = if rises { 1.0 - now } else { now };
+        let reach = to_contact.min(left);
+        let loads = path.problem.loads.clone();
+        let (slopes, rates) = slopes(path, &self.growth, &*loads);
+        let criteria = path.criteria(line).into_owned();
+        let span = if rises { [0.0, reach] } else { [-reach, 0.0] };
+        let deformations = [&line.deformations, &slopes];
+        let admissible = criteria.admissible(&rates, &path.state.intact, deformations, span);
+        let is_at_end = reach == left;
+        let goal = match (admissible, rises) {
+            (Some([_, upper]), true) if upper == reach => {
+                let criteria = criteria.ahead(&rates, upper);
+                let at = line.deformations.ahead(&slopes, upper);
+                let FirstToBreak { ratio, .. } =
+                    path.first_to_break(self.tie_tolerance, &at, &criteria);
+                let full = match ratio > NO_LOAD {
+                    true => Termination::FullLoad,
+                    false => Termination::NothingBreaks,
+                };
+                Goal {
+                    load_factor: if is_at_end { 1.0 } else { now + reach },
+                    ratio,
+                    bonds: Vec::new(),
+                    is_held: false,
+                    event: Event::ContactChanges,
+                    end: is_at_end.then_some(full),
+                }
+            }
+            (Some([_, upper]), _) => {
+                let criteria = criteria.ahead(&rates, upper);
+                let at = line.deformations.ahead(&slopes, upper);
+                let first = path.first_to_break(self.tie_tolerance, &at, &criteria);
+                Goal {
+                    load_factor: now + upper,
+                    ratio: first.ratio,
+                    bonds: first.bonds,
+                    is_held: false,
+                    event: Event::Breakage,
+                    end: None,
+                }
+            }
+            (None, false) if !is_at_end => Goal {
+                load_factor: now - reach,
+                ratio,
+                bonds: Vec::new(),
+                is_held: true,
+                event: Event::ContactChangesBeyond,
+                end: None,
+            },
+            // Bonds that are at their limits already, or beyond them without any load.
+            (None, _) => held(self.tie_tolerance, line, &criteria, path),
+        };
+        path.equilibrium.count_bond_work(start);
+        Ok(up_to_displacement(goal, path, &self.growth))
+    }
+
+    fn follow(&self, path: &mut Path<'_>, _: &Balanced, load_factor: f64) -> Balanced {
+        let by = load_factor - path.state.load_factor;
+        for (value, growth) in path.state.displacement.iter_mut().zip(&self.growth) {
+            *value += by * growth;
+        }
+        path.state.load_factor = load_factor;
+        path.equilibrium.arrived(&mut path.state)
+    }
+
+    fn growth(&self) -> &[f64] {
+        &self.growth
+    }
+}

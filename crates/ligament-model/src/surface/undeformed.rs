@@ -1,0 +1,120 @@
+//! Contact of surfaces that is linear in the motions: each integration point meets what it faces in the undeformed body.
+//!
+//! With the place X of an integration point, the place Y that it faces and the normal n there, all of the undeformed body, the gap is
+//!
+//! g = g_0 + n . (u(X) - u(Y)), g_0 = n . (X - Y) >= 0,
+//!
+//! and the force is that of the law without friction, F = k A <-g> n. This is the law to the first order in the motions: right where
+//! surfaces move along each other by less than a facet, and where what they slide along is as good as flat. Surfaces that overlap without
+//! motion touch there.
+
+use super::facet_pair::FacetPair;
+use super::pair::{Pose, Step, SurfacePair};
+use super::search::Search;
+use super::touch::{Touch, Vector};
+use super::{Bonded, Opposite, Surface};
+use crate::tensor::dot;
+
+/// Gap over the length of the longest edge of a facet that counts as none: the rounding of coordinates.
+const CLOSED: f64 = 1e-9;
+
+/// Gap over the length of the longest edge of a facet up to which facets face each other.
+const FARTHEST: f64 = 2.0;
+
+/// Surfaces whose integration points meet what they face in the undeformed body.
+#[derive(Debug)]
+pub struct UndeformedPair<const D: usize> {
+    pair: FacetPair<D>,
+    /// Integration points that face something, ascending, each with its overlap in the undeformed body.
+    facing: Vec<Touch>,
+    /// Row of the motion of each of them along its normal.
+    rows: Vec<Vec<(usize, f64)>>,
+}
+
+impl<const D: usize> UndeformedPair<D> {
+    /// A surface against what its integration points may meet, without friction, with the bonds of the undeformed body.
+    pub fn new(surface: Surface<D>, opposite: Opposite<D>, bonds: Bonded<'_>) -> Self {
+        let still = vec![0.0; surface.layout.n_degrees_of_freedom()];
+        let meets_facets = !matches!(opposite, Opposite::Rigid(..));
+        let pair = FacetPair::new(surface, opposite, 0.0);
+        let step = Step {
+            before: &still,
+            now: &still,
+            rigid: [Pose::default(); 2],
+            bonds,
+        };
+        let within = if meets_facets {
+            FARTHEST * pair.reach
+        } else {
+            f64::INFINITY
+        };
+        let mut search = Search::default();
+        pair.join(&mut search, &mut std::iter::empty());
+        let mut facing = pair.met(&mut search, step, &[], within);
+        for it in &mut facing {
+            if it.overlap > -CLOSED * pair.reach {
+                it.overlap = 0.0;
+            }
+            it.offset = 0.0;
+        }
+        let rows = facing.iter().map(|it| pair.row(it, it.normal)).collect();
+        Self { pair, facing, rows }
+    }
+}
+
+impl<const D: usize> SurfacePair for UndeformedPair<D> {
+    fn join(&self, _: &mut Search, _: &mut dyn Iterator<Item = u32>) {}
+
+    fn touches(&self, _: &mut Search, step: Step<'_>, _: &[Touch]) -> Vec<Touch> {
+        let carried = step.rigid[1].displacement;
+        let moved = |(touch, row): (&Touch, &Vec<(usize, f64)>)| {
+            let way: f64 = row
+                .iter()
+                .map(|(dof, factor)| factor * step.now[*dof])
+                .sum();
+            Touch {
+                overlap: touch.overlap + dot(carried, touch.normal) - way,
+                ..*touch
+            }
+        };
+        self.facing.iter().zip(&self.rows).map(moved).collect()
+    }
+
+    fn add_forces(&self, touches: &[Touch], forces: &mut [f64]) {
+        self.pair.add_forces(touches, forces);
+    }
+
+    fn row(&self, touch: &Touch, direction: Vector) -> Vec<(usize, f64)> {
+        self.pair.row(touch, direction)
+    }
+
+    fn is_linear(&self) -> bool {
+        true
+    }
+
+    fn friction(&self) -> f64 {
+        0.0
+    }
+
+    /// Without an end: what an integration point faces does not change.
+    fn reach(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn can_have(&self, touches: &[Touch]) -> bool {
+        let places = touches.iter().map(|it| it.place);
+        places.eq(self.facing.iter().map(|it| it.place)) && self.pair.can_have(touches)
+    }
+
+    fn degrees_of_freedom(&self) -> Vec<u32> {
+        self.pair.degrees_of_freedom()
+    }
+
+    fn add_bound(&self, sums: &mut [f64]) {
+        self.pair.add_bound(sums);
+    }
+
+    fn on_rigid_body(&self) -> [f64; 2] {
+        self.pair.on_rigid_body()
+    }
+}
