@@ -4,6 +4,7 @@ mod breaking;
 mod cases;
 mod closing;
 mod contact_at_rest;
+mod contact_on_exact_path;
 mod crack_lines;
 mod crack_surfaces;
 mod determinism;

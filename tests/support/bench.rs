@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ligament::Loading;
+use ligament::loading::contact_problem;
 use ligament::run::{NoObserver, Solution, follow};
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
@@ -144,7 +145,7 @@ impl Bench {
             solver: self.model.setup.solver.clone(),
             probes: self.probes.clone(),
             face_friction: self.model.setup.closing_friction,
-            contact: Default::default(),
+            contact: contact_problem(&self.model).unwrap(),
         }
     }
 

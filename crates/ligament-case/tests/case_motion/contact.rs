@@ -106,8 +106,8 @@ fn contacts_are_refused_where_they_make_no_sense() {
     assert!(error.contains("rigid.1.name"), "{error}");
 }
 
-/// What moves a rigid body belongs to the analysis; the exact path, modes, laws without a symmetric stiffness and controlled stages have no
-/// contact.
+/// What moves a rigid body belongs to the analysis; the exact path has contact without friction and stages, and modes, laws without a symmetric
+/// stiffness and controlled stages have none.
 #[test]
 fn each_analysis_says_what_contact_it_has() {
     const STATICS: [&str; 4] = [
@@ -118,10 +118,15 @@ fn each_analysis_says_what_contact_it_has() {
     ];
     const FLOOR: &str = "rigid=[{name=\"it\",shape=\"wall\",centre=[0.0,0.0],normal=[0.0,1.0]}]";
     const STEPS: &str = "fracture={steps=2,criterion=[{kind=\"tension\",limit=1.0}]}";
+    const PATH: &str = "fracture={control=\"event\",criterion=[{kind=\"tension\",limit=1.0}]}";
     let refused = [
         (
-            &["fracture={control=\"event\",criterion=[{kind=\"tension\",limit=1.0}]}"][..],
-            "rigid.0: surfaces meet after a way",
+            &[PATH, "rigid.0.friction=0.1"][..],
+            "rigid.0.friction: what slides depends on the way",
+        ),
+        (
+            &[PATH, "stage=[{loads={left=1.0}}]"],
+            "rigid.0: the exact path through stages",
         ),
         (
             &[STEPS, "rigid.0.velocity.y=1.0"],
