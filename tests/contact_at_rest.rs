@@ -3,15 +3,14 @@
 
 use std::f64::consts::PI;
 
+use crate::contact_on_exact_path::CIRCLE;
 use ligament::run::{self, Posed};
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Outcome;
-use ligament_analysis::history::{
-    Moment, Observer, ObserverError, Onward, StepRecord, Termination, View,
-};
+use ligament_analysis::history::Termination;
 use ligament_model::surface::Touch;
-use rayon::ThreadPoolBuilder;
 use verification::bench::{case, missing_energy, solved};
+use verification::recorder::{Recorder, on_threads};
 
 /// A block of 20 x 10 cells of 1 mm on a rigid floor with friction; loads press and slide its top.
 const BLOCK: &str = r#"
@@ -173,34 +172,8 @@ rigid = [{ name = "punch", shape = "sphere", centre = [0.0, 0.0, 0.112], radius 
     assert!((ratio - 1.0).abs() < 0.1, "{ratio}");
 }
 
-/// Keeps the last moments of a run and what it tells.
-#[derive(Default)]
-struct Recorder {
-    lines: Vec<String>,
-    moments: Vec<(usize, Vec<u8>)>,
-}
-
-impl Observer for Recorder {
-    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        self.lines.push(format!("{record:?} {:?}", view.state));
-        Ok(())
-    }
-
-    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        if moment.end.is_none() {
-            self.moments.push((self.lines.len(), (moment.checkpoint)()));
-        }
-        Ok(Onward::Go)
-    }
-}
-
-fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
-    let pool = ThreadPoolBuilder::new().num_threads(count).build().unwrap();
-    pool.install(work)
-}
-
-/// Runs with contact of surfaces, rigid bodies and friction, and with friction on the faces of cracks, have the same bits on one and two
-/// threads, and go on from a checkpoint to the same bits.
+/// Runs with contact of surfaces, rigid bodies and friction, with friction on the faces of cracks, and with contact along the exact path, have the
+/// same bits on one and two threads, and go on from a checkpoint to the same bits.
 #[test]
 fn contact_goes_on_to_the_same_bits() {
     let block = format!("{BLOCK}{BY_DISPLACEMENTS}");
@@ -212,7 +185,12 @@ fn contact_goes_on_to_the_same_bits() {
         "model={ law = \"nhpd\", horizon_factor = 3.0, closing = true, closing_friction = 0.3 }",
         "precrack=[{ points = [[-0.01, 0.005], [0.03, 0.005]] }]",
     ];
-    for (name, text, settings) in [("surfaces", block, &[][..]), ("faces", faces, &cut)] {
+    let path = CIRCLE.to_owned();
+    for (name, text, settings) in [
+        ("surfaces", block, &[][..]),
+        ("faces", faces, &cut),
+        ("exact path", path, &["fracture.stop.bonds=12"]),
+    ] {
         let setup = case(&text, settings).setup(&mut ()).unwrap();
         let model = Model::build(setup, &mut ()).unwrap();
         let problem = Loading::new(&model).unwrap().problem(&model);

@@ -38,7 +38,11 @@ fn a_gap_postpones_the_breakage_by_itself() {
     assert!(((other - one) * 1e-4 / gap - 1.0).abs() < 1e-9);
     assert!((later / force - 1.0).abs() < 1e-9);
     let met = &apart.history[1];
-    assert!((met.load_factor * 1e-4 / gap - 1.0).abs() < 1e-9, "{}", met.load_factor);
+    assert!(
+        (met.load_factor * 1e-4 / gap - 1.0).abs() < 1e-9,
+        "{}",
+        met.load_factor
+    );
     assert_eq!((apart.history.len(), met.broken_in_step), (4, 0));
     assert!(met.reaction.abs() < 1e-9 * force);
     assert!(missing_energy(&apart) < 1e-9);
@@ -62,10 +66,15 @@ fracture = { control = "event", criterion = [{ kind = "tension" }] }
     assert_eq!(outcome.termination, Termination::FullLoad);
     let floor = &outcome.history.last().unwrap().contacts[0];
     let all = outcome.state.surfaces.touching().touches.iter().flatten();
-    let pressures = all.filter(|it| it.depth() > 0.0).map(|it| it.stiffness * it.depth() / it.area);
+    let pressures = all
+        .filter(|it| it.depth() > 0.0)
+        .map(|it| it.stiffness * it.depth() / it.area);
     let largest = pressures.fold(0.0, f64::max);
     let width = floor.area / 0.01;
-    println!("{width:.4e} m press, at most {largest:.4e} Pa, {:.9e} N", floor.normal_force[1]);
+    println!(
+        "{width:.4e} m press, at most {largest:.4e} Pa, {:.9e} N",
+        floor.normal_force[1]
+    );
     assert!((floor.normal_force[1] / 1e3 - 1.0).abs() < 1e-9);
     assert!((width - 6e-3).abs() < 0.51e-3);
     // The outer integration point is 0.21 facets from the edge.
@@ -74,7 +83,7 @@ fracture = { control = "event", criterion = [{ kind = "tension" }] }
 }
 
 /// A circle of 0.1 m that is driven into a block.
-const CIRCLE: &str = r#"
+pub(crate) const CIRCLE: &str = r#"
 lattice = { cells = [40, 16], spacing = 0.001, corner = [-0.02, 0.0], thickness = 0.01, set = { bottom = { bottom = 1 } } }
 material = { young = 70e9, poisson = 0.25 }
 model = { law = "nhpd", horizon_factor = 3.0 }
@@ -115,7 +124,11 @@ fn followed(text: &str, bonds: usize) -> Run {
 /// some 1e-3. No row is beyond a limit, forces balance to 1e-9 and the ledger closes to 1e-9 with contacts that open and close.
 #[test]
 fn load_steps_break_the_same_bonds() {
-    for (name, text, changes) in [("circle", CIRCLE, 8), ("sphere", SPHERE, 8), ("blocks", BLOCKS, 1)] {
+    for (name, text, changes) in [
+        ("circle", CIRCLE, 8),
+        ("sphere", SPHERE, 8),
+        ("blocks", BLOCKS, 1),
+    ] {
         let run = followed(text, 12);
         let rows = &run.outcome.history;
         let first = rows.iter().position(|it| it.broken_in_step > 0).unwrap();
@@ -129,7 +142,11 @@ fn load_steps_break_the_same_bonds() {
         );
         assert!(first > changes, "{first}");
         let before = rows[..=first].windows(2);
-        assert!(before.clone().all(|it| it[0].load_factor < it[1].load_factor));
+        assert!(
+            before
+                .clone()
+                .all(|it| it[0].load_factor < it[1].load_factor)
+        );
         assert!(rows.iter().all(|it| it.largest_ratio < 1.0 + 1e-8));
         assert!(run.largest_residual < 1e-9);
         assert!(missing_energy(&run.outcome) < 1e-9);
@@ -137,13 +154,22 @@ fn load_steps_break_the_same_bonds() {
             "fracture={{ steps = [{:?}, {:?}], bonds_per_iteration = 1, stop = {{ bonds = 1 }}, criterion = [{{ kind = \"compression\", limit = {} }}] }}",
             at * (1.0 - 2e-3),
             at * (1.0 + 2e-3),
-            text.split("limit = ").nth(1).unwrap().split(' ').next().unwrap(),
+            text.split("limit = ")
+                .nth(1)
+                .unwrap()
+                .split(' ')
+                .next()
+                .unwrap(),
         );
         let stepped = Bench::new(text, &[&steps]).break_up();
         assert_eq!(stepped.outcome.history[1].broken_bonds, 0, "{name}");
         let broken = stepped.breaks.iter().map(|it| it.bond);
         let tied = run.breaks.iter().filter(|it| it.step == run.breaks[0].step);
         let tied: Vec<u32> = tied.map(|it| it.bond).collect();
-        assert!(broken.clone().any(|it| it == bond), "{tied:?} {:?}", broken.collect::<Vec<_>>());
+        assert!(
+            broken.clone().any(|it| it == bond),
+            "{tied:?} {:?}",
+            broken.collect::<Vec<_>>()
+        );
     }
 }

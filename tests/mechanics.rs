@@ -29,6 +29,7 @@ mod probes;
 mod ranks;
 mod reference_values;
 mod restraints;
+mod rigid_masses;
 mod rotational_stiffness;
 mod shared_bonds;
 mod shared_preparation;

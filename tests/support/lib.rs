@@ -14,6 +14,7 @@ pub mod meshes;
 pub mod modal;
 pub mod numbers;
 pub mod problems;
+pub mod recorder;
 pub mod solid_run;
 pub mod solids;
 pub mod stresses;

@@ -17,6 +17,7 @@ mod mechanism;
 mod meeting;
 mod newton;
 mod residual;
+mod rigid;
 mod secant;
 mod target;
 

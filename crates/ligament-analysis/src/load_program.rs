@@ -13,6 +13,7 @@ use std::sync::Arc;
 use crate::internal::InternalForces;
 use crate::restraints::Restraints;
 use crate::unknowns::Layout;
+use ligament_model::surface::Vector;
 use ligament_model::thermal::ThermalStrain;
 
 pub use amplitude::{Amplitude, Shape};
@@ -29,6 +30,11 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Whether the pseudo-time is the time of a motion, s.
     fn is_in_time(&self) -> bool {
         false
+    }
+
+    /// Springs and forces on the rigid bodies with a mass in a step of a motion, in the order of the bodies.
+    fn on_rigid_bodies(&self) -> &[RigidLoad] {
+        &[]
     }
 
     /// Whether the motion of a degree of freedom is prescribed.
@@ -117,6 +123,17 @@ pub trait LoadProgram: Debug + Send + Sync {
 
     /// Force of the control load along its direction, work-conjugate to its displacement, N, N m or J/K.
     fn control_force(&self, time: f64, internal: &InternalForces) -> f64;
+}
+
+/// A spring to the ground and a force on a rigid body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RigidLoad {
+    /// Index of the rigid body.
+    pub body: usize,
+    /// Stiffness of the spring against displacements, N/m.
+    pub stiffness: f64,
+    /// Force, N.
+    pub force: Vector,
 }
 
 /// A supported or loaded set of points.

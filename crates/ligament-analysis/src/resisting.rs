@@ -48,7 +48,12 @@ impl Resisting {
 
     /// Whether it belongs to a contact between surfaces, whose points the bonds need not couple.
     pub(crate) fn is_of_surfaces(&self) -> bool {
-        self.key.0 > u64::from(u32::MAX)
+        self.contact().is_some()
+    }
+
+    /// Index of the contact between surfaces to which it belongs.
+    pub(crate) fn contact(&self) -> Option<usize> {
+        ((self.key.0 >> 32) as usize).checked_sub(1)
     }
 
     /// Points that the motion couples, ascending.

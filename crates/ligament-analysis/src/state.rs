@@ -3,6 +3,7 @@
 use ligament_model::Bonds;
 pub use ligament_model::UnbrokenBonds;
 use ligament_model::failure::Criteria;
+use ligament_model::surface::Vector;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
@@ -32,6 +33,8 @@ pub struct State {
     pub friction: Friction,
     /// Contact between surfaces in the last equilibrium.
     pub surfaces: LastTouching,
+    /// Displacement of each rigid body that moves by itself, zero of others, m; those at the end may be missing as long as they rest.
+    pub rigid: Vec<Vector>,
 }
 
 impl State {
@@ -65,6 +68,7 @@ impl State {
             held: vec![false; n],
             friction: Friction::default(),
             surfaces: LastTouching::default(),
+            rigid: Vec::new(),
         }
     }
 
@@ -79,6 +83,7 @@ impl State {
         self.held.write(out);
         self.friction.write(out);
         self.surfaces.touching().write(out);
+        self.rigid.write(out);
     }
 
     /// Reads a state with all bonds, and keeps the local bonds.
@@ -97,8 +102,10 @@ impl State {
             held: Serial::read(from)?,
             friction: Serial::read(from)?,
             surfaces: LastTouching::default(),
+            rigid: Vec::new(),
         };
         state.surfaces = LastTouching::restored(Serial::read(from)?, &state.displacement);
+        state.rigid = Serial::read(from)?;
         Ok(state)
     }
 

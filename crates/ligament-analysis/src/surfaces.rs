@@ -11,7 +11,9 @@ use ligament_model::surface::{Bonded, Pose, Search, Step, Touch, Vector};
 use ligament_model::sweep::BondSweep;
 use ligament_model::tensor::{dot, minus, norm};
 
-use crate::motion::contact::{ContactProblem, ContactReading, RigidState, SurfaceContact};
+use crate::motion::contact::{
+    ContactProblem, ContactReading, RigidBody, RigidMotion, RigidState, SurfaceContact,
+};
 use crate::resisting::{ACROSS, Resisting};
 use crate::serial;
 
@@ -255,19 +257,22 @@ impl Surfaces {
         &self.problem
     }
 
-    /// Where surfaces touch at motions of all points (n_degrees_of_freedom) and a load factor, which is the time in a motion.
+    /// Where surfaces touch at motions of all points (n_degrees_of_freedom), a load factor, which is the time in a motion, and displacements of
+    /// free rigid bodies.
     ///
     /// Where nothing has moved since the last equilibrium, the contact has its bits.
     pub(crate) fn touching(
         &mut self,
         (last, bonds): (&LastTouching, Bonded<'_>),
         motions: &[f64],
-        load_factor: f64,
+        (load_factor, free): (f64, &[Vector]),
     ) -> Touching {
-        let bodies = self.problem.rigid_bodies.iter();
-        let rigid: Vec<Vector> = bodies
-            .map(|it| it.motion.displacement(load_factor))
-            .collect();
+        let bodies = self.problem.rigid_bodies.iter().enumerate();
+        let place = |(body, it): (usize, &RigidBody)| match it.motion {
+            RigidMotion::Prescribed { .. } => it.motion.displacement(load_factor),
+            RigidMotion::Free { .. } => free.get(body).copied().unwrap_or_default(),
+        };
+        let rigid: Vec<Vector> = bodies.map(place).collect();
         if last.motions == motions && last.touching.rigid == rigid {
             return last.touching.clone();
         }
@@ -300,10 +305,13 @@ impl Surfaces {
         }
     }
 
-    /// Part of a correction (n_degrees_of_freedom) by which surfaces move as far as they may in an iteration, at most 1.
-    pub(crate) fn part_within_reach(&self, correction: &[f64]) -> f64 {
+    /// Part of a correction (n_degrees_of_freedom), and of free rigid bodies, by which surfaces move as far as they may in an iteration, at
+    /// most 1.
+    pub(crate) fn part_within_reach(&self, correction: &[f64], rigid: &[Vector]) -> f64 {
         let dofs = self.degrees_of_freedom.iter();
-        let largest = dofs.map(|&dof| correction[dof as usize].abs());
+        let of_points = dofs.map(|&dof| correction[dof as usize].abs());
+        let of_rigid = rigid.as_flattened().iter().map(|it| it.abs());
+        let largest = of_points.chain(of_rigid);
         let largest = largest.fold(0.0, f64::max);
         if largest > self.farthest {
             self.farthest / largest
@@ -360,15 +368,19 @@ impl SurfaceEnergy {
             on_body += 0.5 * (before[dof] + now[dof]) * (motions[dof] - self.motions[dof]);
         }
         let forces = [&self.last, touching].map(|it| it.on_rigid_bodies(problem));
-        let mut on_driven = 0.0;
+        let (mut on_driven, mut on_free) = (0.0, 0.0);
         for (body, place) in touching.rigid.iter().enumerate() {
             let then = self.last.rigid.get(body).copied().unwrap_or_default();
             let way = minus(*place, then);
-            on_driven += 0.5 * (dot(forces[0][body], way) + dot(forces[1][body], way));
+            let sum = match problem.rigid_bodies[body].motion {
+                RigidMotion::Prescribed { .. } => &mut on_driven,
+                RigidMotion::Free { .. } => &mut on_free,
+            };
+            *sum += 0.5 * (dot(forces[0][body], way) + dot(forces[1][body], way));
         }
         let excess = self.excess(problem, touching, motions);
         let stored = touching.energy();
-        let dissipated = -(on_body + on_driven) - (stored - self.last.energy());
+        let dissipated = -(on_body + on_driven + on_free) - (stored - self.last.energy());
         *self = Self::at(touching, motions);
         SurfaceWork {
             stored,

@@ -13,12 +13,14 @@ use super::equations::Equations;
 use super::iterate::Iterate;
 use super::line_search;
 use super::residual::Residual;
+use super::rigid::{self, Correction};
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::contact;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
+use ligament_model::surface::Vector;
 
 /// Largest number of iterations. Faces that close as a whole take some five; a detached part that is pushed away takes all.
 pub(super) const ITERATION_LIMIT: usize = 60;
@@ -63,7 +65,7 @@ pub(super) fn balance(
     let largest = sought.max(LARGEST_RESIDUAL);
     let (limit, slowly) = pace(equations);
     // Pairs of parts that only touch each other close and open by rounding, so that a worse iterate can follow a solution.
-    let mut nearest: Option<(f64, Vec<f64>)> = None;
+    let mut nearest: Option<Nearest> = None;
     loop {
         let residual = iterate.residual;
         if iterations > 0 {
@@ -84,8 +86,8 @@ pub(super) fn balance(
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
         }
-        if is_over && let Some((_, displacement)) = nearest {
-            state.displacement = displacement;
+        if is_over && let Some(Nearest { motions, rigid, .. }) = nearest {
+            (state.displacement, state.rigid) = (motions, rigid);
             let iterate = equations.measure(state);
             equations.remember(iterate.extents);
             return Ok(equations.settled(iterate, iterations, mechanisms));
@@ -125,22 +127,31 @@ fn next(
     sought: f64,
     mechanisms: &mut Vec<u32>,
 ) -> Result<Iterate, Unbalanced> {
-    let mut correction = equations.correction(state, iterate, sought, mechanisms)?;
-    equations.shorten(&mut correction);
+    let mut correction = rigid::correction(equations, state, iterate, sought, mechanisms)?;
+    correction.shorten(equations);
     Ok(search(equations, state, iterate, &correction))
+}
+
+/// The nearest iterate to an equilibrium so far.
+struct Nearest {
+    /// Relative residual.
+    residual: f64,
+    /// Motions of all points, shape (n_degrees_of_freedom).
+    motions: Vec<f64>,
+    /// Displacements of rigid bodies that move by themselves, m.
+    rigid: Vec<Vector>,
 }
 
 /// Records the residual and displacements of an iterate without forces at added supports, if its residual is at most `largest` and
 /// that of the nearest iterate so far.
-fn keep_nearer(
-    nearest: &mut Option<(f64, Vec<f64>)>,
-    residual: &Residual,
-    largest: f64,
-    state: &State,
-) {
-    let least = nearest.as_ref().map_or(largest, |it| it.0);
+fn keep_nearer(nearest: &mut Option<Nearest>, residual: &Residual, largest: f64, state: &State) {
+    let least = nearest.as_ref().map_or(largest, |it| it.residual);
     if residual.relative <= least && residual.carried.is_none() {
-        *nearest = Some((residual.relative, state.displacement.clone()));
+        *nearest = Some(Nearest {
+            residual: residual.relative,
+            motions: state.displacement.clone(),
+            rigid: state.rigid.clone(),
+        });
     }
 }
 
@@ -149,12 +160,12 @@ fn search(
     equations: &mut Equations,
     state: &mut State,
     iterate: &Iterate,
-    correction: &[f64],
+    correction: &Correction,
 ) -> Iterate {
-    let start = equations.slope(state, iterate, correction);
-    equations.add_correction(state, 1.0, correction);
+    let start = correction.slope(equations, state, iterate);
+    correction.add_to(equations, state, 1.0);
     let next = equations.measure(state);
-    let end = equations.slope(state, &next, correction);
+    let end = correction.slope(equations, state, &next);
     if start >= 0.0 || end <= -ACCEPTED_SLOPE * start {
         return next;
     }
@@ -171,7 +182,7 @@ fn search(
         })
         .collect();
     let length = lowest(start, end, &moved);
-    equations.add_correction(state, length - 1.0, correction);
+    correction.add_to(equations, state, length - 1.0);
     equations.measure(state)
 }
 
@@ -182,14 +193,14 @@ fn search_along_way(
     state: &mut State,
     mut iterate: Iterate,
     (start, end): (f64, f64),
-    correction: &[f64],
+    correction: &Correction,
 ) -> Iterate {
     let mut at = 1.0;
     line_search::part(-start, -end, |part| {
-        equations.add_correction(state, part - at, correction);
+        correction.add_to(equations, state, part - at);
         at = part;
         iterate = equations.measure(state);
-        -equations.slope(state, &iterate, correction)
+        -correction.slope(equations, state, &iterate)
     });
     iterate
 }

@@ -14,6 +14,7 @@ use super::iterate::Iterate;
 use super::mechanism::Measure;
 use super::meeting::{Meeting, Met};
 use super::residual::{Extents, ROUNDING, Residual};
+use super::rigid;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -165,15 +166,6 @@ impl Equations {
 
     pub(super) fn layout(&self) -> Layout {
         self.unknowns.layout()
-    }
-
-    /// Shortens a correction (n_unknowns) where surfaces would move too far at once to see each other.
-    pub(super) fn shorten(&self, correction: &mut [f64]) {
-        let surfaces = &self.meeting.surfaces;
-        if !surfaces.is_empty() {
-            let part = surfaces.part_within_reach(&self.at_degrees_of_freedom(correction));
-            correction.iter_mut().for_each(|it| *it *= part);
-        }
     }
 
     /// Sets the prescribed motions of a state at its load factor.
@@ -376,7 +368,10 @@ impl Equations {
         let displacement = self.accuracy.largest_displacement(self.layout(), state);
         let out_of_balance = self.external_less(state, &internal);
         let loaded = self.loaded(state);
-        let residual = (self.accuracy).residual(loaded, extents, displacement, out_of_balance);
+        let mut residual = (self.accuracy).residual(loaded, extents, displacement, out_of_balance);
+        let on_rigid = rigid::out_of_balance(self, state, &met.touching);
+        let of_rigid = rigid::relative(self, state, &on_rigid);
+        residual.relative = residual.relative.max(of_rigid);
         self.costs.bonds += start.elapsed();
         let of_expansions = factor.powi(2) * expansion_energy.abs();
         let rounding = ROUNDING * self.accuracy.stiffest * displacement.powi(2);
@@ -390,6 +385,7 @@ impl Equations {
             extents,
             negative_energy: Some(energy_of_motion).filter(|_| has_negative),
             met,
+            on_rigid,
         }
     }
 

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use ligament_model::deformation::Deformations;
+use ligament_model::surface::Vector;
 
 use super::meeting::Met;
 use super::residual::{Extents, Residual};
@@ -19,6 +20,8 @@ pub(super) struct Iterate {
     pub(super) extents: Extents,
     pub(super) negative_energy: Option<f64>,
     pub(super) met: Met,
+    /// Residual forces on rigid bodies with a mass, in the order of the loads on them, N.
+    pub(super) on_rigid: Vec<Vector>,
 }
 
 impl Iterate {

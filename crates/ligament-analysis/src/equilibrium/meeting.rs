@@ -75,7 +75,8 @@ impl Meeting {
                     topology: self.system.topology(),
                     intact: &state.intact,
                 };
-                surfaces.touching((&state.surfaces, bonds), motions, state.load_factor)
+                let at = (state.load_factor, &*state.rigid);
+                surfaces.touching((&state.surfaces, bonds), motions, at)
             }
         };
         Met {

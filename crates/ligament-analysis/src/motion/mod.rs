@@ -3,7 +3,7 @@
 //! The loads of the [`Problem`] are functions of time: the load factor of a [`State`](crate::State) is the time, s.
 //! [`driver::motion`](crate::driver::motion) integrates the equations.
 
-mod rigid;
+pub(crate) mod rigid;
 mod stable_step;
 
 pub mod contact;
@@ -166,9 +166,10 @@ pub enum MotionError {
         /// Critical step, s.
         critical: f64,
     },
-    /// A rigid body with a mass was required in implicit steps.
+    /// A rigid body with a mass was required in implicit steps that turn it, with bonds that soften, or between equilibria.
     #[error(
-        "a rigid body with a mass needs explicit steps; implicit ones move rigid bodies by a prescribed velocity alone"
+        "implicit steps move a rigid body with a mass without turning it, beside bonds that do not soften, and not from equilibria: remove \
+         the inertia, or take explicit steps"
     )]
     FreeRigidBody,
     /// Several processes cannot compute a motion.

@@ -189,7 +189,7 @@ impl RigidMotion {
 }
 
 /// Adds a vector times a factor.
-pub(super) fn add(sum: &mut Vector, factor: f64, vector: Vector) {
+pub(crate) fn add(sum: &mut Vector, factor: f64, vector: Vector) {
     for (sum, value) in sum.iter_mut().zip(vector) {
         *sum += factor * value;
     }

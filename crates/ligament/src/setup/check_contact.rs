@@ -1,6 +1,7 @@
 //! Checks of contacts and rigid bodies.
 
 use ligament_analysis::load_program::Amplitude;
+use ligament_analysis::motion::{ImplicitSettings, Scheme};
 use ligament_model::ElementKind;
 
 use super::check::{Checked, contradiction, positive, require, require_unique};
@@ -157,11 +158,12 @@ impl Setup {
                 let reason = "a displacement grows with the load factor, which a motion does not have: give a `velocity` and an `amplitude`";
                 return contradiction(field.part("displacement"), reason);
             }
-            if body.mass.is_some() && !settings.is_explicit() {
-                let reason = "implicit steps move rigid bodies by a prescribed velocity alone: remove the mass, or take explicit steps";
-                return contradiction(field.part("mass"), reason);
-            }
-            return Ok(());
+            return match settings.scheme {
+                Scheme::Implicit(implicit) if body.mass.is_some() => {
+                    self.check_free_in_implicit_steps(field, body, implicit)
+                }
+                Scheme::Implicit(_) | Scheme::Explicit(_) => Ok(()),
+            };
         }
         let of_time = [
             ("velocity", body.velocity != [0.0; 3]),
@@ -175,6 +177,26 @@ impl Setup {
         if body.displacement != [0.0; 3] && !self.stages.is_empty() {
             let reason = "with stages each load has a factor of its own, and a rigid body has none: let it rest and move the body by a load";
             return contradiction(field.part("displacement"), reason);
+        }
+        Ok(())
+    }
+
+    /// Refuses what implicit steps do not do with a body with a mass.
+    fn check_free_in_implicit_steps(
+        &self,
+        field: Field,
+        body: &Rigid,
+        implicit: ImplicitSettings,
+    ) -> Checked {
+        if body.inertia.is_some() {
+            let reason =
+                "a rigid body turns in explicit steps alone: remove it, or take explicit steps";
+            return contradiction(field.part("inertia"), reason);
+        }
+        if implicit.statics.is_some() {
+            let reason = "a body with a mass that nothing holds has no equilibrium from which a motion could begin: take `scheme = \"implicit\"`, \
+                or move it by a velocity";
+            return contradiction(field.part("mass"), reason);
         }
         Ok(())
     }

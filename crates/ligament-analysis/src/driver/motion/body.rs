@@ -262,6 +262,7 @@ impl Body {
             energies,
             costs: &self.costs,
             rates,
+            rigid: &[],
             broken: self.broken,
         }
     }

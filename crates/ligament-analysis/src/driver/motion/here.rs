@@ -1,5 +1,6 @@
 //! An implicit motion at a time: state, velocities and forces.
 
+use super::rigid_step::RigidRates;
 use crate::balanced::Balanced;
 use crate::history::Rates;
 use crate::motion::{Damping, MotionProblem};
@@ -29,6 +30,8 @@ pub(super) struct Motion {
     pub(super) external: Vec<f64>,
     /// Forces of damping, N and N m.
     pub(super) damping: Vec<f64>,
+    /// Rates of the rigid bodies; empty in equilibria without inertia.
+    pub(super) rigid: RigidRates,
 }
 
 serial!(Motion {
@@ -37,6 +40,7 @@ serial!(Motion {
     internal,
     external,
     damping,
+    rigid,
 });
 
 /// Masses and damping of a body.
@@ -67,6 +71,7 @@ impl Motion {
             internal: balanced.internal.values.clone(),
             external: vec![0.0; n],
             damping: vec![0.0; n],
+            rigid: Vec::new(),
         }
     }
 
@@ -78,6 +83,7 @@ impl Motion {
             internal,
             external,
             damping,
+            rigid: _,
         } = self;
         let arrays = [velocity, acceleration, internal, external, damping];
         arrays.iter().all(|it| it.len() == n)

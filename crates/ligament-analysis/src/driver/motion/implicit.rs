@@ -9,10 +9,12 @@ use std::time::Instant;
 
 use super::clock::Clock;
 use super::here::{Here, MassAndDamping, Motion, free_masses};
+use super::implicit_fit;
 use super::implicit_kept::ImplicitKept;
 use super::progress::{IMPLICIT, Progress, Resumed};
 use super::quasi_static;
 use super::record;
+use super::rigid_step;
 use super::stepping::{CALM, HALVINGS, Pace, Stepping, scheme};
 use super::taken::{self, Taken, TooLong, Trial};
 use crate::breakage::Breakage;
@@ -21,9 +23,7 @@ use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Notice, Observer, Termination};
-use crate::motion::contact::{RigidBody, RigidMotion};
-use crate::motion::{ImplicitSettings, MotionError, MotionProblem, MotionSettings};
-use crate::problem::Problem;
+use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
 use crate::softening::Softening;
 use crate::state::State;
 
@@ -51,7 +51,7 @@ pub(super) fn run(
     implicit: ImplicitSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    check(problem, settings)?;
+    implicit_fit::check(problem, settings, implicit)?;
     let clock = Clock::implicit(settings, implicit);
     let mut state = State::fresh(&*problem.problem.system);
     problem
@@ -124,30 +124,6 @@ pub(super) fn resume(
     motion.follow()
 }
 
-/// Refuses what implicit steps cannot follow.
-fn check(problem: &MotionProblem, settings: &MotionSettings) -> Result<(), MotionError> {
-    let Problem {
-        system,
-        criteria,
-        loads,
-        ..
-    } = &problem.problem;
-    if !system.subdomain().is_whole() {
-        return Err(MotionError::SeveralProcesses);
-    }
-    let has_free = |it: &RigidBody| matches!(it.motion, RigidMotion::Free { .. });
-    if problem.problem.contact.rigid_bodies.iter().any(has_free) {
-        return Err(MotionError::FreeRigidBody);
-    }
-    let is_heated = !loads.temperature_change(0.0).is_empty();
-    let is_plain =
-        system.is_linear() && !problem.problem.may_press() && !criteria.soften() && !is_heated;
-    if settings.damping.stiffness > 0.0 && !is_plain {
-        return Err(MotionError::StiffnessDamping);
-    }
-    Ok(())
-}
-
 impl Implicit<'_> {
     /// Sets accelerations and energies of time zero.
     fn begin(&mut self) {
@@ -165,6 +141,7 @@ impl Implicit<'_> {
         }
         (motion.external, motion.damping) = (external, damping);
         let problem = &self.problem.problem;
+        motion.rigid = rigid_step::at_start(&problem.contact, &self.here.balanced);
         self.here.balance_forces(problem, &self.masses);
         let Here {
             state,
@@ -177,7 +154,8 @@ impl Implicit<'_> {
         let nothing = Breakage::default();
         self.energies
             .add_released(problem, state, &nothing, balanced);
-        let kinetic = motion.kinetic_energy(masses);
+        let rigid = rigid_step::kinetic_energy(&problem.contact, &motion.rigid);
+        let kinetic = motion.kinetic_energy(masses) + rigid;
         self.progress.motion.initial_energy = kinetic + balanced.stored_energy;
         self.progress.motion.kinetic_energy = kinetic;
     }
@@ -416,6 +394,7 @@ impl Implicit<'_> {
             self.progress.motion.damping_energy += damped;
         }
         self.progress.motion.kinetic_energy = motion.kinetic_energy(&self.masses);
+        self.move_rigid_bodies(&taken, &motion);
         self.progress.motion.time_steps += 1;
         self.pace.calm = if taken.broken.is_empty() {
             self.pace.calm + 1
@@ -452,6 +431,24 @@ impl Implicit<'_> {
             motion.contact_energy = taken.contact_energy;
         }
         Ok(())
+    }
+
+    /// Adds the energies of the rigid bodies with a mass in a step.
+    fn move_rigid_bodies(&mut self, taken: &Taken, after: &Motion) {
+        let contact = &self.problem.problem.contact;
+        let kinetic = |it: &Motion| rigid_step::kinetic_energy(contact, &it.rigid);
+        let [before, now] = [&self.here.motion, after].map(kinetic);
+        let places = [
+            (&self.here.state, &self.here.balanced),
+            (&taken.state, &taken.balanced),
+        ];
+        let [own, all] = rigid_step::works(contact, places);
+        let motion = &mut self.progress.motion;
+        motion.kinetic_energy += now;
+        if self.implicit.dissipation > 0.0 {
+            motion.damping_energy += all - (now - before);
+        }
+        self.energies.add_driving_work(own);
     }
 
     /// Records the present time as a row, and returns the reason why the motion ends there, if it does.

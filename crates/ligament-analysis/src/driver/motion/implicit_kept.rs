@@ -51,7 +51,9 @@ impl ImplicitKept {
         let pace: Pace = Serial::read(from).map_err(damaged)?;
         let costs: Costs = Serial::read(from).map_err(damaged)?;
         let n = problem.problem.system.layout().n_degrees_of_freedom();
-        if !motion.fits(n) || pace.halvings > pace.most_halvings(clock) {
+        let n_rigid = problem.problem.contact.rigid_bodies.len();
+        let has_rates = motion.rigid.is_empty() || motion.rigid.len() == n_rigid;
+        if !motion.fits(n) || !has_rates || pace.halvings > pace.most_halvings(clock) {
             return Err(CheckpointError::OtherModel.into());
         }
         problem.problem = with_begun(&problem.problem, &state)?;

@@ -7,6 +7,7 @@ mod explicit_kept;
 mod face_friction;
 mod here;
 mod implicit;
+mod implicit_fit;
 mod implicit_kept;
 mod inertia;
 mod newmark;
@@ -14,6 +15,7 @@ mod progress;
 mod quasi_static;
 mod record;
 mod restored;
+mod rigid_step;
 mod stepping;
 mod taken;
 

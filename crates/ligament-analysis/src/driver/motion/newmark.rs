@@ -10,7 +10,7 @@ use std::sync::Arc;
 use ligament_model::thermal::ThermalStrain;
 
 use crate::internal::InternalForces;
-use crate::load_program::{BoundaryGroup, Control, LoadProgram};
+use crate::load_program::{BoundaryGroup, Control, LoadProgram, RigidLoad};
 use crate::motion::{Damping, MotionProblem};
 use crate::restraints::{Restraint, Restraints};
 
@@ -91,11 +91,17 @@ pub(super) struct StepLoads {
     pub(super) factor: f64,
     /// Forces from the start of the step, shape (n_degrees_of_freedom), N and N m.
     pub(super) added: Vec<f64>,
+    /// Springs and forces on rigid bodies with a mass.
+    pub(super) rigid: Vec<RigidLoad>,
 }
 
 impl LoadProgram for StepLoads {
     fn is_in_time(&self) -> bool {
         true
+    }
+
+    fn on_rigid_bodies(&self) -> &[RigidLoad] {
+        &self.rigid
     }
 
     fn is_prescribed(&self, degree_of_freedom: usize) -> bool {

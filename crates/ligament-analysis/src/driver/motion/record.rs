@@ -15,12 +15,13 @@ use crate::history::{
     Moment, Observer, ObserverError, Onward, Rates, StepRecord, Termination, View,
 };
 use crate::motion::MotionStop;
-use crate::motion::contact::ContactForces;
+use crate::motion::contact::{ContactForces, RigidMotion};
 use crate::problem::Problem;
 use crate::result_fields::Solution;
 use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
 use crate::state::State;
+use ligament_model::surface::Vector;
 
 /// Share of the work by which the energies may differ, or an energy be negative, before the motion counts as growing without cause.
 const GROWN: f64 = 0.02;
@@ -35,6 +36,8 @@ pub(super) struct Now<'a> {
     pub(super) energies: &'a Energies,
     pub(super) costs: &'a Costs,
     pub(super) rates: Rates<'a>,
+    /// Rates of the rigid bodies in implicit steps.
+    pub(super) rigid: &'a [[Vector; 2]],
     pub(super) contacts: Option<&'a ContactForces>,
     /// Number of broken bonds.
     pub(super) broken: usize,
@@ -84,7 +87,7 @@ impl Now<'_> {
         };
         let mut record = step_record(problem, solution, self.energies, self.fragments, counters);
         record.motion = Some(progress.motion);
-        // Explicit steps have contacts of their own, implicit ones those of their equilibria, in which rigid bodies rest.
+        // Explicit steps have contacts of their own, implicit ones those of their equilibria.
         if let Some(contacts) = self.contacts {
             record.contacts = contacts.readings();
             record.rigid_bodies = contacts.rigid_bodies().to_vec();
@@ -93,6 +96,11 @@ impl Now<'_> {
         let bodies = &problem.contact.rigid_bodies;
         for (place, body) in record.rigid_bodies.iter_mut().zip(bodies) {
             place.velocity = body.motion.velocity(state.load_factor);
+        }
+        for (index, place) in record.rigid_bodies.iter_mut().enumerate() {
+            if matches!(bodies[index].motion, RigidMotion::Free { .. }) {
+                place.velocity = self.rigid[index][0];
+            }
         }
         record
     }

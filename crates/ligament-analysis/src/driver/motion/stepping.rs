@@ -6,6 +6,7 @@ use super::clock::Clock;
 use super::here::{Here, MassAndDamping, Motion};
 use super::newmark::{Newmark, StepLoads};
 use super::record::Now;
+use super::rigid_step;
 use super::taken::Taken;
 use crate::costs::Costs;
 use crate::driver::recorder::Energies;
@@ -136,6 +137,7 @@ pub(super) fn of_step(
         restraints: restraints.clone(),
         factor: 1.0 / scheme.of_stiffness(),
         added: vec![0.0; masses.len()],
+        rigid: rigid_step::loads(&problem.problem.contact, &scheme, None),
     };
     let of_step = Problem {
         loads: Arc::new(loads),
@@ -190,6 +192,7 @@ impl Stepping {
             internal,
             external,
             damping,
+            rigid,
         } = motion;
         let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
         let n = velocity.len();
@@ -210,11 +213,13 @@ impl Stepping {
             let force = mass * of_mass * predicted[dof] - scheme.of_start() * at_start - *sum;
             *sum = if mass > 0.0 { factor * force } else { 0.0 };
         }
+        let from = Some((state, &here.balanced, rigid));
         Arc::new(StepLoads {
             base,
             restraints: self.restraints.clone(),
             factor,
             added,
+            rigid: rigid_step::loads(&inertia.problem.problem.contact, scheme, from),
         })
     }
 
@@ -240,6 +245,8 @@ impl Stepping {
             after.velocity[dof] = v + dt * ((1.0 - gamma) * a + gamma * now);
         }
         (after.external, after.damping) = inertia.forces(&taken.state, &after.velocity);
+        let contact = &inertia.problem.problem.contact;
+        after.rigid = rigid_step::after(contact, scheme, (state, &motion.rigid), &taken.state);
         after
     }
 
@@ -257,6 +264,7 @@ impl Stepping {
             state: &here.state,
             balanced: &here.balanced,
             rates: here.motion.rates(),
+            rigid: &here.motion.rigid,
             broken: here.broken,
             below_zero: 0.0,
             energies,
