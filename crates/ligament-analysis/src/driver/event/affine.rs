@@ -111,11 +111,7 @@ impl EquilibriumLine for Affine {
                     ratio,
                     bonds,
                     is_held: false,
-                    event: if ends_part {
-                        Event::PartEnds
-                    } else {
-                        Event::Breakage
-                    },
+                    event: [Event::Breakage, Event::PartEnds][usize::from(ends_part)],
                     end: (ends_part && is_last).then_some(end),
                 }
             }
@@ -125,17 +121,22 @@ impl EquilibriumLine for Affine {
     }
 
     fn follow(&self, path: &mut Path<'_>, _: &Balanced, load_factor: f64) -> Balanced {
-        let by = load_factor - path.state.load_factor;
-        for (value, growth) in path.state.displacement.iter_mut().zip(&self.growth) {
-            *value += by * growth;
-        }
-        path.state.load_factor = load_factor;
-        path.equilibrium.measured(&mut path.state)
+        moved_along(path, &self.growth, load_factor)
     }
 
     fn growth(&self) -> &[f64] {
         &self.growth
     }
+}
+
+/// Moves to another load factor along a rate of the displacements (n_degrees_of_freedom), without a solution.
+pub(super) fn moved_along(path: &mut Path<'_>, growth: &[f64], load_factor: f64) -> Balanced {
+    let by = load_factor - path.state.load_factor;
+    for (value, growth) in path.state.displacement.iter_mut().zip(growth) {
+        *value += by * growth;
+    }
+    path.state.load_factor = load_factor;
+    path.equilibrium.arrived(&mut path.state)
 }
 
 /// Rate of the deformations (n_bonds) with the load factor for a rate of the displacements (n_degrees_of_freedom), and the criteria with the

@@ -8,7 +8,7 @@
 
 use std::time::Instant;
 
-use super::affine::{held, slopes, up_to_displacement};
+use super::affine::{held, moved_along, slopes, up_to_displacement};
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
@@ -68,64 +68,54 @@ impl EquilibriumLine for InContact {
         let span = if rises { [0.0, reach] } else { [-reach, 0.0] };
         let deformations = [&line.deformations, &slopes];
         let admissible = criteria.admissible(&rates, &path.state.intact, deformations, span);
-        let is_at_end = reach == left;
-        let goal = match (admissible, rises) {
-            (Some([_, upper]), true) if upper == reach => {
-                let criteria = criteria.ahead(&rates, upper);
-                let at = line.deformations.ahead(&slopes, upper);
-                let FirstToBreak { ratio, .. } =
-                    path.first_to_break(self.tie_tolerance, &at, &criteria);
-                let full = match ratio > NO_LOAD {
+        let at = |path: &Path<'_>, upper: f64| {
+            let criteria = criteria.ahead(&rates, upper);
+            let deformations = line.deformations.ahead(&slopes, upper);
+            path.first_to_break(self.tie_tolerance, &deformations, &criteria)
+        };
+        let goal = match admissible {
+            Some([_, upper]) if rises && upper == reach => {
+                let first = at(path, upper);
+                let is_full = reach == left;
+                let full = match first.ratio > NO_LOAD {
                     true => Termination::FullLoad,
                     false => Termination::NothingBreaks,
                 };
                 Goal {
-                    load_factor: if is_at_end { 1.0 } else { now + reach },
-                    ratio,
-                    bonds: Vec::new(),
-                    is_held: false,
                     event: Event::ContactChanges,
-                    end: is_at_end.then_some(full),
+                    end: is_full.then_some(full),
+                    ..breakage(if is_full { 1.0 } else { now + reach }, first)
                 }
             }
-            (Some([_, upper]), _) => {
-                let criteria = criteria.ahead(&rates, upper);
-                let at = line.deformations.ahead(&slopes, upper);
-                let first = path.first_to_break(self.tie_tolerance, &at, &criteria);
-                Goal {
-                    load_factor: now + upper,
-                    ratio: first.ratio,
-                    bonds: first.bonds,
-                    is_held: false,
-                    event: Event::Breakage,
-                    end: None,
-                }
-            }
-            (None, false) if !is_at_end => Goal {
-                load_factor: now - reach,
-                ratio,
-                bonds: Vec::new(),
-                is_held: true,
+            Some([_, upper]) => breakage(now + upper, at(path, upper)),
+            None if !rises && reach < left => Goal {
                 event: Event::ContactChangesBeyond,
-                end: None,
+                ..breakage(now - reach, at(path, -reach))
             },
             // Bonds that are at their limits already, or beyond them without any load.
-            (None, _) => held(self.tie_tolerance, line, &criteria, path),
+            None => held(self.tie_tolerance, line, &criteria, path),
         };
         path.equilibrium.count_bond_work(start);
         Ok(up_to_displacement(goal, path, &self.growth))
     }
 
     fn follow(&self, path: &mut Path<'_>, _: &Balanced, load_factor: f64) -> Balanced {
-        let by = load_factor - path.state.load_factor;
-        for (value, growth) in path.state.displacement.iter_mut().zip(&self.growth) {
-            *value += by * growth;
-        }
-        path.state.load_factor = load_factor;
-        path.equilibrium.arrived(&mut path.state)
+        moved_along(path, &self.growth, load_factor)
     }
 
     fn growth(&self) -> &[f64] {
         &self.growth
+    }
+}
+
+/// Goal at which the first bonds break.
+fn breakage(load_factor: f64, first: FirstToBreak) -> Goal {
+    Goal {
+        load_factor,
+        ratio: first.ratio,
+        bonds: first.bonds,
+        is_held: false,
+        event: Event::Breakage,
+        end: None,
     }
 }
