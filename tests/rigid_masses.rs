@@ -36,8 +36,8 @@ fn velocity(row: &StepRecord) -> f64 {
 }
 
 /// On a column without mass a mass M swings for half a period: v = -v_0 cos(omega t) with omega = sqrt(k/M) and the stiffness k of the column
-/// against a static load, up to the time pi/omega, and returns at v_0. To 2e-3: the trapezoidal rule lengthens periods by (omega dt)^2/12 = 3e-5, and
-/// the column has 1e-4 of the mass, whose waves take some of its energy. Momentum and energies balance to the residual.
+/// against a static load, up to the time pi/omega, and returns at v_0. To 5e-4 (measured 5e-5): the trapezoidal rule lengthens periods by
+/// (omega dt)^2/12 = 3e-5, and the column has 1e-5 of the mass, whose waves take some of its energy. Momentum and energies balance to the residual.
 #[test]
 fn a_mass_bounces_off_a_column_after_half_a_period() {
     let frequency = (stiffness() / 0.1).sqrt();
@@ -56,13 +56,13 @@ fn a_mass_bounces_off_a_column_after_half_a_period() {
     }
     println!("half a period of {half:.4e} s, velocity off by {worst:.1e}, energies by {error:.1e}");
     assert!(half > 1.5e-4 && half < 2.2e-4);
-    assert!(worst < 2e-3);
+    assert!(worst < 5e-4);
     assert!(error < 1e-9);
     assert_eq!(outcome.history.last().unwrap().contacts[0].area, 0.0);
 }
 
-/// A mass that begins 5 um above the column falls freely until it meets it: q = -g t^2/2 for the constant acceleration g, exact by the trapezoidal rule
-/// to rounding. With the dissipation of the scheme what it takes is counted as damping, and the ledger closes as well.
+/// A mass that begins 5 um above the column falls freely until it meets it: q = -g t^2/2 for the constant acceleration g, exact by the
+/// trapezoidal rule to rounding. With the dissipation of the scheme what it takes is counted as damping, and the ledger closes as well.
 #[test]
 fn a_mass_falls_freely_before_it_meets_the_column() {
     let above = [
@@ -104,8 +104,8 @@ rigid = [{ name = "sphere", shape = "sphere", centre = [0.0025, 0.003, 0.0080], 
 motion = { duration = 6e-6, rows = 12 }
 "#;
 
-/// A sphere in implicit steps goes as in explicit ones: after 6 us of contact its velocity along each axis is the same to 2 % of its change, which the
-/// steps of a tenth of a microsecond leave of the waves in the block. The energies balance to the residual.
+/// A sphere in implicit steps goes as in explicit ones: after 6 us of contact its velocity along each axis is the same to 0.1 % of its change
+/// (measured 0.02 %), which the steps of a tenth of a microsecond leave of the waves in the block. The energies balance to the residual.
 #[test]
 fn implicit_steps_follow_explicit_ones() {
     let last = |settings: &[&str]| {
@@ -129,7 +129,7 @@ fn implicit_steps_follow_explicit_ones() {
     for axis in 0..3 {
         let [one, other] = [explicit, implicit].map(|it| it.velocity[axis] - first[axis]);
         println!("axis {axis}: changed by {one:.5} and {other:.5} m/s");
-        assert!((one - other).abs() < 0.02 * (explicit.velocity[2] - first[2]).abs());
+        assert!((one - other).abs() < 1e-3 * (explicit.velocity[2] - first[2]).abs());
     }
 }
 

@@ -16,6 +16,7 @@ mod line_search;
 mod mechanism;
 mod meeting;
 mod newton;
+mod on_rigid;
 mod residual;
 mod rigid;
 mod secant;

@@ -124,7 +124,9 @@ impl Touching {
     pub(crate) fn gaps(&self, problem: &ContactProblem) -> Vec<(Resisting, f64, f64)> {
         let of_touch = |(number, contact, touch): (u64, &SurfaceContact, &Touch)| {
             let body = contact.rigid_body.map(|it| &problem.rigid_bodies[it]);
-            let carried = body.map_or([0.0; 3], |it| it.motion.displacement(1.0));
+            let carried = body
+                .map(|it| it.motion.displacement(1.0))
+                .unwrap_or_default();
             let shift = -dot(carried, touch.normal);
             (across(number, contact, touch), -touch.depth(), shift)
         };

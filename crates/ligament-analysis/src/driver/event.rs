@@ -3,8 +3,9 @@
 //! Between two breakages the body is linear, and the load factor at which the next bond reaches its limit is known in closed form:
 //! in proportion to the load factor (`proportional`), or along the line A + w B of a part of a programme (`affine`). The bond
 //! breaks at fixed load; the new equilibrium is in general not admissible at this load (or admissible beyond it), and the path
-//! continues along its line to the next critical load factor, which may be lower. Where surfaces meet, the path is a chain of such lines, each
-//! from one contact that opens or closes to the next (`in_contact`). The path thus includes snap-back without a step size. A test under displacement control follows its envelope, [`super::Outcome::envelope`].
+//! continues along its line to the next critical load factor, which may be lower. Where surfaces meet, the path is a chain of such
+//! lines, each from one contact that opens or closes to the next (`in_contact`). The path thus includes snap-back without a step
+//! size. A test under displacement control follows its envelope, [`super::Outcome::envelope`].
 
 mod affine;
 mod equilibrium_line;

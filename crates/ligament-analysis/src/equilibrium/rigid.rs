@@ -1,8 +1,8 @@
 //! Rigid bodies with a mass in the step of a motion: their displacements are unknowns beside those of the points.
 //!
 //! A contact with the stiffness k resists the motion c . u - d . q along d of a place of the body against a rigid body with the displacement q.
-//! With the springs kappa and the forces of a step ([`RigidLoad`]), and the residual forces r on the points and s on the rigid bodies, a
-//! correction of Newton's method solves
+//! With the springs kappa and the forces of a step ([`on_rigid`](super::on_rigid)), and the residual forces r on the points and s on the
+//! rigid bodies, a correction of Newton's method solves
 //!
 //! K du - B dq = r,  D dq - B^T du = s,  B = sum k c d^T,  D = kappa I + sum k d d^T,
 //!
@@ -10,16 +10,14 @@
 //! rigid bodies alone, and du from K^-1 (r + B dq).
 
 use ligament_model::surface::Vector;
-use ligament_model::tensor::{dot, minus, norm};
+use ligament_model::tensor::dot;
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::Equations;
 use super::iterate::Iterate;
 use super::meeting::Met;
-use crate::load_program::RigidLoad;
 use crate::resisting::Resisting;
 use crate::state::State;
-use crate::surfaces::Touching;
 use crate::unbalanced::Unbalanced;
 
 /// Correction of the displacements of points and rigid bodies.
@@ -65,39 +63,6 @@ impl Correction {
             .chain(rigid)
             .for_each(|it| *it *= part);
     }
-}
-
-/// Residual forces on the rigid bodies with a mass in a state, N: those of springs and loads, and of contacts.
-pub(super) fn out_of_balance(
-    equations: &Equations,
-    state: &State,
-    touching: &Touching,
-) -> Vec<Vector> {
-    let loads = equations.problem.loads.on_rigid_bodies();
-    if loads.is_empty() {
-        return Vec::new();
-    }
-    let of_contacts = touching.on_rigid_bodies(&equations.problem.contact);
-    let of_load = |load: &RigidLoad| -> Vector {
-        let spring = displacement(state, load).map(|it| load.stiffness * it);
-        let given = minus(load.force, spring);
-        let contact = of_contacts[load.body];
-        std::array::from_fn(|axis| given[axis] + contact[axis])
-    };
-    loads.iter().map(of_load).collect()
-}
-
-/// Largest of some residual forces on rigid bodies, over the forces that they consist of.
-pub(super) fn relative(equations: &Equations, state: &State, forces: &[Vector]) -> f64 {
-    let loads = equations.problem.loads.on_rigid_bodies();
-    let of_load = |(load, force): (&RigidLoad, &Vector)| {
-        let spring = load.stiffness * norm(displacement(state, load));
-        match norm(*force) {
-            0.0 => 0.0,
-            size => size / (spring + norm(load.force)),
-        }
-    };
-    loads.iter().zip(forces).map(of_load).fold(0.0, f64::max)
 }
 
 /// Correction of an iterate for the relative residual `sought`; appends the points of mechanisms that the solver found.
@@ -207,9 +172,4 @@ impl Coupling {
             own,
         }
     }
-}
-
-/// Displacement of the body of a load, m.
-fn displacement(state: &State, load: &RigidLoad) -> Vector {
-    state.rigid.get(load.body).copied().unwrap_or_default()
 }

@@ -1,0 +1,46 @@
+//! Forces on rigid bodies with a mass in a state: of the springs and loads of a step, and of contacts.
+
+use ligament_model::surface::Vector;
+use ligament_model::tensor::{minus, norm};
+
+use crate::load_program::RigidLoad;
+use crate::motion::contact::ContactProblem;
+use crate::state::State;
+use crate::surfaces::Touching;
+
+/// Residual forces on the bodies of some loads in a state, N.
+pub(super) fn out_of_balance(
+    loads: &[RigidLoad],
+    problem: &ContactProblem,
+    state: &State,
+    touching: &Touching,
+) -> Vec<Vector> {
+    if loads.is_empty() {
+        return Vec::new();
+    }
+    let of_contacts = touching.on_rigid_bodies(problem);
+    let of_load = |load: &RigidLoad| -> Vector {
+        let spring = displacement(state, load).map(|it| load.stiffness * it);
+        let given = minus(load.force, spring);
+        let contact = of_contacts[load.body];
+        std::array::from_fn(|axis| given[axis] + contact[axis])
+    };
+    loads.iter().map(of_load).collect()
+}
+
+/// Largest of some residual forces on the bodies of loads, over the forces that they consist of.
+pub(super) fn relative(loads: &[RigidLoad], state: &State, forces: &[Vector]) -> f64 {
+    let of_load = |(load, force): (&RigidLoad, &Vector)| {
+        let spring = load.stiffness * norm(displacement(state, load));
+        match norm(*force) {
+            0.0 => 0.0,
+            size => size / (spring + norm(load.force)),
+        }
+    };
+    loads.iter().zip(forces).map(of_load).fold(0.0, f64::max)
+}
+
+/// Displacement of the body of a load, m.
+fn displacement(state: &State, load: &RigidLoad) -> Vector {
+    state.rigid.get(load.body).copied().unwrap_or_default()
+}
