@@ -70,7 +70,7 @@ pub(super) fn growth(
     let mut line = line::at_one(state, prescribed);
     let mut rates = rates_of(&contacts, &line);
     let mut forces = measured(equations, &line, loads, (&contacts, &rates, heading));
-    let mut before = f64::INFINITY;
+    let (mut before, mut is_carried) = (f64::INFINITY, false);
     let is_exact = equations.solver.tolerance().is_none();
     for iterations in 0..=ITERATION_LIMIT {
         let residual = forces.residual;
@@ -78,8 +78,10 @@ pub(super) fn growth(
         let tolerance = if falls { REFINED } else { RESIDUAL_TOLERANCE };
         before = residual.relative;
         let is_over = iterations == ITERATION_LIMIT;
-        // A force at an added support may in the end be carried by closed contacts.
-        if residual.relative <= tolerance && (residual.carried.is_none() || is_over) {
+        // A force at an added support may in the end be carried by closed contacts, and leaves the softness of the support behind.
+        let was_carried = std::mem::replace(&mut is_carried, residual.carried.is_some());
+        let is_free = !was_carried && !is_carried;
+        if residual.relative <= tolerance && (is_free || is_over) {
             return carried(equations, &forces).map_or(Ok(line.displacement), Err);
         }
         if is_over || !residual.relative.is_finite() {

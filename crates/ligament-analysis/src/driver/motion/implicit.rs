@@ -438,17 +438,14 @@ impl Implicit<'_> {
         let contact = &self.problem.problem.contact;
         let kinetic = |it: &Motion| rigid_step::kinetic_energy(contact, &it.rigid);
         let [before, now] = [&self.here.motion, after].map(kinetic);
-        let places = [
-            (&self.here.state, &self.here.balanced),
-            (&taken.state, &taken.balanced),
-        ];
-        let [own, all] = rigid_step::works(contact, places);
+        let here = (&self.here.state, &self.here.balanced);
+        let works = rigid_step::works(contact, here, (&taken.state, &taken.balanced));
         let motion = &mut self.progress.motion;
         motion.kinetic_energy += now;
         if self.implicit.dissipation > 0.0 {
-            motion.damping_energy += all - (now - before);
+            motion.damping_energy += works.of_all - (now - before);
         }
-        self.energies.add_driving_work(own);
+        self.energies.add_driving_work(works.of_accelerations);
     }
 
     /// Records the present time as a row, and returns the reason why the motion ends there, if it does.

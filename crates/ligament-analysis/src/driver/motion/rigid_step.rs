@@ -115,18 +115,33 @@ pub(super) fn kinetic_energy(problem: &ContactProblem, rates: &RigidRates) -> f6
     })
 }
 
-/// Work over a step of the accelerations of the bodies, and of the forces of contacts and accelerations together, J.
-pub(super) fn works(problem: &ContactProblem, [before, now]: [(&State, &Balanced); 2]) -> [f64; 2] {
-    free(problem).fold([0.0; 2], |[own, all], it| {
+/// Works over a step, J.
+#[derive(Default)]
+pub(super) struct Works {
+    /// Of the accelerations of the bodies.
+    pub(super) of_accelerations: f64,
+    /// Of contacts and accelerations.
+    pub(super) of_all: f64,
+}
+
+/// Works on the bodies over a step.
+pub(super) fn works(
+    problem: &ContactProblem,
+    before: (&State, &Balanced),
+    now: (&State, &Balanced),
+) -> Works {
+    let mut works = Works::default();
+    for it in free(problem) {
         let way = minus(
             displacement(now.0, it.body),
             displacement(before.0, it.body),
         );
         let mut mean = it.force(problem, before.1).map(|force| 0.5 * force);
         add(&mut mean, 0.5, it.force(problem, now.1));
-        let of_acceleration = it.mass * dot(it.acceleration, way);
-        [own + of_acceleration, all + dot(mean, way)]
-    })
+        works.of_accelerations += it.mass * dot(it.acceleration, way);
+        works.of_all += dot(mean, way);
+    }
+    works
 }
 
 /// Displacement q~ of a body that the rates of a state predict for the end of a step.
