@@ -50,7 +50,7 @@ fn a_gap_postpones_the_breakage_by_itself() {
 
 /// A stiff block on a soft floor, under a force at 8 mm from its middle axis, 10 mm from the edges: a linear pressure that balances the force
 /// reaches over three times the distance of the force from the edge, 6 mm, to half a facet at either end; elsewhere the block lifts off. The
-/// largest pressure is 2 P/(c t), to the 3 % that the block bends and that half a facet is of the width.
+/// largest pressure is 2 P/(c t), to the 1 % that the block bends (measured 0.03 %).
 #[test]
 fn a_block_under_an_eccentric_force_lifts_off() {
     const BLOCK: &str = r#"
@@ -75,11 +75,12 @@ fracture = { control = "event", criterion = [{ kind = "tension" }] }
         "{width:.4e} m press, at most {largest:.4e} Pa, {:.9e} N",
         floor.normal_force[1]
     );
-    assert!((floor.normal_force[1] / 1e3 - 1.0).abs() < 1e-9);
+    // What holds the free block until the floor does may keep 1e-6 of the force, as in load steps; so soft a floor leaves 7e-8.
+    assert!((floor.normal_force[1] / 1e3 - 1.0).abs() < 1e-6);
     assert!((width - 6e-3).abs() < 0.51e-3);
     // The outer integration point is 0.21 facets from the edge.
     let expected = 2.0 * 1e3 / (6e-3 * 0.01) * (1.0 - 0.21 / 6.0);
-    assert!((largest / expected - 1.0).abs() < 0.03, "{expected}");
+    assert!((largest / expected - 1.0).abs() < 0.01, "{expected}");
 }
 
 /// A circle of 0.1 m that is driven into a block.
