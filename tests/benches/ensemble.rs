@@ -8,7 +8,6 @@ use std::io;
 use std::time::{Duration, Instant};
 
 use ligament::ensemble::Ensemble;
-use ligament::mechanics::Scatter;
 use ligament_run::progress::ProgressMode;
 use ligament_study::ensemble::{Request, Settings, Task, ensemble};
 use verification::bench::Bench;
@@ -29,17 +28,13 @@ fn main() {
     let case = verification::bench::case(problems::DISK, &settings);
 
     let bench = Bench::new(problems::DISK, &settings);
-    let scatter = bench.model.setup.scatter.unwrap();
     let points = bench.points();
     let bare = ligament::run::on_threads(Some(1), || {
         let shared = Ensemble::new(bench.model, SEED).unwrap();
         let mut alone = Duration::ZERO;
         let mut broken = 0;
         for number in 0..n {
-            let seed = shared.seed_of(number);
-            let problem = shared
-                .with_limits(Some(Scatter { seed, ..scatter }))
-                .unwrap();
+            let problem = shared.with_limits(&shared.scatter_of(number)).unwrap();
             let start = Instant::now();
             broken += shared.followed(&problem).unwrap().outcome.broken_bonds;
             alone += start.elapsed();

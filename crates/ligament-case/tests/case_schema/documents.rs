@@ -132,7 +132,8 @@ loads = { top = [1, -1, 0.5], temperature = 0 }
 [fracture]
 control = "event"
 stop = { wall_time = 10 }
-criterion = [{ kind = "tension", limit = 1e-4 }]
+scatter = [{ of = "strength", modulus = 12, seed = 3 }, { of = "fracture-energy", distribution = "lognormal", deviation = 0.2 }]
+criterion = [{ kind = "tension", limit = 1e-4 }, { kind = "critical-stretch" }]
 "#;
 
 const MODAL: &str = r#"
