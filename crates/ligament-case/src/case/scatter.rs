@@ -6,7 +6,7 @@ use std::fmt;
 use ligament_model::scatter::{self, Scattered};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{MapAccess, SeqAccess, Visitor};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::fault::KeyFault;
@@ -126,7 +126,11 @@ impl<'de> Visitor<'de> for OneOrSeveral {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Vec<Scatter>, A::Error> {
-        Vec::deserialize(SeqAccessDeserializer::new(list))
+        let all = Vec::deserialize(SeqAccessDeserializer::new(list))?;
+        match all.is_empty() {
+            true => Err(A::Error::invalid_length(0, &self)),
+            false => Ok(all),
+        }
     }
 }
 
