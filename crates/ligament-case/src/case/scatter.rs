@@ -95,7 +95,7 @@ impl Scatters {
         of_each
             .map(|(place, it)| match self.0.len() {
                 1 => it.setup(key),
-                _ => it.setup(&key.child(&place.to_string())),
+                _ => it.setup(&key.child(place.to_string())),
             })
             .collect()
     }
