@@ -1,7 +1,5 @@
 //! Linear equations in two factors a bond, and their sums over the bonds.
 
-use pulp::{Arch, NullaryFnOnce};
-
 use super::pairs::Pairs;
 
 /// A number for each equation of some points, by index.
@@ -56,66 +54,30 @@ pub(crate) trait Equations<const N: usize>: Sync {
         self.forces(pair, products(pair, self.strains(pair, &sum)))
     }
 
-    /// Adds G times a function of G^T mu to the sums of a block of points, pair by pair, with the vector instructions of the processor; both
-    /// are over the stiffness.
+    /// Adds G times a function of G^T mu to the sums of a block of points, pair by pair; both are over the stiffness.
     #[inline(always)]
     fn add(
         &self,
         block: usize,
         mu: &[[f64; N]],
         sums: &mut [[f64; N]],
-        products: impl FnMut(usize, [f64; 2]) -> [f64; 2],
+        mut products: impl FnMut(usize, [f64; 2]) -> [f64; 2],
     ) {
-        Arch::new().dispatch(Sums {
-            equations: self,
-            block,
-            mu,
-            sums,
-            products,
-        });
-    }
-}
-
-/// Sums of a block of points, to which G times a function of G^T mu is added.
-struct Sums<'a, E: ?Sized, F, const N: usize> {
-    equations: &'a E,
-    block: usize,
-    mu: &'a [[f64; N]],
-    sums: &'a mut [[f64; N]],
-    products: F,
-}
-
-impl<E, F, const N: usize> NullaryFnOnce for Sums<'_, E, F, N>
-where
-    E: Equations<N> + ?Sized,
-    F: FnMut(usize, [f64; 2]) -> [f64; 2],
-{
-    type Output = ();
-
-    #[inline(always)]
-    fn call(self) {
-        let Self {
-            equations,
-            block,
-            mu,
-            sums,
-            mut products,
-        } = self;
-        let pairs = equations.pairs();
+        let pairs = self.pairs();
         let indices = pairs.indices(block);
         let first = indices.start;
         for index in indices {
-            let own = E::at_own(mu[index]);
+            let own = Self::at_own(mu[index]);
             let mut own_sum = sums[index - first];
             for pair in pairs.inner(index) {
-                let terms = equations.terms(pair, own, mu, &mut products);
-                add(&mut own_sum, E::at_own(terms));
+                let terms = self.terms(pair, own, mu, &mut products);
+                add(&mut own_sum, Self::at_own(terms));
                 add(&mut sums[pairs.other[pair] as usize - first], terms);
             }
             for pair in pairs.outer(index) {
                 add(
                     &mut own_sum,
-                    E::at_own(equations.terms(pair, own, mu, &mut products)),
+                    Self::at_own(self.terms(pair, own, mu, &mut products)),
                 );
             }
             sums[index - first] = own_sum;
