@@ -42,7 +42,8 @@ fn digest(outcome: &ligament_analysis::driver::Outcome) -> (Vec<[u64; 3]>, Vec<b
     )
 }
 
-/// Sample k has the bits of the setup that is solved alone with its seed: along the exact path, in load steps with softening, and with an
+/// Sample k has the bits of the setup that is solved alone with its seed: along the exact path, in load steps with softening, of one random
+/// property and of two, and with an
 /// iterative solver, which shares no factor. The order in which samples are computed does not matter, nor what broke before.
 #[test]
 fn a_sample_is_the_run_of_its_seed() {
@@ -52,8 +53,10 @@ fn a_sample_is_the_run_of_its_seed() {
     let event =
         "control = \"event\", stop = { load_fraction = 0.5 }, criterion = [{ kind = \"tension\" }]";
     let soft = "steps = 6, criterion = [{ kind = \"tension\", after = \"exponential\" }]";
+    let both = "scatter = [{ of = \"strength\", modulus = 8.0, correlation_length = 0.004 }, { of = \"fracture-energy\", modulus = 9.0 }]";
     for (fracture, solver) in [
         (format!("fracture={{ {event}, {strength} }}"), ""),
+        (format!("fracture={{ {soft}, {both} }}"), ""),
         (format!("fracture={{ {soft}, {energy} }}"), ""),
         (
             format!("fracture={{ {event}, {strength} }}"),
@@ -70,7 +73,7 @@ fn a_sample_is_the_run_of_its_seed() {
             assert_eq!(sample.seed, ensemble.seed_of(number));
             assert!(sample.path.outcome.broken_bonds > 0);
             let mut alone = setup.clone();
-            alone.scatter.as_mut().unwrap().seed = sample.seed;
+            alone.scatter[0].seed = Some(sample.seed);
             let alone = alone.solve(&mut NoObserver).unwrap();
             assert_eq!(digest(&sample.path.outcome), digest(&alone.outcome));
             assert_eq!(sample.path.outcome.first_break, alone.outcome.first_break);
@@ -117,12 +120,12 @@ fn bars(n: u32, modulus: f64) -> Setup {
     let mut settings = event();
     settings.stop.bonds = Some(1);
     setup.analysis = Analysis::Event(settings);
-    setup.scatter = Some(Scatter {
+    setup.scatter = vec![Scatter {
         of: Scattered::Strength,
         distribution: Distribution::Weibull { modulus },
-        seed: 0,
+        seed: None,
         correlation_length: 1.0,
-    });
+    }];
     setup
 }
 
@@ -178,7 +181,7 @@ fn lognormal_fields_have_their_correlation() {
         let scatter = Scatter {
             of: Scattered::FractureEnergy,
             distribution: Distribution::Lognormal { deviation },
-            seed: ligament_model::scatter::seed_of_sample(1, seed),
+            seed: Some(ligament_model::scatter::seed_of_sample(1, seed)),
             correlation_length: length,
         };
         let places = [[0.1, 0.2], [0.1 + 0.6 * length, 0.2 - 0.5 * length]];

@@ -5,7 +5,7 @@
 
 use ligament_model::Numbering;
 use ligament_model::failure::Criterion;
-use ligament_model::scatter::{Distribution, Scatter, Scattered};
+use ligament_model::scatter::{self, Distribution, Scatter, Scattered};
 use verification::bench::Bench;
 use verification::numbers::relative_error;
 
@@ -22,11 +22,16 @@ fracture = { steps = 2 }
 
 /// The bar with one criterion, and with random factors unless there are no words for them.
 fn bar(criterion: &str, scatter: &str) -> Bench {
+    match scatter {
+        "" => with_scatter(criterion, &[]),
+        _ => with_scatter(criterion, &[&format!("fracture.scatter={{ {scatter} }}")]),
+    }
+}
+
+fn with_scatter(criterion: &str, scatter: &[&str]) -> Bench {
     let criterion = format!("fracture.criterion=[{{ {criterion} }}]");
-    let words = format!("fracture.scatter={{ {scatter} }}");
-    let settings = [criterion.as_str(), words.as_str()];
-    let used = if scatter.is_empty() { 1 } else { 2 };
-    Bench::new(BAR, &settings[..used])
+    let settings = [&[criterion.as_str()], scatter].concat();
+    Bench::new(BAR, &settings)
 }
 
 const STRENGTH: &str = "of = \"strength\", modulus = 8.0, seed = 5";
@@ -52,7 +57,7 @@ fn limits_go_with_the_factor_of_what_they_come_from() {
     for (criterion, scatter, share) in cases {
         let (sound, bench) = (bar(criterion, ""), bar(criterion, scatter));
         let (sound, found) = (sound.limits(), bench.limits());
-        let factors = &bench.model.fixed.scatter.as_ref().unwrap().at_points;
+        let factors = &bench.model.fixed.scatter[0].at_points;
         let ends = &bench.model.plane().bonds.ends;
         let mut finite = 0;
         for (bond, &[a, b]) in ends.iter().enumerate() {
@@ -86,7 +91,7 @@ fn softening_keeps_the_fracture_energy_of_each_bond() {
     for (scatter, power) in [(STRENGTH, 0), (ENERGY, 1)] {
         let bench = bar(criterion, scatter);
         let found = &bench.model.criteria.list[0];
-        let factors = bench.model.fixed.scatter.as_ref().unwrap();
+        let factors = &bench.model.fixed.scatter[0];
         for (bond, &ends) in bench.model.plane().bonds.ends.iter().enumerate() {
             if sound.limit[bond].is_finite() {
                 let known = life(sound, bond) * factors.of_bond(ends).powi(power);
@@ -95,6 +100,65 @@ fn softening_keeps_the_fracture_energy_of_each_bond() {
             }
         }
     }
+}
+
+/// With both properties at once each limit has the factor of the strength, and each whole life that of the energy. The strength has the
+/// factors that it has alone, and so has the energy with a seed of its own; without one its factors are others, but the same ones again.
+#[test]
+fn strength_and_fracture_energy_vary_at_once() {
+    let criterion = "kind = \"tension\", after = \"exponential\"";
+    let alone = [STRENGTH, ENERGY].map(|it| bar(criterion, it).model.fixed.scatter[0].clone());
+    let sound = bar(criterion, "");
+    let sound = &sound.model.criteria.list[0];
+    let without_seed = ENERGY.replace(", seed = 5", "");
+    let both = |energy: &str| {
+        let list = format!("fracture.scatter=[{{ {STRENGTH} }}, {{ {energy} }}]");
+        with_scatter(criterion, &[&list])
+    };
+    for (energy, is_own) in [(ENERGY, true), (&without_seed, false)] {
+        let bench = both(energy);
+        let [of_strength, of_energy] = &bench.model.fixed.scatter[..] else {
+            panic!("{energy}")
+        };
+        assert_eq!(of_strength, &alone[0]);
+        assert_eq!(of_energy == &alone[1], is_own, "{energy}");
+        assert_eq!(of_energy, &both(energy).model.fixed.scatter[1]);
+        let found = &bench.model.criteria.list[0];
+        for (bond, &ends) in bench.model.plane().bonds.ends.iter().enumerate() {
+            if sound.limit[bond].is_finite() {
+                let limit = sound.limit[bond] * of_strength.of_bond(ends);
+                assert!(relative_error(found.limit[bond], limit) < 1e-15, "{bond}");
+                let known = life(sound, bond) * of_energy.of_bond(ends);
+                let error = relative_error(life(found, bond), known);
+                assert!(error < 1e-13, "{energy}, bond {bond}: {error:e}");
+            }
+        }
+    }
+}
+
+/// A second property whose seed follows from the first one's is independent of it: the correlation of 20,000 pairs is below four of its
+/// standard deviations, and that of two properties with one seed is 1.
+#[test]
+fn two_properties_are_independent() {
+    let positions = vec![[0.0, 0.0]; 20_000];
+    let property = |of, seed| Scatter {
+        of,
+        distribution: Distribution::Normal { deviation: 0.1 },
+        seed,
+        correlation_length: 0.0,
+    };
+    let correlation = |seed| {
+        let strength = property(Scattered::Strength, Some(3));
+        let energy = property(Scattered::FractureEnergy, seed);
+        let found = scatter::factors(&[strength, energy], &positions, &Numbering::default());
+        let pairs = found[0].at_points.iter().zip(&found[1].at_points);
+        let products = pairs.map(|(one, other)| (one - 1.0) * (other - 1.0));
+        products.sum::<f64>() / positions.len() as f64 / 0.01
+    };
+    let bound = 4.0 / (positions.len() as f64).sqrt();
+    assert!(correlation(None).abs() < bound);
+    // Four deviations sqrt(2/n) of the variance itself.
+    assert!((correlation(Some(3)) - 1.0).abs() < 2f64.sqrt() * bound);
 }
 
 /// Load at which the first bond of the bar breaks.
@@ -118,7 +182,7 @@ fn a_specimen_within_one_correlation_length_has_one_strength() {
         let scatter = Scatter {
             of: Scattered::Strength,
             distribution,
-            seed,
+            seed: Some(seed),
             correlation_length: 100.0,
         };
         let factor = scatter
@@ -143,7 +207,7 @@ fn points_each_for_themselves_have_the_distribution() {
     let scatter = Scatter {
         of: Scattered::Strength,
         distribution,
-        seed: 42,
+        seed: Some(42),
         correlation_length: 0.0,
     };
     let factors = scatter.factors(&positions, &Numbering::default()).at_points;
@@ -173,7 +237,7 @@ fn factors_are_the_same_everywhere() {
     let of = |correlation_length, distribution| Scatter {
         of: Scattered::Strength,
         distribution,
-        seed: 2024,
+        seed: Some(2024),
         correlation_length,
     };
     let places = [[0.0, 0.0], [0.013, -0.2], [1.5, 2.5]];

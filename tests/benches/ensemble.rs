@@ -2,15 +2,15 @@
 //!
 //! The paths alone begin from the prepared body with limits that are known. All else counts for the ensemble: model, factor, the path
 //! without random factors, random fields, limits, rows, counts, tables, fields and plots. `LIGAMENT_SAMPLES` is the number of samples.
+//! Seconds are of the processor, so that other programs matter little.
 #![allow(clippy::unwrap_used, clippy::print_stdout, missing_docs)]
 
 use std::io;
-use std::time::{Duration, Instant};
 
 use ligament::ensemble::Ensemble;
-use ligament::mechanics::Scatter;
 use ligament_run::progress::ProgressMode;
 use ligament_study::ensemble::{Request, Settings, Task, ensemble};
+use rustix::time::{ClockId, clock_gettime};
 use verification::bench::Bench;
 use verification::problems;
 
@@ -29,20 +29,16 @@ fn main() {
     let case = verification::bench::case(problems::DISK, &settings);
 
     let bench = Bench::new(problems::DISK, &settings);
-    let scatter = bench.model.setup.scatter.unwrap();
     let points = bench.points();
     let bare = ligament::run::on_threads(Some(1), || {
         let shared = Ensemble::new(bench.model, SEED).unwrap();
-        let mut alone = Duration::ZERO;
+        let mut alone = 0.0;
         let mut broken = 0;
         for number in 0..n {
-            let seed = shared.seed_of(number);
-            let problem = shared
-                .with_limits(Some(Scatter { seed, ..scatter }))
-                .unwrap();
-            let start = Instant::now();
+            let problem = shared.with_limits(&shared.scatter_of(number)).unwrap();
+            let start = seconds();
             broken += shared.followed(&problem).unwrap().outcome.broken_bonds;
-            alone += start.elapsed();
+            alone += seconds() - start;
         }
         println!(
             "{points} points, {n} samples, {} bonds broken in the mean",
@@ -68,13 +64,19 @@ fn main() {
             progress: ProgressMode::Quiet,
         }),
     };
-    let start = Instant::now();
+    let start = seconds();
     ensemble(&request, &mut io::sink()).unwrap();
-    let whole = start.elapsed();
+    let whole = seconds() - start;
     println!(
         "paths alone {:.2} s, ensemble {:.2} s, ratio {:.3}",
-        bare.as_secs_f64(),
-        whole.as_secs_f64(),
-        whole.as_secs_f64() / bare.as_secs_f64()
+        bare,
+        whole,
+        whole / bare
     );
+}
+
+/// Processor time of the program so far, s.
+fn seconds() -> f64 {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
 }

@@ -221,7 +221,7 @@ impl<'a> PointFields<'a> {
         for (name, ratio) in names.iter().zip(&fixed.energy_ratios) {
             self.reals(name, ratio.at_points.iter().copied());
         }
-        if let Some(scatter) = &fixed.scatter {
+        for scatter in &fixed.scatter {
             self.reals("strength_factor", scatter.at_points.iter().copied());
         }
     }

@@ -232,7 +232,7 @@ result_fields! {
         "Energy of a uniform strain over that of the continuum: `_x`, `_y`, `_biaxial` and `_shear` in the plane; `_x`, `_y`, `_z`, `_hydrostatic`, `_shear_xy`, `_shear_xz` and `_shear_yz` in space."
         => EnergyRatios;
     SCATTER_FACTOR "_factor" ["-"] SCALAR Low,
-        "Factor of the property that varies at random: `strength_factor` or `fracture_energy_factor`."
+        "Factor of a property that varies at random: `strength_factor` or `fracture_energy_factor`."
         => ScatterFactors;
     PATCH_RESIDUAL "patch_residual" ["-"] SCALAR Low,
         "Forces that the patch correction leaves at the point, over the size of their terms."

@@ -73,7 +73,7 @@ pub use overrides::{parts as override_parts, unset};
 pub use precrack::Precrack;
 pub use probe::Probe;
 pub use region::{Corners, Rectangle, Region};
-pub use scatter::{Distribution, Scatter};
+pub use scatter::{Distribution, Scatter, Scatters};
 pub use schema::schema;
 pub use sections::Case;
 pub use solid_lattice_section::SolidLatticeSection;

@@ -19,8 +19,8 @@ pub struct ConstantFields {
     pub patch_residual: Vec<f64>,
     /// Points whose bonds never fail, shape (n_points).
     pub no_fail: Vec<bool>,
-    /// Random factors of a property; `None` where no property is random.
-    pub scatter: Option<Factors>,
+    /// Random factors of each property that varies; empty where none does.
+    pub scatter: Vec<Factors>,
     /// Pairs within a horizon that are not bonded, in the order of their ends.
     pub absent: Vec<AbsentBond>,
 }

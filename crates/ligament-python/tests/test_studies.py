@@ -55,11 +55,13 @@ def test_modes_of_a_free_plate(plate: dict[str, Any]) -> None:
 def test_a_sample_of_an_ensemble_is_the_run_of_its_seed(plate: dict[str, Any]) -> None:
     plate["lattice"]["cells"] = [12, 18]
     plate["lattice"]["spacing"] = 0.005
-    plate["fracture"] = {"control": "event", "stop": {"bonds": 5}, "scatter": {"of": "strength", "modulus": 12.0, "seed": 1}}
+    plate["material"]["fracture_energy"] = 20.0
+    strength, energy = {"of": "strength", "modulus": 12.0}, {"of": "fracture-energy", "modulus": 9.0}
+    criteria = [{"kind": "tension"}, {"kind": "critical-stretch"}]
+    plate["fracture"] = {"control": "event", "stop": {"bonds": 5}, "scatter": [strength, energy], "criterion": criteria}
     found = ligament.ensemble(plate, samples=3, seed=7)
     assert len(found) == 3 and len(set(found.seeds)) == 3
     assert found.first_break.sum() > 0.0 and np.all(found.damaged >= found.first_break)
-    plate["fracture"]["scatter"]["seed"] = int(found.seeds[2])
-    alone = ligament.run(plate, progress=False)
+    alone = ligament.run(plate, progress=False, fracture__scatter__0__seed=int(found.seeds[2]))
     # Of the summary `first_break` is foretold from the elastic solution; the history has the event itself.
     assert found.first[2] == alone.history["reaction"].iloc[1], "the same bits"

@@ -1,8 +1,9 @@
-//! Samples of a body whose strength or fracture energy varies at random.
+//! Samples of a body whose strength, fracture energy or both vary at random.
 //!
 //! All samples share the model, the factor of its intact stiffness and its elastic solution; only the limits of the bonds differ. Sample k
-//! depends on the seed of the ensemble and on k alone: it is the run of the setup with the seed of
-//! [`Ensemble::seed_of`], to the last bit, whatever the number of threads and of other samples.
+//! depends on the seed of the ensemble and on k alone: it is the run of the setup whose first random property has the seed of
+//! [`Ensemble::seed_of`], to the last bit, whatever the number of threads and of other samples. A second property with a seed of its own has
+//! the same factors in all samples; without one it varies from sample to sample as well, independently of the first.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -26,12 +27,11 @@ use crate::run::{NoObserver, on_threads};
 use crate::setup::Analysis;
 use crate::system::over_dimension;
 
-/// A body with its loads, prepared for samples of its random property.
+/// A body with its loads, prepared for samples of its random properties.
 pub struct Ensemble {
     model: Model,
     problem: Problem,
     prepared: Prepared,
-    scatter: Scatter,
     seed: u64,
     breaking: Breaking,
 }
@@ -49,7 +49,7 @@ enum Breaking {
 pub struct Sample {
     /// Number of the sample, from 0.
     pub number: u64,
-    /// Seed of its random numbers.
+    /// Seed of the random numbers of its first random property.
     pub seed: u64,
     /// Path of the sample.
     pub path: SampledPath,
@@ -72,10 +72,11 @@ impl Ensemble {
     /// If nothing varies at random, no bond breaks in the analysis or it depends on the time that it takes, or the equations cannot be
     /// set up.
     pub fn new(model: Model, seed: u64) -> Result<Self, Error> {
-        let scatter = model.setup.scatter.ok_or_else(|| {
+        if model.setup.scatter.is_empty() {
             let advice = "an ensemble needs a strength or a fracture energy that varies at random";
-            Field::whole("scatter").error(Fault::Contradiction(advice.into()))
-        })?;
+            let fault = Fault::Contradiction(advice.into());
+            return Err(Field::whole("scatter").error(fault).into());
+        }
         let (breaking, energy_tolerance, stop) = match &model.setup.analysis {
             Analysis::Event(it) => (Breaking::Exact(it.clone()), it.energy_tolerance, it.stop),
             Analysis::Stepped(it) => (Breaking::Steps(it.clone()), it.energy_tolerance, it.stop),
@@ -101,7 +102,6 @@ impl Ensemble {
             model,
             problem,
             prepared,
-            scatter,
             seed,
             breaking,
         })
@@ -117,9 +117,18 @@ impl Ensemble {
         &self.problem
     }
 
-    /// The seed of a sample, for a run of it alone.
+    /// The seed of the first random property of a sample, for a run of it alone.
     pub fn seed_of(&self, number: u64) -> u64 {
         scatter::seed_of_sample(self.seed, number)
+    }
+
+    /// The random properties of a sample: those of the setup, the first with the seed of the sample.
+    pub fn scatter_of(&self, number: u64) -> Vec<Scatter> {
+        let mut scatter = self.model.setup.scatter.clone();
+        if let Some(first) = scatter.first_mut() {
+            first.seed = Some(self.seed_of(number));
+        }
+        scatter
     }
 
     /// The path of a sample, on the caller's threads.
@@ -128,15 +137,10 @@ impl Ensemble {
     ///
     /// If a random limit leaves no energy for the softening of a bond, or the path cannot be followed.
     pub fn sample(&self, number: u64) -> Result<Sample, Error> {
-        let seed = self.seed_of(number);
-        let scatter = Scatter {
-            seed,
-            ..self.scatter
-        };
         Ok(Sample {
             number,
-            seed,
-            path: self.followed(&self.with_limits(Some(scatter))?)?,
+            seed: self.seed_of(number),
+            path: self.followed(&self.with_limits(&self.scatter_of(number))?)?,
         })
     }
 
@@ -146,15 +150,15 @@ impl Ensemble {
     ///
     /// If the path cannot be followed.
     pub fn sound(&self) -> Result<SampledPath, Error> {
-        self.followed(&self.with_limits(None)?)
+        self.followed(&self.with_limits(&[])?)
     }
 
-    /// The problem with the limits of a random property, or of none.
+    /// The problem with the limits of random properties, or of none.
     ///
     /// # Errors
     ///
     /// If a random limit leaves no energy for the softening of a bond.
-    pub fn with_limits(&self, scatter: Option<Scatter>) -> Result<Problem, SetupError> {
+    pub fn with_limits(&self, scatter: &[Scatter]) -> Result<Problem, SetupError> {
         let model = &self.model;
         let criteria =
             over_dimension!(&model.system, system => criteria(model, &**system, scatter))?;
@@ -223,16 +227,15 @@ impl Ensemble {
     }
 }
 
-/// Criteria of a model whose limits have the factors of a random property, or of none.
+/// Criteria of a model whose limits have the factors of random properties, or of none.
 fn criteria<const D: usize>(
     model: &Model,
     system: &dyn System<D>,
-    scatter: Option<Scatter>,
+    scatter: &[Scatter],
 ) -> Result<Criteria, SetupError> {
     let body = model.setup.body.geometry::<D>();
-    let factors = scatter.map(|it| it.factors(body.positions(), &body.numbering()));
     let fixed = ConstantFields {
-        scatter: factors,
+        scatter: scatter::factors(scatter, body.positions(), &body.numbering()),
         ..model.fixed.clone()
     };
     formulation::criteria(&model.setup, system, &fixed)

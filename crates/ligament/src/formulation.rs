@@ -219,7 +219,7 @@ pub fn criteria<const D: usize>(
             .collect(),
         materials: &materials,
         lattice: cast_ref(system).map(|system| lattice(setup, system)),
-        scatter: fixed.scatter.as_ref(),
+        scatter: &fixed.scatter,
     };
     failure::criteria(&setup.criteria, &basis).map_err(|(place, reason)| {
         let field = Field::element("criteria", place);

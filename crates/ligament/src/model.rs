@@ -7,6 +7,7 @@ use ligament_model::communicator::{Communicator, Solo};
 use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
+use ligament_model::scatter;
 use ligament_model::{
     Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ConstantFields, EnergyRatio,
     PointCloud, System,
@@ -102,7 +103,7 @@ impl Model {
             horizon: horizons.radius,
             precrack_share: std::mem::take(&mut crossed.share),
             energy_ratios,
-            scatter: (setup.scatter).map(|it| it.factors(body.positions(), &body.numbering())),
+            scatter: scatter::factors(&setup.scatter, body.positions(), &body.numbering()),
             absent,
             ..of_correction(&correction, loading::no_fail(&setup, &cloud)?)
         };
@@ -397,7 +398,7 @@ fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> ConstantFields 
         shear_ratio: correction.shear_ratio.clone(),
         patch_residual: correction.patch_residual().to_vec(),
         no_fail,
-        scatter: None,
+        scatter: Vec::new(),
         absent: Vec::new(),
     }
 }

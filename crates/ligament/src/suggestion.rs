@@ -39,30 +39,3 @@ pub fn hint(found: &str, candidates: &[String], noun: &str, quote: char) -> Stri
         (None, None) => String::new(),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn names(texts: &[&str]) -> Vec<String> {
-        texts.iter().map(|&text| text.to_owned()).collect()
-    }
-
-    #[test]
-    fn the_nearest_name_is_suggested_and_a_far_one_is_not() {
-        let candidates = names(&["platen-top", "platen-bottom", "disk"]);
-        assert_eq!(nearest("platen-topp", &candidates), Some("platen-top"));
-        assert_eq!(nearest("Disk", &candidates), Some("disk"));
-        assert_eq!(nearest("quux", &candidates), None);
-    }
-
-    #[test]
-    fn a_long_list_is_left_out() {
-        let many: Vec<String> = (0..40).map(|index| format!("group-{index}")).collect();
-        assert_eq!(hint("quux", &many, "groups", '`'), "");
-        assert_eq!(
-            hint("quux", &names(&["a", "b"]), "groups", '`'),
-            "; groups: `a`, `b`"
-        );
-    }
-}

@@ -346,9 +346,11 @@ fn smallest_factor(setup: &Setup, spacing: &[f64], fixed: &ConstantFields) -> (f
 }
 
 fn scatter_below_spacing(setup: &Setup, spacing: &[f64]) -> Option<Warning> {
-    let length = setup.scatter?.correlation_length;
     let spacing = spacing.iter().copied().fold(0.0, f64::max);
-    (length > 0.0 && length < spacing).then_some(Warning::ScatterBelowSpacing { length, spacing })
+    let lengths = setup.scatter.iter().map(|it| it.correlation_length);
+    let below = lengths.filter(|length| *length > 0.0 && *length < spacing);
+    let length = below.reduce(f64::min)?;
+    Some(Warning::ScatterBelowSpacing { length, spacing })
 }
 
 /// Longest side of the box around a body, m.

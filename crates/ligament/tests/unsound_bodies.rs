@@ -1,9 +1,10 @@
 //! Bodies that no equation would refuse are refused with the place, the reason and what to do.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
+use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
 use ligament::warning::Warning;
-use ligament_mesh::{Cell, Mesh};
+use ligament_mesh::{Cell, Mesh, SolidCell, SolidMesh};
 
 /// The number of cells a side of a square plate.
 const SIDE: u32 = 6;
@@ -149,4 +150,83 @@ fn what_numbers_cannot_hold_is_refused() {
     }
     let solution = plate([1e-40; 2], |_| ()).solve(&mut NoObserver).unwrap();
     assert!(solution.outcome.elastic_stiffness.is_finite());
+}
+
+/// Solid of hexahedra between layers of four nodes.
+fn solid(positions: Vec<[f64; 3]>, layers_of_cells: &[[u32; 2]], factor: f64) -> Setup {
+    let cell = |&[lower, upper]: &[u32; 2]| {
+        let node = |k: u32| 4 * [lower, upper][k as usize / 4] + k % 4;
+        SolidCell::Hexahedron(std::array::from_fn(|k| node(k as u32)))
+    };
+    let mesh = SolidMesh {
+        node_tags: (1..=positions.len() as u64).collect(),
+        positions,
+        cells: layers_of_cells.iter().map(cell).collect(),
+        ..SolidMesh::default()
+    };
+    let material = Material::isotropic(1e9, 0.2);
+    let mut setup = Setup::new(SolidMeshBody::from(mesh), material, Law::NHPD);
+    setup.horizon = Horizon::Factor(factor);
+    let lowest = Place::Box([[-1.0, -1.0, -1e-3], [2.0, 2.0, 1e-3]]);
+    setup.supports = vec![Support::new(
+        lowest,
+        &[Component::X, Component::Y, Component::Z],
+    )];
+    setup.loads = vec![Load::new(
+        Place::At([0.0, 0.0, 1.0]),
+        Action::Force([1.0, 0.0, 0.0]),
+    )];
+    setup
+}
+
+/// The corners of a face of a brick of 1 m.
+fn layer([x, y, z]: [f64; 3]) -> [[f64; 3]; 4] {
+    [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[a, b]| [x + a, y + b, z])
+}
+
+/// Two bricks on each other, of 1 m and of another height.
+fn tower(height: f64, factor: f64) -> Setup {
+    let layers = [0.0, 1.0, 1.0 + height].map(|z| layer([0.0, 0.0, z]));
+    solid(layers.concat(), &[[0, 1], [1, 2]], factor)
+}
+
+#[test]
+fn long_edges_tear_a_solid() {
+    let found = error(tower(3.0, 1.5));
+    assert!(
+        found.contains("the bonds connect 2 separate parts, but the cells form 1")
+            && found.contains("need a horizon factor above 3.00;"),
+        "{found}"
+    );
+    tower(3.0, 3.1).solve(&mut NoObserver).unwrap();
+}
+
+#[test]
+fn points_of_a_solid_that_nearly_coincide_are_named() {
+    let found = error(tower(2e-6, 3.0));
+    assert!(
+        found.starts_with("body: node 5 at") && found.contains("are only 2.0e-6 m apart"),
+        "{found}"
+    );
+    tower(0.01, 3.0).solve(&mut NoObserver).unwrap();
+}
+
+/// Two bricks without a common node; the second begins at this height, and beside the first in x and y.
+#[test]
+fn bricks_in_each_other_are_found() {
+    let fault_at = |z: f64| {
+        let layers = [
+            layer([0.0; 3]),
+            layer([0.0, 0.0, 1.0]),
+            layer([0.5, 0.3, z]),
+            layer([0.5, 0.3, z + 1.0]),
+        ];
+        let setup = solid(layers.concat(), &[[0, 1], [2, 3]], 3.0);
+        let found = Model::build(setup, &mut ()).err();
+        found.map(|error| *error.fault)
+    };
+    let inside = fault_at(0.4);
+    assert!(matches!(inside, Some(Fault::Overlap { .. })), "{inside:?}");
+    let above = fault_at(1.1);
+    assert!(!matches!(above, Some(Fault::Overlap { .. })), "{above:?}");
 }

@@ -3,6 +3,7 @@
 
 use ligament::body::PointsError;
 use ligament::prelude::*;
+use ligament::suggestion::{hint, nearest};
 use ligament_model::failure::mixed_mode::MIXED_MODE;
 use ligament_model::{Anisotropic, Orthotropic};
 
@@ -304,4 +305,20 @@ fn arrays_that_are_no_body_are_refused() {
             .to_string()
             .contains("group `end` has the point 1")
     );
+}
+
+#[test]
+fn the_nearest_name_is_suggested_and_a_far_one_is_not() {
+    let candidates = ["platen-top", "platen-bottom", "disk"].map(str::to_owned);
+    assert_eq!(nearest("platen-topp", &candidates), Some("platen-top"));
+    assert_eq!(nearest("Disk", &candidates), Some("disk"));
+    assert_eq!(nearest("quux", &candidates), None);
+}
+
+#[test]
+fn a_long_list_of_names_is_left_out() {
+    let many: Vec<String> = (0..40).map(|index| format!("group-{index}")).collect();
+    assert_eq!(hint("quux", &many, "groups", '`'), "");
+    let few = ["a", "b"].map(str::to_owned);
+    assert_eq!(hint("quux", &few, "groups", '`'), "; groups: `a`, `b`");
 }

@@ -16,7 +16,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::criterion::Criterion;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::scatter::Scatter;
+use super::scatter::Scatters;
 use super::values::{Numbers, missing, numbers, refuse, require};
 use super::word::Word;
 
@@ -55,8 +55,8 @@ pub struct Fracture {
     /// When to stop before the end of the loading; whichever comes first.
     #[serde(default)]
     pub stop: Stop,
-    /// A strength or a fracture energy that varies over the body at random.
-    pub scatter: Option<Scatter>,
+    /// A strength or a fracture energy that varies over the body at random; both as a list of two tables.
+    pub scatter: Option<Scatters>,
     /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
     #[serde(rename = "criterion")]
     #[schemars(length(min = 1))]

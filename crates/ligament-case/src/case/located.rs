@@ -87,6 +87,7 @@ impl Case {
         };
         let element = match field.name {
             "materials" => self.materials[index].key(),
+            "scatter" if self.varies_once() => list.to_owned(),
             _ => format!("{list}.{index}"),
         };
         let part = match (field.name, field.part) {
@@ -115,6 +116,13 @@ impl Case {
         repeated.map_or("points".to_owned(), |before| {
             format!("points.{}", before + 1)
         })
+    }
+
+    /// Whether one property varies at random, which is a table and no list.
+    fn varies_once(&self) -> bool {
+        let fracture = self.fracture.as_ref();
+        let scatter = fracture.and_then(|it| it.scatter.as_ref());
+        scatter.is_some_and(|it| it.0.len() == 1)
     }
 
     /// The key for the place of an element of a list.

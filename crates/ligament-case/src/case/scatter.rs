@@ -1,13 +1,22 @@
-//! `[fracture.scatter]`: a strength or a fracture energy that varies at random.
+//! `[fracture.scatter]`: a strength or a fracture energy that varies at random; `[[fracture.scatter]]` for both.
+
+use std::borrow::Cow;
+use std::fmt;
 
 use ligament_model::scatter::{self, Scattered};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{missing, refuse};
 use super::word::Word;
+
+/// Properties that vary at random: one as a table, several as a list of tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scatters(pub Vec<Scatter>);
 
 /// A property that varies over the body at random, by a factor with the mean 1.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,9 +33,8 @@ pub struct Scatter {
     /// Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`.
     #[schemars(range(max = 10), extend("exclusiveMinimum" = 0))]
     pub deviation: Option<f64>,
-    /// Seed of the random numbers: another one is another specimen.
-    #[serde(default)]
-    pub seed: u64,
+    /// Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's.
+    pub seed: Option<u64>,
     /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
     #[serde(default)]
     #[schemars(range(min = 0), extend("x-unit" = "m"))]
@@ -78,5 +86,74 @@ impl Scatter {
         let given = [("modulus", self.modulus.is_some())];
         refuse(key, given, words, "it has a `deviation`")?;
         self.deviation.ok_or_else(|| missing(key, "deviation"))
+    }
+}
+
+impl Scatters {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<Vec<scatter::Scatter>, KeyFault> {
+        let of_each = self.0.iter().enumerate();
+        of_each
+            .map(|(place, it)| match self.0.len() {
+                1 => it.setup(key),
+                _ => it.setup(&key.child(place.to_string())),
+            })
+            .collect()
+    }
+}
+
+impl<'de> Deserialize<'de> for Scatters {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let mut all = deserializer.deserialize_any(OneOrSeveral)?;
+        if let Some(first) = all.first_mut() {
+            first.seed.get_or_insert_default();
+        }
+        Ok(Self(all))
+    }
+}
+
+/// Reads one table, or a list of tables.
+struct OneOrSeveral;
+
+impl<'de> Visitor<'de> for OneOrSeveral {
+    type Value = Vec<Scatter>;
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a table with the property that varies, or a list of such tables")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<Scatter>, A::Error> {
+        Scatter::deserialize(MapAccessDeserializer::new(map)).map(|it| vec![it])
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Vec<Scatter>, A::Error> {
+        let all = Vec::deserialize(SeqAccessDeserializer::new(list))?;
+        match all.is_empty() {
+            true => Err(A::Error::invalid_length(0, &self)),
+            false => Ok(all),
+        }
+    }
+}
+
+impl Serialize for Scatters {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [one] => one.serialize(serializer),
+            all => all.serialize(serializer),
+        }
+    }
+}
+
+impl JsonSchema for Scatters {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Scatters".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let one = generator.subschema_for::<Scatter>();
+        json_schema!({ "anyOf": [one, { "type": "array", "items": one, "minItems": 1 }] })
     }
 }

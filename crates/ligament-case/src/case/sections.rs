@@ -368,11 +368,11 @@ impl Case {
                 criteria.flatten(),
                 super::criterion::Criterion::setup,
             )?,
-            scatter: (self.fracture.iter())
-                .filter_map(|it| it.scatter.as_ref())
+            scatter: (self.fracture.as_ref())
+                .and_then(|it| it.scatter.as_ref())
                 .map(|it| it.setup(&root().child("fracture").child("scatter")))
-                .next()
-                .transpose()?,
+                .transpose()?
+                .unwrap_or_default(),
             probes: each("probe", &self.probes, |it, key| it.setup(key, dimensions))?,
             analysis: self.analysis_of_setup()?,
             solver: self.solver.setup(),

@@ -16,7 +16,8 @@ impl Case {
         for criterion in criteria.into_iter().flatten() {
             found.extend([criterion.kind.0.source, criterion.after.0.source]);
         }
-        if let Some(scatter) = fracture.and_then(|it| it.scatter.as_ref()) {
+        let scatter = fracture.and_then(|it| it.scatter.as_ref());
+        for scatter in scatter.iter().flat_map(|it| &it.0) {
             found.push(match scatter.distribution {
                 Distribution::Weibull => "Weibull 1951",
                 Distribution::Normal => "",

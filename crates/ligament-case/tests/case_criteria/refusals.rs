@@ -163,4 +163,29 @@ fn random_factors_go_with_their_distribution_and_with_what_criteria_take() {
         let found = error_of_scatter(kind, keys);
         assert!(found.contains(message), "{keys}: {found}");
     }
+    let both = |energy: &str| {
+        let strength = "{ of = \"strength\", modulus = 12 }";
+        let criteria = "criterion = [{ kind = \"tension\", after = \"linear\" }]";
+        error_of(with(&format!(
+            "scatter = [{strength}, {{ {energy} }}]\n{criteria}\n"
+        )))
+    };
+    for (keys, message) in [
+        (
+            "of = \"strength\", modulus = 9",
+            "fracture.scatter.1.of: it varies at random already: take \"fracture-energy\"",
+        ),
+        ("of = \"fracture-energy\"", "missing key `modulus`"),
+        (
+            "of = \"fracture-energy\", modulus = 0.1",
+            "fracture.scatter.1.modulus: must be 1 to 10000, found 0.1",
+        ),
+        (
+            "of = \"fracture-energy\", modulos = 9",
+            "did you mean `modulus`?",
+        ),
+    ] {
+        let found = both(keys);
+        assert!(found.contains(message), "{keys}: {found}");
+    }
 }

@@ -132,6 +132,7 @@ loads = { top = [1, -1, 0.5], temperature = 0 }
 [fracture]
 control = "event"
 stop = { wall_time = 10 }
+scatter = [{ of = "strength", modulus = 12, seed = 3 }]
 criterion = [{ kind = "tension", limit = 1e-4 }]
 "#;
 
@@ -335,7 +336,7 @@ fn collect(value: &Value, schema: &Value, path: &TablePath, found: &mut Vec<(Tab
             for (index, value) in values.iter().enumerate() {
                 collect(
                     value,
-                    &schema["items"],
+                    of_lists(schema),
                     &path.child(&index.to_string(), "*"),
                     found,
                 );
@@ -354,6 +355,14 @@ fn of_tables(schema: &Value) -> &Value {
     table.unwrap_or(schema)
 }
 
+/// The elements of a list; of a key that takes a table or a list of tables, those tables.
+fn of_lists(schema: &Value) -> &Value {
+    let alternatives = schema["anyOf"].as_array().into_iter().flatten();
+    let tables = alternatives.map(|it| &it["items"]);
+    let mut tables = tables.filter(|it| it["type"] == "object");
+    tables.next().unwrap_or(&schema["items"])
+}
+
 /// Patterns of all tables of the schema, and all keys: pattern of the table, key, schema.
 pub(super) fn all_of_schema() -> (BTreeSet<String>, Vec<(String, String, Value)>) {
     let (mut tables, mut keys) = (BTreeSet::new(), Vec::new());
@@ -367,10 +376,11 @@ fn walk(
     tables: &mut BTreeSet<String>,
     keys: &mut Vec<(String, String, Value)>,
 ) {
-    let schema = of_tables(schema);
-    if schema["items"].is_object() {
-        walk(&schema["items"], &format!("{pattern}/*"), tables, keys);
+    let elements = of_lists(schema);
+    if elements.is_object() {
+        walk(elements, &format!("{pattern}/*"), tables, keys);
     }
+    let schema = of_tables(schema);
     if schema["type"] != "object" {
         return;
     }

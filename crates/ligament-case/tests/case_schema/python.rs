@@ -104,7 +104,10 @@ impl Types {
     fn table(&mut self, name: &str, schema: &Value) -> String {
         let mut kinds = Vec::new();
         if let Some(keys) = schema["properties"].as_object() {
-            self.add(name, "TypedDict", schema, &keys.iter().collect::<Vec<_>>());
+            // A table that may stand alone or in a list is one type.
+            if !self.0.contains(&format!("\nclass {name}(")) {
+                self.add(name, "TypedDict", schema, &keys.iter().collect::<Vec<_>>());
+            }
             kinds.push(name.to_owned());
         }
         if schema["additionalProperties"].is_object() {

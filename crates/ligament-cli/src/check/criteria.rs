@@ -6,9 +6,9 @@ use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
 use ligament_model::failure::{Choice, Criterion};
-use ligament_model::scatter::{Distribution, Scattered};
+use ligament_model::scatter::{Distribution, Scatter, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
-use ligament_output::summary::Spread;
+use ligament_output::summary::{ScatterSummary, Spread};
 use ligament_run::model::Model;
 use ligament_run::summary::scatter;
 
@@ -33,7 +33,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     write_cracks(out, model)?;
     crack_work::write(out, model)?;
     characteristic_length::write(out, model)?;
-    write_scatter(out, model)
+    write_scatters(out, model)
 }
 
 /// Writes the energy that cracks dissipate in each material.
@@ -110,11 +110,17 @@ fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
     }
 }
 
-/// Writes the random property, whose factors are included in the limits above.
-fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    let (Some(scatter), Some(summary)) = (model.setup.scatter, scatter(model)) else {
-        return Ok(());
-    };
+/// Writes the random properties, whose factors are included in the limits above.
+fn write_scatters(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+    let mut properties = model.setup.scatter.iter().zip(scatter(model));
+    properties.try_for_each(|(scatter, summary)| write_scatter(out, scatter, &summary))
+}
+
+fn write_scatter(
+    out: &mut dyn Write,
+    scatter: &Scatter,
+    summary: &ScatterSummary,
+) -> io::Result<()> {
     let distribution = match scatter.distribution {
         Distribution::Weibull { modulus } => format!("Weibull modulus {modulus}"),
         Distribution::Normal { deviation } => format!("normal by {} %", 100.0 * deviation),
@@ -129,7 +135,7 @@ fn write_scatter(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         Scattered::Strength => "random strength",
         Scattered::FractureEnergy => "random G_c",
     };
-    let seed = scatter.seed;
+    let seed = summary.seed;
     let deviation = 100.0 * summary.deviation;
     let words = format!(
         "{distribution}, {correlation}, seed {seed}: factors {min:.4} to {max:.4}, deviation {deviation:.2} %"

@@ -25,7 +25,8 @@ Examples:
 
 The case has a [fracture.scatter]; its seed does not matter. Sample k depends on --seed and on k alone, and is the run
   ligament run case.toml --set fracture.scatter.seed=SEED
-with the SEED in its row of samples.csv, to the same bits.
+with the SEED in its row of samples.csv, to the same bits. With two tables [[fracture.scatter]] it is the seed of the
+first, fracture.scatter.0.seed.
 
 The same command again computes the samples that are missing; with more --samples it goes on.";
 

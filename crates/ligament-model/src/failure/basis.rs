@@ -20,8 +20,8 @@ pub struct Basis<'a, const D: usize = 2> {
     pub constants: Vec<Option<Isotropic>>,
     /// The bonds as a lattice far from its edges, for those with strains of their own; in the plane alone.
     pub lattice: Option<Lattice>,
-    /// Factors by which a property varies at random, where one does.
-    pub scatter: Option<&'a Factors>,
+    /// Factors by which properties vary at random, each another one.
+    pub scatter: &'a [Factors],
 }
 
 impl<const D: usize> Basis<'_, D> {
@@ -53,9 +53,14 @@ impl<const D: usize> Basis<'_, D> {
         self.weakest(&given.unwrap_or_else(of_materials))
     }
 
+    /// The factors of a property; none where it does not vary.
+    pub(super) fn factors(&self, of: Scattered) -> Option<&Factors> {
+        self.scatter.iter().find(|it| it.of == of)
+    }
+
     /// Multiplies values of the bonds (n_bonds) by a function of the factor by which a property varies, where it does.
     pub(super) fn scatter(&self, of: Scattered, values: &mut [f64], share: fn(f64) -> f64) {
-        let Some(factors) = self.scatter.filter(|it| it.of == of) else {
+        let Some(factors) = self.factors(of) else {
             return;
         };
         for (value, &ends) in values.iter_mut().zip(&self.system.bonds.ends) {

@@ -77,7 +77,7 @@ fn made(
         constants: vec![material.elasticity.isotropic()],
         materials: &[material],
         lattice: None,
-        scatter: None,
+        scatter: &[],
     };
     criteria(&[choice.into()], &basis).map(|mut made| made.list.remove(0))
 }

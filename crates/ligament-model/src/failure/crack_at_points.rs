@@ -73,10 +73,8 @@ impl CrackAtPoints {
             let weaker =
                 |one: [f64; 3], other: [f64; 3]| if other[0] < one[0] { other } else { one };
             let [opening, sliding, exponent] = present.reduce(weaker).unwrap_or([f64::INFINITY; 3]);
-            let factor = basis
-                .scatter
-                .filter(|it| it.of == Scattered::FractureEnergy);
-            let factor = factor.map_or(1.0, |it| it.at_points[point]);
+            let factors = basis.factors(Scattered::FractureEnergy);
+            let factor = factors.map_or(1.0, |it| it.at_points[point]);
             [factor * opening, factor * sliding, exponent]
         };
         let asks_for_modes = |[opening, sliding, _]: &[f64; 3]| opening != sliding;

@@ -1,4 +1,4 @@
-//! Random variation of strength or fracture energy over the body.
+//! Random variation of strength, fracture energy or both over the body.
 //!
 //! A [`Scatter`] gives each point a factor with the mean 1. With a correlation length the factor is a function of the position alone, so
 //! that a finer mesh of the same body has the same weak places; without one each point has an independent number, given by its number in the
@@ -23,8 +23,9 @@ pub struct Scatter {
     pub of: Scattered,
     /// Distribution of the factors.
     pub distribution: Distribution,
-    /// Seed of the random numbers; another seed gives another specimen.
-    pub seed: u64,
+    /// Seed of the random numbers; another seed gives another specimen. Without one it is 0, and of a property beside another one it
+    /// follows from the seed of that.
+    pub seed: Option<u64>,
     /// Distance over which the correlation exp(-(r/L)^2) of two positions falls to 1/e, m; 0 for independent points.
     pub correlation_length: f64,
 }
@@ -39,6 +40,14 @@ pub enum Scattered {
 }
 
 impl Scattered {
+    /// The other property.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Strength => Self::FractureEnergy,
+            Self::FractureEnergy => Self::Strength,
+        }
+    }
+
     /// Name of the field of the factors in results.
     pub fn field(self) -> &'static str {
         match self {
@@ -52,6 +61,35 @@ impl Scattered {
 /// tables and case files hold it exactly.
 pub fn seed_of_sample(seed: u64, number: u64) -> u64 {
     random::bits(seed, number) >> 11
+}
+
+/// Seed of the property at a place in a list: its own, or one that follows from that of the first property. Properties whose seeds differ
+/// have independent factors.
+pub fn seed_at(properties: &[Scatter], place: usize) -> u64 {
+    let own = |place: usize| properties.get(place).and_then(|it| it.seed);
+    let first = own(0).unwrap_or_default();
+    match own(place) {
+        Some(seed) => seed,
+        None if place == 0 => first,
+        // Far from the numbers of the first property, which are counted from 0.
+        None => seed_of_sample(first, u64::MAX - place as u64),
+    }
+}
+
+/// Factors of each of several properties at the positions (n_points), m, of points with a given numbering.
+pub fn factors<const D: usize>(
+    properties: &[Scatter],
+    positions: &[[f64; D]],
+    numbering: &Numbering,
+) -> Vec<Factors> {
+    let with_seed = |(place, property): (usize, &Scatter)| Scatter {
+        seed: Some(seed_at(properties, place)),
+        ..*property
+    };
+    let properties = properties.iter().enumerate().map(with_seed);
+    properties
+        .map(|it| it.factors(positions, numbering))
+        .collect()
 }
 
 /// Factors of a property over the points.
@@ -70,15 +108,16 @@ impl Scatter {
         positions: &[[f64; D]],
         numbering: &Numbering,
     ) -> Factors {
+        let seed = self.seed.unwrap_or_default();
         let at_points = if self.correlation_length > 0.0 {
-            let waves = RandomWaves::new(self.seed, self.correlation_length);
+            let waves = RandomWaves::new(seed, self.correlation_length);
             let positions = positions.par_iter();
             positions
                 .map(|&it| self.distribution.factor(waves.at(it)))
                 .collect()
         } else {
             let in_file = (0..positions.len() as u32).map(|it| numbering.in_file(it).into());
-            let normal = in_file.map(|it: u64| random::normal(self.seed, it));
+            let normal = in_file.map(|it: u64| random::normal(seed, it));
             normal.map(|it| self.distribution.factor(it)).collect()
         };
         Factors {

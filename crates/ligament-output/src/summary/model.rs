@@ -47,6 +47,9 @@ pub struct ScatterSummary {
     /// Standard deviation of the factors of the points over their mean.
     #[serde(deserialize_with = "number")]
     pub deviation: f64,
+    /// Other properties that vary beside it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub beside: Vec<ScatterSummary>,
 }
 
 /// Range and mean of a quantity.

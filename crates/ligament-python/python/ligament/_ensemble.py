@@ -55,7 +55,9 @@ class Ensemble:
 
     @property
     def seeds(self) -> NDArray[Any]:
-        """Seed of each sample: ``ligament.run(case, fracture__scatter__seed=seed)`` is that sample, to the same bits."""
+        """Seed of each sample: ``ligament.run(case, fracture__scatter__seed=seed)`` is that sample, to the same bits.
+
+        With two random properties it is the seed of the first, ``fracture__scatter__0__seed``."""
         return self._samples["seed"]
 
     @property

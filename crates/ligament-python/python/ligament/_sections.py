@@ -818,7 +818,7 @@ class FractureStop(TypedDict, total=False):
 
 
 class FractureScatter(TypedDict, total=False):
-    """A strength or a fracture energy that varies over the body at random."""
+    """A property that varies over the body at random, by a factor with the mean 1."""
 
     of: Literal["strength", "fracture-energy"]
     """What varies.
@@ -836,7 +836,7 @@ class FractureScatter(TypedDict, total=False):
     deviation: float
     """Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`."""
     seed: int
-    """Seed of the random numbers: another one is another specimen. Default 0."""
+    """Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's."""
     correlation_length: float
     """Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself. Default 0.0."""
 
@@ -922,8 +922,8 @@ class Fracture(TypedDict, total=False):
     """Relative change of energy below which a solution is in equilibrium. Default 0.0001."""
     stop: FractureStop
     """When to stop before the end of the loading; whichever comes first."""
-    scatter: FractureScatter
-    """A strength or a fracture energy that varies over the body at random."""
+    scatter: FractureScatter | Sequence[FractureScatter]
+    """A strength or a fracture energy that varies over the body at random; both as a list of two tables."""
     criterion: Sequence[FractureCriterion]
     """When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`)."""
 

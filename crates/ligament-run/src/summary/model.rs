@@ -9,6 +9,7 @@ use ligament::setup::{Alpha, Calibration, Correction, Form, Setup, Surface};
 use ligament_case::case::{CaseFile, Worded};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::material::Space;
+use ligament_model::scatter::{Factors, seed_at};
 
 /// First line of the report on a case: its title.
 pub fn heading(title: &str) -> &str {
@@ -33,23 +34,40 @@ pub(super) fn model_summary(case: &CaseFile, model: &Model) -> ModelSummary {
         horizon: Spread::over(model.fixed.horizon.iter().copied()),
         family: family(model),
         correction: correction(model),
-        scatter: scatter(model),
+        scatter: first_with_others(scatter(model)),
     }
 }
 
-/// Summary of the property of a model that varies at random; `None` without scatter.
-pub fn scatter(model: &Model) -> Option<ScatterSummary> {
-    let factors = &model.fixed.scatter.as_ref()?.at_points;
-    let scatter = model.setup.scatter?;
-    let factor = Spread::over(factors.iter().copied());
-    let squares = factors.iter().map(|it| (it - factor.mean).powi(2));
-    let variance = squares.sum::<f64>() / factors.len().max(1) as f64;
+/// The first property, with the others beside it.
+fn first_with_others(all: Vec<ScatterSummary>) -> Option<ScatterSummary> {
+    let mut all = all.into_iter();
+    let first = all.next()?;
     Some(ScatterSummary {
-        of: scatter.of.word()[0].into(),
-        seed: scatter.seed,
+        beside: all.collect(),
+        ..first
+    })
+}
+
+/// Summary of each property of a model that varies at random.
+pub fn scatter(model: &Model) -> Vec<ScatterSummary> {
+    let factors = model.fixed.scatter.iter().enumerate();
+    let seed = |place| seed_at(&model.setup.scatter, place);
+    factors
+        .map(|(place, it)| scatter_of(it, seed(place)))
+        .collect()
+}
+
+fn scatter_of(Factors { of, at_points }: &Factors, seed: u64) -> ScatterSummary {
+    let factor = Spread::over(at_points.iter().copied());
+    let squares = at_points.iter().map(|it| (it - factor.mean).powi(2));
+    let variance = squares.sum::<f64>() / at_points.len().max(1) as f64;
+    ScatterSummary {
+        of: of.word()[0].into(),
+        seed,
         factor,
         deviation: variance.sqrt() / factor.mean,
-    })
+        beside: Vec::new(),
+    }
 }
 
 /// Description of the law and the corrections of the bonds.

@@ -147,6 +147,7 @@ fn complete_model() -> ModelSummary {
             seed: 0,
             factor: Spread::default(),
             deviation: 0.0,
+            beside: Vec::new(),
         }),
         ..ModelSummary::default()
     }

@@ -29,7 +29,7 @@ pub(super) struct Identity {
     pub(super) sound_peak: Option<f64>,
     /// Loads of the body without random factors at the displacements of the grid.
     pub(super) sound: Vec<Option<f64>>,
-    /// Inputs of the case but the seed of its scatter.
+    /// Inputs of the case but the seed of its first random property.
     inputs: String,
 }
 
@@ -125,16 +125,13 @@ impl Wanted<'_> {
     }
 }
 
-/// Inputs of a case but those that change no sample: the seed of its scatter and its output.
+/// Inputs of a case but those that change no sample: the seed of its first random property and its output.
 fn inputs(case: &CaseFile) -> anyhow::Result<String> {
     let mut plain = case.clone();
-    if let Some(scatter) = plain
-        .case
-        .fracture
-        .as_mut()
-        .and_then(|it| it.scatter.as_mut())
-    {
-        scatter.seed = 0;
+    let fracture = plain.case.fracture.as_mut();
+    let scatter = fracture.and_then(|it| it.scatter.as_mut());
+    if let Some(first) = scatter.and_then(|it| it.0.first_mut()) {
+        first.seed = Some(0);
     }
     plain.case.output = Default::default();
     let inputs = Inputs::from_case(&plain, None, &mut Contents::default());

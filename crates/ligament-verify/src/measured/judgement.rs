@@ -105,14 +105,21 @@ fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
     let [least, most] = band.between;
     let about = if of_crack { 0.0 } else { 1.0 };
     let [least, most] = [least, most].map(|it| (1e6 * (it - about)).round() / 1e6);
+    let allowed = Allowed::Between(least, most);
     let standing = match &band.missed {
-        Some(reason) if computed.is_finite() => Reliability::Missed {
-            instead: printed(format!("{computed:.4}"))?,
-            reason: reason.clone(),
-        },
+        Some(reason) if computed.is_finite() => {
+            let rounded = printed(format!("{computed:.4}"))?;
+            Reliability::Missed {
+                // A band that ends at the known value admits nothing on one side of a rounded one.
+                instead: match allowed.admits(&rounded, computed) {
+                    true => rounded,
+                    false => printed(format!("{computed}"))?,
+                },
+                reason: reason.clone(),
+            }
+        }
         _ => Reliability::Sound,
     };
-    let allowed = Allowed::Between(least, most);
     // Only what misses its band is shown with the reason.
     let standing = match allowed.admits(&known, computed) {
         true => Reliability::Sound,
@@ -168,6 +175,16 @@ mod tests {
         assert_eq!(verdict(Some("coarse"), 0.8), Verdict::Missed);
         assert_eq!(verdict(Some("coarse"), 1.1), Verdict::Within);
         assert_eq!(verdict(Some("coarse"), f64::NAN), Verdict::Failed);
+    }
+
+    /// A band with an end at the measured value: what is just beyond it is missed, whichever way its digits are rounded.
+    #[test]
+    fn a_band_may_end_at_the_measured_value() {
+        for value in [1.00824, 1.00827] {
+            let band = band(Quantity::Peak, None, [0.5, 1.0], Some("strong"));
+            let found = row(&band, "4 mm", value).unwrap().verdict;
+            assert_eq!(found, Verdict::Missed, "{value}");
+        }
     }
 
     /// Heights of cracks are judged by their distance, mm, and not as ratios.

@@ -19,7 +19,7 @@ pub(crate) fn free(setup: &Setup, body: AnyBody, material: usize) -> Setup {
         stages: Vec::new(),
         temperatures: Vec::new(),
         criteria: Vec::new(),
-        scatter: None,
+        scatter: Vec::new(),
         probes: Vec::new(),
         analysis: Analysis::default(),
         ..setup.clone()

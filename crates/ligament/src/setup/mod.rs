@@ -99,8 +99,8 @@ pub struct Setup {
     pub quiet: Vec<QuietEdge>,
     /// Failure criteria of the bonds in an analysis of fracture or, if any, in a motion; the first criterion that is met applies.
     pub criteria: Vec<Choice>,
-    /// A property of the materials that varies at random over the body, in an analysis of fracture.
-    pub scatter: Option<Scatter>,
+    /// Properties of the materials that vary at random over the body, each another one, in an analysis of fracture.
+    pub scatter: Vec<Scatter>,
     /// Quantities that the history records beside displacement and load.
     pub probes: Vec<Probe>,
     /// Kind of analysis.
@@ -165,7 +165,7 @@ impl Setup {
             initial_velocities: Vec::new(),
             quiet: Vec::new(),
             criteria: Vec::new(),
-            scatter: None,
+            scatter: Vec::new(),
             probes: Vec::new(),
             analysis: Analysis::default(),
             solver: SolverSettings::default(),

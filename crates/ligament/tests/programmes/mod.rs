@@ -19,6 +19,24 @@ use ligament_model::failure::softening::linear;
 mod control;
 mod dissipated_energy;
 
+#[test]
+fn factors_follow_straight_lines() {
+    let cycle = Course::through(&[1.0, -1.0]);
+    assert_eq!(cycle.points, [[0.5, 1.0], [1.0, -1.0]]);
+    let at = |share: f64| cycle.at(share, 0.5);
+    assert_eq!(
+        [0.0, 0.25, 0.5, 0.75, 1.0].map(at),
+        [0.5, 0.75, 1.0, 0.0, -1.0]
+    );
+    let table = Course {
+        points: vec![[0.25, 2.0]],
+    };
+    assert_eq!(
+        [0.125, 0.25, 1.0].map(|share| table.at(share, 0.0)),
+        [1.0, 2.0, 2.0]
+    );
+}
+
 /// A plate of 12 by 12 cells of 10 mm with a hole, held at the left and at the bottom, pulled at the right and pressed from above.
 fn plate(analysis: Analysis, stages: Vec<Stage>) -> Setup {
     let hole = Hole {
