@@ -25,7 +25,7 @@ use crate::atomic::{read_bytes, remove_file, rotate_file};
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
 
 /// Number of the format, which changes with every change of the content.
-pub const FORMAT: u32 = 6;
+pub const FORMAT: u32 = 7;
 
 const BEGINNING: &[u8; 19] = b"ligament checkpoint";
 
