@@ -35,12 +35,12 @@ impl Units {
 }
 
 impl Setup {
-    /// Units of displacement and force in the history: those of the load of the curve, or of the temperature; in a motion without a load those
-    /// of a force.
+    /// Units of displacement and force in the history: those of the load of the curve, or of the temperature; of a force without either,
+    /// where a motion or rigid bodies move the body.
     pub fn units(&self) -> Units {
         match self.curve_load() {
             Some(load) => self.loads[load].action.units(),
-            None if self.analysis.is_motion() => Units::FORCE,
+            None if self.analysis.is_motion() || self.temperatures.is_empty() => Units::FORCE,
             None => Units::TEMPERATURE,
         }
     }

@@ -53,7 +53,9 @@ pub(super) fn dissipation(record: &StepRecord, before: &[StepRecord]) -> Option<
     let work = |it: &StepRecord| it.external_work.abs();
     let largest = before.iter().map(work).fold(work(record), f64::max);
     let beyond = |it: &StepRecord| it.dissipated_energy - (it.external_work - it.stored_energy);
-    let is_beyond = |it: &StepRecord| beyond(it) > DISSIPATED_BEYOND * largest;
+    // Without dissipation it is the rounding of a body that nothing has loaded yet.
+    let is_beyond =
+        |it: &StepRecord| it.dissipated_energy > 0.0 && beyond(it) > DISSIPATED_BEYOND * largest;
     let is_first = is_beyond(record) && !before.last().is_some_and(is_beyond);
     is_first.then(|| Notice::DissipatedBeyondWork {
         step: record.step,
