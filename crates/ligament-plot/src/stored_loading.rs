@@ -49,7 +49,8 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
     let motion = motion.or(given("base_acceleration"));
     let turns = motion.is_some_and(|motion| !moves(motion));
     let in_time = case.contains_key("motion");
-    let units = if first.is_none() && in_time {
+    let is_heated = case.contains_key("temperature");
+    let units = if first.is_none() && (in_time || !is_heated) {
         Units::FORCE
     } else if first.is_none() {
         Units::TEMPERATURE
