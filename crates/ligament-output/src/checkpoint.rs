@@ -203,7 +203,7 @@ mod tests {
         bytes[BEGINNING.len()] += 1;
         let reason = Checkpoint::from_bytes(&bytes).unwrap_err();
         assert!(
-            reason.contains("format 7") && reason.contains("format 6"),
+            reason.contains("format 8") && reason.contains("format 7"),
             "{reason}"
         );
         let reason = Checkpoint::from_bytes(b"step,load_factor").unwrap_err();
