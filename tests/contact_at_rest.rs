@@ -4,13 +4,13 @@
 use std::f64::consts::PI;
 
 use crate::contact_on_exact_path::CIRCLE;
-use ligament::run::{self, Posed};
+use ligament::run::Posed;
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::history::Termination;
 use ligament_model::surface::Touch;
 use verification::bench::{case, missing_energy, solved};
-use verification::recorder::{Recorder, on_threads};
+use verification::recorder::checkpoints_of_the_same_bits;
 
 /// A block of 20 x 10 cells of 1 mm on a rigid floor with friction; loads press and slide its top.
 const BLOCK: &str = r#"
@@ -195,26 +195,9 @@ fn contact_goes_on_to_the_same_bits() {
         let model = Model::build(setup, &mut ()).unwrap();
         let problem = Loading::new(&model).unwrap().problem(&model);
         let analysis = &model.setup.analysis;
-        let told = |threads: usize| {
-            on_threads(threads, || {
-                let mut recorder = Recorder::default();
-                run::follow(Posed::Statics(&problem), analysis, &mut recorder).unwrap();
-                recorder
-            })
-        };
-        let [one, two] = [1, 2].map(told);
-        assert!(one.lines == two.lines, "{name}");
-        for (from, checkpoint) in one.moments.iter().step_by(9) {
-            let mut rest = Recorder::default();
-            let restored = run::restore(Posed::Statics(&problem), analysis, checkpoint).unwrap();
-            run::resume(analysis, restored, &mut rest).unwrap();
-            assert!(rest.lines[..] == one.lines[*from..], "{name}, from {from}");
-        }
-        println!(
-            "{name}: {} lines, {} moments",
-            one.lines.len(),
-            one.moments.len()
-        );
-        assert!(one.moments.len() > 20);
+        let posed = Posed::Statics(&problem);
+        let moments = checkpoints_of_the_same_bits(name, posed, analysis, 9);
+        println!("{name}: {moments} moments");
+        assert!(moments > 20);
     }
 }

@@ -1,11 +1,11 @@
 //! Rigid bodies with a mass in implicit steps, against closed forms, balances and explicit steps.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament::run::{self, Posed};
+use ligament::run::Posed;
 use ligament::{Loading, Model};
 use ligament_analysis::history::StepRecord;
 use verification::bench::{case, solved};
-use verification::recorder::{Recorder, on_threads};
+use verification::recorder::checkpoints_of_the_same_bits;
 
 /// A light column of 4 x 20 cells of 1 mm, on which a wall of 0.1 kg falls at 1 m/s.
 const COLUMN: &str = r#"
@@ -142,20 +142,6 @@ fn rigid_bodies_go_on_to_the_same_bits() {
     let loading = Loading::new(&model).unwrap();
     let problem = loading.motion(&loading.problem(&model)).unwrap();
     let analysis = &model.setup.analysis;
-    let told = |threads: usize| {
-        on_threads(threads, || {
-            let mut recorder = Recorder::default();
-            run::follow(Posed::Motion(&problem), analysis, &mut recorder).unwrap();
-            recorder
-        })
-    };
-    let [one, two] = [1, 2].map(told);
-    assert!(one.lines == two.lines);
-    for (from, checkpoint) in one.moments.iter().step_by(5) {
-        let mut rest = Recorder::default();
-        let restored = run::restore(Posed::Motion(&problem), analysis, checkpoint).unwrap();
-        run::resume(analysis, restored, &mut rest).unwrap();
-        assert!(rest.lines[..] == one.lines[*from..], "from {from}");
-    }
-    assert!(one.moments.len() > 10);
+    let posed = Posed::Motion(&problem);
+    assert!(checkpoints_of_the_same_bits("sphere", posed, analysis, 5) > 10);
 }

@@ -1,15 +1,17 @@
-//! A recorder of what a run tells, to compare runs bit by bit.
+//! A recorder of what a run reports, to compare runs bit by bit.
 
+use ligament::run::{self, Posed};
+use ligament::setup::Analysis;
 use ligament_analysis::history::{Moment, Observer, ObserverError, Onward, StepRecord, View};
 use rayon::ThreadPoolBuilder;
 
-/// What a run tells, and its checkpoints.
+/// Reports of a run, and its checkpoints.
 #[derive(Default)]
-pub struct Recorder {
+struct Recorder {
     /// A line for each record.
-    pub lines: Vec<String>,
+    lines: Vec<String>,
     /// Checkpoints, each with the number of lines before it.
-    pub moments: Vec<(usize, Vec<u8>)>,
+    moments: Vec<(usize, Vec<u8>)>,
 }
 
 impl Observer for Recorder {
@@ -26,8 +28,32 @@ impl Observer for Recorder {
     }
 }
 
-/// What some work returns on a number of threads.
-pub fn on_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
-    let pool = ThreadPoolBuilder::new().num_threads(count).build().unwrap();
-    pool.install(work)
+/// Number of checkpoints of a run that has the same bits on one and two threads, and goes on to the same bits from one of `stride` checkpoints.
+///
+/// # Panics
+///
+/// Panics if some bits differ, with the name of the run.
+pub fn checkpoints_of_the_same_bits(
+    name: &str,
+    posed: Posed<'_>,
+    analysis: &Analysis,
+    stride: usize,
+) -> usize {
+    let recorded = |threads: usize| {
+        let pool = ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.unwrap().install(|| {
+            let mut recorder = Recorder::default();
+            run::follow(posed, analysis, &mut recorder).unwrap();
+            recorder
+        })
+    };
+    let [one, two] = [1, 2].map(recorded);
+    assert!(one.lines == two.lines, "{name}");
+    for (from, checkpoint) in one.moments.iter().step_by(stride) {
+        let mut rest = Recorder::default();
+        let restored = run::restore(posed, analysis, checkpoint).unwrap();
+        run::resume(analysis, restored, &mut rest).unwrap();
+        assert!(rest.lines[..] == one.lines[*from..], "{name}, from {from}");
+    }
+    one.moments.len()
 }

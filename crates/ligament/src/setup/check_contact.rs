@@ -193,6 +193,10 @@ impl Setup {
                 "a rigid body turns in explicit steps alone: remove it, or take explicit steps";
             return contradiction(field.part("inertia"), reason);
         }
+        if self.criteria.iter().any(|it| it.after.law.softens) {
+            let reason = "implicit steps move rigid bodies beside bonds that do not soften: take explicit steps, or brittle bonds";
+            return contradiction(field.part("mass"), reason);
+        }
         if implicit.statics.is_some() {
             let reason = "a body with a mass that nothing holds has no equilibrium from which a motion could begin: take `scheme = \"implicit\"`, \
                 or move it by a velocity";

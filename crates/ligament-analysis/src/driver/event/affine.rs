@@ -14,7 +14,6 @@ use std::time::Instant;
 
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
-use crate::breaking::FirstToBreak;
 use crate::driver::path::Path;
 use crate::driver::recorder::largest_ratio;
 use crate::history::Termination;
@@ -98,7 +97,7 @@ impl EquilibriumLine for Affine {
                 let at = line.deformations.ahead(&slopes, upper);
                 let tie = self.tie_tolerance;
                 let criteria = criteria.ahead(&rates, upper);
-                let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &at, &criteria);
+                let first = path.first_to_break(tie, &at, &criteria);
                 let is_at_end = upper == reach[1];
                 let is_gone = dissipates.filter(|it| path.dissipated_energy() >= *it);
                 let ends_part = is_at_end || is_gone.is_some();
@@ -106,13 +105,14 @@ impl EquilibriumLine for Affine {
                 let end = is_gone.map_or(Termination::FullLoad, |energy| {
                     Termination::EnergyDissipated { energy }
                 });
+                let event = match ends_part {
+                    true => Event::PartEnds,
+                    false => Event::Breakage,
+                };
                 Goal {
-                    load_factor: if is_at_end { ends } else { now + upper },
-                    ratio,
-                    bonds,
-                    is_held: false,
-                    event: [Event::Breakage, Event::PartEnds][usize::from(ends_part)],
+                    event,
                     end: (ends_part && is_last).then_some(end),
+                    ..Goal::breakage(if is_at_end { ends } else { now + upper }, first)
                 }
             }
         };
@@ -120,23 +120,9 @@ impl EquilibriumLine for Affine {
         Ok(up_to_displacement(goal, path, &self.growth))
     }
 
-    fn follow(&self, path: &mut Path<'_>, _: &Balanced, load_factor: f64) -> Balanced {
-        moved_along(path, &self.growth, load_factor)
-    }
-
     fn growth(&self) -> &[f64] {
         &self.growth
     }
-}
-
-/// Moves to another load factor along a rate of the displacements (n_degrees_of_freedom), without a solution.
-pub(super) fn moved_along(path: &mut Path<'_>, growth: &[f64], load_factor: f64) -> Balanced {
-    let by = load_factor - path.state.load_factor;
-    for (value, growth) in path.state.displacement.iter_mut().zip(growth) {
-        *value += by * growth;
-    }
-    path.state.load_factor = load_factor;
-    path.equilibrium.arrived(&mut path.state)
 }
 
 /// Rate of the deformations (n_bonds) with the load factor for a rate of the displacements (n_degrees_of_freedom), and the criteria with the
@@ -172,15 +158,11 @@ fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Int
 
 /// Goal at fixed load, where no load is admissible.
 pub(super) fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
-    let FirstToBreak { ratio, bonds } = path.first_to_break(tie, &line.deformations, criteria);
+    let first = path.first_to_break(tie, &line.deformations, criteria);
     Goal {
-        load_factor: path.state.load_factor,
-        ratio,
-        bonds,
         // A bond that just reached its limit breaks as on any other line.
-        is_held: ratio > 1.0 + tie,
-        event: Event::Breakage,
-        end: None,
+        is_held: first.ratio > 1.0 + tie,
+        ..Goal::breakage(path.state.load_factor, first)
     }
 }
 

@@ -1,6 +1,7 @@
 //! Interface of the lines between two breakages.
 
 use crate::balanced::Balanced;
+use crate::breaking::FirstToBreak;
 use crate::driver::path::Path;
 use crate::history::Termination;
 use crate::unbalanced::Unbalanced;
@@ -10,8 +11,15 @@ pub(super) trait EquilibriumLine {
     /// End of the line of an equilibrium: the critical load, or the end of the run or of the part of the programme before it.
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced>;
 
-    /// Moves to another load factor with the same bonds, without a solution.
-    fn follow(&self, path: &mut Path<'_>, line: &Balanced, load_factor: f64) -> Balanced;
+    /// Moves to another load factor with the same bonds along the rate of the displacements, without a solution.
+    fn follow(&self, path: &mut Path<'_>, _line: &Balanced, load_factor: f64) -> Balanced {
+        let by = load_factor - path.state.load_factor;
+        for (value, growth) in path.state.displacement.iter_mut().zip(self.growth()) {
+            *value += by * growth;
+        }
+        path.state.load_factor = load_factor;
+        path.equilibrium.arrived(&mut path.state)
+    }
 
     /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom); empty where they are proportional to it.
     fn growth(&self) -> &[f64];
@@ -43,4 +51,18 @@ pub(super) struct Goal {
     pub(super) event: Event,
     /// Reason why the run ends there, if it does.
     pub(super) end: Option<Termination>,
+}
+
+impl Goal {
+    /// End of a line at a load factor where the first bonds break.
+    pub(super) fn breakage(load_factor: f64, first: FirstToBreak) -> Self {
+        Self {
+            load_factor,
+            ratio: first.ratio,
+            bonds: first.bonds,
+            is_held: false,
+            event: Event::Breakage,
+            end: None,
+        }
+    }
 }

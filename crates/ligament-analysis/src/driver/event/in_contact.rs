@@ -8,10 +8,9 @@
 
 use std::time::Instant;
 
-use super::affine::{held, moved_along, slopes, up_to_displacement};
+use super::affine::{held, slopes, up_to_displacement};
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
-use crate::breaking::FirstToBreak;
 use crate::driver::ends::NO_LOAD;
 use crate::driver::path::Path;
 use crate::driver::recorder::largest_ratio;
@@ -84,13 +83,13 @@ impl EquilibriumLine for InContact {
                 Goal {
                     event: Event::ContactChanges,
                     end: is_full.then_some(full),
-                    ..breakage(if is_full { 1.0 } else { now + reach }, first)
+                    ..Goal::breakage(if is_full { 1.0 } else { now + reach }, first)
                 }
             }
-            Some([_, upper]) => breakage(now + upper, at(path, upper)),
+            Some([_, upper]) => Goal::breakage(now + upper, at(path, upper)),
             None if !rises && reach < left => Goal {
                 event: Event::ContactChangesBeyond,
-                ..breakage(now - reach, at(path, -reach))
+                ..Goal::breakage(now - reach, at(path, -reach))
             },
             // Bonds that are at their limits already, or beyond them without any load.
             None => held(self.tie_tolerance, line, &criteria, path),
@@ -99,23 +98,7 @@ impl EquilibriumLine for InContact {
         Ok(up_to_displacement(goal, path, &self.growth))
     }
 
-    fn follow(&self, path: &mut Path<'_>, _: &Balanced, load_factor: f64) -> Balanced {
-        moved_along(path, &self.growth, load_factor)
-    }
-
     fn growth(&self) -> &[f64] {
         &self.growth
-    }
-}
-
-/// Goal at which the first bonds break.
-fn breakage(load_factor: f64, first: FirstToBreak) -> Goal {
-    Goal {
-        load_factor,
-        ratio: first.ratio,
-        bonds: first.bonds,
-        is_held: false,
-        event: Event::Breakage,
-        end: None,
     }
 }

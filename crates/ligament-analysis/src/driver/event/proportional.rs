@@ -5,9 +5,8 @@
 
 use std::time::Instant;
 
-use super::equilibrium_line::{EquilibriumLine, Event, Goal};
+use super::equilibrium_line::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
-use crate::breaking::FirstToBreak;
 use crate::driver::ends::NO_LOAD;
 use crate::driver::path::Path;
 use crate::history::Termination;
@@ -34,17 +33,14 @@ impl EquilibriumLine for Proportional {
     /// End of the line of an equilibrium: the critical load, or the end of the run before it.
     fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let start = Instant::now();
-        let FirstToBreak { ratio, bonds } =
-            path.first_to_break(self.tie_tolerance, &line.deformations, &path.criteria(line));
+        let criteria = path.criteria(line);
+        let first = path.first_to_break(self.tie_tolerance, &line.deformations, &criteria);
+        let ratio = first.ratio;
         path.equilibrium.count_bond_work(start);
         let now = path.state.load_factor;
         let mut goal = Goal {
-            load_factor: now / ratio,
             ratio: 1.0,
-            bonds,
-            is_held: false,
-            event: Event::Breakage,
-            end: None,
+            ..Goal::breakage(now / ratio, first)
         };
         if goal.load_factor > 1.0 {
             // Detached parts have stretches of rounding size, which do not count.
