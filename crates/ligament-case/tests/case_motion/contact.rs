@@ -128,6 +128,13 @@ fn implicit_steps_move_masses() {
             &[ball, "rigid.0.mass=1.0", "rigid.0.inertia=1.0"],
             "rigid.0.inertia: a rigid body turns in explicit steps",
         ),
+        (
+            &[
+                "material.fracture_energy=100.0",
+                "fracture={criterion=[{kind=\"tension\",limit=1e-4,after=\"linear\"}]}",
+            ],
+            "rigid.0.mass: implicit steps move rigid bodies beside bonds that do not soften",
+        ),
     ] {
         let settings = [&IMPLICIT[..], settings].concat();
         let error = motion(BAR, &settings).err().unwrap_or_default();
