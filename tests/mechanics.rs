@@ -5,6 +5,7 @@ mod bending;
 mod connectivity;
 mod discretisation;
 mod equilibrium;
+mod far_field;
 mod force_balance;
 mod heated_disk;
 mod interfaces;

@@ -72,7 +72,7 @@ pub use output::{Output, StressField};
 pub use overrides::{parts as override_parts, unset};
 pub use precrack::Precrack;
 pub use probe::Probe;
-pub use region::{Corners, Rectangle, Region};
+pub use region::{Corners, FarField, Rectangle, Region};
 pub use scatter::{Distribution, Scatter, Scatters};
 pub use schema::schema;
 pub use sections::Case;

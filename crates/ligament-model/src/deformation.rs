@@ -83,6 +83,7 @@ impl Deformation for BondDeformation {
         Deformations {
             measured,
             in_space: Vec::new(),
+            motions: Vec::new(),
             room: room.clone(),
         }
     }
@@ -138,6 +139,7 @@ impl Deformation for SpaceDeformation {
         Deformations {
             measured,
             in_space,
+            motions: Vec::new(),
             room: room.clone(),
         }
     }
@@ -188,6 +190,8 @@ pub struct Deformations {
     measured: Vec<BondDeformation>,
     /// Deformations of bonds in space, shape (n_bonds); empty in the plane.
     in_space: Vec<SpaceDeformation>,
+    /// Motions of the points that deform the elements of the far field, shape (n_degrees_of_freedom); empty without a far field.
+    motions: Vec<f64>,
     /// Memory pool to which the arrays return.
     room: DeformationPool,
 }
@@ -210,7 +214,9 @@ fn keep<T>(spare: &mut Vec<Vec<T>>, array: Vec<T>) {
 
 impl PartialEq for Deformations {
     fn eq(&self, other: &Self) -> bool {
-        self.measured == other.measured && self.in_space == other.in_space
+        self.measured == other.measured
+            && self.in_space == other.in_space
+            && self.motions == other.motions
     }
 }
 
@@ -221,22 +227,35 @@ impl Deformations {
         &self.measured
     }
 
+    /// The deformations with the motions of the points (n_degrees_of_freedom), which deform the elements of the far field.
+    pub(crate) fn with_motions(mut self, motions: Vec<f64>) -> Self {
+        self.motions = motions;
+        self
+    }
+
+    /// Motions of the points that deform the elements of the far field, shape (n_degrees_of_freedom).
+    pub(crate) fn motions(&self) -> &[f64] {
+        &self.motions
+    }
+
     /// All deformations times a factor.
     pub fn scaled(&self, factor: f64) -> Self {
-        if self.in_space.is_empty() {
-            scaled::<BondDeformation>(self, factor)
-        } else {
-            scaled::<SpaceDeformation>(self, factor)
-        }
+        let of_bonds = match self.in_space.is_empty() {
+            true => scaled::<BondDeformation>(self, factor),
+            false => scaled::<SpaceDeformation>(self, factor),
+        };
+        let motions = self.motions.iter().map(|it| factor * it);
+        of_bonds.with_motions(motions.collect())
     }
 
     /// Deformations plus `by` times the slopes (n_bonds).
     pub fn ahead(&self, slopes: &Self, by: f64) -> Self {
-        if self.in_space.is_empty() {
-            ahead::<BondDeformation>(self, slopes, by)
-        } else {
-            ahead::<SpaceDeformation>(self, slopes, by)
-        }
+        let of_bonds = match self.in_space.is_empty() {
+            true => ahead::<BondDeformation>(self, slopes, by),
+            false => ahead::<SpaceDeformation>(self, slopes, by),
+        };
+        let motions = self.motions.iter().zip(&slopes.motions);
+        of_bonds.with_motions(motions.map(|(here, slope)| here + by * slope).collect())
     }
 }
 

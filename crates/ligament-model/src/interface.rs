@@ -74,8 +74,12 @@ pub trait BondTopology: std::fmt::Debug + Send + Sync {
         Topology {
             ends: self.ends(),
             incidence: self.incidence(),
+            far: self.far_field(),
         }
     }
+
+    /// Points that elements of the far field couple with each point; none without a far field.
+    fn far_field(&self) -> Option<CoupledPoints<'_>>;
 
     /// Bonds whose elements couple each point, ascending; on the imaginary lattice these include bonds that do not end at the point.
     fn elements_at_points(&self) -> &Incidence;
@@ -343,9 +347,19 @@ pub struct Topology<'a> {
     pub ends: &'a [[u32; 2]],
     /// Bonds of each point.
     pub incidence: &'a Incidence,
+    /// Points that elements of the far field, which never break, couple with each point.
+    pub far: Option<CoupledPoints<'a>>,
 }
 
-impl Topology<'_> {
+impl<'a> Topology<'a> {
+    /// Points that bonds marked in `intact` (n_bonds), or elements of the far field, connect with a point.
+    pub fn connected(self, point: u32, intact: &[bool]) -> impl Iterator<Item = u32> {
+        let bonds = self.incidence.at(point).iter();
+        let intact = bonds.filter(|bond| intact[**bond as usize]);
+        let by_bonds = intact.map(move |&bond| self.neighbour(bond, point));
+        by_bonds.chain(self.far.into_iter().flat_map(move |far| far.at(point)))
+    }
+
     /// The other end of a bond of `point`.
     pub fn neighbour(self, bond: u32, point: u32) -> u32 {
         let [a, b] = self.ends[bond as usize];
@@ -354,7 +368,7 @@ impl Topology<'_> {
 }
 
 /// Other points that elements couple with each point.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 pub struct CoupledPoints<'a> {
     pub(crate) lists: &'a Incidence,
     /// Ends of the bonds, where the lists contain bonds instead of points.

@@ -27,6 +27,7 @@ pub mod deformation;
 pub mod dimension;
 pub mod element;
 pub mod failure;
+pub mod far_field;
 pub mod fixed;
 mod geometry;
 pub mod ghosts;

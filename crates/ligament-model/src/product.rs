@@ -3,6 +3,8 @@
 //! Iterative solvers need the product of the stiffness with a vector several times per bond breakage; explicit motion needs it in every time
 //! step, with the bonds that come near their limits.
 
+use rayon::prelude::*;
+
 use crate::deformation::Deformation;
 use crate::element::{Element, Elements};
 use crate::failure::{Criteria, Measure};
@@ -138,6 +140,14 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             judge,
         };
         let (of_points, _) = forces.as_chunks_mut::<M>();
-        self.reach().sum(Whole, &linear, of_points).concat()
+        let near = self.reach().sum(Whole, &linear, of_points).concat();
+        if let Some(far) = &self.system.far {
+            let each = of_points.par_iter_mut().enumerate();
+            each.for_each(|(point, sum)| {
+                let force = far.force::<M>(motions, point as u32);
+                (0..D).for_each(|axis| sum[axis] += force[axis]);
+            });
+        }
+        near
     }
 }

@@ -77,9 +77,13 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             }
         };
         // Written in place: a closure that returns a deformation to be collected would be called bond by bond, which costs more.
-        Deformation::written(&self.system.room, ends.len(), |all| {
+        let of_bonds = Deformation::written(&self.system.room, ends.len(), |all| {
             all.par_chunks_mut(TASK).enumerate().for_each(of_task);
-        })
+        });
+        match self.system.far {
+            Some(_) => of_bonds.with_motions(displacement.to_vec()),
+            None => of_bonds,
+        }
     }
 
     /// Forces and energy of bonds with given deformations (n_bonds).
@@ -91,7 +95,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     ) -> BondSweep {
         let subdomain = &self.system.cloud.subdomain;
         let of_bonds: &[DeformationOf<D, M, E>] = Deformation::of_bonds(&deformations);
-        let (at_points, energies) = match subdomain.is_whole() {
+        let (mut at_points, energies) = match subdomain.is_whole() {
             true => self.sums(Whole, bonds, of_bonds),
             false => self.sums(subdomain, bonds, of_bonds),
         };
@@ -106,7 +110,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             [thermal, stored, of_expansion]
         };
         let of_groups: Vec<[f64; 3]> = (0..GROUPS).into_par_iter().map(of_group).collect();
-        let mut energies = std::array::from_fn(|place| of_groups.iter().map(|it| it[place]).sum());
+        let mut energies: [f64; 3] =
+            std::array::from_fn(|place| of_groups.iter().map(|it| it[place]).sum());
+        energies[1] += self.add_far_field(deformations.motions(), &mut at_points);
         subdomain.all_reduce_sum(&mut energies);
         BondSweep::new(
             &at_points,
@@ -134,6 +140,26 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         let mut sums = vec![PointForces::NONE; n_owned];
         let energies = self.reach().sum(share, &deformed, &mut sums).concat();
         (sums, energies)
+    }
+
+    /// Adds the forces of the elements of the far field at all points; returns their energy 1/2 u^T K u, J. A translation of all points makes no
+    /// force: displacements are counted from that of the first point, so that a large one costs no digits.
+    fn add_far_field(&self, motions: &[f64], sums: &mut [PointForces<M>]) -> f64 {
+        let Some(far) = &self.system.far else {
+            return 0.0;
+        };
+        let each = sums.par_iter_mut().zip(motions.par_chunks(M)).enumerate();
+        let energies: Vec<f64> = each
+            .map(|(point, (sum, moved))| {
+                let force = far.force::<M>(motions, point as u32);
+                let mut end_force = [0.0; M];
+                end_force[..D].copy_from_slice(&force);
+                sum.add(end_force);
+                let work = (0..D).map(|axis| force[axis] * (moved[axis] - motions[axis]));
+                0.5 * work.sum::<f64>()
+            })
+            .collect();
+        energies.iter().sum()
     }
 
     /// Work -force . thermal deformation, J, and energy of the thermal deformation, J, of a group of bonds at load factor 1.

@@ -7,14 +7,17 @@ pub mod elements;
 
 use std::sync::OnceLock;
 
+use ligament_mesh::MeshCell;
 use rayon::prelude::*;
 
-use crate::bonds::BondSet;
+use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
 use crate::contact::Faces;
 use crate::deformation::DeformationPool;
 use crate::element::strain_stiffness::StrainStiffness;
 use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
+use crate::far_field::{FarField, Simplex};
+use crate::interface::CoupledPoints;
 use crate::law::BondStiffness;
 use crate::material::Stiffness;
 use crate::point_sums::Reach;
@@ -40,6 +43,8 @@ pub struct BondSystem<const D: usize = 2> {
     pub materials: Vec<Stiffness>,
     /// Crack faces.
     pub faces: Faces<D>,
+    /// Elements in place of bonds where nothing breaks; none without a far field.
+    pub far: Option<FarField<D>>,
     /// Reusable memory for deformations.
     pub room: DeformationPool,
     /// Factors of the [strains of points](crate::stress::point_strain), once some were asked for, shape (n_bonds).
@@ -102,6 +107,7 @@ impl<const D: usize> BondSystem<D> {
             cloud,
             materials: Vec::new(),
             faces: Faces::default(),
+            far: None,
             room: DeformationPool::default(),
             closeness: OnceLock::new(),
         }
@@ -110,6 +116,39 @@ impl<const D: usize> BondSystem<D> {
     /// The system with the stiffnesses of its materials (n_materials), Pa.
     pub fn with_materials(self, materials: Vec<Stiffness>) -> Self {
         Self { materials, ..self }
+    }
+
+    /// The bonds of a part of a body between the points of the whole body: `points` has their numbers at the points of the part, ascending.
+    /// Crack faces are not taken over.
+    pub fn within(self, cloud: PointCloud<D>, points: &[u32]) -> Self {
+        let Self {
+            mut bonds,
+            rigidities,
+            ..
+        } = self;
+        for end in bonds.ends.as_flattened_mut() {
+            *end = points[*end as usize];
+        }
+        bonds.incidence = Incidence::new(&bonds.ends, cloud.len());
+        Self {
+            cloud,
+            bonds,
+            rigidities,
+            faces: Faces::default(),
+            closeness: OnceLock::new(),
+            ..self
+        }
+    }
+
+    /// The system with linear finite elements between its points.
+    pub fn with_far_field<C: MeshCell<D>>(mut self, simplices: &[Simplex<C>]) -> Self {
+        let by_bonds = CoupledPoints {
+            lists: &self.bonds.incidence,
+            ends: Some(&self.bonds.ends),
+        };
+        let far = FarField::new(&self.cloud, simplices, &self.materials, by_bonds);
+        self.far = Some(far);
+        self
     }
 
     /// The system with crack faces.

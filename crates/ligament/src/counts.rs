@@ -1,6 +1,6 @@
 //! Numbers of the bonds of a whole body, summed over the processes.
 
-use ligament_model::{Absence, AbsentBond, BondSet, PointCloud};
+use ligament_model::{Absence, AbsentBond, BondSet, BondSystem, PointCloud};
 
 use crate::stage::Finding;
 
@@ -15,20 +15,22 @@ pub struct BondCounts {
     pub across_voids: usize,
     /// Number of bonds that cross a material which neither of their ends has.
     pub across_layers: usize,
-    /// Smallest and largest number of bonds of a point.
+    /// Smallest and largest number of bonds of a point, outside of the far field.
     pub of_points: [usize; 2],
+    /// Number of points of the far field, which have no bonds.
+    pub far_points: usize,
 }
 
 impl BondCounts {
-    /// Counts the bonds between the points of a cloud and the pairs of points that are not bonded.
-    pub fn new<const D: usize>(
-        cloud: &PointCloud<D>,
-        bonds: &BondSet<D>,
-        absent: &[AbsentBond],
-    ) -> Self {
+    /// Counts the bonds of a system and the pairs of points that are not bonded.
+    pub fn new<const D: usize>(system: &BondSystem<D>, absent: &[AbsentBond]) -> Self {
+        let (cloud, bonds) = (&system.cloud, &system.bonds);
         let sizes = cloud.over_families(|point| [bonds.incidence.at(point).len() as f64]);
-        let sizes = || sizes.iter().map(|[size]| *size as usize);
+        let is_far = |size: &usize| system.far.is_some() && *size == 0;
+        let all = || sizes.iter().map(|[size]| *size as usize);
+        let sizes = || all().filter(|size| !is_far(size));
         Self {
+            far_points: all().filter(is_far).count(),
             bonds: bonds.count(cloud),
             cut: count(cloud, absent, Absence::PreCrack),
             across_voids: count(cloud, absent, Absence::Void),

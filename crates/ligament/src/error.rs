@@ -202,6 +202,9 @@ pub enum Fault {
     /// A rectangle without a point.
     #[error("there is no point of the body in this box")]
     EmptyBox,
+    /// A part of the near field without a cell.
+    #[error("no cell of the mesh has all its corners in this part: make it larger")]
+    NoCellInside,
     /// A group of a material without cells.
     #[error(
         "`{group}` has no cells: a material needs a physical surface, of a solid a physical volume"

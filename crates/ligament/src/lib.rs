@@ -59,6 +59,7 @@ pub mod formulation;
 pub mod implausible;
 pub mod loading;
 pub mod model;
+mod near_field;
 mod parts;
 pub mod patch_test;
 pub mod plausibility;

@@ -19,6 +19,7 @@ use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
+use crate::near_field::NearField;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
 use crate::setup::{Analysis, CorrectionDomain, Position, Setup};
@@ -74,48 +75,34 @@ impl Model {
         let (cloud, outline) = stage(watcher, "points", || {
             points(&setup, body, &material_of_cell)
         })?;
-        let horizons = setup.horizon.of_points(&cloud);
-        let (bonds, absent) = stage(watcher, "bonds", || {
-            let all = BondSet::search(&cloud, &horizons);
-            let (bonds, absent) = inside_body(body, all, &cloud, outline.as_deref());
-            (composed(body, bonds, &cloud, &material_of_cell), absent)
-        });
-        require_connected(&setup, &cloud, &horizons, &bonds)?;
-        watcher.found(&counts::finding(&cloud, &bonds, &absent));
-        let cracks = precracks::cracks(body, &setup.precracks)?;
-        let mut crossed = stage(watcher, "pre-cracks", || {
-            Precracked::new(&cracks, &bonds, &cloud)
-        });
-        let absent = with_cut(absent, &bonds, &crossed.is_cut);
-        let Corrected {
-            bonds,
-            stiffness,
-            correction,
-            energy_ratios,
-            faces,
-        } = stage(watcher, "correction", || {
-            let formulation = Formulation::new(&setup, &cloud, &horizons, &material_of_cell);
-            correct(&formulation, bonds, &cracks, &crossed.is_cut)
-        });
-        let report = correction.report.as_ref();
-        watcher.found(&Finding::Correction(&setup.correction, report));
-        let fixed = ConstantFields {
-            horizon: horizons.radius,
-            precrack_share: std::mem::take(&mut crossed.share),
-            energy_ratios,
-            scatter: scatter::factors(&setup.scatter, body.positions(), &body.numbering()),
-            absent,
-            ..of_correction(&correction, loading::no_fail(&setup, &cloud)?)
+        let near = match setup.far_field {
+            Some(_) => NearField::new(&setup, body, cloud.clone(), &material_of_cell)?,
+            None => None,
         };
-        let system = stage(watcher, "rigidities", || {
-            bond_system(&setup, cloud, bonds, stiffness, &correction, faces)
-        })?;
+        let Bonded {
+            system,
+            mut fixed,
+            correction,
+            crossed,
+        } = match near {
+            None => bonded((&setup, body), (cloud, outline), &material_of_cell, watcher)?,
+            Some(near) => {
+                let part = near.body();
+                let points = points(&near.setup, &*part, &near.material_of_cell)?;
+                let of_part = (&near.setup, &*part);
+                let bonded = bonded(of_part, points, &near.material_of_cell, watcher)?;
+                bonded.within(near, body, &material_of_cell)
+            }
+        };
+        fixed.no_fail = loading::no_fail(&setup, &system.cloud)?;
+        fixed.scatter = scatter::factors(&setup.scatter, body.positions(), &body.numbering());
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
+        let report = correction.report.as_ref();
         Ok(Self {
             warnings: warnings(&setup, &system.cloud, report, &fixed, &criteria, crossed),
             correction_range: correction_range(&correction, &system.cloud),
-            counts: BondCounts::new(&system.cloud, &system.bonds, &fixed.absent),
+            counts: BondCounts::new(&system, &fixed.absent),
             correction: correction.report,
             setup,
             system: AnySystem::new(system.with_elements()),
@@ -198,10 +185,83 @@ impl Model {
     }
 }
 
+/// Bonds of a body with their rigidities, before criteria.
+struct Bonded<const D: usize> {
+    system: BondSystem<D>,
+    /// Fields of the preparation but for those that name parts of the body.
+    fixed: ConstantFields,
+    correction: Correction,
+    crossed: Precracked,
+}
+
+impl<const D: usize> Bonded<D> {
+    /// The bonds of a near field in the whole body, with the elements of the far field.
+    fn within(self, near: NearField<D>, body: &dyn Geometry<D>, material_of_cell: &[u32]) -> Self {
+        Self {
+            fixed: near.fields(self.fixed),
+            system: near.within(body, self.system, material_of_cell),
+            ..self
+        }
+    }
+}
+
+/// Finds and corrects the bonds between the points of a body.
+fn bonded<const D: usize>(
+    (setup, body): (&Setup, &dyn Geometry<D>),
+    (cloud, outline): (PointCloud<D>, Bounds<'_, D>),
+    material_of_cell: &[u32],
+    watcher: &mut dyn StageWatcher,
+) -> Result<Bonded<D>, SetupError> {
+    let horizons = setup.horizon.of_points(&cloud);
+    let (bonds, absent) = stage(watcher, "bonds", || {
+        let all = BondSet::search(&cloud, &horizons);
+        let (bonds, absent) = inside_body(body, all, &cloud, outline.as_deref());
+        (composed(body, bonds, &cloud, material_of_cell), absent)
+    });
+    require_connected(setup, &cloud, &horizons, &bonds)?;
+    watcher.found(&counts::finding(&cloud, &bonds, &absent));
+    let cracks = precracks::cracks(body, &setup.precracks)?;
+    let mut crossed = stage(watcher, "pre-cracks", || {
+        Precracked::new(&cracks, &bonds, &cloud)
+    });
+    let absent = with_cut(absent, &bonds, &crossed.is_cut);
+    let Corrected {
+        bonds,
+        stiffness,
+        correction,
+        energy_ratios,
+        faces,
+    } = stage(watcher, "correction", || {
+        let formulation = Formulation::new(setup, &cloud, &horizons, material_of_cell);
+        correct(&formulation, bonds, &cracks, &crossed.is_cut)
+    });
+    watcher.found(&Finding::Correction(
+        &setup.correction,
+        correction.report.as_ref(),
+    ));
+    let fixed = ConstantFields {
+        horizon: horizons.radius,
+        precrack_share: std::mem::take(&mut crossed.share),
+        energy_ratios,
+        absent,
+        ..of_correction(&correction)
+    };
+    let system = stage(watcher, "rigidities", || {
+        bond_system(setup, cloud, bonds, stiffness, &correction, faces)
+    })?;
+    Ok(Bonded {
+        system,
+        fixed,
+        correction,
+        crossed,
+    })
+}
+
 /// The processes between which the body of a setup is divided. Elements that couple more points than the bond's ends, closing faces,
-/// contact between surfaces, natural modes and motions need the whole body on each process.
+/// far fields, contact between surfaces, natural modes and motions need the whole body on each process.
 pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
     let needs_all = setup.closing
+        || setup.far_field.is_some()
         || setup.has_contact()
         || !setup.law.row.couples_ends_alone
         || matches!(setup.analysis, Analysis::Modal(_) | Analysis::Motion(_));
@@ -388,8 +448,8 @@ fn of_bonds<const D: usize>(formulation: &Formulation<'_, D>, bonds: BondSet<D>)
     }
 }
 
-/// Fixed fields of a correction, with the points whose bonds never fail (n_points); the other fields are empty.
-fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> ConstantFields {
+/// Fixed fields of a correction; the other fields are empty.
+fn of_correction(correction: &Correction) -> ConstantFields {
     ConstantFields {
         horizon: Vec::new(),
         precrack_share: Vec::new(),
@@ -397,7 +457,7 @@ fn of_correction(correction: &Correction, no_fail: Vec<bool>) -> ConstantFields 
         domain_factor: correction.domain_factor.clone(),
         shear_ratio: correction.shear_ratio.clone(),
         patch_residual: correction.patch_residual().to_vec(),
-        no_fail,
+        no_fail: Vec::new(),
         scatter: Vec::new(),
         absent: Vec::new(),
     }

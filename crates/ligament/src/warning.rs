@@ -2,7 +2,7 @@
 
 mod criteria;
 
-use ligament_model::correction::{CorrectionReport, DomainReport, patch};
+use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::failure::Criteria;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
@@ -266,7 +266,7 @@ pub(crate) fn of_model(
             let (factor, _) = smallest_factor(setup, spacing, fixed);
             let enough = patch_factor(setup.space());
             let better = (factor < enough).then_some(enough);
-            warnings.push(not_met(body, report, better));
+            warnings.push(not_met(body, (report.left, &fixed.patch_residual), better));
         }
         _ => {}
     }
@@ -371,13 +371,12 @@ fn large_horizon(body: &dyn Body, fixed: &ConstantFields) -> Option<Warning> {
     })
 }
 
-fn not_met(body: &dyn Body, report: &patch::Report, factor: Option<f64>) -> Warning {
-    let residual = &report.residual;
+fn not_met(body: &dyn Body, (left, residual): (f64, &[f64]), factor: Option<f64>) -> Warning {
     let worst = (0..residual.len())
         .max_by(|&i, &j| residual[i].total_cmp(&residual[j]))
         .unwrap_or_default();
     Warning::NotMet {
-        left: report.left,
+        left,
         largest: residual[worst],
         worst: body.label(worst as u32),
         position: body.position(worst as u32).to_vec(),

@@ -82,6 +82,11 @@ fn first_points(system: &dyn Bonds, intact: &[bool]) -> Vec<u32> {
     for (ends, _) in bonds.filter(|(_, intact)| **intact) {
         here.join(*ends);
     }
+    if let Some(far) = system.far_field() {
+        for point in 0..n_points as u32 {
+            far.at(point).for_each(|other| here.join([point, other]));
+        }
+    }
     let ghosts = Ghosts::new(subdomain, system.ends().iter().flatten().copied());
     let mut names: Vec<f64> = (0..n_points).map(|point| point as f64).collect();
     let mut told = vec![0.0; n_points];

@@ -168,11 +168,7 @@ impl Search {
                 return Some(side);
             };
             next[side] += 1;
-            for &bond in topology.incidence.at(point) {
-                if !intact[bond as usize] {
-                    continue;
-                }
-                let neighbour = topology.neighbour(bond, point);
+            for neighbour in topology.connected(point, intact) {
                 match self.reached_by[neighbour as usize] {
                     NEITHER => self.reach(side, neighbour),
                     by if usize::from(by) != side => return None,

@@ -113,6 +113,7 @@ fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
         && !system.some_negative()
         && !problem.may_press()
         && std::ptr::eq(system.elements_at_points(), system.incidence())
+        && system.far_field().is_none()
         && loads.course().is_none()
         && loads.restraints().is_empty()
         && loads.temperature_change(1.0).is_empty()

@@ -136,6 +136,10 @@ impl Case {
                 (initial.r#box, initial.at)
             }
             "quiet" => (None, None),
+            "far_field.near" => {
+                let near = self.far_field.iter().flat_map(|it| &it.near);
+                (near.clone().nth(index).and_then(|it| it.r#box), None)
+            }
             _ => (self.no_fail[index].r#box, None),
         };
         match (corners, at) {

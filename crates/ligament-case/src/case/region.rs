@@ -7,7 +7,7 @@ use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, one_of};
-use ligament::setup::{Place, Position};
+use ligament::setup::{self, Place, Position};
 
 /// A rectangle: its lower left and its upper right corner, m.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -98,6 +98,30 @@ pub struct Region {
 impl Region {
     pub(super) fn place(&self, key: &KeyPath, dimensions: usize) -> Result<Place, KeyFault> {
         place(key, dimensions, self.group.as_ref(), self.r#box, None)
+    }
+}
+
+/// The far field of a meshed body, where linear finite elements take the place of bonds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FarField {
+    /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
+    #[schemars(length(min = 1))]
+    pub near: Vec<Region>,
+}
+
+impl FarField {
+    pub(super) fn setup(
+        &self,
+        key: &KeyPath,
+        dimensions: usize,
+    ) -> Result<setup::FarField, KeyFault> {
+        let key = key.child("near");
+        let places = self.near.iter().enumerate();
+        let places = places.map(|(index, it)| it.place(&key.child(index), dimensions));
+        Ok(setup::FarField {
+            near: places.collect::<Result<_, _>>()?,
+        })
     }
 }
 

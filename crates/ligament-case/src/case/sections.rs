@@ -31,7 +31,7 @@ use super::motion::{InitialVelocity, Motion, Quiet};
 use super::output::{Output, StressField};
 use super::precrack::Precrack;
 use super::probe::Probe;
-use super::region::Region;
+use super::region::{FarField, Region};
 use super::solid_lattice_section::SolidLatticeSection;
 use super::solver::{self, Solver};
 use super::stage::Stage;
@@ -103,6 +103,9 @@ pub struct Case {
     /// Rigid bodies that parts of the body meet in a motion.
     #[serde(rename = "rigid", default, skip_serializing_if = "Vec::is_empty")]
     pub rigid_bodies: Vec<Rigid>,
+    /// Linear finite elements in place of bonds, away from parts of a meshed body.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub far_field: Option<FarField>,
     /// Parts of the body where bonds never break.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_fail: Vec<Region>,
@@ -343,6 +346,9 @@ impl Case {
             correction: self.correction.setup(&law),
             closing: self.model.closing,
             closing_friction: self.model.closing_friction,
+            far_field: (self.far_field.as_ref())
+                .map(|it| it.setup(&root().child("far_field"), dimensions))
+                .transpose()?,
             no_fail: each("no_fail", &self.no_fail, |it, key| {
                 it.place(key, dimensions)
             })?,

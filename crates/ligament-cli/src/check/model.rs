@@ -118,6 +118,10 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     if model.counts.across_layers > 0 {
         entry(out, "through a layer", model.counts.across_layers)?;
     }
+    if model.counts.far_points > 0 {
+        let elements = format!("{} points of elements", model.counts.far_points);
+        entry(out, "far field", elements)?;
+    }
     entry(out, "points with no_fail", model.no_fail_points())?;
     spread(out, "nearest distance", over(system.spacing()), "m")?;
     spread(out, "horizon", over(&fixed.horizon), "m")?;

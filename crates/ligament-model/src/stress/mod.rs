@@ -11,6 +11,7 @@
 
 mod across;
 pub mod by_material;
+mod of_elements;
 pub mod point_strain;
 pub mod principal;
 pub mod traction;

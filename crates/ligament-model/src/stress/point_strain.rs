@@ -14,7 +14,7 @@ use rayon::prelude::*;
 
 use crate::layout::Layout;
 use crate::system::BondSystem;
-use crate::tensor::{SymTensor, dot, minus};
+use crate::tensor::{SymTensor, dot, minus, norm};
 use crate::thermal::ThermalStrain;
 
 /// Smallest det(D K/tr K) with which the bonds of a point span the space; a full family has 1.
@@ -156,7 +156,7 @@ impl<const D: usize> BondSystem<D> {
             std::array::from_fn(|axis| motion.displacement[first + axis])
         };
         let here = place(point);
-        let mut fit = Fit::default();
+        let mut fit = self.fit_of_elements(layout, motion, point);
         let family = bonds.incidence.at(point).iter();
         for &bond in family.filter(|&&bond| motion.intact[bond as usize]) {
             let other = bonds.neighbour(bond, point);
@@ -171,6 +171,24 @@ impl<const D: usize> BondSystem<D> {
             fit.add(n, moved, bonds.length[bond], weight_per_length);
         }
         fit.strain()
+    }
+
+    /// Sums over the points that elements of the far field couple with a point, with w = V_Q.
+    pub(super) fn fit_of_elements(&self, layout: Layout, motion: Motion<'_>, point: u32) -> Fit<D> {
+        let mut fit = Fit::default();
+        let moved = |point: u32| -> [f64; D] {
+            let first = layout.range(point).start;
+            std::array::from_fn(|axis| motion.displacement[first + axis])
+        };
+        for other in self.far.iter().flat_map(|far| far.neighbours(point)) {
+            let [from, to] = [point, other].map(|it| self.cloud.positions[it as usize]);
+            let along = minus(to, from);
+            let length = norm(along);
+            let weight_per_length = self.cloud.volumes[other as usize] / length;
+            let by = minus(moved(other), moved(point));
+            fit.add(along.map(|it| it / length), by, length, weight_per_length);
+        }
+        fit
     }
 
     /// Factor exp(-l/H)/l of each bond on the volumes of its ends, shape (n_bonds).

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use crate::deformation::{Deformation, Deformations};
 use crate::element::{DeformationOf, Element, Elements};
 use crate::interface::BondTopology;
 use crate::system::{ElementSystem, UnbrokenBonds};
@@ -12,7 +13,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     pub(crate) fn virial_stresses(
         &self,
         bonds: UnbrokenBonds<'_>,
-        deformations: &[DeformationOf<D, M, E>],
+        deformations: &Deformations,
     ) -> Vec<SymTensor<D>> {
         (0..self.system.cloud.len() as u32)
             .into_par_iter()
@@ -34,10 +35,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     pub(crate) fn virial_stress(
         &self,
         bonds: UnbrokenBonds<'_>,
-        deformations: &[DeformationOf<D, M, E>],
+        deformations: &Deformations,
         point: u32,
     ) -> SymTensor<D> {
-        let mut sum = SymTensor::ZERO;
+        let elements = self.system.elements_at(self.layout(), deformations, point);
+        let mut sum = elements.map_or(SymTensor::ZERO, |it| it.stress.scaled(it.volume));
+        let deformations: &[DeformationOf<D, M, E>] = Deformation::of_bonds(deformations);
         for &bond in self.system.bonds.incidence.at(point) {
             let Some(element) = self.left(bonds, bond as usize) else {
                 continue;

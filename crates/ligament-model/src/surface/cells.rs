@@ -95,6 +95,7 @@ impl<const D: usize> Boundaries<D> {
         let topology = Topology {
             ends: &bonds.ends,
             incidence: &bonds.incidence,
+            far: None,
         };
         let numbered = || (0..).zip(&faces);
         let bonded =

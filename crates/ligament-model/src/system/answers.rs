@@ -12,6 +12,7 @@ use crate::element::{BondDeformation, DeformationOf, Element, Elements, Stiffnes
 use crate::failure::Criterion;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
+use crate::far_field::FarField;
 use crate::interface::{
     BondContact, BondKinetics, BondReadings, BondTopology, CentralMotions, CoupledPoints,
     PointStiffness, StressReading, Stresses,
@@ -60,6 +61,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for Element
     }
 
     fn coupled_points(&self) -> CoupledPoints<'_> {
+        if let Some(far) = &self.system.far {
+            return far.coupled_points();
+        }
         let of_elements = self.elements.couplings().map(|[_, points]| points);
         match of_elements.or(self.system.faces.coupled()) {
             Some(points) => CoupledPoints {
@@ -71,6 +75,10 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for Element
                 ends: Some(&self.system.bonds.ends),
             },
         }
+    }
+
+    fn far_field(&self) -> Option<CoupledPoints<'_>> {
+        self.system.far.as_ref().map(FarField::neighbours_of_points)
     }
 
     fn volumes(&self) -> &[f64] {
@@ -137,11 +145,16 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
     }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
-        PointStiffness::of_bonds(
-            &self.system.rigidities,
-            &self.system.bonds,
-            self.subdomain(),
-        )
+        let BondSystem {
+            rigidities, bonds, ..
+        } = &self.system;
+        let mut all = PointStiffness::of_bonds(rigidities, bonds, self.subdomain());
+        if let Some(far) = &self.system.far {
+            for (point, of_point) in (0..).zip(&mut all) {
+                of_point.force += far.stiffness_at(point);
+            }
+        }
+        all
     }
 
     fn holds(
@@ -151,12 +164,13 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
         let in_file = self.system.cloud.numbering.sorted(points);
-        self.rigid_motions(&in_file)
-            .holds(&in_file, is_fixed, can_hold)
+        let motions = self.rigid_motions(&in_file);
+        motions.holds(&in_file, self.resisting(is_fixed), can_hold)
     }
 
     fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>> {
-        self.rigid_motions(points).free_shapes(points, is_fixed)
+        let motions = self.rigid_motions(points);
+        motions.free_shapes(points, self.resisting(is_fixed))
     }
 
     fn free_motions(
@@ -166,7 +180,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         force: &dyn Fn(usize) -> f64,
     ) -> Vec<FreeMotion> {
         let motions = self.rigid_motions(points);
-        motions.free_motions(points, is_fixed, force)
+        motions.free_motions(points, self.resisting(is_fixed), force)
     }
 
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
@@ -248,6 +262,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
                 }
             });
         }
+        if let Some(far) = &self.system.far {
+            far.add_blocks::<M>(point, lower, blocks);
+        }
     }
 
     fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
@@ -311,6 +328,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         deformations: &Deformations,
         point: u32,
     ) -> f64 {
+        let elements = self.system.elements_at(self.layout(), deformations, point);
+        let of_elements = elements.map_or(0.0, |it| it.energy());
         let deformations: &[DeformationOf<D, M, E>] = of_bonds(deformations);
         let family = self.system.bonds.incidence.at(point).iter();
         let shares = family.filter_map(|&bond| {
@@ -319,7 +338,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
             let energy = element.mutual_energy(deformation, deformation);
             Some(self.share(bond, point) * energy)
         });
-        shares.sum::<f64>() / self.system.cloud.volumes[point as usize]
+        (shares.sum::<f64>() + of_elements) / self.system.cloud.volumes[point as usize]
     }
 
     fn stress(
@@ -328,7 +347,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         deformations: &Deformations,
         point: u32,
     ) -> Vec<f64> {
-        let stress = self.virial_stress(bonds, of_bonds(deformations), point);
+        let stress = self.virial_stress(bonds, deformations, point);
         stress.components().collect()
     }
 
@@ -338,7 +357,6 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
     ) -> Stresses {
-        let deformations = of_bonds(deformations);
         match reading {
             StressReading::Virial => {
                 let stresses = self.virial_stresses(bonds, deformations);
@@ -349,7 +367,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
             }
             StressReading::Traction => Stresses {
                 names: traction::names::<D>(),
-                values: self.tractions(bonds, deformations),
+                values: self.tractions(bonds, of_bonds(deformations)),
             },
         }
     }
@@ -468,6 +486,19 @@ fn of_bonds<B: Deformation>(deformations: &Deformations) -> &[B] {
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+    /// Whether a fixed degree of freedom holds its point: the rotation of a point of the far field alone has no effect.
+    fn resisting<'a>(
+        &'a self,
+        is_fixed: &'a dyn Fn(usize) -> bool,
+    ) -> impl Fn(usize) -> bool + use<'a, D, M, E> {
+        let layout = self.layout();
+        let has_bonds = move |dof| !self.system.bonds.incidence.at(layout.point(dof)).is_empty();
+        let has_effect = move |dof| {
+            self.system.far.is_none() || !layout.component(dof).is_rotation() || has_bonds(dof)
+        };
+        move |dof| is_fixed(dof) && has_effect(dof)
+    }
+
     /// Rigid motions of some points that their bonds do not resist.
     fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, D> {
         let BondSystem {

@@ -20,6 +20,9 @@ pub struct ModelSummary {
     pub bonds: usize,
     /// Number of bonds that pre-cracks cut.
     pub cut_bonds: usize,
+    /// Number of points of the far field, which have no bonds.
+    #[serde(skip_serializing_if = "is_none")]
+    pub far_points: usize,
     /// Number of points whose bonds never break.
     pub no_fail_points: usize,
     /// Sum of the points' volumes, m^3.
@@ -33,6 +36,11 @@ pub struct ModelSummary {
     /// Property that varies at random; none without scatter.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub scatter: Option<ScatterSummary>,
+}
+
+/// Whether nothing was counted.
+fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 /// A property that varies at random.

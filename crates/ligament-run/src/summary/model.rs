@@ -29,6 +29,7 @@ pub(super) fn model_summary(case: &CaseFile, model: &Model) -> ModelSummary {
         points: model.system.n_points(),
         bonds: model.counts.bonds,
         cut_bonds: model.cut_bonds(),
+        far_points: model.counts.far_points,
         no_fail_points: model.no_fail_points(),
         volume: model.system.volumes().iter().sum(),
         horizon: Spread::over(model.fixed.horizon.iter().copied()),
@@ -79,9 +80,10 @@ fn formulation_words(model: &Model) -> String {
 /// Smallest, mean and largest number of bonds of a point.
 pub fn family(model: &Model) -> Spread {
     let [min, max] = model.counts.of_points.map(|it| it as f64);
+    let n_points = model.system.n_points() - model.counts.far_points;
     Spread {
         min,
-        mean: (2 * model.counts.bonds) as f64 / model.system.n_points().max(1) as f64,
+        mean: (2 * model.counts.bonds) as f64 / n_points.max(1) as f64,
         max,
     }
 }

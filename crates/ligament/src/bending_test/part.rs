@@ -12,6 +12,7 @@ pub(crate) fn free(setup: &Setup, body: AnyBody, material: usize) -> Setup {
         materials: vec![region],
         precracks: Vec::new(),
         closing: false,
+        far_field: None,
         no_fail: Vec::new(),
         supports: Vec::new(),
         loads: Vec::new(),

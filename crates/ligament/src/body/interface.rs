@@ -8,7 +8,7 @@ use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
 use ligament_model::surface::{CellFaces, Facet};
-use ligament_model::{BodyGrid, BondSet, Lattice, PointCloud};
+use ligament_model::{BodyGrid, BondSet, BondSystem, Lattice, PointCloud};
 use thiserror::Error;
 
 use crate::coordinates::coordinates;
@@ -196,9 +196,21 @@ pub trait Geometry<const D: usize>: Body {
         None
     }
 
-    /// A body of some of the cells (ascending) of a meshed body, without groups; `None` for other bodies.
+    /// A body of some of the cells (ascending) of a meshed body, with their points in the order of this body and without groups; `None` for
+    /// other bodies.
     fn part(&self, _cells: &[usize]) -> Option<Arc<dyn Geometry<D>>> {
         None
+    }
+
+    /// Bonds between the points of a meshed body with some of its cells (ascending) as linear finite elements; `material_of_cell` (n_cells)
+    /// has the index of each cell's material. Unchanged for other bodies.
+    fn with_far_field(
+        &self,
+        system: BondSystem<D>,
+        _cells: &[usize],
+        _material_of_cell: &[u32],
+    ) -> BondSystem<D> {
+        system
     }
 
     /// The outline of a meshed body with its nodes at the points of a cloud; `None` for other bodies.

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use ligament_mesh::{Cell, Group, Mesh, NodeField, Numbering, SolidCell};
 use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
+use ligament_model::far_field::Simplex;
 use ligament_model::material::Stiffness;
 use ligament_model::surface::{CellFaces, InnerFace};
-use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
+use ligament_model::{BodyGrid, BondSet, BondSystem, PointCloud, raised};
 
 use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
 use super::mesh_cells::BodyCell;
@@ -205,6 +206,21 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         })
     }
 
+    /// Elements of the triangles or tetrahedra of which the cells consist.
+    fn with_far_field(
+        &self,
+        system: BondSystem<D>,
+        cells: &[usize],
+        material_of_cell: &[u32],
+    ) -> BondSystem<D> {
+        let simplices = cells.iter().flat_map(|&cell| {
+            let material = material_of_cell[cell];
+            let parts = self.mesh.cells[cell].simplices().into_iter();
+            parts.map(move |cell| Simplex { cell, material })
+        });
+        system.with_far_field(&simplices.collect::<Vec<_>>())
+    }
+
     /// A body of some cells and their nodes, without groups.
     fn part(&self, cells: &[usize]) -> Option<Arc<dyn Geometry<D>>> {
         let cells = cells.iter().map(|&cell| self.mesh.cells[cell]);
@@ -226,7 +242,10 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
             cells: cells.map(renumbered).collect(),
             ..Mesh::default()
         };
-        Some(Arc::new(Self::from(part)))
+        Some(Arc::new(Self {
+            mesh: part,
+            numbering: Numbering::default(),
+        }))
     }
 
     fn outline(&self, cloud: &PointCloud<D>) -> Option<Box<dyn BodyOutline<D> + '_>> {

@@ -32,6 +32,9 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
         materials: &[u32],
     ) -> BondSet<D>;
 
+    /// Triangles or tetrahedra of which the cell consists.
+    fn simplices(&self) -> Vec<Self>;
+
     /// Forces of uniform strains on the points of a cloud; `material_of_cell` (n_cells) has the index of each cell's material.
     fn forces(
         cells: &[Self],
@@ -85,6 +88,10 @@ impl BodyCell<2> for Cell {
             materials,
         };
         bonds.through(&cells, cloud)
+    }
+
+    fn simplices(&self) -> Vec<Self> {
+        self.triangles().map(Self::Triangle).collect()
     }
 
     fn forces(
@@ -177,6 +184,10 @@ impl BodyCell<3> for SolidCell {
         materials: &[u32],
     ) -> BondSet<3> {
         bonds.through(&Tetrahedra::new(cells, cloud, materials), cloud)
+    }
+
+    fn simplices(&self) -> Vec<Self> {
+        self.tetrahedra().map(Self::Tetrahedron).collect()
     }
 
     fn forces(

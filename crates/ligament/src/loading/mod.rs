@@ -25,7 +25,7 @@ use ligament_model::subdomain::Subdomain;
 pub use contact::contact_problem;
 pub use motion::Inertia;
 use places::Places;
-pub use places::{material_of_cell, no_fail};
+pub use places::{material_of_cell, near_cells, no_fail};
 pub use vibration::Vibration;
 
 use crate::error::{Fault, Field, SetupError};

@@ -101,6 +101,35 @@ pub fn no_fail<const D: usize>(
     Ok(marked)
 }
 
+/// Whether each cell belongs to the near field, shape (n_cells): all its corners lie in one of its places. `None` without a far field.
+pub fn near_cells<const D: usize>(
+    setup: &Setup,
+    cloud: &PointCloud<D>,
+) -> Result<Option<Vec<bool>>, SetupError> {
+    let Some(far_field) = &setup.far_field else {
+        return Ok(None);
+    };
+    let places = Places { setup, cloud };
+    let cells = setup.body.corners();
+    let mut is_near = vec![false; cells.len()];
+    for (index, place) in far_field.near.iter().enumerate() {
+        let field = Field::element("far_field.near", index);
+        let mut is_in_place = vec![false; cloud.len()];
+        for point in places.points(field, place)? {
+            is_in_place[point as usize] = true;
+        }
+        let mut any = false;
+        for (is_near, corners) in is_near.iter_mut().zip(&cells) {
+            let is_inside = corners.iter().all(|it| is_in_place[*it as usize]);
+            (*is_near, any) = (*is_near | is_inside, any | is_inside);
+        }
+        if !any {
+            return Err(field.part("place").error(Fault::NoCellInside));
+        }
+    }
+    Ok(Some(is_near))
+}
+
 /// Index of the material of each cell, shape (n_cells). Refuses cells without a material or with two.
 pub fn material_of_cell(setup: &Setup) -> Result<Vec<u32>, SetupError> {
     let n_cells = setup.body.n_cells();

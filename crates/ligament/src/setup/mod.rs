@@ -11,6 +11,7 @@ mod closing;
 mod conditions;
 mod contact;
 mod correction;
+mod far_field;
 mod motion;
 mod precrack;
 mod probe;
@@ -40,6 +41,7 @@ pub use conditions::{
 };
 pub use contact::{Between, ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
+pub use far_field::FarField;
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use motion::{InitialVelocity, QuietEdge};
 pub use precrack::{CrackShape, PreCrack};
@@ -81,6 +83,8 @@ pub struct Setup {
     pub contacts: Vec<SurfaceContact>,
     /// Rigid bodies that parts of the body meet in a motion.
     pub rigid_bodies: Vec<Rigid>,
+    /// Linear finite elements in place of bonds, away from parts of a meshed body.
+    pub far_field: Option<FarField>,
     /// Parts of the body where bonds never fail.
     pub no_fail: Vec<Place>,
     /// Supports of the body, none or more.
@@ -156,6 +160,7 @@ impl Setup {
             closing_friction: 0.0,
             contacts: Vec::new(),
             rigid_bodies: Vec::new(),
+            far_field: None,
             no_fail: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),

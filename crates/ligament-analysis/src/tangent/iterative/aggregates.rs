@@ -57,10 +57,8 @@ impl Aggregates {
             let mut next = 0;
             while let Some(&point) = part.get(next) {
                 next += 1;
-                for &bond in topology.incidence.at(point) {
-                    let neighbour = topology.neighbour(bond, point);
-                    let is_open = self.of_point[neighbour as usize] == OPEN;
-                    if is_open && intact[bond as usize] {
+                for neighbour in topology.connected(point, intact) {
+                    if self.of_point[neighbour as usize] == OPEN {
                         self.of_point[neighbour as usize] = number;
                         part.push(neighbour);
                     }

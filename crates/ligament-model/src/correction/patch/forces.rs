@@ -3,6 +3,7 @@
 use ligament_mesh::{Cell, SolidCell};
 
 use crate::cloud::PointCloud;
+use crate::dimension::cast_ref;
 use crate::material::Stiffness;
 use crate::tensor::{SymTensor, cross, dot, minus};
 
@@ -135,7 +136,7 @@ pub fn of_solid_mesh(
     for (cell, &material) in cells.iter().zip(material_of_cell) {
         for corners in cell.tetrahedra() {
             let places = corners.map(|corner| cloud.positions[corner as usize]);
-            for (corner, gradient) in corners.into_iter().zip(gradients(places)) {
+            for (corner, gradient) in corners.into_iter().zip(of_tetrahedron(places)) {
                 forces.add(corner, &stresses[material as usize], gradient);
             }
         }
@@ -143,9 +144,26 @@ pub fn of_solid_mesh(
     forces
 }
 
+/// Integrals of the gradients of the linear shape functions over a triangle times the thickness, or over a tetrahedron, for each of its
+/// corners, m^2.
+pub(crate) fn gradients<const D: usize>(corners: &[u32], cloud: &PointCloud<D>) -> Vec<[f64; D]> {
+    if let Some(plane) = cast_ref::<_, PointCloud>(cloud) {
+        let of_corners = (0..corners.len()).map(|k| resized(gradient(corners, k, plane)));
+        return of_corners.collect();
+    }
+    let place = |k: usize| resized(cloud.positions[corners[k] as usize]);
+    let of_corners = of_tetrahedron(std::array::from_fn(place)).into_iter();
+    of_corners.map(resized).collect()
+}
+
+/// A vector with other components than it has as zeros.
+fn resized<const D: usize, const E: usize>(vector: [f64; D]) -> [f64; E] {
+    std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
+}
+
 /// Integrals of the gradients of the linear shape functions over a tetrahedron, m^2: a third of the area of the opposite face along its
 /// inward normal.
-fn gradients([a, b, c, d]: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
+fn of_tetrahedron([a, b, c, d]: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
     let [e, f, g] = [b, c, d].map(|corner| minus(corner, a));
     let is_positive = dot(e, cross(f, g)) > 0.0;
     let sixth = if is_positive { 1.0 / 6.0 } else { -1.0 / 6.0 };

@@ -43,8 +43,8 @@ mod rows;
 mod settings;
 
 pub use dual::Report;
-pub(crate) use forces::uniform_strains;
 pub use forces::{CellForces, Points, of_mesh, of_solid_mesh};
+pub(crate) use forces::{gradients, uniform_strains};
 pub use lattice_forces::of_lattice;
 pub use reference::{Reference, reference};
 pub use settings::Settings;
