@@ -2,9 +2,12 @@
 //! all have bonds.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
+use std::collections::BTreeSet;
+
 use ligament::patch_test::patch_test;
-use ligament_analysis::driver::Outcome;
-use verification::bench::{Bench, Run, missing_energy};
+use ligament::run::{NoObserver, Solution};
+use ligament_case::case::CaseFile;
+use verification::bench::{Bench, missing_energy, solved};
 
 /// Square of 100 mm and 568 points.
 const SQUARE: &str = r#"
@@ -46,20 +49,22 @@ fn a_uniform_strain_passes_from_bonds_to_elements() {
         let constants = test.constants.unwrap();
         let young = constants.body.young.iter().zip(constants.material.young);
         for (body, material) in young.filter(|(_, material)| *material > 0.0) {
-            // The whole square with bonds alone has 3e-4.
-            assert!((body / material - 1.0).abs() < 3e-4, "{constants:?}");
+            // Bodies with bonds alone have 3e-4; the near field of the square has a corner more, at which bonds are few.
+            assert!((body / material - 1.0).abs() < 5e-4, "{constants:?}");
         }
-        // Of the patch correction, which leaves 3e-3 of a bar.
+        // Bonds alone have 3e-3; those near the corner of the near field differ more.
         let scatter = test.scatter.iter().copied().fold(0.0, f64::max);
-        assert!(scatter < 3e-3, "{text}{law} {scatter:e}");
+        assert!(scatter < 1e-2, "{text}{law} {scatter:e}");
     }
 }
 
 /// In pure bending u_x = kappa x y the energy is E I kappa^2 L/2, of which linear elements and bonds have a little more.
 #[test]
 fn a_linear_strain_passes_to_one_per_cent() {
-    let energy =
-        |settings: &[&str]| Bench::new(SQUARE, settings).solve().outcome.history[0].stored_energy;
+    let energy = |settings: &[&str]| {
+        let outcome = solved(SQUARE, settings).outcome;
+        outcome.history.last().unwrap().stored_energy
+    };
     let (young, side, curvature) = (30e9, 0.1_f64, 1e-5 / 0.05 / 0.1);
     let exact = 0.5 * young * side.powi(3) / 12.0 * curvature * curvature * side;
     let [bonds, part] = [&[][..], &[PART_OF_SQUARE]].map(energy);
@@ -72,40 +77,103 @@ fn a_linear_strain_passes_to_one_per_cent() {
 fn forces_across_the_border_balance() {
     for (text, near) in [(SQUARE, PART_OF_SQUARE), (CUBE, HALF_OF_CUBE)] {
         for method in ["direct", "iterative"] {
-            let bench = Bench::new(text, &[near, &format!("solver.method={method}")]);
-            let run = bench.solve();
-            let record = &run.outcome.history[0];
-            // Residual of an elastic solution.
-            assert!(run.largest_residual < 1e-9, "{:e}", run.largest_residual);
+            let outcome = solved(text, &[near, &format!("solver.method={method}")]).outcome;
+            assert!(!outcome.is_without_equilibrium(), "{method}");
+            let record = outcome.history.last().unwrap();
+            assert!(record.stored_energy > 0.0);
             let missing = record.external_work - record.stored_energy;
             assert!(missing.abs() < 1e-8 * record.stored_energy, "{missing:e}");
         }
     }
 }
 
-/// Notched beam in three-point bending, with bonds in the middle half of its length.
-fn beam(settings: &[&str]) -> Run {
-    let text =
-        std::fs::read_to_string(verification::repository().join("cases/petersson-beam/case.toml"));
-    let text = text.unwrap().replace("../../meshes", "../meshes");
-    Bench::new(&text, settings).break_up()
+/// Plate of 100 mm by 200 mm with a notch, whose mouth opens in equal steps through the peak and back.
+fn plate(settings: &[&str]) -> Solution {
+    let path = verification::repository().join("cases/opening-control/case.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let text = text.replace("../../meshes", "../meshes");
+    solved(&text, &[&["correction.surface=patch"], settings].concat())
 }
 
-const MIDDLE: &str = "far_field.near=[{ box = [[-0.4, -1.0], [0.4, 1.0]] }]";
-
-fn peak(outcome: &Outcome) -> f64 {
-    let reactions = outcome.history.iter().map(|it| it.reaction.abs());
-    reactions.fold(0.0, f64::max)
+/// Nodes of the ends of the broken bonds.
+fn broken(Solution { model, outcome, .. }: &Solution) -> BTreeSet<[u32; 2]> {
+    let bonds = model.system.ends().iter().zip(&outcome.state.intact);
+    let numbering = model.body().numbering();
+    let broken = bonds.filter(|(_, intact)| !**intact);
+    broken
+        .map(|(ends, _)| numbering.ends_in_file(*ends))
+        .collect()
 }
 
-/// The crack is that of the body with bonds everywhere, and the load within half a per cent.
+/// Bonds up to 50 mm from the notch: ten cells, three horizons and more.
+const AROUND_NOTCH: &str = "far_field.near=[{ box = [[-1, 0.0525], [1, 0.1525]] }]";
+
+/// The crack is that of the plate whose cells all have bonds, and the load within half a per cent; the same with both solvers.
 #[test]
 fn the_crack_is_that_of_the_whole_body() {
-    let [whole, part] = [&[][..], &[MIDDLE]].map(beam);
-    let difference = peak(&part.outcome) / peak(&whole.outcome) - 1.0;
-    assert!(difference.abs() < 5e-3, "{difference:e}");
-    let broken = [&whole, &part].map(|run| run.breaks.len());
-    assert!(broken[0] > 50, "{broken:?}");
-    assert_eq!(broken[0], broken[1]);
-    assert!(missing_energy(&part.outcome) < 1e-2);
+    let peak = |solution: &Solution| {
+        let reactions = solution.outcome.history.iter().map(|it| it.reaction);
+        reactions.fold(0.0, f64::max)
+    };
+    let whole = plate(&[]);
+    let of_whole = broken(&whole);
+    assert!(of_whole.len() > 200);
+    for method in ["solver.method=direct", "solver.method=iterative"] {
+        let part = plate(&[AROUND_NOTCH, method]);
+        assert!(2 * part.model.counts.bonds < whole.model.counts.bonds);
+        let difference = peak(&part) / peak(&whole) - 1.0;
+        assert!(difference.abs() < 5e-3, "{method} {difference:e}");
+        // A bond or two more may be broken at the last opening, which the stiffer or softer plate reaches a little earlier.
+        let of_part = broken(&part);
+        let common = of_whole.intersection(&of_part).count();
+        assert_eq!(common, of_whole.len(), "{method}");
+        assert!(of_part.len() <= common + 3, "{method} {}", of_part.len());
+        assert!(missing_energy(&part.outcome) < 1e-2);
+    }
+}
+
+/// What cannot be, or would be wrong without a word, is refused with the key and the reason.
+#[test]
+fn what_is_wrong_is_refused() {
+    let lattice = SQUARE.replace(
+        "mesh = { file = \"../meshes/square-delaunay.msh\" }",
+        "lattice = { cells = [10, 10], spacing = 0.01 }",
+    );
+    for (text, setting, words) in [
+        (
+            SQUARE,
+            "correction.surface=domain",
+            "bear the same forces only where",
+        ),
+        (
+            SQUARE,
+            "model.closing=true",
+            "faces that close are for bodies whose cells all have bonds",
+        ),
+        (
+            SQUARE,
+            "far_field.near=[{ group = \"nowhere\" }]",
+            "no physical group in the mesh is called `nowhere`",
+        ),
+        (
+            SQUARE,
+            "far_field.near=[{ box = [[0.01, 0.01], [0.011, 0.05]] }]",
+            "no cell of the mesh has all its corners",
+        ),
+        (
+            SQUARE,
+            "probe=[{ name = \"cut\", section = [[0.08, -0.1], [0.08, 0.2]], component = \"x\" }]",
+            "passes through elements of the far field",
+        ),
+        (&lattice, "output={}", "are the cells of a mesh"),
+    ] {
+        let path = verification::repository().join("tests/case.toml");
+        let settings = [PART_OF_SQUARE, setting].map(str::to_owned);
+        let error = CaseFile::parse(&path, text.to_owned(), &settings)
+            .map_err(|it| it.to_string())
+            .and_then(|it| it.setup(&mut ()).map_err(|it| it.to_string()))
+            .and_then(|it| it.solve(&mut NoObserver).map_err(|it| it.to_string()));
+        let error = error.unwrap_err();
+        assert!(error.contains(words), "{setting}: {error}");
+    }
 }

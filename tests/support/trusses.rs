@@ -123,6 +123,7 @@ impl Truss {
                 beyond_correction: Vec::new(),
                 materials: Vec::new(),
                 faces: Faces::default(),
+                far: None,
                 room: DeformationPool::default(),
                 closeness: std::sync::OnceLock::new(),
                 cloud,

@@ -1,7 +1,7 @@
 //! The far field: linear finite elements in place of bonds, where nothing breaks.
 //!
 //! A triangle or tetrahedron of the volume V, with linear shape functions N_a of its corners, has between two corners the stiffness
-//! K_ab = V B_a^T C B_b, with eps = sum B_a u_a (Zienkiewicz, Taylor and Zhu 2013, section 6.2). A translation makes no force, so that the
+//! K_ab = V B_a^T C B_b, with eps = sum B_a u_a (Zienkiewicz 2013). A translation makes no force, so that the
 //! force at a point is K u = sum over the other corners b of K_ab (u_b - u_a): the elements are couplings of pairs of points, as bonds are.
 //!
 //! Elements pass a uniform strain exactly. Bonds with the [patch correction](crate::correction::patch) on their own cells bear the same
@@ -104,6 +104,11 @@ impl<const D: usize> FarField<D> {
         }
     }
 
+    /// Points A < B of each coupling, shape (n_couplings).
+    pub fn ends(&self) -> &[[u32; 2]] {
+        &self.ends
+    }
+
     /// Points that elements couple with each point.
     pub(crate) fn neighbours_of_points(&self) -> CoupledPoints<'_> {
         CoupledPoints {
@@ -142,7 +147,7 @@ impl<const D: usize> FarField<D> {
     }
 
     /// Volume of the elements at a point, m^3: the corners of an element have equal parts.
-    pub(crate) fn volume(&self, point: u32) -> f64 {
+    pub fn volume(&self, point: u32) -> f64 {
         self.volumes[point as usize]
     }
 

@@ -6,8 +6,8 @@ use crate::model::Model;
 
 /// Energies of cracks that open along x, and along y, through a material of a model.
 ///
-/// Only points count whose families are complete, of the one material, and free to break, so that surfaces, interfaces and parts without
-/// failure do not contribute. `None` for solids, where there is no such point, without criteria, and for bonds with strains of their own
+/// Only points count whose families are complete, of the one material, and free to break, so that surfaces, interfaces, far fields and parts
+/// without failure do not contribute. `None` for solids, where there is no such point, without criteria, and for bonds with strains of their own
 /// (`mbb-pd`), whose criteria dissipate the fracture energy by definition.
 pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
     let system = model.system.of_dimension::<2>()?;
@@ -18,7 +18,11 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
     let rim = model.body().rim().into_iter().enumerate();
     // Tolerance of three times the machine epsilon: shares are quotients of volumes.
     let is_mixed = |point| cloud.shares(point)[material] < 1.0 - 3.0 * f64::EPSILON;
-    let is_excluded = |(point, on_rim)| on_rim || model.fixed.no_fail[point] || is_mixed(point);
+    let far = system.far.as_ref();
+    let has_elements = |point| far.is_some_and(|it| it.volume(point as u32) > 0.0);
+    let is_excluded = |(point, on_rim)| {
+        on_rim || model.fixed.no_fail[point] || is_mixed(point) || has_elements(point)
+    };
     let excluded: Vec<bool> = rim.map(is_excluded).collect();
     let whole = model.interior(&excluded);
     let along = |normal| CrackEnergy::of_opening(system, &model.criteria, &whole, normal);

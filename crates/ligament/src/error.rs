@@ -180,6 +180,11 @@ pub enum Fault {
     /// A line that no bond crosses.
     #[error("no bond crosses this line, so the force through it would always be 0 N")]
     NothingCrossed,
+    /// A line through elements of the far field.
+    #[error(
+        "the line passes through elements of the far field, and the force through it is summed over bonds: enlarge the near field"
+    )]
+    ThroughElements,
     /// Cells of a mesh that overlap.
     #[error(
         "cells of the mesh overlap: its outline crosses itself between {from} and {to}. Bodies that touch share nodes: mesh them as one \

@@ -55,6 +55,7 @@ correction = {}
 precrack = [{ points = [[0, 0], [1, 0]] }, { centre = [0, 0], length = 0.1, angle = 0.5 }]
 support = [{ group = "bottom", displacement = { x = 0.0 } }, { at = [0, 0], normal = [1, 1], stiffness = { normal = 1e9 } }]
 no_fail = [{ box = [[0, 0], [1, 1]] }]
+far_field = { near = [{ group = "middle" }, { box = [[0, 0], [1, 1]] }] }
 [[load]]
 group = "top"
 displacement = { y = 0.1 }

@@ -20,7 +20,6 @@ use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, LoadsInTime, ProportionalLoading, StagedLoading};
 use ligament_model::System;
-use ligament_model::subdomain::Subdomain;
 
 pub use contact::contact_problem;
 pub use motion::Inertia;
@@ -30,7 +29,7 @@ pub use vibration::Vibration;
 
 use crate::error::{Fault, Field, SetupError};
 use crate::model::Model;
-use crate::setup::Setup;
+use crate::setup::{self, Setup};
 use crate::system::over_dimension;
 use boundary::{ActiveLoads, boundary, require_rotational_stiffness};
 use motion::{in_time, inertia};
@@ -78,7 +77,7 @@ impl Loading {
         places.require_probes_on_body()?;
         let probes = (setup.probes.iter()).map(|it| probes::on(it, setup, system));
         let probes: Arc<[Probe]> = probes.collect();
-        require_crossed_sections(&probes, system.subdomain())?;
+        require_crossed_sections(setup, &probes, system)?;
         let staged = staged(setup, system, &probes)?;
         let (in_time, inertia) = match setup.analysis.is_motion() {
             true => (
@@ -131,17 +130,24 @@ impl Loading {
     }
 }
 
-/// Refuses probes of a force through a line that no bond crosses.
-fn require_crossed_sections(probes: &[Probe], subdomain: &Subdomain) -> Result<(), SetupError> {
-    let crossed = |probe: &Probe| match &probe.reading {
-        Reading::SectionForce { bonds, .. } => subdomain.any(!bonds.is_empty()),
-        _ => true,
-    };
-    match probes.iter().position(|probe| !crossed(probe)) {
-        None => Ok(()),
-        Some(index) => {
-            let field = Field::element("probes", index).part("reading");
-            Err(field.error(Fault::NothingCrossed))
+/// Refuses probes of a force through a line that no bond crosses, or that passes through elements of the far field.
+fn require_crossed_sections<const D: usize>(
+    setup: &Setup,
+    probes: &[Probe],
+    system: &dyn System<D>,
+) -> Result<(), SetupError> {
+    for (index, (asked, probe)) in setup.probes.iter().zip(probes).enumerate() {
+        let field = Field::element("probes", index).part("reading");
+        if let setup::Reading::Section { line, .. } = asked.reading
+            && probes::crosses_far_field(system, line)
+        {
+            return Err(field.error(Fault::ThroughElements));
+        }
+        if let Reading::SectionForce { bonds, .. } = &probe.reading
+            && !system.subdomain().any(!bonds.is_empty())
+        {
+            return Err(field.error(Fault::NothingCrossed));
         }
     }
+    Ok(())
 }

@@ -82,14 +82,28 @@ fn shares<const D: usize>(
 
 /// Bonds through a line in the plane, or through a plane in space given by a point and one before it, and whether their first end lies on
 /// the left of the line or behind the plane; a point on the plane lies beyond it. Bonds that pre-cracks cut count where faces close.
-fn crossing<const D: usize>(
-    system: &BondSystem<D>,
-    [start, end]: [[f64; D]; 2],
-) -> Vec<(u32, bool)> {
-    let (faces, cloud) = (&system.faces, &system.cloud);
+fn crossing<const D: usize>(system: &BondSystem<D>, line: [[f64; D]; 2]) -> Vec<(u32, bool)> {
+    let faces = &system.faces;
     let cut = faces.cut().iter().filter(|_| faces.close());
     let ends = system.bonds.ends.iter().copied();
-    let ends = ends.chain(cut.map(|it| it.ends));
+    crossing_pairs(ends.chain(cut.map(|it| it.ends)), &system.cloud, line)
+}
+
+/// Whether a line in the plane, or a plane in space, passes through elements of the far field.
+pub(super) fn crosses_far_field<const D: usize>(
+    system: &BondSystem<D>,
+    line: [Position; 2],
+) -> bool {
+    let ends = system.far.iter().flat_map(|far| far.ends()).copied();
+    !crossing_pairs(ends, &system.cloud, line.map(narrowed)).is_empty()
+}
+
+/// Pairs of points on different sides of a line, as [`crossing`].
+fn crossing_pairs<const D: usize>(
+    ends: impl Iterator<Item = [u32; 2]>,
+    cloud: &PointCloud<D>,
+    [start, end]: [[f64; D]; 2],
+) -> Vec<(u32, bool)> {
     if let Some(cloud) = cast_ref::<_, PointCloud>(cloud) {
         let [start, end] = [start, end].map(|it| std::array::from_fn(|axis| it[axis]));
         return crossing_bonds(ends, cloud, start, end);
