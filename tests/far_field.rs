@@ -6,8 +6,9 @@ use std::collections::BTreeSet;
 
 use ligament::patch_test::patch_test;
 use ligament::run::{NoObserver, Solution};
+use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
-use verification::bench::{Bench, missing_energy, solved};
+use verification::bench::{Bench, case, missing_energy, solved};
 
 /// Square of 100 mm and 568 points.
 const SQUARE: &str = r#"
@@ -176,4 +177,49 @@ fn what_is_wrong_is_refused() {
         let error = error.unwrap_err();
         assert!(error.contains(words), "{setting}: {error}");
     }
+}
+
+/// Ten modes of a cantilever, which elements of a fine mesh change by less than the patch-exact bonds differ from them, a few thousandths; its
+/// clamped end consists of elements.
+#[test]
+fn modes_are_those_of_the_whole_body() {
+    let path = verification::repository().join("cases/modal-plate/case.toml");
+    let text = std::fs::read_to_string(path).unwrap();
+    let text = text.replace("../../meshes", "../meshes");
+    let frequencies = |settings: &[&str]| {
+        let case = case(&text, &[&["correction.surface=patch"], settings].concat());
+        let modes = case.setup(&mut ()).unwrap().modes().unwrap().modes;
+        modes
+            .into_iter()
+            .map(|it| it.frequency())
+            .collect::<Vec<f64>>()
+    };
+    let near = "far_field.near=[{ box = [[0.06, -1], [5, 5]] }]";
+    let [whole, part] = [&[][..], &[near]].map(frequencies);
+    assert_eq!(part.len(), 10);
+    for (whole, part) in whole.iter().zip(&part) {
+        assert!((part / whole - 1.0).abs() < 3e-3, "{whole} {part}");
+    }
+}
+
+/// Explicit steps of a plate that is pushed at its end: waves pass bonds and elements, and the ledger of energy closes to rounding.
+#[test]
+fn waves_pass_without_loss() {
+    let text = r#"
+analysis = "motion"
+mesh = { file = "../meshes/plate-tall.msh", thickness = 0.01 }
+material = { young = 30e9, poisson = 0.2, density = 2400.0 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+correction = { surface = "patch" }
+motion = { duration = 200e-6, rows = 20 }
+load = [{ group = "bottom", velocity = { y = 0.05 }, amplitude = { shape = "sine", duration = 100e-6 } }]
+"#;
+    let near = "far_field.near=[{ box = [[-1, 0.07], [1, 0.13]] }]";
+    let [whole, part] = [&[][..], &[near]].map(|settings| solved(text, settings).outcome);
+    let kinetic = |outcome: &Outcome| {
+        let last = outcome.history.last().unwrap();
+        last.motion.as_ref().unwrap().kinetic_energy
+    };
+    assert!((kinetic(&part) / kinetic(&whole) - 1.0).abs() < 0.02);
+    assert!(missing_energy(&part) < 1e-12, "{:e}", missing_energy(&part));
 }

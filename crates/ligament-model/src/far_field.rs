@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use crate::bonds::Incidence;
 use crate::cloud::PointCloud;
 use crate::correction::patch::gradients;
-use crate::interface::CoupledPoints;
+use crate::coupled::CoupledPoints;
 use crate::material::Stiffness;
 use crate::tensor::{SymTensor, dot, minus};
 

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use crate::bonds::{BondSet, Incidence};
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
+pub use crate::coupled::CoupledPoints;
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
 use crate::failure::Criterion;
@@ -364,26 +365,6 @@ impl<'a> Topology<'a> {
     pub fn neighbour(self, bond: u32, point: u32) -> u32 {
         let [a, b] = self.ends[bond as usize];
         if a == point { b } else { a }
-    }
-}
-
-/// Other points that elements couple with each point.
-#[derive(Debug, Clone, Copy)]
-pub struct CoupledPoints<'a> {
-    pub(crate) lists: &'a Incidence,
-    /// Ends of the bonds, where the lists contain bonds instead of points.
-    pub(crate) ends: Option<&'a [[u32; 2]]>,
-}
-
-impl<'a> CoupledPoints<'a> {
-    /// Points that elements couple with a point, ascending.
-    pub fn at(self, point: u32) -> impl Iterator<Item = u32> + 'a {
-        self.lists.at(point).iter().map(move |&entry| {
-            self.ends.map_or(entry, |ends| {
-                let [a, b] = ends[entry as usize];
-                if a == point { b } else { a }
-            })
-        })
     }
 }
 

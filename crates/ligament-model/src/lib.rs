@@ -23,6 +23,7 @@ pub mod cloud;
 pub mod communicator;
 pub mod contact;
 pub mod correction;
+pub mod coupled;
 pub mod deformation;
 pub mod dimension;
 pub mod element;

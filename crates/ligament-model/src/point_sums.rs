@@ -14,9 +14,6 @@ use crate::subdomain::Share;
 /// Number of groups of bonds.
 pub(crate) const GROUPS: usize = 4;
 
-/// Tasks of each thread: a thread that is late leaves tasks to the others.
-const TASKS: usize = 4;
-
 /// Number of bonds that make a task worth while.
 const TASK: usize = 4096;
 
@@ -77,10 +74,9 @@ impl Reach<'_> {
         forces: &F,
         sums: &mut [S],
     ) -> Vec<F::Found> {
-        let n_tasks = match rayon::current_num_threads() {
-            1 => 1,
-            n_threads => (TASKS * n_threads).min(self.ends.len() / TASK).max(1),
-        };
+        let n_tasks = rayon::current_num_threads()
+            .min(self.ends.len() / TASK)
+            .max(1);
         self.sum_in(n_tasks, share, forces, sums)
     }
 

@@ -4,6 +4,7 @@ mod answers;
 mod contact;
 mod crack_axis;
 pub mod elements;
+mod rigid;
 
 use std::sync::OnceLock;
 
@@ -13,11 +14,11 @@ use rayon::prelude::*;
 use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
 use crate::contact::Faces;
+use crate::coupled::CoupledPoints;
 use crate::deformation::DeformationPool;
 use crate::element::strain_stiffness::StrainStiffness;
 use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
 use crate::far_field::{FarField, Simplex};
-use crate::interface::CoupledPoints;
 use crate::law::BondStiffness;
 use crate::material::Stiffness;
 use crate::point_sums::Reach;

@@ -346,9 +346,7 @@ impl Case {
             correction: self.correction.setup(&law),
             closing: self.model.closing,
             closing_friction: self.model.closing_friction,
-            far_field: (self.far_field.as_ref())
-                .map(|it| it.setup(&root().child("far_field"), dimensions))
-                .transpose()?,
+            far_field: self.far_field_of_setup(dimensions)?,
             no_fail: each("no_fail", &self.no_fail, |it, key| {
                 it.place(key, dimensions)
             })?,
@@ -385,6 +383,12 @@ impl Case {
             threads: self.solver.threads.map(|threads| threads as usize),
             remarks: self.remarks(),
         })
+    }
+
+    fn far_field_of_setup(&self, dimensions: usize) -> Result<Option<setup::FarField>, KeyFault> {
+        let far_field = self.far_field.as_ref();
+        let setup = far_field.map(|it| it.setup(&root().child("far_field"), dimensions));
+        setup.transpose()
     }
 
     fn analysis_of_setup(&self) -> Result<setup::Analysis, KeyFault> {

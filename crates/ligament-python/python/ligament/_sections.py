@@ -733,6 +733,22 @@ class Rigid(TypedDict, total=False):
     """Whether it meets the faces of cracks as well. Default false."""
 
 
+class FarFieldNear(TypedDict, total=False):
+    """A part of the body."""
+
+    group: str
+    """The points of this physical group of the mesh, or of this set or hole of the lattice."""
+    box: Sequence[Numbers]
+    """The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m."""
+
+
+class FarField(TypedDict, total=False):
+    """Linear finite elements in place of bonds, away from parts of a meshed body."""
+
+    near: Sequence[FarFieldNear]
+    """Parts of the body that keep their bonds: the cells of which all corners lie in one of them."""
+
+
 class NoFail(TypedDict, total=False):
     """A part of the body."""
 
@@ -1090,6 +1106,8 @@ class SectionsOnBody(TypedDict, total=False):
     """Contact between parts of the body in a motion."""
     rigid: Sequence[Rigid]
     """Rigid bodies that parts of the body meet in a motion."""
+    far_field: FarField
+    """Linear finite elements in place of bonds, away from parts of a meshed body."""
     no_fail: Sequence[NoFail]
     """Parts of the body where bonds never break."""
     probe: Sequence[Probe]

@@ -5,6 +5,7 @@ pub(crate) mod check;
 mod check_contact;
 mod check_control;
 mod check_dimension;
+mod check_far_field;
 mod check_motion;
 mod check_stages;
 mod closing;
