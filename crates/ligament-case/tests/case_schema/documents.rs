@@ -55,7 +55,6 @@ correction = {}
 precrack = [{ points = [[0, 0], [1, 0]] }, { centre = [0, 0], length = 0.1, angle = 0.5 }]
 support = [{ group = "bottom", displacement = { x = 0.0 } }, { at = [0, 0], normal = [1, 1], stiffness = { normal = 1e9 } }]
 no_fail = [{ box = [[0, 0], [1, 1]] }]
-far_field = { near = [{ group = "middle" }, { box = [[0, 0], [1, 1]] }] }
 [[load]]
 group = "top"
 displacement = { y = 0.1 }
@@ -265,6 +264,15 @@ criterion = [{ kind = "tension", limit = 1e-4 }]
 [output]
 "#;
 
+const FAR_FIELD: &str = r#"
+mesh = { file = "disk.msh" }
+material = { young = 1e9, poisson = 0.2 }
+model = { law = "nhpd", horizon_factor = 3 }
+correction = { surface = "patch" }
+far_field = { near = [{ group = "middle" }, { box = [[0, 0], [1, 1]] }] }
+load = [{ group = "top", force = { y = 1 } }]
+"#;
+
 /// The mesh has strengths for all of its criteria.
 pub(super) fn documents() -> Vec<Value> {
     let mesh = MESH.replace(
@@ -282,6 +290,7 @@ pub(super) fn documents() -> Vec<Value> {
         .replace("mass = 2\nacceleration = { x = 1 }\n", "");
     [
         mesh.as_str(),
+        FAR_FIELD,
         LATTICE,
         SOLID,
         MODAL,
