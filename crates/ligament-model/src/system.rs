@@ -122,11 +122,7 @@ impl<const D: usize> BondSystem<D> {
     /// The bonds of a part of a body between the points of the whole body: `points` has their numbers at the points of the part, ascending.
     /// Crack faces are not taken over.
     pub fn within(self, cloud: PointCloud<D>, points: &[u32]) -> Self {
-        let Self {
-            mut bonds,
-            rigidities,
-            ..
-        } = self;
+        let mut bonds = self.bonds;
         for end in bonds.ends.as_flattened_mut() {
             *end = points[*end as usize];
         }
@@ -134,7 +130,6 @@ impl<const D: usize> BondSystem<D> {
         Self {
             cloud,
             bonds,
-            rigidities,
             faces: Faces::default(),
             closeness: OnceLock::new(),
             ..self

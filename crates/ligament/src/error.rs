@@ -180,6 +180,11 @@ pub enum Fault {
     /// A line that no bond crosses.
     #[error("no bond crosses this line, so the force through it would always be 0 N")]
     NothingCrossed,
+    /// Parts of the near field that are too small for its border.
+    #[error(
+        "the parts of the near field are single cells, which its border leaves out: make them several horizons large"
+    )]
+    NoNearCells,
     /// A line through elements of the far field.
     #[error(
         "the line passes through elements of the far field, and the force through it is summed over bonds: enlarge the near field"

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use ligament_model::{AbsentBond, BondSystem, ConstantFields, EnergyRatio, Incidence, PointCloud};
 
 use crate::body::{AnyBody, Geometry};
-use crate::error::SetupError;
+use crate::error::{Fault, Field, SetupError};
 use crate::loading;
 use crate::setup::Setup;
 
@@ -48,6 +48,9 @@ impl<const D: usize> NearField<D> {
             such.map(|(cell, _)| cell).collect::<Vec<_>>()
         };
         let (near, far_cells) = (cells(true), cells(false));
+        if near.is_empty() {
+            return Err(Field::whole("far_field").error(Fault::NoNearCells));
+        }
         let Some(part) = body.part(&near).filter(|_| !far_cells.is_empty()) else {
             return Ok(None);
         };

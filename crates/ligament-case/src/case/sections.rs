@@ -419,6 +419,13 @@ impl Case {
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         let law = self.model.law.0.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);
+        if self.far_field.is_some() && has_traction {
+            let reason = "forces through planes at points are summed over bonds, and the far field has elements: take \"material\" or \"virial\"";
+            return Err(KeyFault::new(
+                root().child("output").child("stress"),
+                reason,
+            ));
+        }
         if !law.couples_ends_alone && has_traction && self.modal.is_none() {
             let reason = format!(
                 "the elements of {} couple up to six points, so that their forces go through no line: take \"material\" or \"virial\"",

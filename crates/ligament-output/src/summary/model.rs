@@ -21,7 +21,7 @@ pub struct ModelSummary {
     /// Number of bonds that pre-cracks cut.
     pub cut_bonds: usize,
     /// Number of points of the far field, which have no bonds.
-    #[serde(skip_serializing_if = "is_none")]
+    #[serde(skip_serializing_if = "is_zero")]
     pub far_points: usize,
     /// Number of points whose bonds never break.
     pub no_fail_points: usize,
@@ -38,8 +38,8 @@ pub struct ModelSummary {
     pub scatter: Option<ScatterSummary>,
 }
 
-/// Whether nothing was counted.
-fn is_none(count: &usize) -> bool {
+/// Whether a count is zero.
+fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
