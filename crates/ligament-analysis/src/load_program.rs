@@ -156,6 +156,8 @@ pub struct BoundaryGroup {
 /// - prescribed motions are u_i = lambda m w_i: the displacement is lambda m, the force the sum of w_i . R_i over the
 ///   reactions R_i;
 /// - given forces are F_i = lambda m w_i: the force is lambda m, the displacement the sum of w_i . u_i;
+/// - a rigid body moves by lambda m along the direction w: the displacement is lambda m, the force w . F for the force F that drives it
+///   against the points;
 /// - a temperature changes by lambda m at most, which is the displacement, K; the work-conjugate force is
 ///   -sum over the bonds of force . thermal deformation for m = 1 K, J/K.
 ///
@@ -168,7 +170,7 @@ pub struct Control {
     pub kind: ControlKind,
     /// Points of the load.
     pub points: Vec<u32>,
-    /// Shares of the points in a load of unit size, shape (n_points of the load, n_components).
+    /// Shares of the points in a load of unit size, shape (n_points of the load, n_components); of a rigid body its direction.
     pub shape: Vec<f64>,
     /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa), before
     /// a profile.
@@ -184,9 +186,40 @@ pub enum ControlKind {
     Force,
     /// Temperature.
     Temperature,
+    /// Motion of a rigid body, by its index.
+    RigidBody(usize),
 }
 
 impl Control {
+    /// Displacement at a factor of the load, for displacements of the points (n_degrees_of_freedom).
+    pub(crate) fn displacement(&self, layout: Layout, factor: f64, displacement: &[f64]) -> f64 {
+        match self.kind {
+            ControlKind::Force => self.along(layout, |dof| displacement[dof]),
+            ControlKind::Displacement | ControlKind::Temperature | ControlKind::RigidBody(_) => {
+                self.magnitude * factor
+            }
+        }
+    }
+
+    /// Force at a factor of the load, for reactions at degrees of freedom.
+    pub(crate) fn force(
+        &self,
+        layout: Layout,
+        factor: f64,
+        internal: &InternalForces,
+        reaction: impl Fn(usize) -> f64,
+    ) -> f64 {
+        match self.kind {
+            ControlKind::Force => self.magnitude * factor,
+            ControlKind::Temperature => internal.thermal / self.magnitude,
+            ControlKind::Displacement => self.along(layout, reaction),
+            ControlKind::RigidBody(body) => {
+                let forces = internal.on_rigid_bodies.get(body).into_iter().flatten();
+                -forces.zip(&self.shape).map(|(force, cosine)| force * cosine).sum::<f64>()
+            }
+        }
+    }
+
     /// Sum over the points of shape . value, for values at degrees of freedom.
     pub(crate) fn along(&self, layout: Layout, value: impl Fn(usize) -> f64) -> f64 {
         let of_point = |(&point, shape): (&u32, &[f64])| {

@@ -89,6 +89,7 @@ impl Touching {
 
     /// Adds the internal forces that keep the points in place against the contacts to those of the bonds.
     pub(crate) fn add_to(&self, swept: &mut BondSweep, problem: &ContactProblem, layout: Layout) {
+        swept.internal.on_rigid_bodies = self.on_rigid_bodies(problem);
         let forces = self.forces(problem, swept.internal.values.len());
         for (dof, force) in forces.into_iter().enumerate().filter(|it| it.1 != 0.0) {
             swept.internal.values[dof] -= force;

@@ -9,6 +9,7 @@ use crate::element::{DeformationOf, Element, Elements};
 use crate::layout::Component;
 use crate::point_sums::{BondForces, GROUPS, PointSum, group};
 use crate::subdomain::{Share, Subdomain, Whole};
+use crate::surface::Vector;
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
@@ -54,6 +55,8 @@ pub struct InternalForces {
     pub moment_scale: f64,
     /// Work -sum over the bonds of force . thermal deformation at load factor 1, J: the rate at which a growing expansion does work.
     pub thermal: f64,
+    /// Force of the points on each rigid body, N; empty without contact.
+    pub on_rigid_bodies: Vec<Vector>,
 }
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
@@ -219,6 +222,7 @@ impl BondSweep {
                 moment_scale,
                 values,
                 thermal,
+                on_rigid_bodies: Vec::new(),
             },
             sizes,
             stored_energy,

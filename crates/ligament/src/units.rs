@@ -2,7 +2,7 @@
 
 use ligament_analysis::Timed;
 
-use crate::setup::{Action, Setup};
+use crate::setup::{Action, CurveAxis, Setup};
 
 /// Units of the axes of the force-displacement curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,13 +35,13 @@ impl Units {
 }
 
 impl Setup {
-    /// Units of displacement and force in the history: those of the load of the curve, or of the temperature; of a force without either,
-    /// where a motion or rigid bodies move the body.
+    /// Units of displacement and force in the history: those of the load of the curve, of the temperature, or of a force
+    /// where a rigid body or an initial velocity moves the body.
     pub fn units(&self) -> Units {
-        match self.curve_load() {
-            Some(load) => self.loads[load].action.units(),
-            None if self.analysis.is_motion() || self.temperatures.is_empty() => Units::FORCE,
-            None => Units::TEMPERATURE,
+        match self.curve_axis() {
+            CurveAxis::Load(load) => self.loads[load].action.units(),
+            CurveAxis::Temperature => Units::TEMPERATURE,
+            CurveAxis::RigidBody(_) | CurveAxis::Nothing => Units::FORCE,
         }
     }
 }
@@ -53,6 +53,7 @@ impl Setup {
         let action = self.curve_load().map(|load| &self.loads[load].action);
         let is_turned = units == Units::COUPLE;
         match action.map(|it| (it.motion().is_some(), it.timed())) {
+            None if self.is_driven_in_time() => "m/s",
             None => units.displacement,
             Some((false, _)) => units.force,
             Some((true, Timed::Value)) => units.displacement,
@@ -61,6 +62,13 @@ impl Setup {
             Some((true, Timed::Acceleration)) if is_turned => "rad/s^2",
             Some((true, Timed::Acceleration)) => "m/s^2",
         }
+    }
+}
+
+impl Setup {
+    /// Whether the curve is of a rigid body with a prescribed velocity.
+    fn is_driven_in_time(&self) -> bool {
+        self.analysis.is_motion() && matches!(self.curve_axis(), CurveAxis::RigidBody(_))
     }
 }
 

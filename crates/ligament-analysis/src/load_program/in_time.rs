@@ -47,8 +47,8 @@ impl LoadInTime {
 pub struct LoadsInTime {
     loads: Separate,
     courses: Arc<[LoadInTime]>,
-    /// Index of the control load; None without a load.
-    control: Option<usize>,
+    /// Course of the control load; None where nothing is driven.
+    control: Option<LoadInTime>,
     /// Degrees of freedom that stay at zero, ascending.
     held: Vec<u32>,
     /// Degrees of freedom that each load moves, with their displacements at factor 1, shape (n_loads), m or rad.
@@ -106,11 +106,11 @@ impl LoadedRows {
 
 impl LoadsInTime {
     /// Combines loads (one or more), each by itself at factor 1 with all supports and all groups of the history, with their courses in time
-    /// (n_loads). Without loads, `loads` has the supports alone, and `courses` and `control` are empty.
+    /// (n_loads), and that of the control load. Without loads, `loads` has the supports alone, and `courses` is empty.
     pub fn new(
         loads: Arc<[ProportionalLoading]>,
         courses: Arc<[LoadInTime]>,
-        control: Option<usize>,
+        control: Option<LoadInTime>,
     ) -> Self {
         let n = loads[0].layout.n_degrees_of_freedom();
         let force = LoadedRows::new(n, loads.iter().map(|it| &*it.force));
@@ -209,8 +209,7 @@ impl LoadProgram for LoadsInTime {
     }
 
     fn control_factor(&self, time: f64) -> f64 {
-        self.control
-            .map_or(0.0, |load| self.courses[load].factor(time))
+        self.control.as_ref().map_or(0.0, |it| it.factor(time))
     }
 
     fn loaded_degrees_of_freedom(&self) -> Vec<u32> {
@@ -238,14 +237,14 @@ impl LoadProgram for LoadsInTime {
 
     fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
         let factor = self.control_factor(time);
-        self.loads.control_displacement(factor, displacement)
+        (self.control()).displacement(self.loads.layout(), factor, displacement)
     }
 
     fn control_force(&self, time: f64, internal: &InternalForces) -> f64 {
         let factors = self.factors(time);
         let reaction = |dof: usize| self.reaction(&factors, internal.values[dof], dof);
         let factor = self.control_factor(time);
-        self.loads.control_force(factor, internal, reaction)
+        (self.control()).force(self.loads.layout(), factor, internal, reaction)
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use thiserror::Error;
 
-use super::{BoundaryGroup, Control, ControlKind, LoadProgram};
+use super::{BoundaryGroup, Control, LoadProgram};
 use crate::internal::InternalForces;
 use crate::restraints::Restraints;
 use crate::unknowns::{Component, Layout};
@@ -235,20 +235,11 @@ impl LoadProgram for ProportionalLoading {
     }
 
     fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
-        match self.control.kind {
-            ControlKind::Displacement | ControlKind::Temperature => self.control.magnitude * time,
-            ControlKind::Force => self.control.along(self.layout, |dof| displacement[dof]),
-        }
+        self.control.displacement(self.layout, time, displacement)
     }
 
     fn control_force(&self, time: f64, internal: &InternalForces) -> f64 {
-        let control = &self.control;
-        match control.kind {
-            ControlKind::Force => control.magnitude * time,
-            ControlKind::Temperature => internal.thermal / control.magnitude,
-            ControlKind::Displacement => control.along(self.layout, |dof| {
-                self.reaction(time, &internal.values, dof)
-            }),
-        }
+        let reaction = |dof: usize| self.reaction(time, &internal.values, dof);
+        self.control.force(self.layout, time, internal, reaction)
     }
 }

@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{BoundaryGroup, Control, ControlKind, LoadProgram, ProportionalLoading};
-use crate::internal::InternalForces;
+use super::{BoundaryGroup, Control, LoadProgram, ProportionalLoading};
 use crate::restraints::Restraints;
 use crate::unknowns::Layout;
 
@@ -56,29 +55,5 @@ impl Separate {
 
     pub(super) fn control(&self) -> &Control {
         &self.0[0].control
-    }
-
-    /// Displacement of the control load with a factor.
-    pub(super) fn control_displacement(&self, factor: f64, displacement: &[f64]) -> f64 {
-        let control = self.control();
-        match control.kind {
-            ControlKind::Displacement | ControlKind::Temperature => control.magnitude * factor,
-            ControlKind::Force => control.along(self.layout(), |dof| displacement[dof]),
-        }
-    }
-
-    /// Force of the control load with a factor, for reactions at degrees of freedom.
-    pub(super) fn control_force(
-        &self,
-        factor: f64,
-        internal: &InternalForces,
-        reaction: impl Fn(usize) -> f64,
-    ) -> f64 {
-        let control = self.control();
-        match control.kind {
-            ControlKind::Force => control.magnitude * factor,
-            ControlKind::Temperature => internal.thermal / control.magnitude,
-            ControlKind::Displacement => control.along(self.layout(), reaction),
-        }
     }
 }

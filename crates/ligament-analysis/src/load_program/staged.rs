@@ -157,12 +157,12 @@ impl LoadProgram for StagedLoading {
 
     fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
         let factor = self.control_factor(time);
-        self.loads.control_displacement(factor, displacement)
+        (self.control()).displacement(self.loads.layout(), factor, displacement)
     }
 
     fn control_force(&self, time: f64, internal: &InternalForces) -> f64 {
         let factor = self.control_factor(time);
         let reaction = |dof: usize| self.reaction(time, &internal.values, dof);
-        self.loads.control_force(factor, internal, reaction)
+        (self.control()).force(self.loads.layout(), factor, internal, reaction)
     }
 }

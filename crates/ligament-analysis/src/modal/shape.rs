@@ -98,6 +98,7 @@ fn residual(
             .max(of_rounding(stiffest(|it| it.moment))),
         thermal: 0.0,
         values: Vec::new(),
+        on_rigid_bodies: Vec::new(),
     };
     internal::relative_residual(&out_of_balance, unknowns, &scales)
 }

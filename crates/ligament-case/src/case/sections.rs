@@ -49,7 +49,8 @@ pub struct Case {
     /// What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
     /// `static`.
     pub analysis: Option<Analysis>,
-    /// Name of the load, or `temperature`, that is the axis of the force-displacement curve; without it the first load.
+    /// Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load, otherwise
+    /// the temperature, otherwise the first rigid body that moves.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<String>,
     /// The body, meshed by Gmsh; or a `[lattice]`.

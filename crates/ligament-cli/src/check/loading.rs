@@ -107,12 +107,14 @@ pub(super) fn write_boundary(
     }
     let control = &loading.boundary.control;
     let points = control.points.len();
-    let [moved, loaded] = ["moved by", "loaded by"].map(|it| format!("{points} points, {it}"));
     let units = model.setup.units();
     let what = match control.kind {
-        ControlKind::Temperature => "the temperature, changed by",
-        ControlKind::Displacement => moved.as_str(),
-        ControlKind::Force => loaded.as_str(),
+        ControlKind::Temperature => "the temperature, changed by".to_owned(),
+        ControlKind::Displacement => format!("{points} points, moved by"),
+        ControlKind::Force => format!("{points} points, loaded by"),
+        ControlKind::RigidBody(body) => {
+            format!("`{}`, moved by", model.setup.rigid_bodies[body].name)
+        }
     };
     let unit = model.setup.control_unit();
     let words = format!("{what} {}", quantity(control.magnitude, unit));

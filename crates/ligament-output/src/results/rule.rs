@@ -65,10 +65,8 @@ impl Time {
         }
         match (self, view.loads.control().kind) {
             (Self::Step, _) => record.step as f64,
-            (Self::Load, ControlKind::Displacement | ControlKind::Temperature) => {
-                record.displacement
-            }
             (Self::Load, ControlKind::Force) => record.reaction,
+            (Self::Load, _) => record.displacement,
         }
     }
 }

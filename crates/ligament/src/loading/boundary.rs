@@ -3,14 +3,14 @@
 use ligament_analysis::{
     BoundaryError, Component, Control, ControlKind, Layout, ProportionalLoading,
 };
-use ligament_model::{Bonds, LumpedMass, PointCloud};
+use ligament_model::{Bonds, LumpedMass, PointCloud, tensor};
 
 use super::places::Places;
 use super::samples;
 use super::temperature::{Heating, heating};
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{
-    Action, Couple, Displacement, Load, MaterialRegion, Place, Profile, Sample, Setup,
+    Action, Couple, CurveAxis, Displacement, Load, MaterialRegion, Place, Profile, Sample, Setup,
 };
 
 /// Forces along the axes (N) and couples about them (N m), or their directions, in the order of the components: three in the plane, six in
@@ -164,30 +164,36 @@ impl<const D: usize> Places<'_, D> {
 
     /// The axis of the force-displacement curve.
     fn control(&self, heating: Option<&Heating>) -> Result<Control, SetupError> {
-        let index = self.setup.curve_load();
-        let field = Field::element("loads", index.unwrap_or(0));
-        let Some(load) = index.map(|index| &self.setup.loads[index]) else {
-            let is_driven = heating.is_none() && !self.setup.rigid_bodies.is_empty();
-            if self.setup.analysis.is_motion() || is_driven {
-                return Ok(Control {
-                    kind: ControlKind::Force,
-                    points: Vec::new(),
-                    shape: Vec::new(),
-                    magnitude: 0.0,
-                });
-            }
-            let changes = heating.map_or(&[][..], |it| &it.change);
-            let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
-            if magnitude == 0.0 {
-                return Err(Field::whole("temperatures").error(Fault::NothingHappens));
-            }
-            return Ok(Control {
-                kind: ControlKind::Temperature,
-                points: Vec::new(),
-                shape: Vec::new(),
-                magnitude,
-            });
+        let without_points = |kind, shape, magnitude| Control {
+            kind,
+            points: Vec::new(),
+            shape,
+            magnitude,
         };
+        let index = match self.setup.curve_axis() {
+            CurveAxis::Load(load) => load,
+            CurveAxis::RigidBody(body) => {
+                let motion = self.setup.rigid_bodies[body].motion();
+                let magnitude = tensor::norm(motion);
+                let direction = motion.map(|it| it / magnitude).to_vec();
+                let kind = ControlKind::RigidBody(body);
+                return Ok(without_points(kind, direction, magnitude));
+            }
+            CurveAxis::Nothing
+                if self.setup.analysis.is_motion() || !self.setup.rigid_bodies.is_empty() =>
+            {
+                return Ok(without_points(ControlKind::Force, Vec::new(), 0.0));
+            }
+            CurveAxis::Temperature | CurveAxis::Nothing => {
+                let changes = heating.map_or(&[][..], |it| &it.change);
+                let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
+                if magnitude == 0.0 {
+                    return Err(Field::whole("temperatures").error(Fault::NothingHappens));
+                }
+                return Ok(without_points(ControlKind::Temperature, Vec::new(), magnitude));
+            }
+        };
+        let (field, load) = (Field::element("loads", index), &self.setup.loads[index]);
         let points = self.points(field, &load.place)?;
         let factors = self.factors(field, load.profile.as_ref(), &points)?;
         let given = self.forces(field, load, &points)?;

@@ -391,9 +391,9 @@ fn motion(body: &Rigid) -> RigidMotion {
             velocity: body.velocity,
             acceleration: body.acceleration,
         },
-        // One of both is zero; in statics the load factor takes the place of the time.
+        // In statics the load factor takes the place of the time.
         None => RigidMotion::Prescribed {
-            velocity: std::array::from_fn(|axis| body.velocity[axis] + body.displacement[axis]),
+            velocity: body.motion(),
             amplitude: body.amplitude.clone(),
         },
     }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ligament_analysis::motion::Dashpot;
 use ligament_analysis::{
-    Amplitude, Component, Layout, LoadInTime, LoadsInTime, ProportionalLoading,
+    Amplitude, Component, Layout, LoadInTime, LoadsInTime, ProportionalLoading, Timed,
 };
 use ligament_model::material::PlaneWaves;
 use ligament_model::{LumpedMass, PointCloud, System};
@@ -15,7 +15,7 @@ use super::programme::refuse_shared_motions;
 use super::restraints::restrained;
 use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{QuietEdge, Setup};
+use crate::setup::{CurveAxis, QuietEdge, Setup};
 
 /// Masses, initial velocities and quiet edges of a motion.
 #[derive(Debug, Clone)]
@@ -53,7 +53,15 @@ pub(super) fn in_time<const D: usize>(
         timed: it.action.timed(),
     });
     let courses: Arc<[LoadInTime]> = courses.collect();
-    Ok(LoadsInTime::new(loads.into(), courses, setup.curve_load()))
+    let control = match setup.curve_axis() {
+        CurveAxis::Load(load) => Some(courses[load].clone()),
+        CurveAxis::RigidBody(body) => Some(LoadInTime {
+            amplitude: setup.rigid_bodies[body].amplitude.clone(),
+            timed: Timed::Velocity,
+        }),
+        CurveAxis::Temperature | CurveAxis::Nothing => None,
+    };
+    Ok(LoadsInTime::new(loads.into(), courses, control))
 }
 
 /// Masses, initial velocities and quiet edges of a setup, for points with the components of the bonds.

@@ -17,14 +17,6 @@ use crate::setup::{self, Analysis, Quantity, Setup, Stage};
 const SAME: f64 = 1e-9;
 
 impl Setup {
-    /// Index of the load whose displacement and force are those of the force-displacement curve; `None` for the temperature.
-    pub(crate) fn curve_load(&self) -> Option<usize> {
-        match &self.curve {
-            Some(name) => self.loads.iter().position(|it| it.name == *name),
-            None => (!self.loads.is_empty()).then_some(0),
-        }
-    }
-
     /// Number of solutions of the loading: load steps, ends of the parts of stages, or rows of a motion; `None` along the exact path. The first breakage may
     /// add load steps.
     pub fn n_steps(&self) -> Option<usize> {

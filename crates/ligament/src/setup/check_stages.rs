@@ -8,8 +8,9 @@ use crate::error::{Fault, Field};
 impl Setup {
     pub(super) fn check_stages(&self) -> Checked {
         let name = self.curve.as_deref();
-        if let Some(name) = name.filter(|name| !self.factor_names().iter().any(|it| it == name)) {
-            return Err(Field::whole("curve").error(self.unknown_load(name)));
+        if let Some(name) = name.filter(|name| !self.curve_names().iter().any(|it| it == name)) {
+            let fault = Self::unknown_load(name, self.curve_names());
+            return Err(Field::whole("curve").error(fault));
         }
         let names = self.stages.iter().map(|it| it.name.as_str());
         require_unique("stages", names)?;
@@ -44,11 +45,11 @@ impl Setup {
         loads.chain(heated).collect()
     }
 
-    fn unknown_load(&self, name: &str) -> Fault {
+    fn unknown_load(name: &str, candidates: Vec<String>) -> Fault {
         Fault::UnknownName {
             what: "load",
             found: name.to_owned(),
-            candidates: self.factor_names(),
+            candidates,
         }
     }
 
@@ -61,7 +62,7 @@ impl Setup {
         let names = self.factor_names();
         for (name, Course { points }) in &stage.loads {
             if !names.contains(name) {
-                return Err(field.error(self.unknown_load(name)));
+                return Err(field.error(Self::unknown_load(name, self.factor_names())));
             }
             let expected = format!("one factor or more for `{name}`");
             require(!points.is_empty(), field, expected, points)?;

@@ -70,6 +70,13 @@ pub struct Rigid {
     pub acceleration: Position,
 }
 
+impl Rigid {
+    /// Prescribed motion: in statics the displacement at load factor 1, m, in a motion the velocity, m/s. The other one is zero.
+    pub fn motion(&self) -> Position {
+        std::array::from_fn(|axis| self.velocity[axis] + self.displacement[axis])
+    }
+}
+
 /// Shape and place of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RigidForm {

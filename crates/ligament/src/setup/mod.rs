@@ -12,6 +12,7 @@ mod closing;
 mod conditions;
 mod contact;
 mod correction;
+mod curve;
 mod far_field;
 mod motion;
 mod precrack;
@@ -42,6 +43,7 @@ pub use conditions::{
 };
 pub use contact::{Between, ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
+pub(crate) use curve::CurveAxis;
 pub use far_field::FarField;
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use motion::{InitialVelocity, QuietEdge};
@@ -92,7 +94,8 @@ pub struct Setup {
     pub supports: Vec<Support>,
     /// Loads at load factor 1.
     pub loads: Vec<Load>,
-    /// Name of the load of the force-displacement curve; by default the first load, or the temperature where there is no load.
+    /// Name of the load of the force-displacement curve, or of the rigid body that moves; by default the first load, otherwise the temperature,
+    /// otherwise the first rigid body that moves.
     pub curve: Option<String>,
     /// Successive stages, in which each load has a factor of its own; without stages all loads grow with one load factor.
     pub stages: Vec<Stage>,

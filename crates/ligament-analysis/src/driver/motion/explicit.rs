@@ -354,7 +354,10 @@ impl<'a> Explicit<'a> {
         }
         let (time, motions) = (body.state.load_factor, &body.state.displacement);
         let now = contacts.advance(time, step, motions, body.bonded());
-        contacts.add_forces(-1.0, &mut body.balanced.internal.values);
+        let internal = &mut body.balanced.internal;
+        contacts.add_forces(-1.0, &mut internal.values);
+        let rigid = contacts.rigid_bodies().iter();
+        internal.on_rigid_bodies = rigid.map(|it| it.force).collect();
         let motion = &mut self.progress.motion;
         motion.contact_energy += now.stored;
         motion.friction_energy += now.dissipated - before.dissipated;

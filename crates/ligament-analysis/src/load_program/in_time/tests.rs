@@ -59,7 +59,8 @@ fn in_time(timed: Timed) -> LoadsInTime {
         course(Timed::Value, Amplitude::through(&[[0.0, 1.0], [1.0, 3.0]])),
         course(Timed::Velocity, Amplitude::constant()),
     ];
-    LoadsInTime::new(loads().into(), courses.into(), Some(0))
+    let control = courses[0].clone();
+    LoadsInTime::new(loads().into(), courses.into(), Some(control))
 }
 
 /// The ramp t/2 is 1/2 at t = 1; its integral is t^2/4, the second one t^3/12.
@@ -117,6 +118,7 @@ fn reactions_act_at_supports_motions_and_springs() {
         force_scale: 8.0,
         moment_scale: 0.0,
         thermal: 0.0,
+        on_rigid_bodies: Vec::new(),
     };
     assert_eq!(loads.control_force(0.5, &internal), 7.0);
 }
