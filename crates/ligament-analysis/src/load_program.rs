@@ -215,7 +215,10 @@ impl Control {
             ControlKind::Displacement => self.along(layout, reaction),
             ControlKind::RigidBody(body) => {
                 let forces = internal.on_rigid_bodies.get(body).into_iter().flatten();
-                -forces.zip(&self.shape).map(|(force, cosine)| force * cosine).sum::<f64>()
+                -forces
+                    .zip(&self.shape)
+                    .map(|(force, cosine)| force * cosine)
+                    .sum::<f64>()
             }
         }
     }

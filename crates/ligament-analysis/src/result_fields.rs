@@ -4,7 +4,7 @@
 //! follow from [`FIELDS`]. A new field is a function that computes it and a row here.
 
 use ligament_model::failure::{Criteria, Weakened};
-use ligament_model::interface::StressReading;
+use ligament_model::interface::{StressReading, Stresses};
 use ligament_model::stress::point_strain::Motion;
 use ligament_model::stress::principal;
 use ligament_model::tensor::SymTensor;
@@ -323,6 +323,11 @@ impl<'a> View<'a> {
 }
 
 impl Solution<'_> {
+    /// Stresses at all points by the laws of their materials.
+    pub fn material_stresses(self) -> Stresses {
+        self.with_motion(|motion| self.system.stresses_by_material(motion))
+    }
+
     /// Runs a function on the motion of the bonds that are intact and not softening.
     pub(crate) fn with_motion<T>(self, run: impl FnOnce(Motion<'_>) -> T) -> T {
         let state = self.state;
@@ -467,7 +472,7 @@ fn stresses(view: &View<'_>, reading: StressReading) -> Vec<f64> {
 /// Values at all points, `count` at each, of a function of their stresses by the laws of their materials; not a number where a point has
 /// no stress.
 fn material_stresses(it: Solution<'_>, read: fn(&[f64]) -> Vec<f64>, count: usize) -> Vec<f64> {
-    let stresses = it.with_motion(|motion| it.system.stresses_by_material(motion));
+    let stresses = it.material_stresses();
     let of_points = stresses.values.chunks_exact(stresses.names.len());
     let of_point = |stress: &[f64]| match stress[0].is_nan() {
         true => vec![f64::NAN; count],

@@ -77,11 +77,16 @@ impl LoadedBody<'_> {
         };
         let watched = (writer, checkpoints);
         let mut watch = Watch::new(watched, requests, progress, &model.setup, notices);
+        let guarded = &mut model.guarded(&mut watch);
         let outcome = stages.time("solution", || match restored {
-            None => follow(posed, analysis, &mut watch),
-            Some(restored) => resume(analysis, restored, &mut watch),
+            None => follow(posed, analysis, guarded),
+            Some(restored) => resume(analysis, restored, guarded),
         });
-        let outcome = outcome.map_err(|it| case.explained(it))?;
+        let outcome = match outcome.map_err(|error| model.growth(error)) {
+            Ok(outcome) => outcome,
+            Err(Ok(growth)) => return Err(growth.into()),
+            Err(Err(error)) => return Err(case.explained(error)),
+        };
 
         let (notices, first, checkpoints) = watch.into_parts();
         let noted = Noted {

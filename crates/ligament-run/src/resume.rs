@@ -25,7 +25,7 @@ use crate::loading::{Kept, LoadedBody};
 use crate::model::build_model_on;
 use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
 use crate::progress::{Progress, ProgressMode};
-use crate::run::Report;
+use crate::run::{self, Report};
 use crate::stages::Stages;
 
 /// Request to resume a run.
@@ -88,7 +88,17 @@ impl Request<'_> {
             ensure_unfinished(folder)?;
             progress.stage("the run has no checkpoint yet, so it starts from the beginning");
         }
-        self.go_on(case, folder, found, progress)
+        match self.go_on(case, folder, found, progress) {
+            Ok(report) => Ok(report),
+            Err(error) => {
+                let request = run::Request {
+                    is_stopped: self.is_stopped,
+                    communicator: self.communicator.clone(),
+                    ..run::Request::new(case, self.folder, self.build.clone())
+                };
+                request.begin_anew(&error.downcast()?, mode)
+            }
+        }
     }
 
     /// Builds the model of a case and continues from the checkpoint that was found, if any.

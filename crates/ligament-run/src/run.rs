@@ -5,6 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
+use ligament::near_growth::Growth;
 use ligament::run::on_threads;
 use ligament::setup::Analysis;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
@@ -130,7 +131,7 @@ impl<'a> Request<'a> {
     }
 
     /// Runs the case on the caller's threads.
-    fn run_here(&self, mode: ProgressMode) -> anyhow::Result<Report> {
+    pub(crate) fn run_here(&self, mode: ProgressMode) -> anyhow::Result<Report> {
         let communicator = &self.communicator;
         if communicator.is_root() {
             ResultFolder::check(self.out, self.force)?;
@@ -138,7 +139,29 @@ impl<'a> Request<'a> {
         let mut stages = Stages::default();
         let progress = Progress::on(&**communicator, mode).sent(self.steps.clone());
         let model = build_model_on(self.case, communicator.clone(), &mut stages, &progress)?;
-        self.solve(&model, stages, progress)
+        match self.solve(&model, stages, progress) {
+            Ok(report) => Ok(report),
+            Err(error) => self.begin_anew(&error.downcast()?, mode),
+        }
+    }
+
+    /// Runs the case from its start with a larger near field, on the caller's threads. What the run before has written is replaced.
+    pub(crate) fn begin_anew(&self, growth: &Growth, mode: ProgressMode) -> anyhow::Result<Report> {
+        Progress::on(&*self.communicator, mode).stage(&format!(
+            "the stress at {} points of elements reached its share of the strength: bonds take their place, and the run begins anew",
+            growth.points
+        ));
+        let mut case = self.case.clone();
+        case.case.grow(growth);
+        let request = Request {
+            case: &case,
+            force: true,
+            build: self.build.clone(),
+            steps: self.steps.clone(),
+            communicator: self.communicator.clone(),
+            ..*self
+        };
+        request.run_here(mode)
     }
 
     /// Runs the analysis of a model under loads, or of its modes.

@@ -60,6 +60,7 @@ pub mod implausible;
 pub mod loading;
 pub mod model;
 mod near_field;
+pub mod near_growth;
 mod parts;
 pub mod patch_test;
 pub mod plausibility;

@@ -34,19 +34,34 @@ impl Setup {
     /// # Errors
     ///
     /// If a field of the setup is wrong, or the equations cannot be set up. The outcome has the end of the analysis.
+    ///
+    /// Where the near field of the setup grows, the observer meets each run from its start.
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
         on_threads(self.threads, || {
-            let model = Model::build(self, &mut ())?;
-            let loading = Loading::new(&model)?;
-            let problem = loading.problem(&model);
-            let motion = loading.motion(&problem);
-            let posed = Posed::new(&problem, motion.as_ref());
-            let outcome = follow(posed, &model.setup.analysis, observer)?;
-            Ok(Solution {
-                model,
-                probes: loading.probes,
-                outcome,
-            })
+            let mut setup = self;
+            loop {
+                let model = Model::build(setup, &mut ())?;
+                let loading = Loading::new(&model)?;
+                let problem = loading.problem(&model);
+                let motion = loading.motion(&problem);
+                let posed = Posed::new(&problem, motion.as_ref());
+                let guarded = &mut model.guarded(observer);
+                match follow(posed, &model.setup.analysis, guarded) {
+                    Ok(outcome) => {
+                        return Ok(Solution {
+                            model,
+                            probes: loading.probes,
+                            outcome,
+                        });
+                    }
+                    // Elements near their strength become bonds, and the run begins anew.
+                    Err(error) => {
+                        let growth = model.growth(error)?;
+                        setup = model.setup;
+                        setup.grow(growth);
+                    }
+                }
+            }
         })?
     }
 

@@ -23,6 +23,14 @@ impl Coordinates {
         &self.along[..self.count]
     }
 
+    /// Coordinates of a position in some dimensions.
+    pub(super) fn in_dimensions(along: Position, dimensions: usize) -> Self {
+        Self {
+            along,
+            count: dimensions,
+        }
+    }
+
     /// The coordinates for a body in some dimensions, padded with zeros; `key` is their key.
     pub(super) fn for_body(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
         if self.count == dimensions {

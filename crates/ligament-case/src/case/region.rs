@@ -7,6 +7,7 @@ use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, one_of};
+use ligament::near_growth::Growth;
 use ligament::setup::{self, Place, Position};
 
 /// A rectangle: its lower left and its upper right corner, m.
@@ -106,11 +107,29 @@ impl Region {
 #[serde(deny_unknown_fields)]
 pub struct FarField {
     /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
-    #[schemars(length(min = 1))]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub near: Vec<Region>,
+    /// Share of the strength of a material, up to 1, that the largest principal stress of elements may reach (under pressure the smallest one over
+    /// `compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without it the
+    /// near field stays as it is.
+    pub strength_share: Option<f64>,
 }
 
 impl FarField {
+    /// Takes the places of a growth into the near field.
+    pub(super) fn grow(&mut self, growth: &Growth) {
+        let corners = growth.places.iter().filter_map(|it| match it {
+            Place::Box(corners) => {
+                Some(corners.map(|it| Coordinates::in_dimensions(it, growth.dimensions)))
+            }
+            Place::Everywhere | Place::Group(_) | Place::At(_) => None,
+        });
+        self.near.extend(corners.map(|it| Region {
+            group: None,
+            r#box: Some(Corners(it)),
+        }));
+    }
+
     pub(super) fn setup(
         &self,
         key: &KeyPath,
@@ -121,6 +140,7 @@ impl FarField {
         let places = places.map(|(index, it)| it.place(&key.child(index), dimensions));
         Ok(setup::FarField {
             near: places.collect::<Result<_, _>>()?,
+            strength_share: self.strength_share,
         })
     }
 }

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
 use ligament::implausible::Implausible;
+use ligament::near_growth::Growth;
 use ligament::setup::{self, Section, Setup};
 use ligament_mesh::{Mesh, SolidMesh};
 use ligament_model::Plane;
@@ -384,6 +385,13 @@ impl Case {
             threads: self.solver.threads.map(|threads| threads as usize),
             remarks: self.remarks(),
         })
+    }
+
+    /// Takes the places of a growth into the near field.
+    pub fn grow(&mut self, growth: &Growth) {
+        if let Some(far_field) = &mut self.far_field {
+            far_field.grow(growth);
+        }
     }
 
     fn far_field_of_setup(&self, dimensions: usize) -> Result<Option<setup::FarField>, KeyFault> {

@@ -190,7 +190,11 @@ impl<const D: usize> Places<'_, D> {
                 if magnitude == 0.0 {
                     return Err(Field::whole("temperatures").error(Fault::NothingHappens));
                 }
-                return Ok(without_points(ControlKind::Temperature, Vec::new(), magnitude));
+                return Ok(without_points(
+                    ControlKind::Temperature,
+                    Vec::new(),
+                    magnitude,
+                ));
             }
         };
         let (field, load) = (Field::element("loads", index), &self.setup.loads[index]);

@@ -4,6 +4,7 @@ use ligament_model::PointCloud;
 
 use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
+use crate::near_growth;
 use crate::setup::{Place, Reading, Setup};
 
 /// A setup and the points of its body, which resolve places.
@@ -125,6 +126,17 @@ pub fn near_cells<const D: usize>(
         }
         if !any {
             return Err(field.part("place").error(Fault::NoCellInside));
+        }
+    }
+    if far_field.strength_share.is_some() {
+        for corners in near_growth::beginning(setup, cloud) {
+            let mut is_inside = vec![false; cloud.len()];
+            for point in cloud.points_in_box(narrowed(corners[0]), narrowed(corners[1])) {
+                is_inside[point as usize] = true;
+            }
+            for (is_near, corners) in is_near.iter_mut().zip(&cells) {
+                *is_near |= corners.iter().all(|it| is_inside[*it as usize]);
+            }
         }
     }
     Ok(Some(is_near))

@@ -7,4 +7,7 @@ use super::conditions::Place;
 pub struct FarField {
     /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
     pub near: Vec<Place>,
+    /// Share of the strength, above 0 and up to 1, that the principal stresses of elements may reach. Where a run meets a larger one the near field
+    /// grows, and the run begins anew. Without one the near field stays as it is.
+    pub strength_share: Option<f64>,
 }

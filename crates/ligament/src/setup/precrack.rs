@@ -2,6 +2,8 @@
 
 use ligament_model::bonds::precrack::Ends;
 
+use crate::body::Body;
+
 /// An initial crack of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PreCrack {
@@ -44,6 +46,27 @@ impl PreCrack {
         Self {
             shape: CrackShape::Line(points),
             ends: Ends::Excluded,
+        }
+    }
+
+    /// Positions on the crack that a box around it has to contain, m.
+    pub(crate) fn positions(&self, body: &dyn Body) -> Vec<Vec<f64>> {
+        match &self.shape {
+            CrackShape::Line(points) => points.iter().map(|it| it.to_vec()).collect(),
+            CrackShape::Polygon(points) | CrackShape::Triangles { points, .. } => {
+                points.iter().map(|it| it.to_vec()).collect()
+            }
+            CrackShape::Disk { centre, radius, .. } => {
+                let corner = |side: f64| centre.iter().map(|it| it + side * radius).collect();
+                vec![corner(-1.0), corner(1.0)]
+            }
+            CrackShape::Group(group) => {
+                let points = body.points_of(group).unwrap_or_default();
+                points
+                    .iter()
+                    .map(|it| body.position(*it).to_vec())
+                    .collect()
+            }
         }
     }
 

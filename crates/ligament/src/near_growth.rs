@@ -1,0 +1,357 @@
+//! Growth of a near field: where the stress of elements reaches a share of the strength, bonds take their place and the run begins anew.
+
+use ligament_analysis::Observer;
+use ligament_analysis::Termination;
+use ligament_analysis::history::{
+    BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
+};
+use ligament_model::stress::principal;
+use ligament_model::{Material, PointCloud, Scattered};
+use thiserror::Error;
+
+use crate::error::{Error, Fault, Field};
+use crate::model::Model;
+use crate::parts::Parts;
+use crate::setup::{Place, Position, Setup};
+use crate::system::over_dimension;
+
+/// Distance over the horizon from the border of the near field at which bonds are those of the inside.
+const REACH: f64 = 3.0;
+
+/// Distance by which a near field grows over its size, the root of its area or the cubic root of its volume: a crack that runs on reaches the
+/// border a few times only.
+const GROWTH: f64 = 0.5;
+
+/// Largest stresses of the elements of a far field.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StressLimits {
+    /// Largest principal stress at each point, shape (n_points), Pa; infinite where elements bear any stress.
+    tension: Vec<f64>,
+    /// Negative of the smallest principal stress at each point, shape (n_points), Pa.
+    compression: Vec<f64>,
+}
+
+/// Points of elements whose stress reached its limit.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("the stress of elements reached its share of the strength at {} points", .points.len())]
+struct Overstressed {
+    points: Vec<u32>,
+}
+
+/// Places by which a near field grows.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error(
+    "the near field has to grow at {points} points of elements, whose stress reached its share of the strength"
+)]
+pub struct Growth {
+    /// Number of points of elements with that stress.
+    pub points: usize,
+    /// Boxes around them.
+    pub places: Vec<Place>,
+    /// Dimensions of the body.
+    pub dimensions: usize,
+}
+
+impl Setup {
+    /// Takes the places of a growth into the near field.
+    pub fn grow(&mut self, growth: Growth) {
+        if let Some(far_field) = &mut self.far_field {
+            far_field.near.extend(growth.places);
+        }
+    }
+}
+
+impl Model {
+    /// An observer that passes everything on, and ends a run with an error where elements of the far field reach their share of the strength.
+    pub fn guarded<'a>(&self, observer: &'a mut dyn Observer) -> Guarded<'a> {
+        Guarded {
+            observer,
+            limits: self.stress_limits(),
+        }
+    }
+
+    /// The growth of the near field that an error of a [guarded](Self::guarded) run demands.
+    ///
+    /// # Errors
+    ///
+    /// The error itself, if it is another one, and if the near field cannot grow there.
+    pub fn growth(&self, error: Error) -> Result<Growth, Error> {
+        let found = match &error {
+            Error::Equations(ligament_analysis::SetupError::Observer(ObserverError(it))) => {
+                it.downcast_ref::<Overstressed>()
+            }
+            _ => None,
+        };
+        let Some(Overstressed { points }) = found else {
+            return Err(error);
+        };
+        let places =
+            over_dimension!(&self.system, system => self.places_around(&system.cloud, points));
+        let before = self.setup.far_field.iter().flat_map(|it| &it.near);
+        let mut before = before.filter_map(Extent::of_place);
+        if before.any(|it| places.iter().any(|place| it.contains(place))) {
+            let reason = "elements that the border of the near field leaves out reach their share of the strength: choose its places by hand";
+            let fault = Fault::Contradiction(reason.into());
+            return Err(Field::whole("far_field").part("near").error(fault).into());
+        }
+        Ok(Growth {
+            points: points.len(),
+            places: places.into_iter().map(Extent::into_place).collect(),
+            dimensions: self.setup.body.dimensions(),
+        })
+    }
+
+    /// Limits of the stresses of elements; `None` where the near field does not grow.
+    fn stress_limits(&self) -> Option<StressLimits> {
+        let share = self.setup.far_field.as_ref()?.strength_share?;
+        over_dimension!(&self.system, system => {
+            let (cloud, far) = (&system.cloud, system.far.as_ref()?);
+            let limit = |strength: fn(&Material) -> Option<f64>| {
+                let strengths = self.setup.materials.iter().map(|it| strength(&it.material));
+                let strengths: Vec<f64> = strengths.map(|it| it.unwrap_or(f64::INFINITY)).collect();
+                let of_point = |point: usize| {
+                    // The weakest material of the cells around the point.
+                    let around = strengths.iter().zip(cloud.shares(point));
+                    let weakest = around.filter(|(_, part)| **part > 0.0).map(|it| *it.0);
+                    let may_break = far.volume(point as u32) > 0.0 && !self.fixed.no_fail[point];
+                    match may_break {
+                        true => share * self.strength_factor(point) * weakest.fold(f64::INFINITY, f64::min),
+                        false => f64::INFINITY,
+                    }
+                };
+                (0..cloud.len()).map(of_point).collect()
+            };
+            Some(StressLimits {
+                tension: limit(|it| it.tensile_strength),
+                compression: limit(|it| it.compressive_strength),
+            })
+        })
+    }
+
+    /// Random factor of the strength of a point.
+    fn strength_factor(&self, point: usize) -> f64 {
+        let mut factors = self.fixed.scatter.iter();
+        let strength = factors.find(|it| it.of == Scattered::Strength);
+        strength.map_or(1.0, |it| it.at_points[point])
+    }
+
+    /// Boxes around the connected parts of some points (ascending), which reach beyond them.
+    fn places_around<const D: usize>(&self, cloud: &PointCloud<D>, points: &[u32]) -> Vec<Extent> {
+        let body = self.body();
+        let corners = body.corners();
+        let is_one = |point: &u32| points.binary_search(point).is_ok();
+        let pairs = corners.iter().flat_map(|cell| {
+            let mut inside = cell.iter().copied().filter(is_one);
+            let first = inside.next();
+            inside.filter_map(move |it| Some([first?, it]))
+        });
+        let parts = Parts::new(cloud.len(), pairs);
+        let beyond = GROWTH * self.near_volume(cloud).powf(1.0 / D as f64);
+        let mut numbered: Vec<(u32, u32)> = points.iter().map(|&it| (parts.part(it), it)).collect();
+        numbered.sort_unstable();
+        let of_part = |part: &[(u32, u32)]| {
+            let horizons = part.iter().map(|it| self.fixed.horizon[it.1 as usize]);
+            let reach = REACH * horizons.fold(0.0, f64::max);
+            let positions = part.iter().map(|it| body.position(it.1));
+            Extent::around(positions, reach.max(beyond))
+        };
+        let boxes = numbered.chunk_by(|one, other| one.0 == other.0);
+        joined(boxes.map(of_part).collect())
+    }
+
+    /// Volume of the cells with bonds, in the plane over the thickness.
+    fn near_volume<const D: usize>(&self, cloud: &PointCloud<D>) -> f64 {
+        let elements = over_dimension!(&self.system, system => {
+            let far = system.far.as_ref();
+            let volumes = (0..cloud.len() as u32).map(|it| far.map_or(0.0, |far| far.volume(it)));
+            volumes.sum::<f64>()
+        });
+        (cloud.volumes.iter().sum::<f64>() - elements).max(0.0) / cloud.thickness
+    }
+}
+
+/// Boxes, by their lowest and highest corners, in which a near field that grows begins: around the pre-cracks, and without these and other places around the first cell.
+pub(crate) fn beginning<const D: usize>(
+    setup: &Setup,
+    cloud: &PointCloud<D>,
+) -> Vec<[Position; 2]> {
+    let horizons = setup.horizon.of_points(cloud).radius;
+    let reach = |position: &[f64]| {
+        let nearest = cloud.nearest_point(std::array::from_fn(|axis| position[axis]));
+        REACH * horizons[nearest as usize]
+    };
+    let around = |positions: &[Vec<f64>]| {
+        let reaches = positions.iter().map(|it| reach(it));
+        let reach = reaches.fold(0.0, f64::max);
+        let Extent { lower, upper } = Extent::around(positions.iter().map(Vec::as_slice), reach);
+        [lower, upper]
+    };
+    let cracks = setup.precracks.iter().map(|it| it.positions(&*setup.body));
+    let mut boxes: Vec<[Position; 2]> = cracks.map(|it| around(&it)).collect();
+    let is_given = (setup.far_field.as_ref()).is_some_and(|it| !it.near.is_empty());
+    if boxes.is_empty() && !is_given {
+        let first = setup.body.corners()[0].iter();
+        let corners: Vec<Vec<f64>> = first.map(|&it| setup.body.position(it).to_vec()).collect();
+        boxes.push(around(&corners));
+    }
+    boxes
+}
+
+/// A box along the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Extent {
+    lower: Position,
+    upper: Position,
+}
+
+impl Extent {
+    /// The box around some positions, m, which reaches beyond them.
+    fn around<'a>(positions: impl Iterator<Item = &'a [f64]>, beyond: f64) -> Self {
+        let start = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut bounds: Vec<[f64; 2]> = Vec::new();
+        for position in positions {
+            bounds.resize(position.len(), start);
+            for ([lower, upper], value) in bounds.iter_mut().zip(position) {
+                (*lower, *upper) = (lower.min(value - beyond), upper.max(value + beyond));
+            }
+        }
+        let bound =
+            |side: usize| std::array::from_fn(|axis| bounds.get(axis).map_or(0.0, |it| it[side]));
+        Self {
+            lower: bound(0),
+            upper: bound(1),
+        }
+    }
+
+    fn of_place(place: &Place) -> Option<Self> {
+        match *place {
+            Place::Box([lower, upper]) => Some(Self { lower, upper }),
+            Place::Everywhere | Place::Group(_) | Place::At(_) => None,
+        }
+    }
+
+    fn into_place(self) -> Place {
+        Place::Box([self.lower, self.upper])
+    }
+
+    fn contains(&self, other: &Self) -> bool {
+        let below = self
+            .lower
+            .iter()
+            .zip(other.lower)
+            .all(|(one, other)| *one <= other);
+        below
+            && self
+                .upper
+                .iter()
+                .zip(other.upper)
+                .all(|(one, other)| *one >= other)
+    }
+
+    /// The box around this one and another.
+    fn with(&self, other: &Self) -> Self {
+        Self {
+            lower: std::array::from_fn(|axis| self.lower[axis].min(other.lower[axis])),
+            upper: std::array::from_fn(|axis| self.upper[axis].max(other.upper[axis])),
+        }
+    }
+
+    /// Area of a box in the plane, whose height is zero, or volume.
+    fn size(&self) -> f64 {
+        let sides = self
+            .lower
+            .iter()
+            .zip(self.upper)
+            .map(|(lower, upper)| upper - lower);
+        sides.filter(|it| *it > 0.0).product()
+    }
+}
+
+/// Boxes in which those are joined that together are no smaller than the box around them.
+fn joined(mut boxes: Vec<Extent>) -> Vec<Extent> {
+    let mut place = 0;
+    while place < boxes.len() {
+        let one = boxes[place];
+        let fits = |other: &Extent| one.with(other).size() <= one.size() + other.size();
+        match (place + 1..boxes.len()).find(|it| fits(&boxes[*it])) {
+            Some(other) => {
+                boxes[place] = one.with(&boxes.remove(other));
+                place = 0;
+            }
+            None => place += 1,
+        }
+    }
+    boxes
+}
+
+impl StressLimits {
+    /// Points at which the stress reaches its limit, ascending.
+    fn reached(&self, view: &View<'_>) -> Vec<u32> {
+        let stresses = view.solution().material_stresses();
+        let of_points = stresses.values.chunks_exact(stresses.names.len());
+        let reaches = |(point, stress): (usize, &[f64])| {
+            let values = principal::values(stress);
+            let (largest, smallest) = (values[0], values[values.len() - 1]);
+            largest >= self.tension[point] || -smallest >= self.compression[point]
+        };
+        let numbered = of_points.enumerate().filter(|it| reaches(*it));
+        numbered.map(|(point, _)| point as u32).collect()
+    }
+}
+
+/// An observer that ends a run where elements of the far field reach their share of the strength.
+pub struct Guarded<'a> {
+    observer: &'a mut dyn Observer,
+    limits: Option<StressLimits>,
+}
+
+impl Observer for Guarded<'_> {
+    fn iteration(
+        &mut self,
+        iteration: usize,
+        residual: f64,
+        stored_energy: f64,
+    ) -> Result<(), ObserverError> {
+        self.observer.iteration(iteration, residual, stored_energy)
+    }
+
+    fn round(
+        &mut self,
+        step: usize,
+        round: usize,
+        load_factor: f64,
+        broken: usize,
+    ) -> Result<(), ObserverError> {
+        self.observer.round(step, round, load_factor, broken)
+    }
+
+    fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
+        self.observer.broke(records)
+    }
+
+    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
+        self.observer.notice(notice)
+    }
+
+    fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
+        self.observer.asks(end)
+    }
+
+    fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
+        self.observer.moment(moment)
+    }
+
+    fn looks(&self, step: usize) -> bool {
+        self.observer.looks(step)
+    }
+
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        if let Some(limits) = self.limits.as_ref().filter(|_| view.is_whole) {
+            let points = limits.reached(view);
+            if !points.is_empty() {
+                return Err(ObserverError(Box::new(Overstressed { points })));
+            }
+        }
+        self.observer.step(record, view)
+    }
+}
