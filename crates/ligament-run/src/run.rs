@@ -139,7 +139,9 @@ impl<'a> Request<'a> {
         let mut stages = Stages::default();
         let progress = Progress::on(&**communicator, mode).sent(self.steps.clone());
         let model = build_model_on(self.case, communicator.clone(), &mut stages, &progress)?;
-        match self.solve(&model, stages, progress) {
+        let solved = self.solve(&model, stages, progress);
+        drop(model);
+        match solved {
             Ok(report) => Ok(report),
             Err(error) => self.begin_anew(&error.downcast()?, mode),
         }

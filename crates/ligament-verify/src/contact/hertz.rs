@@ -17,8 +17,9 @@ pub(crate) const EXPERIMENT: Experiment = Experiment {
     title: "A cylinder and a sphere pressed into a block",
     source: "closed form (Hertz; Johnson 1985, sections 4.2 and 4.3)",
     setup: "Rigid, of a radius R = 0.1 m, pressed into a block of E = 70 GPa, nu = 0.25 by a displacement in one step. Cylinder: 140 x 70 points of 0.5 mm, plane \
-            strain, nhpd. Sphere: 36 x 36 x 18 points of 1 mm, bbpd. The mean pressures p of the sides of cells in contact, at the distance r from the middle, are fitted by p^2 = p_0^2 (1 - r^2/a^2), by \
-            least squares. All quantities are over those of Hertz for the force F on the block: p_0, the half-width or radius a, the force of the fit, \
+            strain, nhpd. Sphere: 36 x 36 x 18 points of 1 mm, bbpd. The mean pressures p of the sides of cells that are in contact as a whole, at the distance r from the middle, are fitted by p^2 = p_0^2 - b r^2, by \
+            least squares, for p_0. The half-width or radius a is that of Hertz's pressures with the second moment of all pressures, 1/F times the integral of p r^2: \
+            a^2/4, of the sphere 2 a^2/5. All quantities are over those of Hertz for the force F on the block: p_0, a, the force of both, \
             pi a p_0/2 for each length or 2 pi a^2 p_0/3, and the largest pressure of a side.",
     cases: &[&CYLINDER, &SPHERE],
     compute: Compute::Code(compute),
@@ -38,7 +39,7 @@ struct Pressed {
     force: f64,
     /// Largest pressure of a side of a cell, and of the fit, Pa.
     largest: [f64; 2],
-    /// Half-width or radius of the fit, m.
+    /// Half-width or radius by the second moment of the pressures, m.
     reach: f64,
 }
 
@@ -84,8 +85,14 @@ fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow::Result<Pre
     let touches = &solution.outcome.state.surfaces.touching().touches;
     let all = touches.first().context("no contact")?.iter();
     let all: Vec<_> = all.filter(|it| it.depth() > 0.0).collect();
-    let force = all.iter().map(|it| it.stiffness * it.depth()).sum();
+    let force: f64 = all.iter().map(|it| it.stiffness * it.depth()).sum();
     let squares = |arm: &[f64]| -> f64 { arm.iter().take(along).map(|it| it * it).sum() };
+    let moments = all
+        .iter()
+        .map(|it| it.stiffness * it.depth() * squares(&it.arm));
+    let second = moments.sum::<f64>() / force;
+    // Of p_0 sqrt(1 - r^2/a^2) over a strip and over a disk.
+    let of_reach = if along == 1 { 0.25 } else { 0.4 };
     let mut sides: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
     for it in &all {
         let reading = [squares(&it.arm), it.stiffness * it.depth() / it.area];
@@ -109,6 +116,6 @@ fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow::Result<Pre
     Ok(Pressed {
         force,
         largest: [largest.sqrt(), square.sqrt()],
-        reach: (-square / slope).sqrt(),
+        reach: (second / of_reach).sqrt(),
     })
 }
