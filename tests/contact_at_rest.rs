@@ -141,9 +141,13 @@ rigid = [{ name = "punch", shape = "circle", centre = [0.0, 0.13], radius = 0.1,
     );
     assert!((found / largest - 1.0).abs() < 0.03);
     assert!((width - half_width).abs() < 0.5e-3);
-    let support = outcome.history.last().unwrap().group_forces[0][1];
+    let last = outcome.history.last().unwrap();
+    let support = last.group_forces[0][1];
     let down: f64 = all.iter().map(|it| -it.force()[1]).sum();
     assert!((support / down - 1.0).abs() < 1e-8, "{support} {down}");
+    // The curve is that of the cylinder.
+    assert_eq!(last.displacement, 2e-4);
+    assert!((last.reaction / down - 1.0).abs() < 1e-12);
     assert!(missing_energy(&outcome) < 1e-9);
 }
 

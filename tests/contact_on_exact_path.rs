@@ -149,6 +149,16 @@ fn load_steps_break_the_same_bonds() {
                 .all(|it| it[0].load_factor <= it[1].load_factor)
         );
         assert!(rows.iter().all(|it| it.largest_ratio < 1.0 + 1e-8));
+        // Without loads the curve is that of the rigid body.
+        for row in rows {
+            for body in &row.rigid_bodies {
+                let way = body.displacement.iter().map(|it| it.abs()).sum::<f64>();
+                assert!((row.displacement - way).abs() <= 1e-15 * way);
+                assert!(
+                    (row.reaction - body.force[1] - body.force[2]).abs() <= 1e-12 * row.reaction
+                );
+            }
+        }
         assert!(run.largest_residual < 1e-9);
         assert!(missing_energy(&run.outcome) < 1e-9);
         let steps = format!(
@@ -169,4 +179,16 @@ fn load_steps_break_the_same_bonds() {
         let is_one = name == "blocks" || broken.contains(&bond);
         assert!(!broken.is_empty() && is_one, "{name}: {bond} {broken:?}");
     }
+}
+
+/// The way of a rigid body that moves ends the path where it is to end, between two events.
+#[test]
+fn the_path_ends_at_the_way_of_a_rigid_body() {
+    let settings = ["fracture.stop.displacement=5e-5", "curve=punch"];
+    let outcome = solved(CIRCLE, &settings).outcome;
+    let reached = Termination::DisplacementReached { displacement: 5e-5 };
+    assert_eq!(outcome.termination, reached);
+    let last = outcome.history.last().unwrap();
+    assert!((last.displacement / 5e-5 - 1.0).abs() < 1e-12);
+    assert!(last.reaction > 0.0);
 }

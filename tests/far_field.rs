@@ -3,11 +3,18 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament::patch_test::patch_test;
 use ligament::run::{NoObserver, Solution};
+use ligament_analysis::distributed_matrix::Solo;
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
+use ligament_output::summary::Build;
+use ligament_run::progress::ProgressMode;
+use ligament_run::{repeat, resume, run};
 use verification::bench::{Bench, case, missing_energy, solved};
 
 /// Square of 100 mm and 568 points.
@@ -106,16 +113,21 @@ fn broken(Solution { model, outcome, .. }: &Solution) -> BTreeSet<[u32; 2]> {
         .collect()
 }
 
+/// Largest force.
+fn peak(solution: &Solution) -> f64 {
+    let reactions = solution.outcome.history.iter().map(|it| it.reaction);
+    reactions.fold(0.0, f64::max)
+}
+
+/// Elements with half of the strength become bonds.
+const GROWS: &str = "far_field.strength_share=0.5";
+
 /// Bonds up to 50 mm from the notch: ten cells, three horizons and more.
 const AROUND_NOTCH: &str = "far_field.near=[{ box = [[-1, 0.0525], [1, 0.1525]] }]";
 
 /// The crack is that of the plate whose cells all have bonds, and the load within half a per cent; the same with both solvers.
 #[test]
 fn the_crack_is_that_of_the_whole_body() {
-    let peak = |solution: &Solution| {
-        let reactions = solution.outcome.history.iter().map(|it| it.reaction);
-        reactions.fold(0.0, f64::max)
-    };
     let whole = plate(&[]);
     let of_whole = broken(&whole);
     assert!(of_whole.len() > 200);
@@ -234,4 +246,115 @@ load = [{ group = "bottom", velocity = { y = 0.05 }, amplitude = { shape = "sine
     // A wave of 20 cells disperses a little differently in elements and in bonds.
     assert!((kinetic(&part) / kinetic(&whole) - 1.0).abs() < 0.02);
     assert!(missing_energy(&part) < 1e-12, "{:e}", missing_energy(&part));
+}
+
+/// A near field that begins at the pre-crack grows with the crack, which is that of the whole body; in no row did elements bear their share of the
+/// strength. The run has the bits of a run whose places are those in the end.
+#[test]
+fn the_near_field_grows_with_the_crack() {
+    let whole = plate(&[]);
+    let grown = plate(&[GROWS, "solver.threads=2"]);
+    let near = &grown.model.setup.far_field.as_ref().unwrap().near;
+    println!("{} boxes, {} bonds", near.len(), grown.model.counts.bonds);
+    assert!(near.len() > 1);
+    assert!(grown.model.counts.far_points > 0);
+    assert!(grown.model.counts.bonds < whole.model.counts.bonds);
+    let (of_whole, of_grown) = (broken(&whole), broken(&grown));
+    let common = of_whole.intersection(&of_grown).count();
+    println!(
+        "{} and {} broken, {common} in common",
+        of_whole.len(),
+        of_grown.len()
+    );
+    assert!(common + 3 >= of_whole.len() && of_grown.len() <= common + 3);
+    let difference = peak(&grown) / peak(&whole) - 1.0;
+    assert!(difference.abs() < 5e-3, "{difference:e}");
+    let again = grown.model.setup.clone().solve(&mut NoObserver).unwrap();
+    assert_eq!(again.outcome.history, grown.outcome.history);
+}
+
+/// A folder of results has the places of the last run, so that the run is repeated from it to the bit; a run that is stopped before the near field grows
+/// goes on to the bits of a run that was not.
+#[test]
+fn a_run_that_began_anew_is_repeated_and_resumed() {
+    let path = verification::repository().join("cases/opening-control/case.toml");
+    let settings = ["correction.surface=patch", GROWS, "stage.0.steps=60"].map(str::to_owned);
+    let case = CaseFile::load(&path, &settings).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let whole = folder.path().join("whole");
+    let request = run::Request::new(&case, &whole, Build::default());
+    request.run(ProgressMode::Quiet).unwrap();
+    let resolved = CaseFile::load(&whole.join("case.resolved.toml"), &[]).unwrap();
+    assert!(resolved.case.far_field.unwrap().near.len() > 1);
+    let repeat = repeat::Request {
+        folder: &whole,
+        out: None,
+        mesh: None,
+        threads: Some(2),
+        build: Build::default(),
+        is_stopped: &|| false,
+    };
+    assert!(repeat.repeat(ProgressMode::Quiet).unwrap().is_same());
+
+    let stopped = folder.path().join("stopped");
+    let asked = AtomicUsize::new(0);
+    let request = run::Request {
+        is_stopped: &|| asked.fetch_add(1, Ordering::Relaxed) > 2,
+        ..run::Request::new(&case, &stopped, Build::default())
+    };
+    assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
+    let resume = resume::Request {
+        folder: &stopped,
+        settings: &[],
+        threads: None,
+        build: Build::default(),
+        is_stopped: &|| false,
+        communicator: Arc::new(Solo),
+    };
+    resume.resume(ProgressMode::Quiet).unwrap();
+    let tables =
+        |it: &Path| ["history.csv", "breaks.csv"].map(|name| std::fs::read(it.join(name)).unwrap());
+    assert!(tables(&whole) == tables(&stopped));
+}
+
+/// A wrong share, or one that nothing can reach, is refused with its key.
+#[test]
+fn a_share_that_cannot_be_is_refused() {
+    for (settings, words) in [
+        (
+            vec!["far_field.strength_share=1.5"],
+            "is above 0 and at most 1",
+        ),
+        (vec!["far_field={}"], "nothing says where bonds are"),
+        (
+            vec![
+                "far_field.strength_share=0.5",
+                "-stage",
+                "-fracture",
+                "analysis=static",
+            ],
+            "nothing breaks in this analysis",
+        ),
+        (
+            vec![
+                GROWS,
+                "-material.tensile_strength",
+                "material.fracture_energy=100.0",
+            ],
+            "the near field grows where elements reach a share of it",
+        ),
+    ] {
+        let path = verification::repository().join("cases/opening-control/case.toml");
+        let settings: Vec<String> = ["correction.surface=patch"]
+            .iter()
+            .chain(&settings)
+            .map(|it| (*it).to_owned())
+            .collect();
+        let error = CaseFile::load(&path, &settings)
+            .map_err(|it| it.to_string())
+            .and_then(|it| it.setup(&mut ()).map_err(|it| it.to_string()))
+            .and_then(|it| it.solve(&mut NoObserver).map_err(|it| it.to_string()));
+        let error = error.unwrap_err();
+        assert!(error.contains(words), "{settings:?}: {error}");
+    }
 }
