@@ -230,7 +230,7 @@ fn bundle(kind: ControlKind, size: f64) -> Truss {
     match kind {
         ControlKind::Displacement => boundary.prescribe(&[6], Component::X, size).unwrap(),
         ControlKind::Force => boundary.add_force(6, Component::X, size),
-        ControlKind::Temperature => panic!("the bundle is not heated"),
+        ControlKind::Temperature | ControlKind::RigidBody(_) => panic!("not a load of the bundle"),
     }
     boundary.control.magnitude = size;
     truss

@@ -399,7 +399,9 @@ impl Observer for Recorder<'_> {
             let time = match view.loads.control().kind {
                 _ if self.times_are_steps => record.step as f64,
                 ControlKind::Force => record.reaction,
-                ControlKind::Displacement | ControlKind::Temperature => record.displacement,
+                ControlKind::Displacement
+                | ControlKind::Temperature
+                | ControlKind::RigidBody(_) => record.displacement,
             };
             let name = format!("fields_{:04}.vtu", record.step);
             self.write_fields(&name, view);

@@ -6,7 +6,8 @@ use ligament_analysis::history::{
     BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
 };
 use ligament_model::stress::principal;
-use ligament_model::{Material, PointCloud, Scattered};
+use ligament_model::scatter::Scattered;
+use ligament_model::{Material, PointCloud};
 use thiserror::Error;
 
 use crate::error::{Error, Fault, Field};
