@@ -215,10 +215,8 @@ impl Control {
             ControlKind::Displacement => self.along(layout, reaction),
             ControlKind::RigidBody(body) => {
                 let forces = internal.on_rigid_bodies.get(body).into_iter().flatten();
-                -forces
-                    .zip(&self.shape)
-                    .map(|(force, cosine)| force * cosine)
-                    .sum::<f64>()
+                let along = forces.zip(&self.shape);
+                along.fold(0.0, |sum, (force, cosine)| sum - force * cosine)
             }
         }
     }

@@ -3,6 +3,7 @@
 use ligament::run::{Posed, Restored, follow, resume};
 use ligament::setup::Analysis;
 use ligament::{Loading, Model};
+use ligament_analysis::driver::Outcome;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
@@ -77,16 +78,7 @@ impl LoadedBody<'_> {
         };
         let watched = (writer, checkpoints);
         let mut watch = Watch::new(watched, requests, progress, &model.setup, notices);
-        let guarded = &mut model.guarded(&mut watch);
-        let outcome = stages.time("solution", || match restored {
-            None => follow(posed, analysis, guarded),
-            Some(restored) => resume(analysis, restored, guarded),
-        });
-        let outcome = match outcome.map_err(|error| model.growth(error)) {
-            Ok(outcome) => outcome,
-            Err(Ok(growth)) => return Err(growth.into()),
-            Err(Err(error)) => return Err(case.explained(error)),
-        };
+        let outcome = stages.time("solution", || self.outcome(posed, restored, &mut watch))?;
 
         let (notices, first, checkpoints) = watch.into_parts();
         let noted = Noted {
@@ -128,6 +120,31 @@ impl LoadedBody<'_> {
             Some(restored) => resume(analysis, restored, &mut pieces)?,
         };
         Ok(())
+    }
+}
+
+impl LoadedBody<'_> {
+    /// Outcome of a problem, from the unloaded body or from a restored run.
+    ///
+    /// # Errors
+    ///
+    /// The [growth](ligament::near_growth::Growth) of the near field where it has to grow, and errors of the case, the equations and the observer.
+    fn outcome(
+        &self,
+        posed: Posed<'_>,
+        restored: Option<Restored>,
+        watch: &mut Watch<'_>,
+    ) -> anyhow::Result<Outcome> {
+        let analysis = &self.model.setup.analysis;
+        let guarded = &mut self.model.guarded(watch);
+        let outcome = match restored {
+            None => follow(posed, analysis, guarded),
+            Some(restored) => resume(analysis, restored, guarded),
+        };
+        outcome.map_err(|error| match self.model.growth(error) {
+            Ok(growth) => growth.into(),
+            Err(error) => self.case.explained(error),
+        })
     }
 }
 

@@ -53,6 +53,7 @@ pub mod crack_energy;
 pub mod direction;
 pub mod ensemble;
 pub mod error;
+mod extent;
 mod faces;
 pub mod foresight;
 pub mod formulation;

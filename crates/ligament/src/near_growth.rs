@@ -5,19 +5,18 @@ use ligament_analysis::Termination;
 use ligament_analysis::history::{
     BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
 };
-use ligament_model::stress::principal;
 use ligament_model::scatter::Scattered;
+use ligament_model::stress::principal;
 use ligament_model::{Material, PointCloud};
 use thiserror::Error;
 
 use crate::error::{Error, Fault, Field};
+use crate::extent::Extent;
+use crate::loading::REACH;
 use crate::model::Model;
 use crate::parts::Parts;
-use crate::setup::{Place, Position, Setup};
+use crate::setup::{Place, Setup};
 use crate::system::over_dimension;
-
-/// Distance over the horizon from the border of the near field at which bonds are those of the inside.
-const REACH: f64 = 3.0;
 
 /// Distance by which a near field grows over its size, the root of its area or the cubic root of its volume: a crack that runs on reaches the
 /// border a few times only.
@@ -157,7 +156,7 @@ impl Model {
             Extent::around(positions, reach.max(beyond))
         };
         let boxes = numbered.chunk_by(|one, other| one.0 == other.0);
-        joined(boxes.map(of_part).collect())
+        Extent::joined(boxes.map(of_part).collect())
     }
 
     /// Volume of the cells with bonds, in the plane over the thickness.
@@ -169,120 +168,6 @@ impl Model {
         });
         (cloud.volumes.iter().sum::<f64>() - elements).max(0.0) / cloud.thickness
     }
-}
-
-/// Boxes, by their lowest and highest corners, in which a near field that grows begins: around the pre-cracks, and without these and other places around the first cell.
-pub(crate) fn beginning<const D: usize>(
-    setup: &Setup,
-    cloud: &PointCloud<D>,
-) -> Vec<[Position; 2]> {
-    let horizons = setup.horizon.of_points(cloud).radius;
-    let reach = |position: &[f64]| {
-        let nearest = cloud.nearest_point(std::array::from_fn(|axis| position[axis]));
-        REACH * horizons[nearest as usize]
-    };
-    let around = |positions: &[Vec<f64>]| {
-        let reaches = positions.iter().map(|it| reach(it));
-        let reach = reaches.fold(0.0, f64::max);
-        let Extent { lower, upper } = Extent::around(positions.iter().map(Vec::as_slice), reach);
-        [lower, upper]
-    };
-    let cracks = setup.precracks.iter().map(|it| it.positions(&*setup.body));
-    let mut boxes: Vec<[Position; 2]> = cracks.map(|it| around(&it)).collect();
-    let is_given = (setup.far_field.as_ref()).is_some_and(|it| !it.near.is_empty());
-    if boxes.is_empty() && !is_given {
-        let first = setup.body.corners()[0].iter();
-        let corners: Vec<Vec<f64>> = first.map(|&it| setup.body.position(it).to_vec()).collect();
-        boxes.push(around(&corners));
-    }
-    boxes
-}
-
-/// A box along the axes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Extent {
-    lower: Position,
-    upper: Position,
-}
-
-impl Extent {
-    /// The box around some positions, m, which reaches beyond them.
-    fn around<'a>(positions: impl Iterator<Item = &'a [f64]>, beyond: f64) -> Self {
-        let start = [f64::INFINITY, f64::NEG_INFINITY];
-        let mut bounds: Vec<[f64; 2]> = Vec::new();
-        for position in positions {
-            bounds.resize(position.len(), start);
-            for ([lower, upper], value) in bounds.iter_mut().zip(position) {
-                (*lower, *upper) = (lower.min(value - beyond), upper.max(value + beyond));
-            }
-        }
-        let bound =
-            |side: usize| std::array::from_fn(|axis| bounds.get(axis).map_or(0.0, |it| it[side]));
-        Self {
-            lower: bound(0),
-            upper: bound(1),
-        }
-    }
-
-    fn of_place(place: &Place) -> Option<Self> {
-        match *place {
-            Place::Box([lower, upper]) => Some(Self { lower, upper }),
-            Place::Everywhere | Place::Group(_) | Place::At(_) => None,
-        }
-    }
-
-    fn into_place(self) -> Place {
-        Place::Box([self.lower, self.upper])
-    }
-
-    fn contains(&self, other: &Self) -> bool {
-        let below = self
-            .lower
-            .iter()
-            .zip(other.lower)
-            .all(|(one, other)| *one <= other);
-        below
-            && self
-                .upper
-                .iter()
-                .zip(other.upper)
-                .all(|(one, other)| *one >= other)
-    }
-
-    /// The box around this one and another.
-    fn with(&self, other: &Self) -> Self {
-        Self {
-            lower: std::array::from_fn(|axis| self.lower[axis].min(other.lower[axis])),
-            upper: std::array::from_fn(|axis| self.upper[axis].max(other.upper[axis])),
-        }
-    }
-
-    /// Area of a box in the plane, whose height is zero, or volume.
-    fn size(&self) -> f64 {
-        let sides = self
-            .lower
-            .iter()
-            .zip(self.upper)
-            .map(|(lower, upper)| upper - lower);
-        sides.filter(|it| *it > 0.0).product()
-    }
-}
-
-/// Boxes in which those are joined that together are no smaller than the box around them.
-fn joined(mut boxes: Vec<Extent>) -> Vec<Extent> {
-    let mut place = 0;
-    while place < boxes.len() {
-        let one = boxes[place];
-        let fits = |other: &Extent| one.with(other).size() <= one.size() + other.size();
-        match (place + 1..boxes.len()).find(|it| fits(&boxes[*it])) {
-            Some(other) => {
-                boxes[place] = one.with(&boxes.remove(other));
-                place = 0;
-            }
-            None => place += 1,
-        }
-    }
-    boxes
 }
 
 impl StressLimits {

@@ -164,38 +164,9 @@ impl<const D: usize> Places<'_, D> {
 
     /// The axis of the force-displacement curve.
     fn control(&self, heating: Option<&Heating>) -> Result<Control, SetupError> {
-        let without_points = |kind, shape, magnitude| Control {
-            kind,
-            points: Vec::new(),
-            shape,
-            magnitude,
-        };
-        let index = match self.setup.curve_axis() {
-            CurveAxis::Load(load) => load,
-            CurveAxis::RigidBody(body) => {
-                let motion = self.setup.rigid_bodies[body].motion();
-                let magnitude = tensor::norm(motion);
-                let direction = motion.map(|it| it / magnitude).to_vec();
-                let kind = ControlKind::RigidBody(body);
-                return Ok(without_points(kind, direction, magnitude));
-            }
-            CurveAxis::Nothing
-                if self.setup.analysis.is_motion() || !self.setup.rigid_bodies.is_empty() =>
-            {
-                return Ok(without_points(ControlKind::Force, Vec::new(), 0.0));
-            }
-            CurveAxis::Temperature | CurveAxis::Nothing => {
-                let changes = heating.map_or(&[][..], |it| &it.change);
-                let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
-                if magnitude == 0.0 {
-                    return Err(Field::whole("temperatures").error(Fault::NothingHappens));
-                }
-                return Ok(without_points(
-                    ControlKind::Temperature,
-                    Vec::new(),
-                    magnitude,
-                ));
-            }
+        let axis = self.setup.curve_axis();
+        let CurveAxis::Load(index) = axis else {
+            return self.control_without_load(axis, heating);
         };
         let (field, load) = (Field::element("loads", index), &self.setup.loads[index]);
         let points = self.points(field, &load.place)?;
@@ -227,6 +198,40 @@ impl<const D: usize> Places<'_, D> {
         Ok(Control {
             kind,
             points,
+            shape,
+            magnitude,
+        })
+    }
+
+    /// The axis of the force-displacement curve where it is none of a load.
+    fn control_without_load(
+        &self,
+        axis: CurveAxis,
+        heating: Option<&Heating>,
+    ) -> Result<Control, SetupError> {
+        let setup = self.setup;
+        let (kind, shape, magnitude) = match axis {
+            CurveAxis::RigidBody(body) => {
+                let motion = setup.rigid_bodies[body].motion();
+                let magnitude = tensor::norm(motion);
+                let direction = motion.map(|it| it / magnitude).to_vec();
+                (ControlKind::RigidBody(body), direction, magnitude)
+            }
+            CurveAxis::Nothing if setup.analysis.is_motion() || !setup.rigid_bodies.is_empty() => {
+                (ControlKind::Force, Vec::new(), 0.0)
+            }
+            _ => {
+                let changes = heating.map_or(&[][..], |it| &it.change);
+                let magnitude = changes.iter().map(|it| it.abs()).fold(0.0, f64::max);
+                if magnitude == 0.0 {
+                    return Err(Field::whole("temperatures").error(Fault::NothingHappens));
+                }
+                (ControlKind::Temperature, Vec::new(), magnitude)
+            }
+        };
+        Ok(Control {
+            kind,
+            points: Vec::new(),
             shape,
             magnitude,
         })

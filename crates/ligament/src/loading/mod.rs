@@ -3,6 +3,7 @@
 mod boundary;
 mod contact;
 mod motion;
+mod near_cells;
 mod places;
 mod probes;
 mod programme;
@@ -23,8 +24,10 @@ use ligament_model::System;
 
 pub use contact::contact_problem;
 pub use motion::Inertia;
+pub(crate) use near_cells::REACH;
+pub use near_cells::near_cells;
 use places::Places;
-pub use places::{material_of_cell, near_cells, no_fail};
+pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 
 use crate::error::{Fault, Field, SetupError};

@@ -4,7 +4,6 @@ use ligament_model::PointCloud;
 
 use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
-use crate::near_growth;
 use crate::setup::{Place, Reading, Setup};
 
 /// A setup and the points of its body, which resolve places.
@@ -100,46 +99,6 @@ pub fn no_fail<const D: usize>(
         }
     }
     Ok(marked)
-}
-
-/// Whether each cell belongs to the near field, shape (n_cells): all its corners lie in one of its places. `None` without a far field.
-pub fn near_cells<const D: usize>(
-    setup: &Setup,
-    cloud: &PointCloud<D>,
-) -> Result<Option<Vec<bool>>, SetupError> {
-    let Some(far_field) = &setup.far_field else {
-        return Ok(None);
-    };
-    let places = Places { setup, cloud };
-    let cells = setup.body.corners();
-    let mut is_near = vec![false; cells.len()];
-    for (index, place) in far_field.near.iter().enumerate() {
-        let field = Field::element("far_field.near", index);
-        let mut is_in_place = vec![false; cloud.len()];
-        for point in places.points(field, place)? {
-            is_in_place[point as usize] = true;
-        }
-        let mut any = false;
-        for (is_near, corners) in is_near.iter_mut().zip(&cells) {
-            let is_inside = corners.iter().all(|it| is_in_place[*it as usize]);
-            (*is_near, any) = (*is_near | is_inside, any | is_inside);
-        }
-        if !any {
-            return Err(field.part("place").error(Fault::NoCellInside));
-        }
-    }
-    if far_field.strength_share.is_some() {
-        for corners in near_growth::beginning(setup, cloud) {
-            let mut is_inside = vec![false; cloud.len()];
-            for point in cloud.points_in_box(narrowed(corners[0]), narrowed(corners[1])) {
-                is_inside[point as usize] = true;
-            }
-            for (is_near, corners) in is_near.iter_mut().zip(&cells) {
-                *is_near |= corners.iter().all(|it| is_inside[*it as usize]);
-            }
-        }
-    }
-    Ok(Some(is_near))
 }
 
 /// Index of the material of each cell, shape (n_cells). Refuses cells without a material or with two.
