@@ -15,6 +15,7 @@ use crate::cloud::PointCloud;
 use crate::correction::patch::gradients;
 use crate::coupled::CoupledPoints;
 use crate::material::Stiffness;
+use crate::stress::by_material::stress;
 use crate::tensor::{SymTensor, dot, minus};
 
 /// Stiffness between two points, rows by columns, N/m.
@@ -221,18 +222,4 @@ fn blocks_of<const D: usize, C: MeshCell<D>>(
         ([a, b], block)
     };
     simplex.cell.edges().map(of_corners).collect()
-}
-
-/// Stress C : eps of a strain.
-fn stress<const D: usize>(stiffness: &Stiffness, strain: &SymTensor<D>) -> SymTensor<D> {
-    let strains: Vec<f64> = strain.engineering().collect();
-    let mut components = Vec::with_capacity(strains.len());
-    for row in 0..strains.len() {
-        components.push(
-            (0..strains.len())
-                .map(|it| stiffness[(row, it)] * strains[it])
-                .sum(),
-        );
-    }
-    SymTensor::from_components(&components)
 }

@@ -12,6 +12,7 @@
 use rayon::prelude::*;
 
 use crate::layout::Layout;
+use crate::material::Stiffness;
 use crate::system::BondSystem;
 use crate::tensor::SymTensor;
 
@@ -36,27 +37,36 @@ impl<const D: usize> BondSystem<D> {
         if self.materials.is_empty() {
             return None;
         }
-        let places = SymTensor::<D>::COMPONENTS;
-        let engineering = places.iter().map(|&[row, column]| match row == column {
-            true => strain.at(row, column),
-            false => 2.0 * strain.at(row, column),
-        });
-        let engineering: Vec<f64> = engineering.collect();
-        let mut stress = vec![0.0; places.len()];
-        let shares = self
-            .cloud
-            .shares(point as usize)
-            .iter()
-            .zip(&self.materials);
+        let strains: Vec<f64> = strain.engineering().collect();
+        let mut sums = vec![0.0; strains.len()];
+        let shares = self.cloud.shares(point as usize).iter();
+        let shares = shares.zip(&self.materials);
         for (share, stiffness) in shares.filter(|(share, _)| **share > 0.0) {
-            for (row, sum) in stress.iter_mut().enumerate() {
-                let of_strain = engineering.iter().enumerate();
-                let of_strain = of_strain.map(|(column, strain)| stiffness[(row, column)] * strain);
-                *sum += share * of_strain.sum::<f64>();
+            for (row, sum) in sums.iter_mut().enumerate() {
+                *sum += share * component(stiffness, &strains, row);
             }
         }
-        Some(SymTensor::from_components(&stress))
+        Some(SymTensor::from_components(&sums))
     }
+}
+
+/// Stress C : eps of a strain.
+pub(crate) fn stress<const D: usize>(
+    stiffness: &Stiffness,
+    strain: &SymTensor<D>,
+) -> SymTensor<D> {
+    let strains: Vec<f64> = strain.engineering().collect();
+    let rows = 0..strains.len();
+    let components: Vec<f64> = rows.map(|it| component(stiffness, &strains, it)).collect();
+    SymTensor::from_components(&components)
+}
+
+/// A component of the stress of engineering strains.
+fn component(stiffness: &Stiffness, strains: &[f64], row: usize) -> f64 {
+    let terms = strains.iter().enumerate();
+    terms
+        .map(|(column, strain)| stiffness[(row, column)] * strain)
+        .sum()
 }
 
 #[cfg(test)]
