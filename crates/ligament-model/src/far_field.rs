@@ -14,8 +14,7 @@ use crate::bonds::Incidence;
 use crate::cloud::PointCloud;
 use crate::correction::patch::gradients;
 use crate::coupled::CoupledPoints;
-use crate::material::Stiffness;
-use crate::stress::by_material::stress;
+use crate::material::{Stiffness, stress};
 use crate::tensor::{SymTensor, dot, minus};
 
 /// Stiffness between two points, rows by columns, N/m.

@@ -9,6 +9,7 @@ mod waves;
 pub use anisotropic::Anisotropic;
 pub use contrast::with_reduced_contrast;
 pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane, Space, Stiffness};
+pub(crate) use elasticity::{stress, stress_component};
 pub use expansion::Expansion;
 pub use waves::PlaneWaves;
 

@@ -9,6 +9,24 @@ use crate::tensor::SymTensor;
 /// [`SymTensor`]; shape (3, 3) or (6, 6).
 pub type Stiffness = DMatrix<f64>;
 
+/// Stress C : eps of a strain.
+pub(crate) fn stress<const D: usize>(stiffness: &Stiffness, strain: &SymTensor<D>) -> SymTensor<D> {
+    let strains: Vec<f64> = strain.engineering().collect();
+    let rows = 0..strains.len();
+    let components: Vec<f64> = rows
+        .map(|it| stress_component(stiffness, &strains, it))
+        .collect();
+    SymTensor::from_components(&components)
+}
+
+/// A component of the stress of engineering strains.
+pub(crate) fn stress_component(stiffness: &Stiffness, strains: &[f64], row: usize) -> f64 {
+    let terms = strains.iter().enumerate();
+    terms
+        .map(|(column, strain)| stiffness[(row, column)] * strain)
+        .sum()
+}
+
 /// State of the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Plane {

@@ -12,7 +12,7 @@
 use rayon::prelude::*;
 
 use crate::layout::Layout;
-use crate::material::Stiffness;
+use crate::material::stress_component;
 use crate::system::BondSystem;
 use crate::tensor::SymTensor;
 
@@ -43,30 +43,11 @@ impl<const D: usize> BondSystem<D> {
         let shares = shares.zip(&self.materials);
         for (share, stiffness) in shares.filter(|(share, _)| **share > 0.0) {
             for (row, sum) in sums.iter_mut().enumerate() {
-                *sum += share * component(stiffness, &strains, row);
+                *sum += share * stress_component(stiffness, &strains, row);
             }
         }
         Some(SymTensor::from_components(&sums))
     }
-}
-
-/// Stress C : eps of a strain.
-pub(crate) fn stress<const D: usize>(
-    stiffness: &Stiffness,
-    strain: &SymTensor<D>,
-) -> SymTensor<D> {
-    let strains: Vec<f64> = strain.engineering().collect();
-    let rows = 0..strains.len();
-    let components: Vec<f64> = rows.map(|it| component(stiffness, &strains, it)).collect();
-    SymTensor::from_components(&components)
-}
-
-/// A component of the stress of engineering strains.
-fn component(stiffness: &Stiffness, strains: &[f64], row: usize) -> f64 {
-    let terms = strains.iter().enumerate();
-    terms
-        .map(|(column, strain)| stiffness[(row, column)] * strain)
-        .sum()
 }
 
 #[cfg(test)]

@@ -39,6 +39,10 @@ const REDUCTION: f64 = 0.1;
 /// the change of the regularisation was too large.
 const MOST_STEPS: usize = 20;
 
+/// Largest number of products for the direction of a Newton step, at first and from the first outer step that failed on: on meshes that are graded
+/// strongly directions take some 2,000, and with inaccurate ones Newton's method hardly converges.
+const MOST_PRODUCTS: [usize; 2] = [400, 4000];
+
 /// Growth of the gradient in an outer step that shows that the change of the regularisation was too large.
 const GROWTH: f64 = 1e3;
 
@@ -107,9 +111,10 @@ pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
     let (mut steps, mut products) = (0, 0);
     let mut r = FIRST_REGULARISATION.max(settings.regularisation);
     let mut reached = 1.0;
+    let [mut most_products, more_products] = MOST_PRODUCTS;
     loop {
         let (centre, z) = (place.mu.clone(), place.z.clone());
-        let outer = dual.outer_step(&mut place, r, &centre);
+        let outer = dual.outer_step(&mut place, (r, &centre), most_products);
         (steps, products) = (steps + outer.steps, products + outer.products);
         if outer.has_converged {
             reached = r;
@@ -118,10 +123,14 @@ pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
             }
             r = (NEXT_REGULARISATION * r).max(settings.regularisation);
         } else {
-            // Restarts before the failed outer step with a smaller change of the regularisation.
+            // Restarts before the failed outer step, first with more accurate directions, then with a smaller change of the regularisation.
             let nowhere = vec![[0.0; N]; centre.len()];
             (place.mu, place.z) = (centre, z);
             dual.advance(&mut place, &nowhere);
+            if most_products < more_products {
+                most_products = more_products;
+                continue;
+            }
             if r > SMALLEST_CHANGE * reached {
                 return dual.factors(place, steps, products);
             }
@@ -159,12 +168,12 @@ impl<const N: usize> Place<N> {
 }
 
 impl<E> Dual<'_, E> {
-    /// Solves the equations with a regularisation about a centre, from the current iterate.
+    /// Solves the equations with a regularisation r about a centre, from the current iterate, with so many products at most for a direction.
     fn outer_step<const N: usize>(
         &self,
         place: &mut Place<N>,
-        r: f64,
-        centre: &Multipliers<N>,
+        (r, centre): (f64, &Multipliers<N>),
+        most_products: usize,
     ) -> OuterStep
     where
         E: Equations<N>,
@@ -187,7 +196,7 @@ impl<E> Dual<'_, E> {
             let [finest, coarsest] = ACCURACIES;
             let accuracy = (0.5 * REDUCTION * first / size).clamp(finest, coarsest);
             let hessian = Hessian::new(self.equations, &regularisation, &place.slopes);
-            let (direction, done) = hessian.solve(gradient, accuracy);
+            let (direction, done) = hessian.solve(gradient, accuracy, most_products);
             products += done;
             self.advance(place, &direction);
         }

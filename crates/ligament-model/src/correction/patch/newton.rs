@@ -6,9 +6,6 @@ use super::aggregates::{CoarseHessian, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 
-/// Largest number of products for the direction of a Newton step.
-const MOST_PRODUCTS: usize = 400;
-
 /// Hessian G D G^T with the regularisation.
 pub(super) struct Hessian<'a, E, const N: usize> {
     equations: &'a E,
@@ -78,8 +75,14 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         }
     }
 
-    /// Solution for the negative gradient on the right, to an accuracy in the norm of the preconditioner, and the number of products needed.
-    pub(super) fn solve(&self, gradient: Multipliers<N>, accuracy: f64) -> (Multipliers<N>, usize) {
+    /// Solution for the negative gradient on the right, to an accuracy in the norm of the preconditioner or by the largest number of products, and
+    /// the number of products needed.
+    pub(super) fn solve(
+        &self,
+        gradient: Multipliers<N>,
+        accuracy: f64,
+        most_products: usize,
+    ) -> (Multipliers<N>, usize) {
         let zeros = vec![[0.0; N]; gradient.len()];
         let mut left = gradient;
         left.as_flattened_mut().iter_mut().for_each(|it| *it = -*it);
@@ -97,7 +100,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let mut size = self.go(0.0, way, &mut step, &mut left, &mut solved);
         let target = accuracy * accuracy * size;
         let mut share = 0.0;
-        for done in 1..=MOST_PRODUCTS {
+        for done in 1..=most_products {
             self.turn(&mut direction, share, &solved);
             let length = size / self.multiply(&direction, &mut product);
             let way = SearchDirection {
@@ -111,7 +114,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             share = next / size;
             size = next;
         }
-        (step, MOST_PRODUCTS)
+        (step, most_products)
     }
 
     /// Next direction: the preconditioned residual plus `share` times the last direction.
