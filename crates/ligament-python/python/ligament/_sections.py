@@ -747,6 +747,10 @@ class FarField(TypedDict, total=False):
 
     near: Sequence[FarFieldNear]
     """Parts of the body that keep their bonds: the cells of which all corners lie in one of them."""
+    strength_share: float
+    """Share of the strength of a material, up to 1, that the largest principal stress of elements may reach (under pressure the smallest one over
+`compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without it the
+near field stays as it is."""
 
 
 class NoFail(TypedDict, total=False):
@@ -1081,7 +1085,8 @@ class SectionsOnBody(TypedDict, total=False):
 - `modal`: Natural frequencies and modes.
 - `motion`: A motion in time, in which bonds break where `[fracture]` has criteria."""
     curve: str
-    """Name of the load, or `temperature`, that is the axis of the force-displacement curve; without it the first load."""
+    """Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load, otherwise
+the temperature, otherwise the first rigid body that moves."""
     material: Material | Mapping[str, MaterialPart]
     """The material of the whole body; or a table `[material.NAME]` with a `group` for each of several."""
     model: Model
