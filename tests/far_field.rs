@@ -7,6 +7,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use ligament::ensemble::Ensemble;
 use ligament::patch_test::patch_test;
 use ligament::run::{NoObserver, Solution};
 use ligament_analysis::distributed_matrix::Solo;
@@ -359,4 +360,16 @@ fn a_share_that_cannot_be_is_refused() {
         let error = error.unwrap_err();
         assert!(error.contains(words), "{settings:?}: {error}");
     }
+}
+
+/// Samples of an ensemble share one model, so that its near field cannot grow.
+#[test]
+fn an_ensemble_has_one_near_field() {
+    let fracture = "fracture={ steps = 2, criterion = [{ kind = \"tension\" }], scatter = { of = \"strength\", modulus = 8.0 } }";
+    let bench = Bench::new(
+        SQUARE,
+        &[PART_OF_SQUARE, fracture, "far_field.strength_share=0.9"],
+    );
+    let error = Ensemble::new(bench.model, 1).err().unwrap().to_string();
+    assert!(error.contains("share one near field"), "{error}");
 }

@@ -77,6 +77,14 @@ impl Ensemble {
             let fault = Fault::Contradiction(advice.into());
             return Err(Field::whole("scatter").error(fault).into());
         }
+        let far_field = model.setup.far_field.as_ref();
+        if far_field.is_some_and(|it| it.strength_share.is_some()) {
+            let advice =
+                "all samples of an ensemble share one near field: give its places, and remove this";
+            let fault = Fault::Contradiction(advice.into());
+            let field = Field::whole("far_field").part("strength_share");
+            return Err(field.error(fault).into());
+        }
         let (breaking, energy_tolerance, stop) = match &model.setup.analysis {
             Analysis::Event(it) => (Breaking::Exact(it.clone()), it.energy_tolerance, it.stop),
             Analysis::Stepped(it) => (Breaking::Steps(it.clone()), it.energy_tolerance, it.stop),
