@@ -30,6 +30,7 @@ impl Extent {
         }
     }
 
+    /// The box of a place, if it is one.
     pub(crate) fn of_place(place: &Place) -> Option<Self> {
         match *place {
             Place::Box([lower, upper]) => Some(Self { lower, upper }),
@@ -37,10 +38,12 @@ impl Extent {
         }
     }
 
+    /// The box as a place.
     pub(crate) fn into_place(self) -> Place {
         Place::Box([self.lower, self.upper])
     }
 
+    /// Whether another box lies within this one.
     pub(crate) fn contains(&self, other: &Self) -> bool {
         let below = self
             .lower

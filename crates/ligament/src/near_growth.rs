@@ -1,10 +1,9 @@
 //! Growth of a near field: where the stress of elements reaches a share of the strength, bonds take their place and the run begins anew.
 
-use ligament_analysis::Observer;
-use ligament_analysis::Termination;
 use ligament_analysis::history::{
     BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
 };
+use ligament_analysis::{Observer, Termination};
 use ligament_model::scatter::Scattered;
 use ligament_model::stress::principal;
 use ligament_model::{Material, PointCloud};
@@ -176,6 +175,10 @@ impl StressLimits {
         let stresses = view.solution().material_stresses();
         let of_points = stresses.values.chunks_exact(stresses.names.len());
         let reaches = |(point, stress): (usize, &[f64])| {
+            // A point without enough neighbours to show its strain has no stress.
+            if stress[0].is_nan() {
+                return false;
+            }
             let values = principal::values(stress);
             let (largest, smallest) = (values[0], values[values.len() - 1]);
             largest >= self.tension[point] || -smallest >= self.compression[point]

@@ -52,7 +52,8 @@ pub fn near_cells<const D: usize>(
     Ok(Some(is_near))
 }
 
-/// Boxes, by their lowest and highest corners, in which a near field that grows begins: around the pre-cracks, and without these and other places around the first cell.
+/// Boxes, by their lowest and highest corners, in which a near field that grows begins: around the pre-cracks, and without these and other places
+/// around the first cell.
 fn beginning<const D: usize>(setup: &Setup, cloud: &PointCloud<D>) -> Vec<[Position; 2]> {
     let horizons = setup.horizon.of_points(cloud).radius;
     let reach = |position: &[f64]| {
