@@ -257,17 +257,11 @@ fn the_near_field_grows_with_the_crack() {
     let whole = plate(&[fine]);
     let grown = plate(&[fine, GROWS, "solver.threads=2"]);
     let near = &grown.model.setup.far_field.as_ref().unwrap().near;
-    println!("{} boxes, {} bonds", near.len(), grown.model.counts.bonds);
     assert!(!near.is_empty());
     assert!(grown.model.counts.far_points > 0);
     assert!(grown.model.counts.bonds < whole.model.counts.bonds);
     let (of_whole, of_grown) = (broken(&whole), broken(&grown));
     let common = of_whole.intersection(&of_grown).count();
-    println!(
-        "{} and {} broken, {common} in common",
-        of_whole.len(),
-        of_grown.len()
-    );
     assert!(common + 3 >= of_whole.len() && of_grown.len() <= common + 3);
     let difference = peak(&grown) / peak(&whole) - 1.0;
     assert!(difference.abs() < 5e-3, "{difference:e}");
