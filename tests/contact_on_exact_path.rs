@@ -149,7 +149,7 @@ fn load_steps_break_the_same_bonds() {
                 .all(|it| it[0].load_factor <= it[1].load_factor)
         );
         assert!(rows.iter().all(|it| it.largest_ratio < 1.0 + 1e-8));
-        // Without loads the curve is that of the rigid body.
+        // Without loads the curve is that of the rigid body, to the rounding of a sum over its axes.
         for row in rows {
             for body in &row.rigid_bodies {
                 let way = body.displacement.iter().map(|it| it.abs()).sum::<f64>();
@@ -181,7 +181,7 @@ fn load_steps_break_the_same_bonds() {
     }
 }
 
-/// The way of a rigid body that moves ends the path where it is to end, between two events.
+/// The way of a rigid body that moves ends the path where it is to end, between two events, to the rounding of an interpolation.
 #[test]
 fn the_path_ends_at_the_way_of_a_rigid_body() {
     let settings = ["fracture.stop.displacement=5e-5", "curve=punch"];

@@ -249,8 +249,8 @@ load = [{ group = "bottom", velocity = { y = 0.05 }, amplitude = { shape = "sine
     assert!(missing_energy(&part) < 1e-12, "{:e}", missing_energy(&part));
 }
 
-/// A near field that begins at the pre-crack grows with the crack, which is that of the whole body; in no row did elements bear their share of the
-/// strength. The run has the bits of a run whose places are those in the end.
+/// A near field that begins at the pre-crack grows with the crack, which is that of the whole body; in the end nothing demands more
+/// growth. The run has the bits of a run whose places are those in the end.
 #[test]
 fn the_near_field_grows_with_the_crack() {
     let fine = "correction.regularisation=3e-7";
@@ -262,10 +262,12 @@ fn the_near_field_grows_with_the_crack() {
     assert!(grown.model.counts.bonds < whole.model.counts.bonds);
     let (of_whole, of_grown) = (broken(&whole), broken(&grown));
     let common = of_whole.intersection(&of_grown).count();
+    // A bond or two may break or hold at the last opening, as with a given near field; the load is to be within half a per cent.
     assert!(common + 3 >= of_whole.len() && of_grown.len() <= common + 3);
     let difference = peak(&grown) / peak(&whole) - 1.0;
     assert!(difference.abs() < 5e-3, "{difference:e}");
     let again = grown.model.setup.clone().solve(&mut NoObserver).unwrap();
+    assert_eq!(again.model.setup.far_field, grown.model.setup.far_field);
     assert_eq!(again.outcome.history, grown.outcome.history);
 }
 

@@ -9,7 +9,7 @@ use crate::tensor::SymTensor;
 /// [`SymTensor`]; shape (3, 3) or (6, 6).
 pub type Stiffness = DMatrix<f64>;
 
-/// Stress C : eps of a strain.
+/// Stress C : eps of a strain, Pa.
 pub(crate) fn stress<const D: usize>(stiffness: &Stiffness, strain: &SymTensor<D>) -> SymTensor<D> {
     let strains: Vec<f64> = strain.engineering().collect();
     let rows = 0..strains.len();
@@ -19,7 +19,7 @@ pub(crate) fn stress<const D: usize>(stiffness: &Stiffness, strain: &SymTensor<D
     SymTensor::from_components(&components)
 }
 
-/// A component of the stress of engineering strains.
+/// A component of the stress of engineering strains, Pa: a row of the stiffness times them.
 pub(crate) fn stress_component(stiffness: &Stiffness, strains: &[f64], row: usize) -> f64 {
     let terms = strains.iter().enumerate();
     terms

@@ -25,31 +25,32 @@ pub fn near_cells<const D: usize>(
     let mut is_near = vec![false; cells.len()];
     for (index, place) in far_field.near.iter().enumerate() {
         let field = Field::element("far_field.near", index);
-        let mut is_in_place = vec![false; cloud.len()];
-        for point in places.points(field, place)? {
-            is_in_place[point as usize] = true;
-        }
-        let mut any = false;
-        for (is_near, corners) in is_near.iter_mut().zip(&cells) {
-            let is_inside = corners.iter().all(|it| is_in_place[*it as usize]);
-            (*is_near, any) = (*is_near | is_inside, any | is_inside);
-        }
-        if !any {
+        let points = places.points(field, place)?;
+        if !mark(&mut is_near, &cells, &points, cloud.len()) {
             return Err(field.part("place").error(Fault::NoCellInside));
         }
     }
     if far_field.strength_share.is_some() {
         for corners in beginning(setup, cloud) {
-            let mut is_inside = vec![false; cloud.len()];
-            for point in cloud.points_in_box(narrowed(corners[0]), narrowed(corners[1])) {
-                is_inside[point as usize] = true;
-            }
-            for (is_near, corners) in is_near.iter_mut().zip(&cells) {
-                *is_near |= corners.iter().all(|it| is_inside[*it as usize]);
-            }
+            let points = cloud.points_in_box(narrowed(corners[0]), narrowed(corners[1]));
+            mark(&mut is_near, &cells, &points, cloud.len());
         }
     }
     Ok(Some(is_near))
+}
+
+/// Marks the cells whose corners all are among some points; returns whether there is one.
+fn mark(is_near: &mut [bool], cells: &[&[u32]], points: &[u32], n_points: usize) -> bool {
+    let mut is_inside = vec![false; n_points];
+    for &point in points {
+        is_inside[point as usize] = true;
+    }
+    let mut any = false;
+    for (is_near, corners) in is_near.iter_mut().zip(cells) {
+        let is_one = corners.iter().all(|it| is_inside[*it as usize]);
+        (*is_near, any) = (*is_near | is_one, any | is_one);
+    }
+    any
 }
 
 /// Boxes, by their lowest and highest corners, in which a near field that grows begins: around the pre-cracks, and without these and other places
