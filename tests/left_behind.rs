@@ -160,6 +160,26 @@ fn strengths_at_random_leave_no_bond_behind() {
     }
 }
 
+/// Stresses around bonds depend on bonds of other parts: bounds that forget one of these would leave the next bond behind.
+#[test]
+fn stresses_leave_no_bond_behind() {
+    const CRITERIA: [&str; 2] = ["{ kind = \"bond-rankine\" }", "{ kind = \"mohr-coulomb\" }"];
+    const CRUSHED: &str = "material.compressive_strength=38.1e6";
+    for (criterion, seed) in CRITERIA.iter().zip(1..) {
+        let scatter = format!(
+            "fracture={{ control = \"event\", criterion = [{criterion}], stop = {{ bonds = 150 }}, scatter = {{ of = \"strength\", \
+             distribution = \"weibull\", modulus = 6.0, correlation_length = 0.01, seed = {seed} }} }}"
+        );
+        let even = format!(
+            "fracture={{ control = \"event\", criterion = [{criterion}], stop = {{ bonds = 150 }} }}"
+        );
+        for fracture in [scatter, even] {
+            let bench = Bench::new(DISK, &[&fracture, CRUSHED, DISSECTION]);
+            assert!(assert_alike(criterion, &bench) > 100);
+        }
+    }
+}
+
 /// A square that is torn apart, and loses points on the way.
 #[test]
 fn a_square_is_torn_apart_alike() {
@@ -182,6 +202,11 @@ fn a_square_is_torn_apart_alike() {
 /// The last numbers of the tables of two runs of a solid, of which one writes fields at each event.
 #[test]
 fn solids_break_the_same_bonds() {
+    assert_solids_alike("strength", 300);
+    assert_solids_alike("bond-rankine", 100);
+}
+
+fn assert_solids_alike(criterion: &str, bonds: usize) {
     let path = repository().join("cases/split-block/case.toml");
     let folder = TempDir::new().unwrap();
     let [whole, passed] = [1, 0].map(|every| {
@@ -189,14 +214,15 @@ fn solids_break_the_same_bonds() {
             DISSECTION.to_owned(),
             "solver.method=direct".to_owned(),
             "model.horizon_factor=2.0".to_owned(),
-            "fracture.stop.bonds=300".to_owned(),
+            format!("fracture.criterion=[{{ kind = \"{criterion}\" }}]"),
+            format!("fracture.stop.bonds={bonds}"),
             format!("output.fields_every={every}"),
         ];
         let out = folder.path().join(every.to_string());
         run_program(&CaseFile::load(&path, &settings).unwrap(), &out);
         ["breaks.csv", "history.csv", "iterations.csv"].map(|name| Table::read(&out.join(name)))
     });
-    assert_eq!(whole[0].len(), 300);
+    assert_eq!(whole[0].len(), bonds, "{criterion}");
     for column in ["order", "step", "node_a", "node_b"] {
         assert_eq!(
             whole[0].column(column),

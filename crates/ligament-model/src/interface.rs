@@ -18,6 +18,7 @@ use crate::layout::{Component, Layout};
 use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::point_strain::Motion;
+use crate::stress::stored::StoredMotions;
 use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
 use crate::system::UnbrokenBonds;
@@ -285,6 +286,10 @@ pub trait BondReadings: BondTopology {
         deformations: &[BondDeformation],
         moduli: &(dyn Fn(usize) -> Moduli + Sync),
     ) -> Vec<StressAcross>;
+
+    /// Room for motions of bonds that are known from different times, from which stresses across the bonds follow; None where points have
+    /// no rotations.
+    fn stored_motions(&self) -> Option<Box<dyn StoredMotions + '_>>;
 
     /// Stress around each bond over the strength at which it begins to soften, shape (n_bonds); 0 where tension does not pull the
     /// bond across.

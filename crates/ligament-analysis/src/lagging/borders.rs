@@ -1,8 +1,7 @@
 //! Borders of parts, and the stiffness of bonds from inside a part at the points around it.
 
 use ligament_model::Bonds;
-use ligament_model::element::{BondDeformation, StiffnessFactors};
-use ligament_model::failure::Criterion;
+use ligament_model::element::StiffnessFactors;
 use ligament_model::thermal::ThermalStrain;
 use rayon::prelude::*;
 
@@ -26,15 +25,8 @@ impl Bounds {
         let modes = Modes::of_body(system);
         let mut stiffness = strain_stiffness(system, division, &modes.strain);
         let whole = vec![true; division.part_of_bond.len()];
-        let largest = |part: usize| {
-            let bonds = division.bonds(part).par_iter();
-            let ratios = bonds.map(|&bond| ratio_per_norm(problem, &whole, bond as usize));
-            ratios.reduce(|| 0.0, f64::max)
-        };
-        let mut per_norm: Vec<f64> = (0..division.parts.len()).map(largest).collect();
         for part in (1..division.parts.len()).rev() {
             if let Some(above) = division.parts[part].above {
-                per_norm[above] = per_norm[above].max(per_norm[part]);
                 let of_part = stiffness[part].clone();
                 let sums = stiffness[above].iter_mut().zip(of_part);
                 sums.for_each(|(sum, value)| *sum += value);
@@ -45,29 +37,28 @@ impl Bounds {
         for (row, &dof) in division.degree_of_freedom.iter().enumerate() {
             row_of[dof as usize] = row;
         }
-        let bound = |(part, (stiffness, per_norm))| {
+        let bound = |(part, stiffness)| {
             let first = |part: usize| across.partition_point(|it| (it.0 as usize) < part);
             let border = Border::new(system, &whole, &across[first(part)..first(part + 1)]);
             let places = border.places(&division.parts[part].border, &row_of)?;
             let Border { dofs, blocks } = border;
-            Some(Bound::new(
-                &modes,
-                (dofs, places),
-                blocks,
-                stiffness,
-                per_norm,
-            ))
+            Some(Bound::new(&modes, (dofs, places), blocks, stiffness))
         };
-        let numbered = stiffness.into_par_iter().zip(per_norm).enumerate();
+        let numbered = stiffness.into_par_iter().enumerate();
         Some(Self {
             of_parts: numbered.map(bound).collect::<Option<_>>()?,
             modes,
         })
     }
 
-    /// Bound of the growth of ratios in a part since its border had the motions `then`; displacements are by degree of freedom.
-    pub(super) fn growth(&self, part: usize, displacement: &[f64], then: &[f64]) -> f64 {
-        self.of_parts[part].growth(&self.modes, displacement, then)
+    /// Degrees of freedom of the points of the border of a part.
+    pub(super) fn border(&self, part: usize) -> &[u32] {
+        self.of_parts[part].border()
+    }
+
+    /// Bound of the norm |d| of the motion of a part since its border had the motions `then`; displacements are by degree of freedom.
+    pub(super) fn norm(&self, part: usize, displacement: &[f64], then: &[f64]) -> f64 {
+        self.of_parts[part].norm(&self.modes, displacement, then)
     }
 }
 
@@ -160,33 +151,4 @@ fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>])
         .into_par_iter()
         .map(of_part)
         .collect()
-}
-
-/// Largest ratio of measure to limit of a bond with an energy of 1/2 J, J^(-1/2).
-///
-/// A measure of stretch, shear and rotation is at most the sum of the measures of each alone, |s| m_s + ..., and that sum at most
-/// the root of (m_s^2/k_s + ...) for k_s s^2 + ... = 1 (Cauchy and Schwarz).
-fn ratio_per_norm(problem: &Problem, whole: &[bool], bond: usize) -> f64 {
-    let unit = |place: usize, size: f64| {
-        let mut strains = BondDeformation::default().strains();
-        strains[place] = size;
-        BondDeformation::new(strains)
-    };
-    let of_criterion = |criterion: &Criterion| {
-        let of_strain = |place: usize| {
-            let either = [1.0, -1.0].map(|size| criterion.measure(bond, &unit(place, size)));
-            let measure = either[0].max(either[1]);
-            if measure <= 0.0 {
-                return 0.0;
-            }
-            let (system, remaining) = (&problem.system, &StiffnessFactors::WHOLE);
-            measure.powi(2)
-                / (2.0 * system.stored_energy(whole, bond, remaining, &unit(place, 1.0)))
-        };
-        let n_strains = BondDeformation::default().strains().len();
-        let squares: f64 = (0..n_strains).map(of_strain).sum();
-        squares.sqrt() / criterion.break_limit(bond)
-    };
-    let ratios = problem.criteria.list.iter().map(of_criterion);
-    ratios.fold(0.0, f64::max)
 }

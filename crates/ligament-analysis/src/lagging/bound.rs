@@ -1,4 +1,4 @@
-//! Bound of the growth of the ratios of measure to limit in a part, from the motions of the part's border.
+//! Bound of the energy of the motion of a part, and of the growth of the ratios of measure to limit in it, from the motions of its border.
 //!
 //! A delayed part has no loads, so that of all motions with those of its border its own has the least energy. The bonds share that
 //! energy, and no bond has more than the sum: with |d|^2 twice the energy of a motion d,
@@ -54,8 +54,6 @@ pub(super) struct Bound {
     fit: Vec<f64>,
     /// Twice the energy of the strain modes in the bonds of the part, shape (n_strains, n_strains), J.
     stiffness: Vec<f64>,
-    /// Largest ratio of a bond over the norm of its motion, kappa, J^(-1/2).
-    per_norm: f64,
 }
 
 impl Bound {
@@ -65,7 +63,6 @@ impl Bound {
         (dofs, places): (Vec<u32>, Vec<u32>),
         blocks: Vec<f64>,
         stiffness: Vec<f64>,
-        per_norm: f64,
     ) -> Self {
         let mut bound = Self {
             dofs,
@@ -73,7 +70,6 @@ impl Bound {
             blocks,
             fit: Vec::new(),
             stiffness,
-            per_norm,
         };
         bound.fit = bound.fitted(modes);
         bound
@@ -123,8 +119,13 @@ impl Bound {
             .collect()
     }
 
-    /// Bound of the growth of ratios since the border had the motions `then`; displacements are by degree of freedom.
-    pub(super) fn growth(&self, modes: &Modes, displacement: &[f64], then: &[f64]) -> f64 {
+    /// Degrees of freedom of the points of the border, shape (n_points, n_components).
+    pub(super) fn border(&self) -> &[u32] {
+        &self.dofs
+    }
+
+    /// Bound of |d| of the motion d since the border had the motions `then`, J^(1/2); displacements are by degree of freedom.
+    pub(super) fn norm(&self, modes: &Modes, displacement: &[f64], then: &[f64]) -> f64 {
         let change = |(&dof, &place): (&u32, &u32)| match place {
             NOT_THERE => 0.0,
             place => displacement[dof as usize] - then[place as usize],
@@ -145,7 +146,7 @@ impl Bound {
         let n = self.n_components();
         let points = rest.chunks_exact(n).zip(self.blocks.chunks_exact(n * n));
         let of_rest: f64 = points.map(|(rest, block)| quadratic(block, rest)).sum();
-        self.per_norm * (of_strain.max(0.0).sqrt() + of_rest.max(0.0).sqrt())
+        of_strain.max(0.0).sqrt() + of_rest.max(0.0).sqrt()
     }
 }
 

@@ -88,6 +88,11 @@ impl Division {
         self.part_of_point[point as usize] as usize
     }
 
+    /// A part and its ancestors, from below.
+    pub(super) fn with_ancestors(&self, part: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(part), |&part| self.parts[part].above)
+    }
+
     /// Whether each part or a descendant of it contains one of the points.
     pub(super) fn parts_above(&self, points: impl Iterator<Item = u32>) -> Vec<bool> {
         let mut is_above = vec![false; self.parts.len()];
@@ -106,7 +111,8 @@ impl Division {
 fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
     let (system, loads) = (&problem.system, &problem.loads);
     let is_judged = |it: &ligament_model::failure::Criterion| {
-        it.after.is_brittle() && it.surroundings.is_none() && !it.measure.takes_strains()
+        let depends_on_motions = it.surroundings.is_none() || it.follows_stress();
+        it.after.is_brittle() && depends_on_motions && !it.measure.takes_strains()
     };
     system.is_linear()
         && system.has_energy()

@@ -7,18 +7,24 @@
 //!
 //! A part may be delayed as long as a rigorous [bound] keeps the ratios of measure to limit of all its bonds below the largest one
 //! of the body. Parts are updated in the order of their bounds, so that no more of them are substituted than necessary; parts that
-//! contain the breakage or observed points are always updated.
+//! contain the breakage or observed points are always updated. The ratios of criteria of stress depend on bonds of other parts too
+//! ([around]).
 
+mod around;
 mod borders;
 mod bound;
 mod descent;
 mod division;
+mod per_norm;
+mod reach;
 
+use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use ligament_linalg::Factorisation;
 use ligament_model::element::BondDeformation;
+use ligament_model::failure::{Criteria, Criterion};
 use rayon::prelude::*;
 
 use crate::breaking::{FirstToBreak, Leaders};
@@ -26,29 +32,52 @@ use crate::problem::Problem;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 
+use around::{Around, Changed};
 use borders::Bounds;
 use descent::{Descent, WorkVectors};
 use division::Division;
+use reach::Reach;
 
 pub(crate) use descent::ForwardSubstituted;
 
 /// Relative margin by which a bound must be below the leading bonds; the rounding of a bound is smaller.
 const SURELY: f64 = 1e-6;
 
+/// Largest number of parts that are substituted together by criteria of stress.
+const TOGETHER: usize = 8;
+
 /// A body divided into parts that may be delayed, with their bounds.
 pub(crate) struct Body {
     division: Division,
     bounds: Bounds,
+    /// Largest ratio kappa of the bonds of each part and of its descendants, shape (n_parts), J^(-1/2); by criteria of stress also at its
+    /// border, and in the bonds of each state.
+    per_norm: Vec<f64>,
+    /// Parts around the points; None without criteria of stress.
+    reach: Option<Reach>,
 }
 
 impl Body {
     /// Divides a body as the factor of its stiffness; None where parts of it cannot be delayed: where equations are nonlinear, a
-    /// stiffness is negative, other elements than bonds resist motions, limits change with the state of the body, probes read more
-    /// than motions, or the factor has no nested dissection.
+    /// stiffness is negative, other elements than bonds resist motions, limits change with the state of the body, stresses have no
+    /// bound, probes read more than motions, or the factor has no nested dissection.
     pub(crate) fn new(problem: &Problem, stiffness: &Stiffness) -> Option<Self> {
         let division = Division::new(problem, stiffness)?;
         let bounds = Bounds::new(problem, &division)?;
-        Some(Self { division, bounds })
+        let (per_norm, reach) = match problem.criteria.list.iter().any(Criterion::follows_stress) {
+            true => (Vec::new(), Some(Reach::new(problem, &division, &bounds)?)),
+            false => {
+                let whole = vec![true; division.part_of_bond.len()];
+                let of_bond = |bond: u32| per_norm::of_bond(problem, &whole, bond as usize, None);
+                (per_norm::of_parts(&division, of_bond), None)
+            }
+        };
+        Some(Self {
+            division,
+            bounds,
+            per_norm,
+            reach,
+        })
     }
 
     /// Observed points, whose motions and forces are known after each breakage, ascending.
@@ -61,8 +90,11 @@ impl Body {
 pub(crate) struct Lagging<'a> {
     division: &'a Division,
     bounds: &'a Bounds,
+    per_norm: &'a [f64],
     problem: &'a Problem,
     tie_tolerance: f64,
+    /// Ratios by criteria of stress; None without these.
+    around: Option<Around<'a>>,
     /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
     pub(crate) displacement: Vec<f64>,
     /// Motions of the border of each part at its last substitution.
@@ -75,20 +107,30 @@ pub(crate) struct Lagging<'a> {
 }
 
 impl<'a> Lagging<'a> {
-    /// Starts from an equilibrium state and its deformations (n_bonds).
+    /// Starts from an equilibrium state, the criteria in it and its deformations (n_bonds).
     pub(crate) fn new(
-        Body { division, bounds }: &'a Body,
+        body: &'a Body,
         problem: &'a Problem,
         tie_tolerance: f64,
         state: &State,
+        criteria: Cow<'_, Criteria>,
         deformations: &[BondDeformation],
     ) -> Self {
+        let Body {
+            division, bounds, ..
+        } = body;
         let n_parts = division.parts.len();
+        let around = body.reach.as_ref().and_then(|reach| {
+            let body = (division, reach, problem);
+            Around::new(body, state, criteria.into_owned(), deformations)
+        });
         let mut lagging = Self {
             division,
             bounds,
+            per_norm: &body.per_norm,
             problem,
             tie_tolerance,
+            around,
             displacement: state.displacement.clone(),
             references: vec![Vec::new(); n_parts],
             at_most: vec![0.0; n_parts],
@@ -98,41 +140,67 @@ impl<'a> Lagging<'a> {
         for part in (0..n_parts).rev() {
             lagging.store_border_motions(part);
             let bonds = division.bonds(part).iter();
-            let of_bond = |&bond: &u32| lagging.ratio(bond, &deformations[bond as usize], state);
+            let of_bond = |&bond: &u32| match &lagging.around {
+                Some(around) => around.ratio(bond),
+                None => lagging.ratio(bond, &deformations[bond as usize], state),
+            };
             lagging.now[part] = bonds.map(of_bond).fold(0.0, f64::max);
             lagging.combine_child_bounds(part);
         }
         lagging
     }
 
+    /// The criteria with the stresses of the bonds that break first.
+    pub(crate) fn criteria(&self) -> &Criteria {
+        match &self.around {
+            Some(around) => &around.criteria,
+            None => &self.problem.criteria,
+        }
+    }
+
     /// Applies a correction after a breakage at some points; returns the bonds that break first now.
     pub(crate) fn follow(
         &mut self,
         correction: ForwardSubstituted<'_>,
-        points: impl Iterator<Item = u32>,
+        points: &[u32],
         state: &State,
     ) -> FirstToBreak {
-        let broken_in = self.division.parts_above(points);
-        let is_asked_for: Vec<bool> = (broken_in.iter().zip(&self.division.is_wanted))
+        let broken_in = self.division.parts_above(points.iter().copied());
+        let mut is_asked_for: Vec<bool> = (broken_in.iter().zip(&self.division.is_wanted))
             .map(|(broken_in, wanted)| *broken_in || *wanted)
             .collect();
+        if let Some(around) = &mut self.around {
+            // Where bonds broke stresses are largest, and a large ratio that is known lets more parts wait.
+            for part in around.begin(points, state) {
+                is_asked_for[part] = true;
+            }
+        }
         let mut leaders = Leaders::new(self.tie_tolerance);
         let mut substituted = self.substitute_all(correction, &broken_in, &is_asked_for, state);
         let mut waiting = BinaryHeap::new();
-        self.judge_all(&substituted, state, &mut leaders);
+        self.judge_all(&substituted, points, state, &mut leaders);
         self.wait(&substituted, &is_asked_for, &mut waiting);
-        while let Some(Waiting { at_most, part }) = waiting.pop() {
-            if at_most * (1.0 + SURELY) < leaders.lowest_tied {
+        loop {
+            let next = self.next(&mut waiting, leaders.lowest_tied);
+            if next.is_empty() {
                 break;
             }
             let descent = self.descent(correction, &broken_in, &state.held);
-            let changes = descent.one(part);
-            self.take_in(part, &changes, &state.held);
-            self.judge_all(&[part], state, &mut leaders);
-            self.wait(&[part], &is_asked_for, &mut waiting);
-            substituted.push(part);
+            let changes: Vec<Vec<f64>> = next.par_iter().map(|&part| descent.one(part)).collect();
+            for (&part, changes) in next.iter().zip(&changes) {
+                self.take_in(part, changes, &state.held);
+            }
+            let beside = self.judge_all(&next, &[], state, &mut leaders);
+            self.wait(&next, &is_asked_for, &mut waiting);
+            waiting.extend(self.bounds_around(beside));
+            substituted.extend(next);
         }
         for part in substituted.into_iter().rev() {
+            if let Some(around) = &mut self.around {
+                around.combine(part);
+                let bonds = self.division.bonds(part).iter();
+                self.now[part] = bonds.map(|&bond| around.ratio(bond)).fold(0.0, f64::max);
+            }
             self.combine_child_bounds(part);
         }
         leaders.first_to_break()
@@ -198,22 +266,74 @@ impl<'a> Lagging<'a> {
         self.store_border_motions(part);
     }
 
+    /// The delayed parts that are substituted next: those with the largest bound, for criteria of stress several, because each one changes
+    /// ratios around it too. Empty where no bond that depends on one can be tied with the leading ones.
+    fn next(&self, waiting: &mut BinaryHeap<Waiting>, lowest_tied: f64) -> Vec<usize> {
+        let (mut next, mut later) = (Vec::new(), Vec::new());
+        while next.len() < TOGETHER
+            && let Some(Waiting { at_most, part }) = waiting.pop()
+        {
+            if at_most * (1.0 + SURELY) < lowest_tied {
+                later.push(Waiting { at_most, part });
+                break;
+            }
+            let Some(around) = &self.around else {
+                return vec![part];
+            };
+            let Some((present, most)) = around.present(part, self.at_most[part]) else {
+                continue;
+            };
+            let again = Waiting {
+                at_most: present,
+                part,
+            };
+            if present < at_most {
+                waiting.push(again);
+                continue;
+            }
+            later.push(again);
+            if !next.contains(&most) {
+                next.push(most);
+            }
+        }
+        waiting.extend(later);
+        next
+    }
+
     /// Queues the children of substituted parts, except those that are required.
     fn wait(&mut self, above: &[usize], is_asked_for: &[bool], waiting: &mut BinaryHeap<Waiting>) {
         let below = above.iter().flat_map(|&part| &self.division.below[part]);
         let below: Vec<usize> = below.copied().filter(|&it| !is_asked_for[it]).collect();
-        let bound = |&part: &usize| self.at_most[part] + self.growth(part);
-        let bounds: Vec<f64> = below.par_iter().with_min_len(2).map(bound).collect();
-        for (part, at_most) in below.into_iter().zip(bounds) {
-            self.now[part] = at_most;
-            waiting.push(Waiting { at_most, part });
+        let norms = below.par_iter().with_min_len(2);
+        let norms: Vec<f64> = norms.map(|&part| self.norm(part)).collect();
+        let Some(around) = &mut self.around else {
+            for (part, norm) in below.into_iter().zip(norms) {
+                let at_most = self.at_most[part] + self.per_norm[part] * norm;
+                self.now[part] = at_most;
+                waiting.push(Waiting { at_most, part });
+            }
+            return;
+        };
+        for (&part, norm) in below.iter().zip(norms) {
+            around.delay(part, norm);
         }
+        waiting.extend(self.bounds_around(below));
     }
 
-    /// Bound of the growth of the ratios in a part since its last substitution.
-    fn growth(&self, part: usize) -> f64 {
+    /// Bounds of some delayed parts by criteria of stress.
+    fn bounds_around(&self, parts: Vec<usize>) -> Vec<Waiting> {
+        let bound = |part: usize| {
+            let around = self.around.as_ref()?;
+            let (at_most, _) = around.present(part, self.at_most[part])?;
+            Some(Waiting { at_most, part })
+        };
+        parts.into_par_iter().filter_map(bound).collect()
+    }
+
+    /// Bound of the norm of the motion of a part since its last substitution.
+    fn norm(&self, part: usize) -> f64 {
         let then = &self.references[part];
-        self.bounds.growth(part, &self.displacement, then)
+        self.bounds.norm(part, &self.displacement, then)
     }
 
     /// Stores the present motions of the border of a part as those at its last substitution.
@@ -229,14 +349,39 @@ impl<'a> Lagging<'a> {
         reference.extend(parts[part].border.iter().map(motion));
     }
 
-    /// Computes the ratios of the bonds of parts, which must be up to date.
-    fn judge_all(&mut self, parts: &[usize], state: &State, leaders: &mut Leaders) {
-        let judged = parts.par_iter().map(|&part| self.judged(part, state));
-        let judged: Vec<(f64, Leaders)> = judged.collect();
-        for (&part, (largest, of_part)) in parts.iter().zip(judged) {
-            self.now[part] = largest;
-            leaders.merge(of_part);
+    /// Computes the ratios of the bonds of parts, which must be up to date, and of bonds at points where some broke; returns the delayed
+    /// parts beside them whose bounds changed.
+    fn judge_all(
+        &mut self,
+        parts: &[usize],
+        points: &[u32],
+        state: &State,
+        leaders: &mut Leaders,
+    ) -> Vec<usize> {
+        let Some(around) = &mut self.around else {
+            let judged = parts.par_iter().map(|&part| self.judged(part, state));
+            let judged: Vec<(f64, Leaders)> = judged.collect();
+            for (&part, (largest, of_part)) in parts.iter().zip(judged) {
+                self.now[part] = largest;
+                leaders.merge(of_part);
+            }
+            return Vec::new();
+        };
+        let Changed {
+            known,
+            raised,
+            beside,
+        } = around.take_in(parts, points, &self.displacement, state);
+        for (bond, ratio) in known {
+            leaders.add(bond, ratio);
         }
+        for (part, ratio) in raised {
+            for part in self.division.with_ancestors(part) {
+                self.now[part] = self.now[part].max(ratio);
+                self.at_most[part] = self.at_most[part].max(ratio);
+            }
+        }
+        beside
     }
 
     /// Largest ratio in a part, and its leading bonds.

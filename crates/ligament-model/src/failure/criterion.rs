@@ -5,13 +5,14 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::hooke::StressAcross;
+use super::hooke::{Moduli, StressAcross};
 use super::measure::Measure;
 use super::softening::{AfterLimit, brittle};
 use super::starting::Starting;
 use super::surroundings::Surroundings;
 use super::weakened::Weakened;
 use crate::element::{BondDeformation, Rigidities};
+use crate::stress::point_strain::StrainAround;
 
 /// A failure criterion with its limits.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,6 +90,27 @@ impl Criterion {
             .value(deformation, coefficients, || self.stress(bond))
     }
 
+    /// Largest measure of a bond with a stretch, sublinear in the stretch and in the strain around the bond, over all signs of both.
+    pub fn largest_of_stress(
+        &self,
+        bond: usize,
+        stretch: f64,
+        around: Option<StrainAround>,
+    ) -> f64 {
+        let coefficients = self.coefficients(bond);
+        let moduli = Moduli::from_coefficients(coefficients);
+        let of_signs = [1.0, -1.0].map(|sign| {
+            let around = around.map(|it| StrainAround {
+                lateral: sign * it.lateral,
+                ..it
+            });
+            let stress = moduli.stress_across(sign * stretch, around);
+            let unused = BondDeformation::default();
+            self.measure.value(&unused, coefficients, || stress)
+        });
+        of_signs[0].max(of_signs[1])
+    }
+
     /// Stress across a bond over E'; zero where the measure takes none.
     #[inline]
     pub(super) fn stress(&self, bond: usize) -> StressAcross {
@@ -150,6 +172,14 @@ impl Stresses {
         Self {
             of_bonds: of_bonds.into(),
             times: 1.0,
+        }
+    }
+
+    /// Replaces the stresses across some bonds.
+    pub fn replace(&mut self, bonds: &[u32], stresses: &[StressAcross]) {
+        let of_bonds = Arc::make_mut(&mut self.of_bonds);
+        for (&bond, stress) in bonds.iter().zip(stresses) {
+            of_bonds[bond as usize] = stress.scaled(self.times.recip());
         }
     }
 

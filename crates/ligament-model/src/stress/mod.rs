@@ -14,5 +14,6 @@ pub mod by_material;
 mod of_elements;
 pub mod point_strain;
 pub mod principal;
+pub mod stored;
 pub mod traction;
 pub mod virial;

@@ -9,7 +9,7 @@
 //! The dyads of the forces ([`super::virial`]) have no such property: corrections make forces and energies right, not the dyads of
 //! single points.
 
-use nalgebra::SMatrix;
+use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use rayon::prelude::*;
 
 use crate::layout::Layout;
@@ -72,15 +72,35 @@ impl<const D: usize> Fit<D> {
     /// Strain of the point with all that its motion has; None where its bonds do not span the space.
     #[inline]
     pub fn strain(&self) -> Option<SymTensor<D>> {
+        let Span { factor, per_trace } = self.span()?;
+        // G^T = K^-1 M^T.
+        let gradient = factor.solve(&self.slopes.transpose()) * per_trace;
+        Some(SymTensor::from_fn(|row, column| {
+            0.5 * (gradient[(row, column)] + gradient[(column, row)])
+        }))
+    }
+
+    /// The factor of K; None where the bonds do not span the space.
+    #[inline]
+    pub(super) fn span(&self) -> Option<Span<D>> {
         let per_trace = D as f64 / self.spread.trace();
         let factor = (self.spread * per_trace).cholesky()?;
-        (factor.determinant() > LEAST_SPAN).then(|| {
-            // G^T = K^-1 M^T.
-            let gradient = factor.solve(&self.slopes.transpose()) * per_trace;
-            SymTensor::from_fn(|row, column| {
-                0.5 * (gradient[(row, column)] + gradient[(column, row)])
-            })
-        })
+        (factor.determinant() > LEAST_SPAN).then_some(Span { factor, per_trace })
+    }
+}
+
+/// K of a point whose bonds span the space.
+pub(super) struct Span<const D: usize> {
+    /// Factor of K times `per_trace`.
+    factor: Cholesky<f64, Const<D>>,
+    /// D/tr K.
+    per_trace: f64,
+}
+
+impl<const D: usize> Span<D> {
+    /// |K^-1 n| of a direction n.
+    pub(super) fn size(&self, n: [f64; D]) -> f64 {
+        self.factor.solve(&SVector::from(n)).norm() * self.per_trace
     }
 }
 
@@ -192,7 +212,7 @@ impl<const D: usize> BondSystem<D> {
     }
 
     /// Factor exp(-l/H)/l of each bond on the volumes of its ends, shape (n_bonds).
-    fn closeness(&self) -> &[f64] {
+    pub(super) fn closeness(&self) -> &[f64] {
         self.closeness.get_or_init(|| {
             let both = self.bonds.length.par_iter().zip(&self.bonds.horizon);
             both.map(|(length, horizon)| closeness(*length, *horizon))
@@ -202,7 +222,7 @@ impl<const D: usize> BondSystem<D> {
 }
 
 /// Strains of the points around a bond that its own stretch says nothing of. Both are linear in the motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StrainAround {
     /// Sum of the strains across the bond, tr(eps) - n . eps n.
     pub lateral: f64,

@@ -21,6 +21,7 @@ use crate::layout::Component;
 use crate::product::NearLimits;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::point_strain::Motion;
+use crate::stress::stored::StoredMotions;
 use crate::stress::traction;
 use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
@@ -394,6 +395,10 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
     ) -> Vec<StressAcross> {
         let (system, layout) = (&self.system, self.layout());
         system.stresses_across(layout, motion, deformations, moduli)
+    }
+
+    fn stored_motions(&self) -> Option<Box<dyn StoredMotions + '_>> {
+        self.system.stored_motions(self.layout())
     }
 
     fn utilisations(

@@ -74,16 +74,13 @@ pub(super) fn pass(
     let start = Instant::now();
     let problem = path.problem.clone();
     let (state, deformations) = (&path.state, &line.deformations);
-    let mut first = first_to_break(
-        tie_tolerance,
-        deformations,
-        &problem.criteria,
-        &state.intact,
-    );
+    let criteria = path.criteria(line);
+    let mut first = first_to_break(tie_tolerance, deformations, &criteria, &state.intact);
+    let lagging = Lagging::new(body, &problem, tie_tolerance, state, criteria, deformations);
     let mut passing = Passing {
         problem: &problem,
         body,
-        lagging: Lagging::new(body, &problem, tie_tolerance, state, deformations),
+        lagging,
         load_factor: state.load_factor,
         line: Balanced {
             deformations: Deformations::default(),
@@ -177,9 +174,9 @@ impl Passing<'_, '_> {
         let deformations = deformations.iter().map(|it| it.scaled(factor));
         let deformations: Vec<BondDeformation> = deformations.collect();
         let deformation = |place: usize, _| deformations[place];
-        let criteria = &self.problem.criteria;
+        let criteria = self.lagging.criteria().on_line(None, factor);
         let judged = CriteriaAtDeformations {
-            criteria,
+            criteria: &criteria,
             deformation: &deformation,
         };
         path.break_deformed(&bonds, judged, &critical, step, 1)
@@ -193,6 +190,9 @@ impl Passing<'_, '_> {
         } = &mut *self.path;
         let ends = self.problem.system.ends();
         let points = breakage.bonds.iter().flat_map(|&bond| ends[bond as usize]);
+        let mut points: Vec<u32> = points.collect();
+        points.sort_unstable();
+        points.dedup();
         let lagging = &mut self.lagging;
         let first = equilibrium.update_and_forward_solve(state, breakage, |factor, half| {
             let correction = ForwardSubstituted {
@@ -200,7 +200,7 @@ impl Passing<'_, '_> {
                 by_row: half.by_row(),
                 scale,
             };
-            lagging.follow(correction, points, state)
+            lagging.follow(correction, &points, state)
         })?;
         let start = Instant::now();
         self.know(&breakage.bonds);
