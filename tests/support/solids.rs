@@ -51,6 +51,8 @@ pub fn drawn(state: &mut u64) -> f64 {
 
 fn grid(positions: Vec<[f64; 3]>, canvas: Canvas) -> BodyGrid {
     BodyGrid {
+        cell_numbers: Vec::new(),
+        of_body: None,
         numbering: Numbering::default(),
         tags: (0..positions.len() as i64).collect(),
         positions,

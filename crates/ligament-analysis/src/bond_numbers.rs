@@ -7,6 +7,7 @@ use std::borrow::Cow;
 
 use ligament_model::Bonds;
 use ligament_model::communicator::Wire;
+use ligament_model::prefix_sums::sums_before;
 use ligament_model::subdomain::Subdomain;
 use thiserror::Error;
 
@@ -159,6 +160,57 @@ impl BondNumbers {
         Ok(local)
     }
 
+    /// Reads values at all points of the body, as many per point as `n_values`, and returns those of the local points.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged, or belong to a body with another number of points.
+    pub(crate) fn read_points<T: Serial>(
+        &self,
+        n_values: usize,
+        from: &mut &[u8],
+    ) -> Result<Vec<T>, CheckpointError> {
+        if self.subdomain.is_whole() {
+            return Ok(Serial::read(from)?);
+        }
+        let count = usize::read(from)?;
+        if count != n_values * self.subdomain.n_all() {
+            return Err(CheckpointError::OtherModel);
+        }
+        let mut local = Vec::with_capacity(n_values * self.subdomain.n_points());
+        let mut number = 0;
+        T::read_each(count, from, |value| {
+            if self.subdomain.local_index(number, n_values).is_some() {
+                local.push(value);
+            }
+            number += 1;
+        })?;
+        Ok(local)
+    }
+
+    /// Appends values at all points of the body, as many per point as `n_values`, from those at the local points; on a divided body rank 0
+    /// writes them and the others an empty list. Values equal to `usual` are not sent. Collective.
+    pub(crate) fn write_points<T, const N: usize>(
+        &self,
+        (local, n_values): (&[T], usize),
+        usual: T,
+        out: &mut Vec<u8>,
+    ) where
+        T: Serial + Wire<N> + Copy + PartialEq,
+    {
+        let subdomain = &self.subdomain;
+        if subdomain.is_whole() {
+            return write_list(local, out);
+        }
+        let owned = local.iter().enumerate();
+        let owned = owned
+            .filter(|(index, value)| subdomain.owns((index / n_values) as u32) && **value != usual);
+        let numbered =
+            owned.map(|(index, value)| (subdomain.index_in_body(index, n_values), value));
+        let n_all = n_values * subdomain.n_all();
+        write_list(&on_root(subdomain, numbered, usual, n_all), out);
+    }
+
     /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); on a divided body rank 0 writes them
     /// and the others an empty list. Values equal to `usual` are not sent. Collective.
     pub(crate) fn write<T, const N: usize>(&self, local: &[T], usual: T, out: &mut Vec<u8>)
@@ -178,21 +230,16 @@ impl LocalBonds {
     /// Numbers the local bonds in the order of all ends; collective.
     fn new(subdomain: &Subdomain, ends: &[[u32; 2]]) -> Self {
         let is_owned: Vec<bool> = ends.iter().map(|&it| subdomain.owns_bond(it)).collect();
-        let mut of_points = vec![0.0; subdomain.partition().len()];
-        for ([first, _], _) in ends.iter().zip(&is_owned).filter(|it| *it.1) {
-            of_points[*first as usize] += 1.0;
-        }
-        subdomain.all_gather_points(&mut of_points, 1);
-        let mut n_all = 0;
-        let starts = of_points.into_iter().map(|count| {
-            n_all += count as usize;
-            n_all - count as usize
-        });
-        let mut next: Vec<usize> = starts.collect();
-        let numbered = ends.iter().zip(&is_owned).map(|(&[first, _], &is_owned)| {
-            let next = &mut next[first as usize];
-            *next += usize::from(is_owned);
-            is_owned.then(|| (*next - 1) as u32)
+        let mut of_points = vec![0.0; subdomain.n_owned()];
+        let first_rows = ends.iter().filter_map(|[first, _]| subdomain.row(*first));
+        first_rows.for_each(|row| of_points[row] += 1.0);
+        let starts = sums_before(subdomain, &of_points);
+        let n_all = subdomain.sum(of_points.iter().sum()) as usize;
+        let mut next: Vec<usize> = starts.into_iter().map(|it| it as usize).collect();
+        let numbered = ends.iter().map(|&[first, _]| {
+            let next = &mut next[subdomain.row(first)?];
+            *next += 1;
+            Some((*next - 1) as u32)
         });
         let mut numbers: Vec<Option<u32>> = numbered.collect();
         let mut received = received(subdomain, ends, &numbers);
@@ -219,35 +266,64 @@ impl LocalBonds {
     {
         let others = local.iter().enumerate();
         let others = others.filter(|(bond, value)| self.is_owned[*bond] && **value != usual);
-        let rows = |(bond, value): (usize, &T)| {
-            let number = [f64::from(self.numbers[bond])];
-            number.into_iter().chain(value.numbers())
-        };
-        let all_rows = subdomain.all_gather_list(others.flat_map(rows).collect::<Vec<f64>>());
-        if !subdomain.communicator().is_root() {
-            return Vec::new();
-        }
-        let mut all = vec![usual; self.n_all];
-        for row in all_rows.chunks_exact(1 + N) {
-            let mut numbers = [0.0; N];
-            numbers.copy_from_slice(&row[1..]);
-            all[row[0] as usize] = T::from_numbers(numbers);
-        }
-        all
+        let numbered = others.map(|(bond, value)| (self.numbers[bond] as usize, value));
+        on_root(subdomain, numbered, usual, self.n_all)
     }
 }
 
-/// Ends and global numbers of local bonds that other ranks own.
+/// A list of `n_all` values on rank 0, from numbered ones of all processes and usual ones, and an empty list on other ranks; collective.
+fn on_root<'a, T, const N: usize>(
+    subdomain: &Subdomain,
+    numbered: impl Iterator<Item = (usize, &'a T)>,
+    usual: T,
+    n_all: usize,
+) -> Vec<T>
+where
+    T: Wire<N> + Copy + 'a,
+{
+    let rows = numbered.flat_map(|(number, value)| {
+        let number = [number as f64];
+        number.into_iter().chain(value.numbers())
+    });
+    let all_rows = subdomain.gather_list(rows.collect());
+    if !subdomain.communicator().is_root() {
+        return Vec::new();
+    }
+    let mut all = vec![usual; n_all];
+    for row in all_rows.chunks_exact(1 + N) {
+        let mut numbers = [0.0; N];
+        numbers.copy_from_slice(&row[1..]);
+        all[row[0] as usize] = T::from_numbers(numbers);
+    }
+    all
+}
+
+/// Ends and global numbers of local bonds that other ranks own, from their owners.
 fn received(subdomain: &Subdomain, ends: &[[u32; 2]], numbers: &[Option<u32>]) -> Vec<[u32; 3]> {
     let numbered = ends.iter().zip(numbers);
     let across = numbered.filter_map(|(&[a, b], number)| {
         let number = number.filter(|_| !subdomain.owns(b))?;
-        Some([a, b, number])
+        let [a, b_in_body] = subdomain.numbers([a, b]);
+        Some((subdomain.rank(b), [a, b_in_body, number]))
     });
-    let mut of_ranks = subdomain.all_gather_list(across.collect());
-    let is_here = |ends| subdomain.contains_bond(ends) && !subdomain.owns_bond(ends);
-    of_ranks.retain(|&[a, b, _]| is_here([a, b]));
-    of_ranks
+    let mut across: Vec<(usize, [u32; 3])> = across.collect();
+    across.sort_unstable();
+    let (communicator, n_ranks) = (subdomain.communicator(), subdomain.n_ranks());
+    let before = |rank| across.partition_point(|it| it.0 < rank);
+    let to: Vec<usize> = (0..n_ranks)
+        .map(|rank| 3 * (before(rank + 1) - before(rank)))
+        .collect();
+    let one = vec![1; n_ranks];
+    let counts: Vec<f64> = to.iter().map(|&count| count as f64).collect();
+    let from = communicator.all_to_all(&counts, &one, &one).into_iter();
+    let from: Vec<usize> = from.map(|count| count as usize).collect();
+    let rows: Vec<f64> = (across.iter()).flat_map(|it| it.1.numbers()).collect();
+    let rows = communicator.all_to_all(&rows, &to, &from);
+    let row = |row: &[f64; 3]| {
+        let [a, b, number] = <[u32; 3]>::from_numbers(*row);
+        Some([subdomain.point(a)?, subdomain.point(b)?, number])
+    };
+    rows.as_chunks().0.iter().filter_map(row).collect()
 }
 
 /// Sum of values of the bonds of a body (n_bonds), over all processes.

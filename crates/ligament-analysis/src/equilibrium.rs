@@ -153,7 +153,7 @@ impl Equilibrium {
 
     /// Appends the bytes from which the equilibrium is restored bit for bit.
     pub(crate) fn write(&self, out: &mut Vec<u8>) {
-        self.equations.write(out);
+        self.equations.write(&self.numbers, out);
     }
 
     /// Restores the equilibrium, its state and its measured quantities from bytes of [`Equilibrium::write`]; `numbers` are the
@@ -300,8 +300,12 @@ impl Equilibrium {
             |dof| loads.is_prescribed(dof) || held[dof],
             |dof| unknowns.is_unknown(dof),
         );
+        let (subdomain, layout) = (system.subdomain(), system.layout());
         for hold in &breakage.holds {
-            state.held[hold.degree_of_freedom] = true;
+            let dof = subdomain.local_index(hold.degree_of_freedom, layout.components.len());
+            if let Some(dof) = dof {
+                state.held[dof] = true;
+            }
         }
         meeting.faces = Contact::new(system, &state.intact);
         costs.connectivity += start.elapsed();

@@ -38,7 +38,7 @@ pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBo
     let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
     let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
     let holds = fragments.missing_supports(
-        0..fragments.points.len() as u32,
+        0..fragments.len() as u32,
         system,
         loads.restraints(),
         |dof| loads.is_prescribed(dof),
@@ -47,7 +47,7 @@ pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBo
     free_bodies(system, loads, &fragments, &holds)
 }
 
-/// Free parts of the intact body, given the added supports that they need.
+/// Free parts of the intact body, given the added supports that they need; collective.
 pub fn free_bodies(
     system: &dyn Bonds,
     loads: &dyn LoadProgram,
@@ -66,7 +66,8 @@ fn free_body(
     fragments: &Fragments,
     holds: &[AddedSupport],
 ) -> FreeBody {
-    let points = &fragments.points[holds[0].fragment as usize];
+    let fragment = holds[0].fragment as usize;
+    let (points, extent) = (&fragments.points[fragment], fragments.extents[fragment]);
     let layout = system.layout();
     let is_prescribed = |dof| loads.is_prescribed(dof) || loads.restraints().holds(layout, dof);
     let force = |dof: usize| loads.forces(1.0, &[dof as u32])[0];
@@ -74,9 +75,9 @@ fn free_body(
     gauges.sort_unstable();
     let named = |dof: usize| (layout.point(dof), layout.component(dof));
     FreeBody {
-        points: points.len(),
-        is_whole: points.len() == system.n_points(),
-        first: points[0],
+        points: extent.n_points,
+        is_whole: extent.n_points == system.subdomain().n_all(),
+        first: extent.first,
         motions: system.free_motions(points, &is_prescribed, &force),
         gauges: gauges.into_iter().map(named).collect(),
     }

@@ -29,16 +29,15 @@ impl HaloExchange {
     pub(crate) fn new(problem: &Problem) -> Self {
         let system = &*problem.system;
         let (subdomain, layout) = (system.subdomain(), system.layout());
-        let partition = subdomain.partition();
         let mut common = match subdomain.is_whole() {
             true => Vec::new(),
             false => common_points(&*problem.loads, &problem.probes, layout),
         };
-        common.sort_unstable_by_key(|&point| partition.place(point));
+        common.sort_unstable_by_key(|&point| subdomain.place(point));
         common.dedup();
         let before =
-            |rank| common.partition_point(|&it| partition.place(it) < partition.first(rank));
-        let ranks = 0..partition.n_ranks();
+            |rank| common.partition_point(|&it| subdomain.place(it) < subdomain.first(rank));
+        let ranks = 0..subdomain.n_ranks();
         let n_components = layout.components.len();
         Self {
             counts: ranks

@@ -205,7 +205,7 @@ pub struct BreakRecord {
     pub reaction: f64,
     /// Global number of the bond.
     pub bond: u32,
-    /// Ends A < B of the bond.
+    /// Numbers in the body of the ends A < B of the bond.
     pub ends: [u32; 2],
     /// Number of the criterion by which the bond broke.
     pub criterion: usize,

@@ -406,11 +406,22 @@ fn reactions(view: &View<'_>) -> Vec<f64> {
 }
 
 fn fragments(view: &View<'_>) -> Vec<i64> {
-    let parts = view
-        .system
-        .numbering()
-        .parts_in_file(&view.fragments.of_point);
-    parts.into_iter().map(i64::from).collect()
+    let (numbering, subdomain) = (view.system.numbering(), view.system.subdomain());
+    let first_in_file = |points: &Vec<u32>| {
+        let numbers = points.iter().map(|&it| -f64::from(numbering.in_file(it)));
+        numbers.fold(f64::NEG_INFINITY, f64::max)
+    };
+    // The part whose first point is the first one in the file has the number 0.
+    let mut firsts: Vec<f64> = view.fragments.points.iter().map(first_in_file).collect();
+    subdomain.all_reduce_max(&mut firsts);
+    let mut in_order: Vec<usize> = (0..firsts.len()).collect();
+    in_order.sort_unstable_by(|&one, &other| firsts[other].total_cmp(&firsts[one]));
+    let mut numbers = vec![0; firsts.len()];
+    for (number, fragment) in (0..).zip(in_order) {
+        numbers[fragment] = number;
+    }
+    let of_point = view.fragments.of_point.iter();
+    of_point.map(|&it| numbers[it as usize]).collect()
 }
 
 fn held(view: &View<'_>) -> Vec<i64> {

@@ -12,7 +12,7 @@ pub struct FarthestSoftened {
     pub criterion: u32,
     /// Global number of the bond.
     pub bond: u32,
-    /// Ends A < B of the bond.
+    /// Numbers in the body of the ends A < B of the bond.
     pub ends: [u32; 2],
     /// Largest e/e_0 of the bond, above 1.
     largest: f64,
@@ -36,6 +36,7 @@ impl SoftenedOfAll {
         let here = farthest(state, ends, |bond| numbers.owns(bond));
         let here = here.map(|it| FarthestSoftened {
             bond: numbers.number(it.bond),
+            ends: numbers.subdomain().numbers(it.ends),
             ..it
         });
         let of_ranks = numbers

@@ -8,7 +8,7 @@ use ligament_model::surface::Vector;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::friction::Friction;
-use crate::serial::{Serial, write_list};
+use crate::serial::Serial;
 use crate::softening::Softening;
 use crate::surfaces::LastTouching;
 
@@ -74,13 +74,14 @@ impl State {
 
     /// Appends the state of all points and bonds of the body, from those of each process; valid on rank 0 alone. Collective.
     pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+        let n_components = self.displacement.len() / numbers.subdomain().n_points().max(1);
         self.load_factor.write(out);
-        write_list(&numbers.subdomain().gathered(&self.displacement), out);
+        numbers.write_points((&self.displacement, n_components), 0.0, out);
         numbers.write(&self.intact, true, out);
         numbers.write(&self.broken_by, None, out);
         self.softening.write(numbers, out);
         numbers.write(&self.dissipated, 0.0, out);
-        self.held.write(out);
+        numbers.write_points((&self.held, n_components), false, out);
         self.friction.write(out);
         self.surfaces.touching().write(out);
         self.rigid.write(out);
@@ -91,15 +92,18 @@ impl State {
     /// # Errors
     ///
     /// If the bytes are damaged or belong to another body.
-    pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
+    pub(crate) fn read(
+        (numbers, n_components): (&BondNumbers, usize),
+        from: &mut &[u8],
+    ) -> Result<Self, CheckpointError> {
         let mut state = Self {
             load_factor: Serial::read(from)?,
-            displacement: Serial::read(from)?,
+            displacement: numbers.read_points(n_components, from)?,
             intact: numbers.read(from)?,
             broken_by: numbers.read(from)?,
             softening: Softening::read(numbers, from)?,
             dissipated: numbers.read(from)?,
-            held: Serial::read(from)?,
+            held: numbers.read_points(n_components, from)?,
             friction: Serial::read(from)?,
             surfaces: LastTouching::default(),
             rigid: Vec::new(),

@@ -108,13 +108,6 @@ impl Unknowns {
         (0..self.number.len()).filter(|&dof| self.is_unknown(dof))
     }
 
-    /// Values of the owned unknowns, from those of all processes as far as given.
-    pub(crate) fn own_of(&self, all: &[f64]) -> Vec<f64> {
-        let numbered = self.of_all().zip(all);
-        let own = numbered.filter(|(dof, _)| self.number(*dof).is_some());
-        own.map(|(_, value)| *value).collect()
-    }
-
     /// Whether a degree of freedom is an unknown of any process.
     pub(crate) fn is_unknown(&self, degree_of_freedom: usize) -> bool {
         self.number[degree_of_freedom] != KNOWN

@@ -21,7 +21,7 @@ pub struct Numbering(Option<Arc<Orders>>);
 struct Orders {
     /// Number in the file of each point, shape (n_points).
     in_file: Vec<u32>,
-    /// Point of each number of the file, shape (n_points).
+    /// Points in the order of the file, shape (n_points).
     points: Vec<u32>,
 }
 
@@ -47,17 +47,38 @@ impl Numbering {
         }
     }
 
-    /// Point of a number of the file.
-    pub fn point(&self, in_file: u32) -> u32 {
+    /// Point at a place in the order of the file; for a whole body the point of a number of the file.
+    pub fn point(&self, place: u32) -> u32 {
         match &self.0 {
-            None => in_file,
-            Some(orders) => orders.points[in_file as usize],
+            None => place,
+            Some(orders) => orders.points[place as usize],
         }
+    }
+
+    /// Numbering of some points (ascending) of a body, which keep their numbers in the file.
+    pub fn part(&self, points: &[u32]) -> Self {
+        let in_file: Vec<u32> = points.iter().map(|&it| self.in_file(it)).collect();
+        let mut order: Vec<u32> = (0..in_file.len() as u32).collect();
+        order.sort_unstable_by_key(|&point| in_file[point as usize]);
+        Self(Some(Arc::new(Orders {
+            in_file,
+            points: order,
+        })))
     }
 
     /// Points in the order of the file, shape (n_points); `None` where that is the order of the points.
     pub fn order_of_file(&self) -> Option<&[u32]> {
         self.0.as_ref().map(|orders| orders.points.as_slice())
+    }
+
+    /// Place of each point in the order of the file, shape (n_points); `None` where that is the order of the points.
+    pub fn places(&self) -> Option<Vec<u32>> {
+        let order = self.order_of_file()?;
+        let mut places = vec![0; order.len()];
+        for (place, &point) in (0..).zip(order) {
+            places[point as usize] = place;
+        }
+        Some(places)
     }
 
     /// Some points in the order of the file.
@@ -68,26 +89,6 @@ impl Numbering {
         let mut sorted = points.to_vec();
         sorted.sort_unstable_by_key(|&point| self.in_file(point));
         Cow::Owned(sorted)
-    }
-
-    /// Parts of a body, given by their numbers at the points (n_points), renumbered in the order of their first points in the file; shape
-    /// (n_points) in the order of the points.
-    pub fn parts_in_file(&self, of_points: &[u32]) -> Vec<u32> {
-        if self.0.is_none() {
-            return of_points.to_vec();
-        }
-        let n_parts = of_points.iter().max().map_or(0, |last| *last as usize + 1);
-        let mut numbers = vec![None; n_parts];
-        let mut next = 0;
-        for in_file in 0..of_points.len() as u32 {
-            let part = of_points[self.point(in_file) as usize];
-            numbers[part as usize].get_or_insert_with(|| {
-                next += 1;
-                next - 1
-            });
-        }
-        let number = |&part: &u32| numbers[part as usize].unwrap_or_default();
-        of_points.iter().map(number).collect()
     }
 
     /// Ends of a bond, that of the smaller number in the file first.
@@ -123,10 +124,13 @@ impl Numbering {
         taken(order, values)
     }
 
-    /// Cells between the points as cells between the numbers of the file.
+    /// Cells between the points as cells between their places in the order of the file.
     pub fn cells_in_file<const D: usize, C: MeshCell<D>>(&self, mut cells: Vec<C>) -> Vec<C> {
+        let Some(places) = self.places() else {
+            return cells;
+        };
         for corner in cells.iter_mut().flat_map(C::corners_mut) {
-            *corner = self.in_file(*corner);
+            *corner = places[*corner as usize];
         }
         cells
     }
@@ -258,8 +262,11 @@ mod tests {
             [[2, 3], [1, 2], [0, 1]]
         );
         assert_eq!(numbering.bonds_in_file(&ends), Some(vec![2, 1, 0]));
-        // The second node lies in the last part, which is the second that the file meets.
-        assert_eq!(numbering.parts_in_file(&[0, 1, 1, 2]), [0, 2, 2, 1]);
+        // Of a part with nodes 0, 3 and 2 of the file, the last two are exchanged.
+        let part = numbering.part(&[0, 2, 3]);
+        assert_eq!([0, 1, 2].map(|it| part.in_file(it)), [0, 3, 1]);
+        assert_eq!(part.order_of_file(), Some(&[0, 2, 1][..]));
+        assert_eq!(part.places(), Some(vec![0, 2, 1]));
     }
 
     #[test]

@@ -15,16 +15,15 @@ pub struct Ghosts {
 impl Ghosts {
     /// The ghosts among the points that a process reads; collective.
     pub fn new(subdomain: &Subdomain, read: impl Iterator<Item = u32>) -> Self {
-        let partition = subdomain.partition();
         let mut ghosts: Vec<u32> = match subdomain.is_whole() {
             true => Vec::new(),
             false => read.filter(|&it| !subdomain.owns(it)).collect(),
         };
-        ghosts.sort_unstable_by_key(|&point| partition.place(point));
+        ghosts.sort_unstable_by_key(|&point| subdomain.place(point));
         ghosts.dedup();
         let before =
-            |rank| ghosts.partition_point(|&it| partition.place(it) < partition.first(rank));
-        let ranks = 0..partition.n_ranks();
+            |rank| ghosts.partition_point(|&it| subdomain.place(it) < subdomain.first(rank));
+        let ranks = 0..subdomain.n_ranks();
         let from: Vec<usize> = ranks.map(|rank| before(rank + 1) - before(rank)).collect();
         let exchange = |values: &[f64], to: &[usize], from: &[usize]| {
             subdomain.communicator().all_to_all(values, to, from)
@@ -33,13 +32,24 @@ impl Ghosts {
         let counts: Vec<f64> = from.iter().map(|&count| count as f64).collect();
         let to = exchange(&counts, &one, &one).into_iter();
         let to: Vec<usize> = to.map(|count| count as usize).collect();
-        let numbers: Vec<f64> = ghosts.iter().map(|&it| f64::from(it)).collect();
-        let sent = exchange(&numbers, &from, &to).into_iter();
+        // Processes number points differently; all know the index of a point among those of its owner.
+        let index = |&it: &u32| (subdomain.place(it) - subdomain.first(subdomain.rank(it))) as f64;
+        let indices: Vec<f64> = ghosts.iter().map(index).collect();
+        let sent = exchange(&indices, &from, &to).into_iter();
         Self {
             subdomain: subdomain.clone(),
-            sent: (sent.map(|point| point as u32).collect(), to),
+            sent: (
+                sent.map(|index| subdomain.owned_at(index as usize))
+                    .collect(),
+                to,
+            ),
             received: (ghosts, from),
         }
+    }
+
+    /// All local points of other processes; collective.
+    pub fn all(subdomain: &Subdomain) -> Self {
+        Self::new(subdomain, 0..subdomain.n_points() as u32)
     }
 
     /// Points that are ghosts, in the order of the ranks of their owners.

@@ -11,10 +11,23 @@ pub struct BodyGrid {
     pub numbering: Numbering,
     /// Tags of the points: of the nodes in a mesh file, or of the cells of a lattice, shape (n_points).
     pub tags: Vec<i64>,
+    /// Numbers in the file of the cells between the points of a part of a body, shape (n_cells); empty for a whole body.
+    pub cell_numbers: Vec<u32>,
     /// Kind of a tag: `node`, `cell` or `point`.
     pub tagged: &'static str,
     /// Cells or boxes for the fields of the points.
     pub canvas: Canvas,
+    /// Tags of all points of the body, where the grid has a part of it.
+    pub of_body: Option<PointTags>,
+}
+
+/// Numbering and tags of the points of a whole body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointTags {
+    /// Numbering of the points, internal and in the file.
+    pub numbering: Numbering,
+    /// Tags, shape (n_points).
+    pub tags: Vec<i64>,
 }
 
 /// Cells or boxes for the fields of the points.
@@ -45,16 +58,20 @@ impl BodyGrid {
         Self {
             positions: numbering.to_file(self.positions.clone()),
             numbering: Numbering::default(),
+            cell_numbers: self.cell_numbers.clone(),
             tags: numbering.to_file(self.tags.clone()),
             tagged: self.tagged,
             canvas,
+            of_body: self.of_body.clone(),
         }
     }
 
-    /// Tags of the ends of a bond, that of the smaller number in the file first.
+    /// Tags of the ends of a bond, given by their numbers in the body, that of the smaller number in the file first.
     pub fn tags_of(&self, ends: [u32; 2]) -> [i64; 2] {
-        let ends = self.numbering.ordered(ends);
-        ends.map(|end| self.tags[end as usize])
+        let of_body = self.of_body.as_ref();
+        let numbering = of_body.map_or(&self.numbering, |it| &it.numbering);
+        let tags = of_body.map_or(&self.tags, |it| &it.tags);
+        numbering.ordered(ends).map(|end| tags[end as usize])
     }
 
     /// Positions of the points along x and y, shape (n_points), m.

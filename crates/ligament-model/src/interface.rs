@@ -14,6 +14,7 @@ use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
 use crate::failure::Criterion;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
+use crate::ghosts::Ghosts;
 use crate::layout::{Component, Layout};
 use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
@@ -134,8 +135,9 @@ pub trait BondKinetics: BondTopology {
     /// Stiffness of each point with all its bonds, shape (n_points).
     fn point_stiffness(&self) -> Vec<PointStiffness>;
 
-    /// Degrees of freedom to fix so that no rigid motion of some connected points that costs no energy is free, beyond the fixed ones; the
-    /// most effective first, ties by number in the file. Only those for which `can_hold` returns true are chosen.
+    /// Degrees of freedom of the body to fix so that no rigid motion of a connected part that costs no energy is free, beyond the fixed ones;
+    /// the most effective first, ties by number in the file. Only those for which `can_hold` returns true are chosen. `points` are the owned
+    /// points of the part; collective.
     fn holds(
         &self,
         points: &[u32],
@@ -143,12 +145,17 @@ pub trait BondKinetics: BondTopology {
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize>;
 
-    /// Displacements and rotations of some connected points in each of their rigid motions that costs no energy and is not prevented by
-    /// fixed degrees of freedom, shape (n_motions, n_degrees_of_freedom of the points).
-    fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>>;
+    /// Displacements and rotations of a connected part in each of its rigid motions that costs no energy and is not prevented by fixed degrees
+    /// of freedom. `points` are the owned points of the part; collective.
+    fn free_shapes(
+        &self,
+        points: &[u32],
+        is_fixed: &dyn Fn(usize) -> bool,
+        can_hold: &dyn Fn(usize) -> bool,
+    ) -> FreeShapes;
 
-    /// Rigid motions of some connected points that cost no energy and are not prevented by fixed degrees of freedom, with the work of given
-    /// forces on them.
+    /// Rigid motions of a connected part that cost no energy and are not prevented by fixed degrees of freedom, with the work of given forces
+    /// on them. `points` are the owned points of the part; collective.
     fn free_motions(
         &self,
         points: &[u32],
@@ -160,6 +167,9 @@ pub trait BondKinetics: BondTopology {
     /// n_degrees_of_freedom of the points): unit translations along the axes, then rotations about the middle of the points by one over
     /// their radius, which include the rotations of the points.
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>>;
+
+    /// The [rigid shapes](Self::rigid_shapes) of the whole body at the points of this process; collective.
+    fn rigid_shapes_of_body(&self) -> Vec<Vec<f64>>;
 
     /// Rigid motions of the whole body about its centre of mass, for the masses of the points (n_points), kg.
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions;
@@ -401,7 +411,7 @@ impl PointStiffness {
         };
         let points = (0..bonds.incidence.n_points() as u32).into_par_iter();
         let mut of_points: Vec<[f64; 2]> = points.map(of_point).collect();
-        subdomain.all_gather_points(of_points.as_flattened_mut(), 2);
+        Ghosts::all(subdomain).update(of_points.as_flattened_mut(), 2);
         let of_points = of_points.into_iter();
         of_points
             .map(|[force, moment]| Self { force, moment })
@@ -425,6 +435,17 @@ pub struct Stresses {
     pub names: &'static [&'static str],
     /// Values, shape (n_points, n_components), Pa.
     pub values: Vec<f64>,
+}
+
+/// Free rigid motions of a connected part of a body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct FreeShapes {
+    /// Degrees of freedom of the part, numbered in the body, ascending; empty where no motion is free.
+    pub degrees_of_freedom: Vec<usize>,
+    /// Whether a support can be added at each, shape (n_degrees_of_freedom).
+    pub can_hold: Vec<bool>,
+    /// Displacements and rotations, shape (n_motions, n_degrees_of_freedom).
+    pub motions: Vec<Vec<f64>>,
 }
 
 /// Rigid motions of a body about its centre of mass.

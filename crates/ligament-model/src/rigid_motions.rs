@@ -1,6 +1,7 @@
 //! Rigid motions of some points that cost no energy, and the degrees of freedom that prevent them.
 
 use crate::layout::{Component, Layout};
+use crate::subdomain::Subdomain;
 use crate::tensor::{dot, minus, norm};
 
 /// Sine of the angle to the motions already prevented, below which a degree of freedom prevents no further rigid motion.
@@ -82,21 +83,36 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         points: &[u32],
         turn: Turn,
     ) -> Self {
-        let chosen = || points.iter().map(|&point| positions[point as usize]);
-        let centre = std::array::from_fn(|axis| {
-            chosen().map(|p| p[axis]).sum::<f64>() / points.len() as f64
-        });
+        let here = Subdomain::whole(points.len());
+        Self {
+            turn,
+            ..Self::of_body(layout, positions, points, &here)
+        }
+    }
+
+    /// The rigid motions of a body, of which this process owns some points; points rotate along. Collective.
+    pub(crate) fn of_body(
+        layout: Layout,
+        positions: &'a [[f64; D]],
+        owned: &[u32],
+        subdomain: &Subdomain,
+    ) -> Self {
+        let chosen = || owned.iter().map(|&point| positions[point as usize]);
+        let mut sums: [f64; D] = std::array::from_fn(|axis| chosen().map(|p| p[axis]).sum());
+        subdomain.all_reduce_sum(&mut sums);
+        let centre = sums.map(|sum| sum / subdomain.n_all() as f64);
         let size = |place: [f64; D]| match place.as_slice() {
             [x, y] => x.hypot(*y),
             _ => norm(place),
         };
         let radius = chosen().map(|p| size(minus(p, centre))).fold(0.0, f64::max);
+        let radius = subdomain.max(radius);
         Self {
             layout,
             positions,
             centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
-            turn,
+            turn: Turn::OfPointsAlong,
         }
     }
 

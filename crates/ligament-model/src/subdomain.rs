@@ -1,23 +1,22 @@
 //! Points and bonds of a body on one process.
 //!
-//! Each process knows all points and owns some of them; each point has one owner. A process has the bonds that end at an owned point, so
-//! that it computes every sum over the bonds of an owned point, in their order, by itself. The owner of the first end of a bond owns the
+//! Each point has one owner. A process has the points that it owns and those of other processes that it reads, its local points, and numbers
+//! them from 0 in the order of their numbers in the body: sums over them are in the same order. It has the bonds that end at an owned point,
+//! so that it computes every sum over the bonds of an owned point, in their order, by itself. The owner of the first end of a bond owns the
 //! bond: counts and sums over bonds include each bond once. A single process owns everything.
 
-use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::Arc;
 
 use crate::communicator::{Communicator, Solo, Wire};
 
-/// Assignment of the points to ranks: parts of the body by recursive bisection.
+/// Assignment of the points of a body to ranks: parts of the body by recursive bisection.
 #[derive(Debug, Clone)]
 pub struct Partition {
     /// First position of each rank, and the number of points.
     starts: Vec<usize>,
-    /// Points in the order of their ranks, and the position of each point in that order; `None` for one rank, whose order is that of the
-    /// points.
-    order: Option<[Vec<u32>; 2]>,
+    /// Points in the order of their ranks; empty for one rank.
+    points: Vec<u32>,
 }
 
 impl Partition {
@@ -25,7 +24,7 @@ impl Partition {
     pub fn whole(n_points: usize) -> Self {
         Self {
             starts: vec![0, n_points],
-            order: None,
+            points: Vec::new(),
         }
     }
 
@@ -43,70 +42,7 @@ impl Partition {
         for ends in starts.windows(2) {
             points[ends[0]..ends[1]].sort_unstable();
         }
-        let mut places = vec![0; n_points];
-        for (place, &point) in points.iter().enumerate() {
-            places[point as usize] = place as u32;
-        }
-        Self {
-            starts,
-            order: Some([points, places]),
-        }
-    }
-
-    /// Number of points.
-    pub fn len(&self) -> usize {
-        self.first(self.n_ranks())
-    }
-
-    /// Whether there is no point.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Number of ranks.
-    pub fn n_ranks(&self) -> usize {
-        self.starts.len() - 1
-    }
-
-    /// The points of a rank, ascending.
-    pub fn points(&self, rank: usize) -> impl ExactSizeIterator<Item = u32> + Clone + '_ {
-        self.places(rank).map(|place| self.point(place))
-    }
-
-    /// Positions of the points of a rank.
-    pub fn places(&self, rank: usize) -> Range<usize> {
-        self.starts[rank]..self.starts[rank + 1]
-    }
-
-    /// Position of the first point of a rank; for the rank after the last one, the number of points.
-    pub fn first(&self, rank: usize) -> usize {
-        self.starts[rank]
-    }
-
-    /// Position of a point in the order of the ranks.
-    #[inline]
-    pub fn place(&self, point: u32) -> usize {
-        let order = self.order.as_ref();
-        order.map_or(point, |[_, places]| places[point as usize]) as usize
-    }
-
-    /// Point at a position in the order of the ranks.
-    fn point(&self, place: usize) -> u32 {
-        let order = self.order.as_ref();
-        order.map_or(place as u32, |[points, _]| points[place])
-    }
-
-    /// Rank that owns a point.
-    pub fn rank(&self, point: u32) -> usize {
-        self.starts
-            .partition_point(|&start| start <= self.place(point))
-            - 1
-    }
-
-    /// Number of values of each rank, for a number of values per point.
-    pub fn counts(&self, n_values: usize) -> Vec<usize> {
-        let ends = self.starts.windows(2);
-        ends.map(|it| n_values * (it[1] - it[0])).collect()
+        Self { starts, points }
     }
 }
 
@@ -123,12 +59,26 @@ fn bisect(halve: &dyn Fn(&mut [u32]), points: &mut [u32], first: usize, starts: 
     bisect(halve, upper, first + middle, starts);
 }
 
+/// Local points of a process among several.
+#[derive(Debug)]
+struct LocalPoints {
+    /// Number of each local point in the body, ascending, shape (n_points).
+    numbers: Vec<u32>,
+    /// Position of each local point in the order of the ranks, shape (n_points).
+    places: Vec<u32>,
+    /// Owned points, ascending.
+    owned: Vec<u32>,
+}
+
 /// Points and bonds of a body on one process, and the communicator to the other processes. Copies share their data.
 #[derive(Debug, Clone)]
 pub struct Subdomain {
-    partition: Arc<Partition>,
+    /// First position of each rank in the order of the ranks, and the number of points of the body.
+    starts: Arc<[usize]>,
     /// Positions of the owned points.
     owned: Range<usize>,
+    /// Local points; `None` for one rank, which has all points in their order.
+    local: Option<Arc<LocalPoints>>,
     communicator: Arc<dyn Communicator>,
 }
 
@@ -138,24 +88,51 @@ impl Subdomain {
         Self::new(Partition::whole(n_points), Arc::new(Solo))
     }
 
-    /// The subdomain of this process in a partition.
+    /// The subdomain of this process in a partition, with all points of the body.
     pub fn new(partition: Partition, communicator: Arc<dyn Communicator>) -> Self {
+        let Partition { starts, points } = partition;
+        let rank = communicator.rank();
+        let owned = starts[rank]..starts[rank + 1];
+        let local = (starts.len() > 2).then(|| {
+            let mut places = vec![0; points.len()];
+            for (place, &point) in (0..).zip(&points) {
+                places[point as usize] = place;
+            }
+            Arc::new(LocalPoints {
+                numbers: (0..points.len() as u32).collect(),
+                places,
+                owned: points[owned.clone()].to_vec(),
+            })
+        });
         Self {
-            owned: partition.places(communicator.rank()),
-            partition: Arc::new(partition),
+            starts: starts.into(),
+            owned,
+            local,
             communicator,
+        }
+    }
+
+    /// The subdomain with some of its points (ascending), among them all owned ones.
+    pub fn part(&self, points: &[u32]) -> Self {
+        let part = self.local.as_ref().map(|local| {
+            let of_points = |all: &[u32]| points.iter().map(|&it| all[it as usize]).collect();
+            let among = |owned: &u32| points.partition_point(|it| it < owned) as u32;
+            Arc::new(LocalPoints {
+                numbers: of_points(&local.numbers),
+                places: of_points(&local.places),
+                owned: local.owned.iter().map(among).collect(),
+            })
+        });
+        Self {
+            local: part,
+            ..self.clone()
         }
     }
 
     /// Whether this process owns all points and bonds.
     #[inline]
     pub fn is_whole(&self) -> bool {
-        self.partition.n_ranks() == 1
-    }
-
-    /// Assignment of the points to ranks.
-    pub fn partition(&self) -> &Arc<Partition> {
-        &self.partition
+        self.local.is_none()
     }
 
     /// Processes between which the body is divided.
@@ -163,15 +140,110 @@ impl Subdomain {
         &*self.communicator
     }
 
+    /// Number of ranks.
+    pub fn n_ranks(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// Number of local points.
+    pub fn n_points(&self) -> usize {
+        let local = self.local.as_ref();
+        local.map_or(self.n_all(), |it| it.numbers.len())
+    }
+
+    /// Number of points of the body.
+    pub fn n_all(&self) -> usize {
+        self.starts[self.n_ranks()]
+    }
+
+    /// Number of a local point in the body.
+    #[inline]
+    pub fn number(&self, point: u32) -> u32 {
+        let local = self.local.as_ref();
+        local.map_or(point, |it| it.numbers[point as usize])
+    }
+
+    /// Local point with a number in the body, if this process has it.
+    pub fn point(&self, number: u32) -> Option<u32> {
+        match &self.local {
+            None => Some(number),
+            Some(local) => {
+                let place = local.numbers.binary_search(&number).ok();
+                place.map(|place| place as u32)
+            }
+        }
+    }
+
+    /// Index in an array over the local points of the value with an index in one over the points of the body, both with some values per point;
+    /// `None` for a point that this process does not have.
+    pub fn local_index(&self, index: usize, n_values: usize) -> Option<usize> {
+        let point = self.point((index / n_values) as u32)? as usize;
+        Some(n_values * point + index % n_values)
+    }
+
+    /// Index in an array over the points of the body of the value with an index in one over the local points, both with some values per point.
+    pub fn index_in_body(&self, index: usize, n_values: usize) -> usize {
+        n_values * self.number((index / n_values) as u32) as usize + index % n_values
+    }
+
+    /// Numbers in the body of some points.
+    pub fn numbers<const N: usize>(&self, points: [u32; N]) -> [u32; N] {
+        points.map(|point| self.number(point))
+    }
+
+    /// Position of a point in the order of the ranks.
+    #[inline]
+    pub fn place(&self, point: u32) -> usize {
+        let local = self.local.as_ref();
+        local.map_or(point, |it| it.places[point as usize]) as usize
+    }
+
+    /// Position of the first point of a rank; for the rank after the last one, the number of points.
+    pub fn first(&self, rank: usize) -> usize {
+        self.starts[rank]
+    }
+
+    /// Rank that owns a point.
+    pub fn rank(&self, point: u32) -> usize {
+        let place = self.place(point);
+        self.starts.partition_point(|&start| start <= place) - 1
+    }
+
+    /// Number of values of each rank, for a number of values per point.
+    pub fn counts(&self, n_values: usize) -> Vec<usize> {
+        let ends = self.starts.windows(2);
+        ends.map(|it| n_values * (it[1] - it[0])).collect()
+    }
+
+    /// Number of owned points.
+    pub fn n_owned(&self) -> usize {
+        self.owned.len()
+    }
+
+    /// Owned point by its index among the owned ones.
+    #[inline]
+    pub fn owned_at(&self, index: usize) -> u32 {
+        let local = self.local.as_ref();
+        local.map_or(index as u32, |it| it.owned[index])
+    }
+
     /// Owned points, ascending.
     pub fn owned(&self) -> impl ExactSizeIterator<Item = u32> + Clone + '_ {
-        self.owned.clone().map(|place| self.partition.point(place))
+        (0..self.n_owned()).map(|index| self.owned_at(index))
+    }
+
+    /// Index of a point among the owned ones; `None` for points of other processes.
+    #[inline]
+    pub fn row(&self, point: u32) -> Option<usize> {
+        let place = self.place(point);
+        let is_owned = self.owned.contains(&place);
+        is_owned.then(|| place - self.owned.start)
     }
 
     /// Whether this process owns a point.
     #[inline]
     pub fn owns(&self, point: u32) -> bool {
-        self.owned.contains(&self.partition.place(point))
+        self.owned.contains(&self.place(point))
     }
 
     /// Whether this process has a bond with given ends, because it owns one of them.
@@ -185,41 +257,12 @@ impl Subdomain {
         self.owns(first)
     }
 
-    /// Replaces the values at every point by those of its owner, shape (n_points, n_values). The whole body is sent to every process;
-    /// [`Ghosts`](crate::ghosts::Ghosts) exchange only values near cuts.
-    pub fn all_gather_points(&self, values: &mut [f64], n_values: usize) {
-        if self.is_whole() {
-            return;
-        }
-        let rows = |point: u32| n_values * point as usize..n_values * (point as usize + 1);
-        let owned = self.owned();
-        let owned: Vec<f64> = owned
-            .flat_map(|point| values[rows(point)].iter().copied())
-            .collect();
-        let counts = self.partition.counts(n_values);
-        let all = self.communicator.all_gather(&owned, &counts);
-        let points = (0..self.partition.len()).map(|place| self.partition.point(place));
-        for (point, received) in points.zip(all.chunks_exact(n_values)) {
-            values[rows(point)].copy_from_slice(received);
-        }
-    }
-
-    /// Values at all points from those at owned points, shape (n_points, n_values) both.
-    pub fn gathered<'a>(&self, values: &'a [f64]) -> Cow<'a, [f64]> {
-        if self.is_whole() {
-            return Cow::Borrowed(values);
-        }
-        let mut all = values.to_vec();
-        self.all_gather_points(&mut all, values.len() / self.partition.len());
-        Cow::Owned(all)
-    }
-
-    /// Values of the owned points in an array over all points, shape (n_points, M).
+    /// Values of the owned points in an array over the local points, shape (n_points, M).
     pub fn from_owned<const M: usize>(&self, of_owned: Vec<[f64; M]>) -> Vec<f64> {
         if self.is_whole() {
             return of_owned.into_flattened();
         }
-        let mut all = vec![self.communicator.poison(); M * self.partition.len()];
+        let mut all = vec![self.communicator.poison(); M * self.n_points()];
         for (point, values) in self.owned().zip(&of_owned) {
             all[M * point as usize..][..M].copy_from_slice(values);
         }
@@ -266,6 +309,25 @@ impl Subdomain {
         all.reduce(|one, other| if other < one { other } else { one })
     }
 
+    /// Concatenates the lists of all processes on rank 0, in the order of their ranks; other ranks receive an empty list.
+    pub fn gather_list(&self, own: Vec<f64>) -> Vec<f64> {
+        let on_root = |count: usize| {
+            let mut counts = vec![0; self.n_ranks()];
+            counts[0] = count;
+            counts
+        };
+        let communicator = self.communicator();
+        let from = self.all_gather_list(vec![own.len() as f64]).into_iter();
+        let from = from.map(|it| {
+            if communicator.is_root() {
+                it as usize
+            } else {
+                0
+            }
+        });
+        communicator.all_to_all(&own, &on_root(own.len()), &from.collect::<Vec<_>>())
+    }
+
     /// Concatenates the lists of all processes in the order of their ranks.
     pub fn all_gather_list<T: Wire<N>, const N: usize>(&self, own: Vec<T>) -> Vec<T> {
         self.communicator.all_gather_list(own)
@@ -274,7 +336,7 @@ impl Subdomain {
 
 /// Forces and bonds that this process sums: a type parameter, so that a loop over bonds checks once whether the body is divided.
 pub(crate) trait Share: Copy + Sync {
-    /// Position of a point in an array over the owned points; `None` for points of other processes.
+    /// Index of a point among the owned ones; `None` for points of other processes.
     fn row(self, point: u32) -> Option<usize>;
 
     /// Number of owned points before a point.
@@ -307,15 +369,13 @@ impl Share for Whole {
 impl Share for &Subdomain {
     #[inline]
     fn row(self, point: u32) -> Option<usize> {
-        let place = self.partition.place(point);
-        let is_owned = self.owned.contains(&place);
-        is_owned.then(|| place - self.owned.start)
+        Subdomain::row(self, point)
     }
 
     fn rows_before(self, point: u32) -> usize {
-        match &self.partition.order {
+        match &self.local {
             None => point as usize,
-            Some([points, _]) => points[self.owned.clone()].partition_point(|it| *it < point),
+            Some(local) => local.owned.partition_point(|it| *it < point),
         }
     }
 

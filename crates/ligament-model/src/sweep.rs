@@ -139,7 +139,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             bonds,
             deformations,
         };
-        let n_owned = self.system.cloud.subdomain.owned().len();
+        let n_owned = self.system.cloud.subdomain.n_owned();
         let mut sums = vec![PointForces::NONE; n_owned];
         let energies = self.reach().sum(share, &deformed, &mut sums).concat();
         (sums, energies)

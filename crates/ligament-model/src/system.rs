@@ -4,6 +4,7 @@ mod answers;
 mod contact;
 mod crack_axis;
 pub mod elements;
+mod parts;
 mod rigid;
 
 use std::sync::OnceLock;

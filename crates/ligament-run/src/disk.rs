@@ -48,7 +48,7 @@ impl FieldsOnDisk {
             Analysis::Elastic { .. } | Analysis::Modal(_) => Some(2),
         };
         Self {
-            of_one: POINT * model.system.n_points() as f64 + bonds,
+            of_one: POINT * model.system.subdomain().n_all() as f64 + bonds,
             most,
             every,
         }

@@ -16,7 +16,7 @@ use crate::processes::broadcast_path;
 use crate::progress::Progress;
 use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{Noted, certificate, summary};
+use crate::summary::{Noted, OfPoints, certificate, summary};
 use crate::watch::Watch;
 
 /// A body under loads.
@@ -55,7 +55,11 @@ impl LoadedBody<'_> {
         let motion = loading.motion(&problem);
         let posed = Posed::new(&problem, motion.as_ref());
         let analysis = &model.setup.analysis;
-        let grid = model.body().grid();
+        let of_points = OfPoints::new(model);
+        let mut grid = model.body().grid();
+        if !model.system.subdomain().is_whole() {
+            grid.of_body = Some(model.names.point_tags());
+        }
         broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;
         let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
@@ -77,11 +81,12 @@ impl LoadedBody<'_> {
             }
         };
         let watched = (writer, checkpoints);
-        let mut watch = Watch::new(watched, requests, progress, &model.setup, notices);
+        let mut watch = Watch::new(watched, requests, progress, model, notices);
         let outcome = stages.time("solution", || self.outcome(posed, restored, &mut watch))?;
 
         let (notices, first, checkpoints) = watch.into_parts();
         let noted = Noted {
+            of_points,
             provenance,
             notices,
             first,
@@ -108,6 +113,7 @@ impl LoadedBody<'_> {
         } = *self;
         let problem = loading.problem(model);
         let analysis = &model.setup.analysis;
+        OfPoints::new(model);
         let (grid, fixed) = (model.body().grid(), &model.fixed);
         let folder = broadcast_path(&*loading.solver.communicator, None)?;
         let writer =

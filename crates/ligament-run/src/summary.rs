@@ -26,7 +26,7 @@ use ligament_case::case::CaseFile;
 pub(crate) use certificate::certificate;
 use certificate::write_certificate;
 pub use modal::{modal_summary, write_modal};
-pub use model::{correction_line, family, formulation_line, heading, scatter};
+pub use model::{OfPoints, correction_line, family, formulation_line, heading, scatter};
 use motion::{motion_summary, write_motion};
 use places::{bond_event, resultants_at_peak};
 use solver::solver_summary;
@@ -42,8 +42,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Description of the end of a run, with points by their tags and positions.
 pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
-    let body = model.body();
-    outcome.termination.words(&|point| body.place(point))
+    outcome.termination.words(&|point| model.names.place(point))
 }
 
 /// Smallest, mean and largest change of the points' temperature at load factor 1, K.
@@ -55,6 +54,8 @@ pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
 /// Data of a run for the summary, beside its model and its outcome.
 #[derive(Debug, Clone)]
 pub struct Noted {
+    /// What the summary says about the points of the model.
+    pub of_points: OfPoints,
     /// Origin of the results.
     pub provenance: Provenance,
     /// Messages for the notices of the run.
@@ -88,7 +89,7 @@ pub fn summary(
     let is_cut_short = matches!(outcome.termination, Termination::NoEquilibrium { .. });
     let of_end = (is_cut_short && !without_equilibrium).then(|| UP_TO_THERE.to_owned());
     Summary {
-        model: model::model_summary(case, model),
+        model: model::model_summary(case, model, noted.of_points),
         temperature_change: temperature_change(boundary),
         units: UnitsSummary {
             displacement: units.displacement.into(),
@@ -117,7 +118,7 @@ pub fn summary(
         overlap: outcome.overlap.map(|it| OverlapSummary {
             depth: it.depth,
             step: it.step,
-            between: (model.body().numbering().ordered(it.ends)).map(|end| model.body().place(end)),
+            between: (model.names.numbering().ordered(it.ends)).map(|end| model.names.place(end)),
         }),
         stability: outcome.stability.map(StabilitySummary::from),
         solver: solver_summary(&outcome.costs, &outcome.solver),

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use ligament::{Body, Setup};
+use ligament::{Body, Model};
 use ligament_analysis::Termination;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
@@ -27,20 +27,22 @@ pub(crate) struct Watch<'a> {
     progress: &'a mut Progress,
     notices: Vec<String>,
     last: StepLine,
-    body: &'a dyn Body,
+    /// The points of the whole body.
+    names: &'a dyn Body,
     /// Whether faces of cracks carry pressure where they close.
     closing: bool,
 }
 
 impl<'a> Watch<'a> {
-    /// The observer of a run of a setup, with a writer, checkpoints, a progress display and the notices of an earlier part of the run.
+    /// The observer of a run of a model, with a writer, checkpoints, a progress display and the notices of an earlier part of the run.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
         requests: Stops<'a>,
         progress: &'a mut Progress,
-        setup: &'a Setup,
+        model: &'a Model,
         notices: Vec<String>,
     ) -> Self {
+        let setup = &model.setup;
         let in_time = setup.analysis.is_motion();
         progress.begin_steps(setup.n_steps().map(|steps| steps as u64), noun(in_time));
         let last = StepLine {
@@ -62,7 +64,7 @@ impl<'a> Watch<'a> {
             progress,
             notices,
             last,
-            body: &*setup.body,
+            names: &*model.names,
             closing: setup.closing,
         }
     }
@@ -116,7 +118,7 @@ impl Observer for Watch<'_> {
     }
 
     fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        let words = words(notice, self.body, self.closing);
+        let words = words(notice, self.names, self.closing);
         if self.notices.len() < SHOWN {
             self.progress.stage(&words);
         }

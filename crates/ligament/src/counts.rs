@@ -25,17 +25,20 @@ impl BondCounts {
     /// Counts the bonds of a system and the pairs of points that are not bonded.
     pub fn new<const D: usize>(system: &BondSystem<D>, absent: &[AbsentBond]) -> Self {
         let (cloud, bonds) = (&system.cloud, &system.bonds);
-        let sizes = cloud.over_families(|point| [bonds.incidence.at(point).len() as f64]);
         let is_far = |size: &usize| system.far.is_some() && *size == 0;
-        let all = || sizes.iter().map(|[size]| *size as usize);
+        let owned = || cloud.subdomain.owned();
+        let all = || owned().map(|point| bonds.incidence.at(point).len());
         let sizes = || all().filter(|size| !is_far(size));
+        let mut ends = [sizes().min(), sizes().max()].map(|it| it.unwrap_or_default() as f64);
+        ends[0] = -ends[0];
+        cloud.subdomain.all_reduce_max(&mut ends);
         Self {
-            far_points: all().filter(is_far).count(),
+            far_points: cloud.subdomain.count(all().filter(is_far).count()),
             bonds: bonds.count(cloud),
             cut: count(cloud, absent, Absence::PreCrack),
             across_voids: count(cloud, absent, Absence::Void),
             across_layers: across_layers(cloud, bonds),
-            of_points: [sizes().min(), sizes().max()].map(Option::unwrap_or_default),
+            of_points: [-ends[0], ends[1]].map(|it| it as usize),
         }
     }
 }
@@ -54,7 +57,7 @@ pub(crate) fn finding<const D: usize>(
     absent: &[AbsentBond],
 ) -> Finding<'static> {
     Finding::Bonds {
-        points: cloud.len(),
+        points: cloud.subdomain.n_all(),
         bonds: bonds.count(cloud),
         across_voids: count(cloud, absent, Absence::Void),
     }

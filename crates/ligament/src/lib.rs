@@ -59,6 +59,7 @@ pub mod foresight;
 pub mod formulation;
 pub mod implausible;
 pub mod loading;
+mod local;
 pub mod model;
 mod near_field;
 pub mod near_growth;

@@ -14,11 +14,13 @@ use ligament_model::{
 };
 
 use crate::body::{AnyBody, Body, BodyOutline, Geometry};
+use crate::coordinates::in_dimensions;
 use crate::counts::{self, BondCounts};
 use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
+use crate::local::LocalBody;
 use crate::near_field::NearField;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
@@ -33,8 +35,10 @@ use crate::warning::{self, Warning};
 /// The discrete model: everything before the equations.
 #[derive(Debug)]
 pub struct Model {
-    /// Setup that the model was built from.
+    /// Setup that the model was built from; of several processes, each has its part of the body.
     pub setup: Setup,
+    /// The points of the whole body, for their descriptions.
+    pub names: Arc<dyn Body>,
     /// Points and corrected bonds.
     pub system: AnySystem,
     /// Fields that an analysis does not change.
@@ -58,25 +62,57 @@ impl Model {
     ///
     /// If a field of the setup is wrong.
     pub fn build(setup: Setup, watcher: &mut dyn StageWatcher) -> Result<Self, SetupError> {
-        match setup.body.clone() {
-            AnyBody::Plane(body) => Self::of_body(setup, &*body, watcher),
-            AnyBody::Solid(body) => Self::of_body(setup, &*body, watcher),
+        match &setup.body {
+            AnyBody::Plane(_) => Self::of_body::<2>(setup, watcher),
+            AnyBody::Solid(_) => Self::of_body::<3>(setup, watcher),
         }
     }
 
     /// Builds the model of a setup on its body in D dimensions.
     fn of_body<const D: usize>(
         setup: Setup,
-        body: &dyn Geometry<D>,
         watcher: &mut dyn StageWatcher,
     ) -> Result<Self, SetupError> {
         setup.check()?;
         let material_of_cell = loading::material_of_cell(&setup)?;
+        let whole = setup.body.geometry::<D>().clone();
         let (cloud, outline) = stage(watcher, "points", || {
-            points(&setup, body, &material_of_cell)
+            points(&setup, &*whole, &material_of_cell)
         })?;
+        let discrete = Discrete {
+            no_fail: loading::no_fail(&setup, &cloud)?,
+            names: setup.body.as_body(),
+            setup,
+            cloud,
+            material_of_cell,
+        };
+        if discrete.cloud.subdomain.is_whole() {
+            return Self::of_points(discrete, outline, watcher);
+        }
+        drop(outline);
+        drop(whole);
+        let discrete = discrete.on_this_process()?;
+        let body = discrete.setup.body.geometry::<D>().clone();
+        let outline = bounds(&discrete.setup, &*body, &discrete.cloud);
+        Self::of_points(discrete, outline, watcher)
+    }
+
+    /// Builds the model on the points of this process, with the outline of their mesh.
+    fn of_points<const D: usize>(
+        discrete: Discrete<D>,
+        outline: Bounds<'_, D>,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
+        let Discrete {
+            setup,
+            names,
+            cloud,
+            material_of_cell,
+            no_fail,
+        } = discrete;
+        let body = setup.body.geometry::<D>().clone();
         let near = match setup.far_field {
-            Some(_) => NearField::new(&setup, body, cloud.clone(), &material_of_cell)?,
+            Some(_) => NearField::new(&setup, &*body, cloud.clone(), &material_of_cell)?,
             None => None,
         };
         let Bonded {
@@ -85,25 +121,30 @@ impl Model {
             correction,
             crossed,
         } = match near {
-            None => bonded((&setup, body), (cloud, outline), &material_of_cell, watcher)?,
+            None => {
+                let named = (&setup, &*body, &*names);
+                bonded(named, (cloud, outline), &material_of_cell, watcher)?
+            }
             Some(near) => {
                 let part = near.body();
                 let points = points(&near.setup, &*part, &near.material_of_cell)?;
-                let of_part = (&near.setup, &*part);
+                let of_part = (&near.setup, &*part, &*part.names());
                 let bonded = bonded(of_part, points, &near.material_of_cell, watcher)?;
-                bonded.within(near, body, &material_of_cell)
+                bonded.within(near, &*body, &material_of_cell)
             }
         };
-        fixed.no_fail = loading::no_fail(&setup, &system.cloud)?;
+        fixed.no_fail = no_fail;
         fixed.scatter = scatter::factors(&setup.scatter, body.positions(), &body.numbering());
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
         let report = correction.report.as_ref();
+        let described = (&setup, &*names);
         Ok(Self {
-            warnings: warnings(&setup, &system.cloud, report, &fixed, &criteria, crossed),
+            warnings: warnings(described, &system.cloud, report, &fixed, &criteria, crossed),
             correction_range: correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system, &fixed.absent),
             correction: correction.report,
+            names,
             setup,
             system: AnySystem::new(system.with_elements()),
             fixed,
@@ -131,11 +172,15 @@ impl Model {
         &*self.setup.body
     }
 
-    /// Position halfway between two points, m.
+    /// Position halfway between two points, given by their numbers in the body, m.
     pub fn middle(&self, ends: [u32; 2]) -> Vec<f64> {
         over_dimension!(&self.system, system => {
             let cloud = &system.cloud;
-            let [a, b] = ends.map(|end| cloud.positions[end as usize]);
+            let relative = |number: u32| match cloud.subdomain.point(number) {
+                Some(point) => cloud.positions[point as usize],
+                None => cloud.local(in_dimensions(self.names.position(number))),
+            };
+            let [a, b] = ends.map(relative);
             let along = a.iter().zip(b).zip(cloud.origin);
             along.map(|((a, b), origin)| 0.5 * (a + b) + origin).collect()
         })
@@ -146,7 +191,7 @@ impl Model {
         over_dimension!(&self.system, system => system.rigidities.shear.iter().any(|it| *it > 0.0))
     }
 
-    /// Volume of a material, by its index, m^3.
+    /// Volume of a material on this process, by its index, m^3.
     pub fn volume_of_material(&self, index: usize) -> f64 {
         over_dimension!(&self.system, system => {
             let cloud = &system.cloud;
@@ -205,9 +250,9 @@ impl<const D: usize> Bonded<D> {
     }
 }
 
-/// Finds and corrects the bonds between the points of a body.
+/// Finds and corrects the bonds between the points of a body; `names` has the points of the whole body.
 fn bonded<const D: usize>(
-    (setup, body): (&Setup, &dyn Geometry<D>),
+    (setup, body, names): (&Setup, &dyn Geometry<D>, &dyn Body),
     (cloud, outline): (PointCloud<D>, Bounds<'_, D>),
     material_of_cell: &[u32],
     watcher: &mut dyn StageWatcher,
@@ -218,7 +263,7 @@ fn bonded<const D: usize>(
         let (bonds, absent) = inside_body(body, all, &cloud, outline.as_deref());
         (composed(body, bonds, &cloud, material_of_cell), absent)
     });
-    require_connected(setup, &cloud, &horizons, &bonds)?;
+    require_connected((setup, names), &cloud, &horizons, &bonds)?;
     watcher.found(&counts::finding(&cloud, &bonds, &absent));
     let cracks = precracks::cracks(body, &setup.precracks)?;
     let mut crossed = stage(watcher, "pre-cracks", || {
@@ -247,7 +292,7 @@ fn bonded<const D: usize>(
         ..of_correction(&correction)
     };
     let system = stage(watcher, "rigidities", || {
-        bond_system(setup, cloud, bonds, stiffness, &correction, faces)
+        bond_system((setup, names), cloud, bonds, stiffness, &correction, faces)
     })?;
     Ok(Bonded {
         system,
@@ -274,8 +319,50 @@ pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
 /// The outline of a meshed body, which bonds must not cross.
 type Bounds<'a, const D: usize> = Option<Box<dyn BodyOutline<D> + 'a>>;
 
-/// The points of the body with this process's subdomain, and the outline of a mesh, which bonds must not cross; `material_of_cell`
-/// (n_cells) has the index of each cell's material.
+/// The outline of a mesh, if bonds must not cross it.
+fn bounds<'a, const D: usize>(
+    setup: &Setup,
+    body: &'a dyn Geometry<D>,
+    cloud: &PointCloud<D>,
+) -> Bounds<'a, D> {
+    match setup.bonds_through_voids {
+        true => None,
+        false => body.outline(cloud),
+    }
+}
+
+/// The points of a body on this process.
+struct Discrete<const D: usize> {
+    /// Setup of the part of the body that this process keeps.
+    setup: Setup,
+    /// The points of the whole body.
+    names: Arc<dyn Body>,
+    cloud: PointCloud<D>,
+    /// Index of the material of each cell, shape (n_cells).
+    material_of_cell: Vec<u32>,
+    /// Whether the bonds of each point never break, shape (n_points).
+    no_fail: Vec<bool>,
+}
+
+impl<const D: usize> Discrete<D> {
+    /// The points that this process keeps.
+    fn on_this_process(self) -> Result<Self, SetupError> {
+        let local = LocalBody::new(&self.setup, &self.cloud, &self.material_of_cell)?;
+        Ok(Self {
+            names: self.names.names(),
+            no_fail: local.of_points(&self.no_fail),
+            setup: Setup {
+                body: local.body,
+                ..self.setup
+            },
+            cloud: local.cloud,
+            material_of_cell: local.material_of_cell,
+        })
+    }
+}
+
+/// All points of the body with their owners, and the outline of a mesh, which bonds must not cross; `material_of_cell` (n_cells) has the index
+/// of each cell's material.
 fn points<'a, const D: usize>(
     setup: &Setup,
     body: &'a dyn Geometry<D>,
@@ -300,7 +387,7 @@ fn points<'a, const D: usize>(
 
 /// Points and corrected bonds with the rigidities of their elements.
 fn bond_system<const D: usize>(
-    setup: &Setup,
+    (setup, names): (&Setup, &dyn Body),
     cloud: PointCloud<D>,
     bonds: BondSet<D>,
     stiffness: BondStiffness,
@@ -310,9 +397,9 @@ fn bond_system<const D: usize>(
     let element = setup.law.element();
     let (alpha, omega) = (&correction.length_factor, &correction.domain_factor);
     let factors = (omega.as_slice(), stiffness.axial.as_slice());
-    require_factors(&*setup.body, &cloud, factors, &bonds.ends)?;
+    require_factors(names, &cloud, factors, &bonds.ends)?;
     let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
-    require_finite_rigidities(&*setup.body, &system)?;
+    require_finite_rigidities(names, &system)?;
     let materials = formulation::stiffness_of_materials(setup);
     Ok(system.with_faces(faces).with_materials(materials))
 }
@@ -465,15 +552,17 @@ fn of_correction(correction: &Correction) -> ConstantFields {
 
 /// Warnings about a model; `crossed` has the pre-cracks that cut no bond and the number of bonds that only touch one.
 fn warnings<const D: usize>(
-    setup: &Setup,
+    (setup, names): (&Setup, &dyn Body),
     cloud: &PointCloud<D>,
     report: Option<&CorrectionReport>,
     fixed: &ConstantFields,
     criteria: &Criteria,
     crossed: Precracked,
 ) -> Vec<Warning> {
-    let implausible = plausibility::of_model(setup, cloud, criteria, crossed.idle).into_iter();
-    let of_model = warning::of_model(setup, &cloud.spacing, report, fixed, crossed.touched);
+    let described = (setup, names);
+    let implausible = plausibility::of_model(described, cloud, criteria, crossed.idle).into_iter();
+    let points = (&cloud.subdomain, cloud.spacing.as_slice());
+    let of_model = warning::of_model(described, points, report, fixed, crossed.touched);
     implausible
         .map(Warning::Implausible)
         .chain(of_model)

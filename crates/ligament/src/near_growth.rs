@@ -144,7 +144,7 @@ impl Model {
             let first = inside.next();
             inside.filter_map(move |it| Some([first?, it]))
         });
-        let parts = Parts::new(cloud.len(), pairs);
+        let parts = Parts::new(&cloud.subdomain, pairs);
         let beyond = GROWTH * self.near_volume(cloud).powf(1.0 / D as f64);
         let mut numbered: Vec<(u32, u32)> = points.iter().map(|&it| (parts.part(it), it)).collect();
         numbered.sort_unstable();

@@ -35,9 +35,9 @@ pub fn notes(setup: &Setup) -> Vec<Note> {
     auxetic.collect()
 }
 
-/// Implausible values of a setup and its model; `criteria` has the limits of the bonds, `idle` the indices of pre-cracks that cut no bond.
+/// Implausible values of a setup and its model, with the points of the whole body; `criteria` has the limits of the bonds, `idle` the indices of pre-cracks that cut no bond.
 pub(crate) fn of_model<const D: usize>(
-    setup: &Setup,
+    (setup, body): (&Setup, &dyn Body),
     cloud: &PointCloud<D>,
     criteria: &Criteria,
     idle: Vec<usize>,
@@ -46,8 +46,7 @@ pub(crate) fn of_model<const D: usize>(
     for region in &setup.materials {
         found.extend(of_constants(&region.material, &setup.analysis));
         let softening = setup.criteria.iter().filter(|it| softens_by_energy(it));
-        let lengths =
-            softening.filter_map(|it| of_length(&*setup.body, cloud, &region.material, it));
+        let lengths = softening.filter_map(|it| of_length(body, cloud, &region.material, it));
         found.extend(lengths.take(1));
     }
     // Limits follow from constants: where constants are implausible, only these are reported.
@@ -58,7 +57,7 @@ pub(crate) fn of_model<const D: usize>(
     if !idle.is_empty() {
         found.push(Implausible::CutsNothing {
             cracks: idle,
-            corners: corners(&*setup.body),
+            corners: corners(body),
         });
     }
     [setup.remarks.clone(), found].concat()
@@ -144,6 +143,7 @@ fn of_length<const D: usize>(
     let strength = strength.or(material.tensile_strength)?;
     let length = young * material.fracture_energy? / strength.powi(2);
     let spacing = cloud.spacing.iter().copied().fold(f64::INFINITY, f64::min);
+    let spacing = -cloud.subdomain.max(-spacing);
     let [low, high] = corners(body);
     let sides = low.iter().zip(&high).map(|(low, high)| high - low);
     let longest = sides.fold(0.0, f64::max);

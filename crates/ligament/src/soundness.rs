@@ -61,13 +61,21 @@ fn require_neighbours<const D: usize>(
     bonds: &BondSet<D>,
 ) -> Result<(), SetupError> {
     let lone = bonds.lone_points(cloud);
-    let Some(&first) = cloud.numbering.sorted(&lone).first() else {
+    let first = cloud.numbering.sorted(&lone).first().map(|&point| {
+        let numbers = [
+            cloud.numbering.in_file(point),
+            cloud.subdomain.number(point),
+        ];
+        numbers.map(f64::from)
+    });
+    let count = cloud.subdomain.count(lone.len());
+    let Some([_, first]) = cloud.subdomain.all_reduce_min(first) else {
         return Ok(());
     };
     let fault = Fault::LonePoints {
-        count: lone.len(),
-        n_points: bonds.incidence.n_points(),
-        first: body.place(first),
+        count,
+        n_points: cloud.subdomain.n_all(),
+        first: body.place(first as u32),
     };
     Err(Field::whole("horizon").error(fault))
 }
@@ -75,13 +83,12 @@ fn require_neighbours<const D: usize>(
 /// Refuses bonds that leave points without a neighbour, or that connect a body of cells in more parts than its cells do, because edges of
 /// cells are longer than the horizons.
 pub(crate) fn require_connected<const D: usize>(
-    setup: &Setup,
+    (setup, names): (&Setup, &dyn Body),
     cloud: &PointCloud<D>,
     horizons: &Horizons,
     bonds: &BondSet<D>,
 ) -> Result<(), SetupError> {
-    let body = &*setup.body;
-    require_neighbours(body, cloud, bonds)?;
+    require_neighbours(names, cloud, bonds)?;
     let parts = Parts::of_bonds(cloud, bonds);
     if parts.count() == 1 {
         return Ok(());
@@ -93,26 +100,30 @@ pub(crate) fn require_connected<const D: usize>(
     let radius =
         |[from, to]: [u32; 2]| horizons.radius[from as usize].max(horizons.radius[to as usize]);
     let excess = |ends: &[u32; 2]| length(*ends) / radius(*ends);
-    let edges = body.edges();
+    let edges = setup.body.edges();
     let torn = (edges.iter().copied())
         .filter(|ends| parts.part(ends[0]) != parts.part(ends[1]) && excess(ends) > 1.0);
-    let Some(worst) = torn.max_by(|one, other| excess(one).total_cmp(&excess(other))) else {
+    let worst = torn.max_by(|one, other| excess(one).total_cmp(&excess(other)));
+    let row = worst.map(|ends| {
+        let [a, b] = cloud.subdomain.numbers(ends).map(f64::from);
+        let along: [f64; D] = along(ends).map(|it| it / length(ends));
+        let [x, y, z] = [0, 1, 2].map(|axis| along.get(axis).copied().unwrap_or(0.0));
+        [-excess(&ends), a, b, length(ends), radius(ends), x, y, z]
+    });
+    let Some([excess, a, b, length, horizon, along @ ..]) = cloud.subdomain.all_reduce_min(row)
+    else {
         return Ok(());
     };
     let torn = Torn {
         parts: parts.count(),
-        of_body: Parts::new(cloud.len(), edges.iter().copied()).count(),
-        places: worst.map(|it| body.place(it)),
-        along: along(worst).map(|it| it / length(worst)).to_vec(),
-        length: length(worst),
-        horizon: radius(worst),
+        of_body: Parts::new(&cloud.subdomain, edges.iter().copied()).count(),
+        places: [a, b].map(|it| names.place(it as u32)),
+        along: along[..D].to_vec(),
+        length,
+        horizon,
         remedy: match setup.horizon {
-            Horizon::Factor(factor) => {
-                format!("a horizon factor above {:.2}", factor * excess(&worst))
-            }
-            Horizon::Length(length) => {
-                format!("a horizon above {:.4e} m", length * excess(&worst))
-            }
+            Horizon::Factor(factor) => format!("a horizon factor above {:.2}", -factor * excess),
+            Horizon::Length(length) => format!("a horizon above {:.4e} m", -length * excess),
         },
     };
     Err(Field::whole("horizon").error(Fault::Torn(Box::new(torn))))
@@ -142,9 +153,10 @@ pub(crate) fn require_factors<const D: usize>(
         return Ok(());
     };
     let distances = cloud.spacing.iter().copied();
+    let shortest = distances.clone().fold(f64::INFINITY, f64::min);
     let spacing = [
-        distances.clone().fold(f64::INFINITY, f64::min),
-        distances.fold(0.0, f64::max),
+        -cloud.subdomain.max(-shortest),
+        cloud.subdomain.max(distances.fold(0.0, f64::max)),
     ];
     Err(Field::whole("correction").error(Fault::NoCorrection { places, spacing }))
 }
@@ -156,10 +168,10 @@ fn first_of<const D: usize>(
     wrong: Option<usize>,
     ends: &[[u32; 2]],
 ) -> Option<[String; 2]> {
-    let wrong = wrong.map(|bond| ends[bond].map(f64::from));
+    let wrong = wrong.map(|bond| cloud.subdomain.numbers(ends[bond]).map(f64::from));
     let first = cloud.subdomain.all_reduce_min(wrong);
     let ends = first?.map(|it| it as u32);
-    Some((cloud.numbering.ordered(ends)).map(|end| body.place(end)))
+    Some((body.numbering().ordered(ends)).map(|end| body.place(end)))
 }
 
 /// Refuses rigidities of bonds that are not finite or out of range; `ends` has shape (n_bonds).

@@ -7,6 +7,7 @@ use ligament_model::failure::Criteria;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
+use ligament_model::subdomain::Subdomain;
 use ligament_model::{ConstantFields, ElementKind, Isotropic};
 use thiserror::Error;
 
@@ -239,34 +240,40 @@ fn place(position: &[f64]) -> String {
     coordinates.collect::<Vec<_>>().join(", ")
 }
 
-/// Warnings about the body, the horizons over the distances `spacing` (n_points, m) of nearest points, the correction, pre-cracks
+/// Warnings about the body with all its points, the horizons over the distances (n_points, m) of nearest points, the correction, pre-cracks
 /// (`touched`: number of bonds that only touch an end of one) and the materials.
 pub(crate) fn of_model(
-    setup: &Setup,
-    spacing: &[f64],
+    (setup, body): (&Setup, &dyn Body),
+    points: (&Subdomain, &[f64]),
     correction: Option<&CorrectionReport>,
     fixed: &ConstantFields,
     touched: usize,
 ) -> Vec<Warning> {
-    let body = &*setup.body;
-    let mut warnings: Vec<Warning> = body.remarks().into_iter().map(Warning::Body).collect();
+    let (subdomain, _) = points;
+    let mut warnings: Vec<Warning> = setup
+        .body
+        .remarks()
+        .into_iter()
+        .map(Warning::Body)
+        .collect();
     let length = length(body);
     if length > SUSPICIOUSLY_LARGE {
         warnings.push(Warning::LargeBody { length });
     }
-    warnings.extend(large_horizon(body, fixed));
+    warnings.extend(large_horizon((body, subdomain), fixed));
     if let Some(CorrectionReport::Domain(_)) = correction {
-        warnings.extend(small_horizon(setup, spacing, fixed));
+        warnings.extend(small_horizon(setup, points, fixed));
     }
     match correction {
         Some(CorrectionReport::Domain(report)) if !report.converged => {
-            warnings.push(not_converged(body, report, fixed));
+            warnings.push(not_converged((body, subdomain), report, fixed));
         }
         Some(CorrectionReport::Patch(report)) if report.left > largest_left(setup.space()) => {
-            let (factor, _) = smallest_factor(setup, spacing, fixed);
+            let (factor, _) = smallest_factor(setup, points, fixed);
             let enough = patch_factor(setup.space());
             let better = (factor < enough).then_some(enough);
-            warnings.push(not_met(body, (report.left, &fixed.patch_residual), better));
+            let residual = &fixed.patch_residual;
+            warnings.push(not_met((body, subdomain), (report.left, residual), better));
         }
         _ => {}
     }
@@ -276,7 +283,7 @@ pub(crate) fn of_model(
     if setup.probes.iter().any(|it| it.reading.is_stress()) {
         warnings.extend(of_virial_stress(&setup.body.origin()));
     }
-    warnings.extend(scatter_below_spacing(setup, spacing));
+    warnings.extend(scatter_below_spacing(setup, points));
     let mut laws = setup.criteria.iter().map(|it| it.after.law);
     if laws.any(|law| law == linear::BILINEAR) {
         warnings.push(Warning::OneLine);
@@ -328,25 +335,37 @@ fn patch_factor(space: Space) -> f64 {
     }
 }
 
-fn small_horizon(setup: &Setup, spacing: &[f64], fixed: &ConstantFields) -> Option<Warning> {
-    let (factor, is_given) = smallest_factor(setup, spacing, fixed);
+fn small_horizon(
+    setup: &Setup,
+    points: (&Subdomain, &[f64]),
+    fixed: &ConstantFields,
+) -> Option<Warning> {
+    let (factor, is_given) = smallest_factor(setup, points, fixed);
     (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
 }
 
 /// The smallest horizon of a point over the distance to its nearest point, and whether the setup gives it.
-fn smallest_factor(setup: &Setup, spacing: &[f64], fixed: &ConstantFields) -> (f64, bool) {
+fn smallest_factor(
+    setup: &Setup,
+    (subdomain, spacing): (&Subdomain, &[f64]),
+    fixed: &ConstantFields,
+) -> (f64, bool) {
     match setup.horizon {
         Horizon::Factor(factor) => (factor, true),
         Horizon::Length(_) => {
             let factors = fixed.horizon.iter().zip(spacing);
             let factors = factors.map(|(horizon, nearest)| horizon / nearest);
-            (factors.fold(f64::INFINITY, f64::min), false)
+            let smallest = factors.fold(f64::INFINITY, f64::min);
+            (-subdomain.max(-smallest), false)
         }
     }
 }
 
-fn scatter_below_spacing(setup: &Setup, spacing: &[f64]) -> Option<Warning> {
-    let spacing = spacing.iter().copied().fold(0.0, f64::max);
+fn scatter_below_spacing(
+    setup: &Setup,
+    (subdomain, spacing): (&Subdomain, &[f64]),
+) -> Option<Warning> {
+    let spacing = subdomain.max(spacing.iter().copied().fold(0.0, f64::max));
     let lengths = setup.scatter.iter().map(|it| it.correlation_length);
     let below = lengths.filter(|length| *length > 0.0 && *length < spacing);
     let length = below.reduce(f64::min)?;
@@ -360,10 +379,15 @@ fn length(body: &dyn Body) -> f64 {
     sides.fold(0.0, f64::max)
 }
 
-fn large_horizon(body: &dyn Body, fixed: &ConstantFields) -> Option<Warning> {
+fn large_horizon(
+    (body, subdomain): (&dyn Body, &Subdomain),
+    fixed: &ConstantFields,
+) -> Option<Warning> {
     let length = length(body);
-    let horizons = fixed.horizon.iter().enumerate();
-    let (point, &horizon) = horizons.min_by(|one, other| one.1.total_cmp(other.1))?;
+    let horizons = (0..).zip(&fixed.horizon);
+    let smallest = horizons.min_by(|one, other| one.1.total_cmp(other.1));
+    let numbered = smallest.map(|(point, &it)| [it, f64::from(subdomain.number(point))]);
+    let [horizon, point] = subdomain.all_reduce_min(numbered)?;
     (horizon > 0.5 * length).then(|| Warning::LargeHorizon {
         place: body.place(point as u32),
         horizon,
@@ -371,17 +395,28 @@ fn large_horizon(body: &dyn Body, fixed: &ConstantFields) -> Option<Warning> {
     })
 }
 
-fn not_met(body: &dyn Body, (left, residual): (f64, &[f64]), factor: Option<f64>) -> Warning {
-    let worst = (0..residual.len())
-        .max_by(|&i, &j| residual[i].total_cmp(&residual[j]))
-        .unwrap_or_default();
+fn not_met(
+    (body, subdomain): (&dyn Body, &Subdomain),
+    (left, residual): (f64, &[f64]),
+    factor: Option<f64>,
+) -> Warning {
+    let (worst, largest) = last_largest(subdomain, |point| residual[point as usize]);
     Warning::NotMet {
         left,
-        largest: residual[worst],
-        worst: body.label(worst as u32),
-        position: body.position(worst as u32).to_vec(),
+        largest,
+        worst: body.label(worst),
+        position: body.position(worst).to_vec(),
         factor,
     }
+}
+
+/// Number in the body of the last point with the largest of some values, and the value; collective.
+fn last_largest(subdomain: &Subdomain, value: impl Fn(u32) -> f64) -> (u32, f64) {
+    let owned = subdomain.owned().map(|point| (point, value(point)));
+    let largest = owned.max_by(|one, other| one.1.total_cmp(&other.1));
+    let row = largest.map(|(point, value)| [-value, -f64::from(subdomain.number(point))]);
+    let [value, number] = subdomain.all_reduce_min(row).unwrap_or_default();
+    (-number as u32, -value)
 }
 
 /// Advice for a body that does not satisfy the equations of the patch correction.
@@ -392,29 +427,30 @@ fn more_bonds(factor: Option<f64>) -> String {
     }
 }
 
-fn not_converged(body: &dyn Body, correction: &DomainReport, fixed: &ConstantFields) -> Warning {
-    let n_points = fixed.horizon.len();
+fn not_converged(
+    (body, subdomain): (&dyn Body, &Subdomain),
+    correction: &DomainReport,
+    fixed: &ConstantFields,
+) -> Warning {
     let along_axes = &fixed.energy_ratios[..body.position(0).len()];
-    let error = |point: usize| {
+    let error = |point: u32| {
         let errors = along_axes
             .iter()
-            .map(|it| (it.at_points[point] - 1.0).abs());
+            .map(|it| (it.at_points[point as usize] - 1.0).abs());
         errors.fold(0.0, f64::max)
     };
-    let off = (0..n_points)
-        .filter(|&point| error(point) > ENERGY_TOLERANCE)
-        .count();
-    let worst = (0..n_points)
-        .max_by(|&i, &j| error(i).total_cmp(&error(j)))
-        .unwrap_or_default();
+    let owned = subdomain.owned();
+    let off = owned.filter(|&point| error(point) > ENERGY_TOLERANCE);
+    let off = subdomain.count(off.count());
+    let (worst, largest) = last_largest(subdomain, error);
     Warning::NotConverged {
         sweeps: correction.sweeps,
         last_change: correction.last_change,
         off,
-        n_points,
-        error: error(worst),
-        worst: body.label(worst as u32),
-        position: body.position(worst as u32).to_vec(),
+        n_points: subdomain.n_all(),
+        error: largest,
+        worst: body.label(worst),
+        position: body.position(worst).to_vec(),
     }
 }
 

@@ -7,14 +7,14 @@
 use ligament_model::Bonds;
 use ligament_model::interface::Topology;
 
-use super::{AddedSupport, Fragments, across_ranks};
+use super::{AddedSupport, FragmentExtent, Fragments, across_ranks};
 use crate::restraints::Restraints;
 
 /// Fragments of a body whose bonds break, numbered as by [`Fragments::find`].
 #[derive(Debug, Clone)]
 pub struct Connectivity {
     fragments: Fragments,
-    /// A point of each fragment whose points changed since [`Connectivity::missing_supports`].
+    /// Number in the body of the first point of each fragment whose points changed since [`Connectivity::missing_supports`].
     changed: Vec<u32>,
     search: Search,
 }
@@ -38,7 +38,7 @@ impl Connectivity {
     pub fn new(system: &dyn Bonds) -> Self {
         let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
         Self {
-            changed: fragments.points.iter().map(|points| points[0]).collect(),
+            changed: fragments.extents.iter().map(|it| it.first).collect(),
             fragments,
             search: Search {
                 reached_by: vec![NEITHER; system.n_points()],
@@ -98,24 +98,25 @@ impl Connectivity {
             let ends = topology.ends[bond as usize];
             if let Some(part) = self.search.detached_part(topology, intact, ends) {
                 self.fragments.split_off(part);
-                self.changed.extend(ends);
+                let Fragments {
+                    of_point, extents, ..
+                } = &self.fragments;
+                let parts = ends.map(|end| of_point[end as usize] as usize);
+                self.changed.extend(parts.map(|part| extents[part].first));
             }
         }
     }
 
     /// Finds all fragments anew, and marks those that are parts of earlier ones.
     fn find_again(&mut self, system: &dyn Bonds, intact: &[bool]) {
-        let found = self.fragments.parted(system, intact);
+        let found = Fragments::find(system, intact);
         let before = std::mem::replace(&mut self.fragments, found);
-        let is_part = |points: &&Vec<u32>| {
-            let of = before.of_point[points[0] as usize];
-            before.points[of as usize].len() != points.len()
-        };
-        let parts = self.fragments.points.iter().filter(is_part);
-        self.changed.extend(parts.map(|points| points[0]));
+        let is_part = |extent: &&FragmentExtent| !before.extents.contains(extent);
+        let parts = self.fragments.extents.iter().filter(is_part);
+        self.changed.extend(parts.map(|extent| extent.first));
     }
 
-    /// Degrees of freedom to fix so that no fragment can move rigidly, with the arguments of [`Fragments::missing_supports`].
+    /// Degrees of freedom to fix so that no fragment can move rigidly, with the arguments of [`Fragments::missing_supports`]. Collective.
     ///
     /// Only fragments whose points changed since the last call are checked, at first all. The others are already supported as far
     /// as possible: their rigid motions depend on their points alone, and fixed degrees of freedom stay fixed.
@@ -126,9 +127,9 @@ impl Connectivity {
         is_fixed: impl Fn(usize) -> bool,
         can_hold: impl Fn(usize) -> bool,
     ) -> Vec<AddedSupport> {
-        let of_point = &self.fragments.of_point;
-        let points = self.changed.drain(..);
-        let mut changed: Vec<u32> = points.map(|point| of_point[point as usize]).collect();
+        let extents = &self.fragments.extents;
+        let fragment = |first: u32| extents.partition_point(|it| it.first < first) as u32;
+        let mut changed: Vec<u32> = self.changed.drain(..).map(fragment).collect();
         changed.sort_unstable();
         changed.dedup();
         self.fragments

@@ -29,7 +29,8 @@ impl Breaking<'_> {
     pub(super) fn records(&self, numbers: &BondNumbers, bonds: &[u32]) -> Vec<BreakRecord> {
         let owned = |(place, &number): (usize, &u32)| {
             let bond = numbers.local(number).filter(|&it| numbers.owns(it))?;
-            self.record(place, bond, number)
+            let ends = numbers.subdomain().numbers(self.ends[bond]);
+            self.record(place, bond, (number, ends))
         };
         let owned = bonds.iter().enumerate().filter_map(owned);
         let mut records = numbers.subdomain().all_gather_list(owned.collect());
@@ -37,14 +38,19 @@ impl Breaking<'_> {
         records
     }
 
-    /// Record of a bond with a global number, at its index among the breaking bonds.
-    fn record(&self, place: usize, bond: usize, number: u32) -> Option<BreakRecord> {
+    /// Record of a bond with a global number and the numbers of its ends in the body, at its index among the breaking bonds.
+    fn record(
+        &self,
+        place: usize,
+        bond: usize,
+        (number, ends): (u32, [u32; 2]),
+    ) -> Option<BreakRecord> {
         let deformation = (self.judged.deformation)(place, bond);
         let verdict = self.judged.criteria.breaking(bond, &deformation)?;
         Some(BreakRecord {
             order: self.moment.order + place + 1,
             bond: number,
-            ends: self.ends[bond],
+            ends,
             criterion: verdict.criterion,
             ratio: verdict.ratio(),
             deformation,

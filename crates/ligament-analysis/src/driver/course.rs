@@ -154,7 +154,8 @@ impl Restored {
         let damaged = CheckpointError::Damaged;
         let place = Serial::read(from).map_err(damaged)?;
         let numbers = BondNumbers::new(&*problem.system)?;
-        let state = State::read(&numbers, from)?;
+        let n_components = problem.system.layout().components.len();
+        let state = State::read((&numbers, n_components), from)?;
         let course: Course = Serial::read(from).map_err(damaged)?;
         let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
         let problem = with_begun(&problem, &state)?;
@@ -245,7 +246,7 @@ impl CheckValues {
     pub(super) fn new(problem: &Problem, balanced: &Balanced) -> Self {
         let subdomain = problem.system.subdomain();
         Self {
-            n_ranks: subdomain.partition().n_ranks(),
+            n_ranks: subdomain.n_ranks(),
             stored_energy: balanced.stored_energy,
             force_scale: balanced.internal.force_scale,
         }

@@ -454,10 +454,7 @@ impl<'a> Path<'a> {
     }
 
     /// Result of the run.
-    pub(super) fn into_outcome(mut self, termination: Termination, rows: Rows) -> Outcome {
-        let n_components = self.problem.system.layout().components.len();
-        let subdomain = self.problem.system.subdomain();
-        subdomain.all_gather_points(&mut self.state.displacement, n_components);
+    pub(super) fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
         Outcome {
             broken_bonds: self.equilibrium.broken_bonds(&self.state),
             softened_bonds: self.softened().bonds,

@@ -364,7 +364,7 @@ pub(super) fn step_record(
         largest_ratio: counters.largest_ratio,
         rounds: counters.rounds,
         solves: counters.solves,
-        fragments: fragments.points.len(),
+        fragments: fragments.len(),
         at_rest: counters.at_rest,
         negative_eigenvalues: counters.negative_eigenvalues,
         closed_pairs: balanced.closed.len(),

@@ -89,14 +89,18 @@ fn largest(problem: &Problem, state: &State, fragments: &Fragments) -> Option<Ov
     let displacements = layout.displacements(&state.displacement);
     let displacement = displacements.fold(0.0, |largest: f64, it| largest.max(it.abs()));
     let displacement = system.subdomain().max(displacement);
-    let mut holds = vec![0; fragments.points.len()];
-    for (dof, _) in state.held.iter().enumerate().filter(|(_, held)| **held) {
-        holds[fragments.of_point[layout.point(dof) as usize] as usize] += 1;
+    let mut holds = vec![0.0; fragments.len()];
+    let held = (0..state.held.len()).filter(|&dof| state.held[dof]);
+    let held_points = held.map(|dof| layout.point(dof));
+    for point in held_points.filter(|&it| system.subdomain().owns(it)) {
+        holds[fragments.of_point[point as usize] as usize] += 1.0;
     }
-    let is_held = |fragment: &u32| holds[*fragment as usize] < layout.components.len();
+    system.subdomain().all_reduce_sum(&mut holds);
+    let is_held = |fragment: &u32| holds[*fragment as usize] < layout.components.len() as f64;
     let asked: Vec<bool> = fragments.of_point.iter().map(is_held).collect();
     let expansion = problem.loads.thermal_strain(state.load_factor);
     let spacing = system.spacing().iter().copied().fold(0.0, f64::max);
+    let spacing = system.subdomain().max(spacing);
     let beyond = (LARGEST * displacement).max(ROUNDING * spacing);
     system.overlap(
         &state.intact,

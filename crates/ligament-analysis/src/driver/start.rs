@@ -176,15 +176,15 @@ pub(super) fn report_detached_parts(
 ) -> Result<(), ObserverError> {
     let mut loose: Vec<u32> = holds.iter().map(|hold| hold.fragment).collect();
     loose.dedup();
-    let points_of = |fragment: &u32| &fragments.points[*fragment as usize];
+    let extent = |fragment: &u32| fragments.extents[*fragment as usize];
     let Some(first) = loose.first() else {
         return Ok(());
     };
     observer.notice(&Notice::PartsDetached {
         step,
-        points: loose.iter().map(|fragment| points_of(fragment).len()).sum(),
+        points: loose.iter().map(|fragment| extent(fragment).n_points).sum(),
         motions: holds.len(),
-        first: points_of(first)[0],
+        first: extent(first).first,
     })
 }
 

@@ -2,11 +2,12 @@
 
 use super::curvature::Curvature;
 use super::target::Target;
+use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial;
 use crate::serial::Serial;
 use crate::state::State;
 use crate::unknowns::Unknowns;
+use ligament_model::prefix_sums::sums_before;
 use ligament_model::subdomain::Subdomain;
 
 /// Largest ratio of a load step to the one before for which the last step is extrapolated.
@@ -29,14 +30,35 @@ struct Precedent {
     displacement: Vec<f64>,
 }
 
-serial!(EarlierEquilibria {
-    curvature,
-    equilibria
-});
-serial!(Precedent {
-    load_factor,
-    displacement
-});
+/// Places of the owned unknowns among those of the body, in the order of the degrees of freedom.
+struct OwnUnknowns {
+    places: Vec<usize>,
+    n_all: usize,
+}
+
+impl OwnUnknowns {
+    /// The places on this process; collective.
+    fn new(subdomain: &Subdomain, unknowns: &Unknowns) -> Self {
+        let layout = unknowns.layout();
+        let of_points = |point: u32| unknowns.of_point(point as usize).count() as f64;
+        let counts: Vec<f64> = subdomain.owned().map(of_points).collect();
+        let starts = sums_before(subdomain, &counts);
+        let mut next: Vec<usize> = starts.into_iter().map(|it| it as usize).collect();
+        let place = |dof: &u32| {
+            let next = &mut next[subdomain.row(layout.point(*dof as usize))?];
+            *next += 1;
+            Some(*next - 1)
+        };
+        Self {
+            places: unknowns
+                .degrees_of_freedom()
+                .iter()
+                .filter_map(place)
+                .collect(),
+            n_all: subdomain.count(unknowns.len()),
+        }
+    }
+}
 
 impl EarlierEquilibria {
     /// Restores earlier from bytes of [`EarlierEquilibria::write_all`].
@@ -44,45 +66,60 @@ impl EarlierEquilibria {
     /// # Errors
     ///
     /// If the bytes are damaged or belong to another model.
-    pub(super) fn restored(from: &mut &[u8], unknowns: &Unknowns) -> Result<Self, CheckpointError> {
-        let mut earlier: Self = Serial::read(from)?;
-        if unknowns.len() < unknowns.of_all().count() {
-            earlier.curvature = earlier.curvature.mapped(|all| unknowns.own_of(all));
+    pub(super) fn restored(
+        from: &mut &[u8],
+        (numbers, unknowns): (&BondNumbers, &Unknowns),
+    ) -> Result<Self, CheckpointError> {
+        let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
+        let curvature: Curvature = Serial::read(from)?;
+        if !curvature.fits(own.n_all) {
+            return Err(CheckpointError::OtherModel);
         }
+        let count = usize::read(from)?;
+        let n_components = unknowns.layout().components.len();
+        let mut precedent = || {
+            Ok(Precedent {
+                load_factor: Serial::read(from)?,
+                displacement: numbers.read_points(n_components, from)?,
+            })
+        };
+        let equilibria: Result<Vec<Precedent>, CheckpointError> =
+            (0..count).map(|_| precedent()).collect();
+        let earlier = Self {
+            curvature: curvature.mapped(|all| own.places.iter().map(|&it| all[it]).collect()),
+            equilibria: equilibria?,
+        };
         let n = unknowns.layout().n_degrees_of_freedom();
-        let mut equilibria = earlier.equilibria.iter();
-        let is_whole = equilibria.all(|it| it.displacement.len() == n);
-        match is_whole && earlier.curvature.fits(unknowns.len()) {
+        let is_whole = |it: &Precedent| it.displacement.len() == n;
+        match earlier.equilibria.iter().all(is_whole) {
             true => Ok(earlier),
             false => Err(CheckpointError::OtherModel),
         }
     }
 
-    /// Appends the earlier at the unknowns and points of all processes; collective.
-    pub(super) fn write_all(&self, subdomain: &Subdomain, unknowns: &Unknowns, out: &mut Vec<u8>) {
-        match subdomain.is_whole() {
-            true => self.write(out),
-            false => self.of_all(subdomain, unknowns).write(out),
-        }
-    }
-
-    /// Gathers the earlier at the unknowns and points of all processes from those at owned points.
-    fn of_all(&self, subdomain: &Subdomain, unknowns: &Unknowns) -> Self {
-        let curvature = self.curvature.mapped(|own| {
-            let mut all = vec![0.0; unknowns.layout().n_degrees_of_freedom()];
-            for (&dof, value) in unknowns.degrees_of_freedom().iter().zip(own) {
-                all[dof as usize] = *value;
+    /// Appends the earlier at the unknowns and points of all processes, valid on rank 0 alone; collective.
+    pub(super) fn write_all(&self, numbers: &BondNumbers, unknowns: &Unknowns, out: &mut Vec<u8>) {
+        let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
+        let of_all = |values: &[f64]| {
+            let rows = own.places.iter().zip(values);
+            let rows = rows.flat_map(|(&place, &value)| [place as f64, value]);
+            let rows = numbers.subdomain().gather_list(rows.collect());
+            let mut all = vec![0.0; own.n_all];
+            for [place, value] in rows.as_chunks().0 {
+                all[*place as usize] = *value;
             }
-            let all = subdomain.gathered(&all);
-            unknowns.of_all().map(|dof| all[dof]).collect()
-        });
-        let equilibria = self.equilibria.iter().map(|it| Precedent {
-            load_factor: it.load_factor,
-            displacement: subdomain.gathered(&it.displacement).into_owned(),
-        });
-        Self {
-            equilibria: equilibria.collect(),
-            curvature,
+            all
+        };
+        self.curvature.mapped(of_all).write(out);
+        self.equilibria.len().write(out);
+        let n_components = unknowns.layout().components.len();
+        for Precedent {
+            load_factor,
+            displacement,
+        } in &self.equilibria
+        {
+            load_factor.write(out);
+            numbers.write_points((displacement, n_components), 0.0, out);
         }
     }
 

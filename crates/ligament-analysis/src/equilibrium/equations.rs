@@ -112,14 +112,14 @@ impl Equations {
     }
 
     /// Appends the data that do not follow from the problem.
-    pub(super) fn write(&self, out: &mut Vec<u8>) {
+    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         let Self {
             accuracy,
             costs,
             solver,
             problem,
             unknowns,
-            halo,
+            halo: _,
             stiffness: _,
             choice: _,
             energy_tolerance: _,
@@ -130,7 +130,7 @@ impl Equations {
         costs.write(out);
         solver.write(out);
         if problem.criteria.soften() {
-            earlier.write_all(halo.subdomain(), unknowns, out);
+            earlier.write_all(numbers, unknowns, out);
         }
     }
 
@@ -146,12 +146,13 @@ impl Equations {
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
         if !is_shared && distributed::was_written(from) {
             // A run on one process continues from the state alone.
-            distributed::skip_checkpoint(numbers, from)?;
+            let n_components = self.layout().components.len();
+            distributed::skip_checkpoint((numbers, n_components), from)?;
         } else {
             self.solver.restore(from)?;
         }
         if self.problem.criteria.soften() {
-            self.earlier = EarlierEquilibria::restored(from, &self.unknowns)?;
+            self.earlier = EarlierEquilibria::restored(from, (numbers, &self.unknowns))?;
         }
         self.meeting.faces = Contact::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
@@ -464,7 +465,7 @@ impl Equations {
         self.prepare_solver(state)
     }
 
-    /// Makes the solver ready, fixing mechanisms until no pivot vanishes. Returns the points that were fixed.
+    /// Makes the solver ready, fixing mechanisms until no pivot vanishes. Returns the numbers in the body of the points that were fixed.
     pub(super) fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
         let mut held_now = Vec::new();
         loop {
@@ -476,11 +477,13 @@ impl Equations {
             if self.problem.system.some_negative() {
                 return Err(self.vanishing_pivot(first));
             }
+            let (subdomain, layout) = (self.subdomain(), self.layout());
             for dof in vanishing {
-                if std::mem::replace(&mut state.held[dof], true) {
+                let here = subdomain.local_index(dof, layout.components.len());
+                if here.is_some_and(|here| std::mem::replace(&mut state.held[here], true)) {
                     return Err(self.vanishing_pivot(dof));
                 }
-                held_now.push(self.layout().point(dof));
+                held_now.push(layout.point(dof));
             }
         }
     }

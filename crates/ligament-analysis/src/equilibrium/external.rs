@@ -30,7 +30,7 @@ pub(super) fn imbalance(
     let n_components = layout.components.len();
     let external = external_forces(equations, state, balanced);
     let rounding = equations.accuracy.rounding(layout, state);
-    let mut sums = vec![Sum::default(); n_components * fragments.points.len()];
+    let mut sums = vec![Sum::default(); n_components * fragments.len()];
     let of_points = external
         .chunks(n_components)
         .zip(rounding.chunks(n_components));
@@ -56,13 +56,13 @@ pub(super) fn imbalance(
         is_force && !is_balanced
     };
     let (place, &[resultant, size, _]) = sums.iter().enumerate().find(is_off)?;
-    let points = &fragments.points[place / n_components];
+    let extent = fragments.extents[place / n_components];
     Some(Unbalanced::NoForceBalance {
         component: layout.components[place % n_components],
         resultant,
         size,
-        points: points.len(),
-        first: points[0],
+        points: extent.n_points,
+        first: extent.first,
     })
 }
 

@@ -71,7 +71,7 @@ pub(super) fn load_on_added_support(
     growth: &[f64],
     loads: &dyn LoadProgram,
 ) -> Option<Unbalanced> {
-    if !state.held.contains(&true) {
+    if !equations.subdomain().any(state.held.contains(&true)) {
         return None;
     }
     let line = at_one(state, growth.to_vec());

@@ -50,10 +50,12 @@ impl Measure<'_> {
         let motion = if is_known { motion } else { force };
         let stiffness = &self.accuracy.local_stiffness;
         let dofs = self.unknowns.degrees_of_freedom().iter();
+        let n_components = self.unknowns.layout().components.len();
         let farthest = dofs.zip(motion).fold([0.0; 3], |most, (&dof, value)| {
             let size = -stiffness.at(dof as usize) * value * value;
             if size < most[0] {
-                [size, f64::from(dof), *value]
+                let in_body = self.subdomain.index_in_body(dof as usize, n_components);
+                [size, in_body as f64, *value]
             } else {
                 most
             }

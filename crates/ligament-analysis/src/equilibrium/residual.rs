@@ -239,7 +239,7 @@ impl Scales<'_> {
         }
     }
 
-    /// Largest residual over all processes, from that at owned points; the first of equal ones.
+    /// Largest residual over all processes, by degree of freedom of the body, from that at owned points; the first of equal ones.
     pub(super) fn residual_of_all(self, here: Residual, subdomain: &Subdomain) -> Residual {
         if subdomain.is_whole() {
             return here;
@@ -248,8 +248,10 @@ impl Scales<'_> {
         let carried = here
             .carried
             .map_or(0.0, |_| force.abs() / self.at(dof as usize));
-        let largest = [-here.relative, f64::from(here.degree_of_freedom)];
-        let held = [-carried, f64::from(dof), force];
+        let n_components = self.stiffness.layout.components.len();
+        let in_body = |dof: u32| subdomain.index_in_body(dof as usize, n_components) as f64;
+        let largest = [-here.relative, in_body(here.degree_of_freedom)];
+        let held = [-carried, in_body(dof), force];
         let [relative, at] = subdomain.all_reduce_min(Some(largest)).unwrap_or(largest);
         let [most, dof, force] = subdomain.all_reduce_min(Some(held)).unwrap_or(held);
         Residual {

@@ -241,16 +241,9 @@ impl Restraints {
         }
     }
 
-    /// Restraints that act on some points (ascending).
-    fn of_points(&self, points: &[u32]) -> Vec<&Restraint> {
-        let own = self.at_points.iter();
-        let own = own.filter(|(point, _)| points.binary_search(point).is_ok());
-        let mut indices: Vec<usize> = own
-            .flat_map(|(_, restraints)| restraints)
-            .copied()
-            .collect();
-        indices.sort_unstable();
-        indices.dedup();
-        indices.into_iter().map(|it| &self.list[it]).collect()
+    /// Restraints that act on some degrees of freedom.
+    fn acting_on(&self, is_acted_on: impl Fn(u32) -> bool) -> Vec<&Restraint> {
+        let acts = |it: &&Restraint| it.degrees_of_freedom.iter().any(|dof| is_acted_on(*dof));
+        self.list.iter().filter(acts).collect()
     }
 }

@@ -1,6 +1,7 @@
 //! Rigid motions of a part that restraints leave free, and the supports added for them.
 
 use ligament_model::Bonds;
+use ligament_model::interface::FreeShapes;
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::Restraints;
@@ -12,7 +13,7 @@ const FREE: f64 = 1e-9;
 /// Degrees of freedom to fix so that a connected part cannot move rigidly, where its restraints may resist some of its motions.
 ///
 /// `is_fixed` returns whether a degree of freedom is prescribed by supports, loads or earlier added supports; `can_hold` whether it
-/// has a stiffness.
+/// has a stiffness. `points` are the owned points of the part; the result has degrees of freedom of the body. Collective.
 pub fn missing_supports(
     system: &dyn Bonds,
     restraints: &Restraints,
@@ -25,18 +26,17 @@ pub fn missing_supports(
         return system.holds(points, is_fixed, can_hold);
     }
     let is_still = |dof: usize| is_fixed(dof) || restraints.holds(layout, dof);
-    let motions = system.free_shapes(points, &is_still);
-    let dofs: Vec<usize> = (points.iter())
-        .flat_map(|&point| layout.range(point))
-        .collect();
-    let mut free = unrestrained(restraints, points, &dofs, motions);
+    let FreeShapes {
+        degrees_of_freedom: dofs,
+        can_hold,
+        motions,
+    } = system.free_shapes(points, &is_still, can_hold);
+    let mut free = unrestrained(system, restraints, &dofs, motions);
     let mut holds = Vec::new();
     while !free.is_empty() {
         let reach = |place: usize| free.iter().map(|it| it[place].powi(2)).sum::<f64>();
-        let candidates = (0..dofs.len()).filter(|&place| {
-            let dof = dofs[place];
-            can_hold(dof) && !is_still(dof) && !holds.contains(&dof)
-        });
+        let candidates =
+            (0..dofs.len()).filter(|&place| can_hold[place] && !holds.contains(&dofs[place]));
         let best = candidates.max_by(|&one, &other| reach(one).total_cmp(&reach(other)));
         let Some(place) = best.filter(|&place| reach(place) > 0.0) else {
             break;
@@ -49,20 +49,22 @@ pub fn missing_supports(
 
 /// Combinations of motions (by degree of freedom of the part) that no restraint resists.
 fn unrestrained(
+    system: &dyn Bonds,
     restraints: &Restraints,
-    points: &[u32],
     dofs: &[usize],
     motions: Vec<Vec<f64>>,
 ) -> Vec<Vec<f64>> {
     let count = motions.len();
-    let restraints = restraints.of_points(points);
+    let n_components = system.layout().components.len();
+    let place = |dof: u32| {
+        let in_body = system.subdomain().index_in_body(dof as usize, n_components);
+        dofs.binary_search(&in_body).ok()
+    };
+    let restraints = restraints.acting_on(|dof| place(dof).is_some());
     if count == 0 || restraints.is_empty() {
         return motions;
     }
-    let value = |motion: &[f64], dof: u32| {
-        let place = dofs.binary_search(&(dof as usize)).ok();
-        place.map_or(0.0, |place| motion[place])
-    };
+    let value = |motion: &[f64], dof: u32| place(dof).map_or(0.0, |place| motion[place]);
     let mut stiffness = DMatrix::<f64>::zeros(count, count);
     let mut largest: f64 = 0.0;
     for restraint in restraints {

@@ -16,7 +16,7 @@ use ligament_linalg::{FactorError, Inertia};
 use ligament_model::Bonds;
 use ligament_model::communicator::Communicator;
 use ligament_model::element::StiffnessFactors;
-use ligament_model::subdomain::Partition;
+use ligament_model::subdomain::{Partition, Subdomain};
 use ligament_model::thermal::ThermalStrain;
 
 use self::preconditioner_state::PreconditionerState;
@@ -48,7 +48,8 @@ pub(crate) struct DistributedSolver {
     communicator: Arc<dyn MatrixCommunicator>,
     /// Relative residual of the iteration; None for a factor.
     tolerance: Option<f64>,
-    partition: Arc<Partition>,
+    /// Rows of this process, also where each process needs the whole body.
+    rows: Subdomain,
     /// Global numbers of the local bonds; bonds are distributed too, unless each process needs the whole body.
     numbers: Arc<BondNumbers>,
     /// Bonds between owned points and others.
@@ -59,6 +60,8 @@ pub(crate) struct DistributedSolver {
     kept: PreconditionerState,
     /// Pivots of the factor, where there is one.
     pivots: Option<Pivots>,
+    /// Number of unknowns of the body.
+    n_unknowns: usize,
 }
 
 impl DistributedSolver {
@@ -71,21 +74,17 @@ impl DistributedSolver {
         tolerance: Option<f64>,
     ) -> Self {
         let subdomain = system.subdomain();
-        let partition = if subdomain.is_whole() {
+        let own = if subdomain.is_whole() {
             let halve = |points: &mut [u32]| system.halve(points);
-            Arc::new(Partition::new(
-                system.n_points(),
-                communicator.size(),
-                &halve,
-            ))
+            let partition = Partition::new(system.n_points(), communicator.size(), &halve);
+            Subdomain::new(partition, communicator.clone())
         } else {
-            subdomain.partition().clone()
+            subdomain.clone()
         };
         let rows = OwnRows {
             system: &*system,
             unknowns: &unknowns,
-            partition: &partition,
-            rank: communicator.rank(),
+            subdomain: &own,
         };
         let columns = rows.columns();
         let between = (0..).zip(system.ends()).filter(|(_, ends)| {
@@ -93,18 +92,20 @@ impl DistributedSolver {
             own.count() == 1
         });
         let between = between.map(|(bond, _)| bond).collect();
+        let n_unknowns = subdomain.count(unknowns.len());
         Self {
             between,
             system,
             unknowns,
             communicator,
             tolerance,
-            partition,
+            rows: own,
             numbers,
             columns,
             matrix: None,
             kept: PreconditionerState::new(),
             pivots: None,
+            n_unknowns,
         }
     }
 
@@ -112,8 +113,7 @@ impl DistributedSolver {
         OwnRows {
             system: &*self.system,
             unknowns: &self.unknowns,
-            partition: &self.partition,
-            rank: self.communicator.rank(),
+            subdomain: &self.rows,
         }
     }
 
@@ -126,7 +126,7 @@ impl DistributedSolver {
         free
     }
 
-    /// Assembles the matrix of the present bonds, in all columns or some; returns the degrees of freedom of all ranks without
+    /// Assembles the matrix of the present bonds, in all columns or some; returns the degrees of freedom of the body that have no
     /// stiffness.
     fn assemble(&mut self, making: &FactorRecord, columns: Option<&[u32]>) -> Vec<usize> {
         let matrix = self.matrix.take();
@@ -148,12 +148,15 @@ impl DistributedSolver {
             // The factor detects singular and indefinite matrices.
             return Vec::new();
         }
-        self.of_all(&loose)
+        let n_components = self.unknowns.layout().components.len();
+        let loose = loose.into_iter().filter(|&it| self.unknowns.is_unknown(it));
+        let in_body = loose.map(|dof| self.rows.index_in_body(dof, n_components));
+        self.of_all(in_body)
     }
 
     /// Sorted union over all ranks of degrees of freedom.
-    fn of_all(&self, found: &[usize]) -> Vec<usize> {
-        let found: Vec<f64> = found.iter().map(|&dof| dof as f64).collect();
+    fn of_all(&self, found: impl Iterator<Item = usize>) -> Vec<usize> {
+        let found: Vec<f64> = found.map(|dof| dof as f64).collect();
         let communicator: &dyn Communicator = &*self.communicator;
         let all = communicator.all_gather_list(found).into_iter();
         let mut all: Vec<usize> = all.map(|dof| dof as usize).collect();
@@ -165,14 +168,12 @@ impl DistributedSolver {
     fn precondition(&mut self, making: &FactorRecord) {
         let layout = self.unknowns.layout();
         let free = self.free(&making.held);
-        let all: Vec<u32> = (0..self.system.n_points() as u32).collect();
-        let own = self.partition.points(self.communicator.rank());
         let of_own = |shape: Vec<f64>| -> Vec<f64> {
-            let dofs = own.clone().flat_map(|point| layout.range(point));
+            let dofs = self.rows.owned().flat_map(|point| layout.range(point));
             dofs.map(|dof| if free[dof] { shape[dof] } else { 0.0 })
                 .collect()
         };
-        let shapes = self.system.rigid_shapes(&all).into_iter();
+        let shapes = self.system.rigid_shapes_of_body().into_iter();
         let motions: Vec<Vec<f64>> = shapes.map(of_own).collect();
         // Bonds couple two points; each process has all points of elements that couple more.
         let n_coupled = self.rows().most_coupled();
@@ -247,8 +248,7 @@ impl DistributedSolver {
     /// free unknown.
     fn at_own(&self, values: &[f64], free: &[bool], other: f64) -> Vec<f64> {
         let layout = self.unknowns.layout();
-        let own = self.partition.points(self.communicator.rank());
-        let dofs = own.flat_map(|point| layout.range(point));
+        let dofs = self.rows.owned().flat_map(|point| layout.range(point));
         let value = |dof: usize| self.unknowns.number(dof).filter(|_| free[dof]);
         dofs.map(|dof| value(dof).map_or(other, |number| values[number]))
             .collect()
@@ -273,16 +273,14 @@ impl DistributedSolver {
         let n = layout.components.len();
         let dofs = self.unknowns.degrees_of_freedom().iter();
         let dofs = dofs.map(|&dof| dof as usize);
-        let place = |dof: usize| self.partition.place(layout.point(dof));
+        let place = |dof: usize| self.rows.place(layout.point(dof));
         if !self.numbers.subdomain().is_whole() {
-            let first = self.partition.first(self.communicator.rank());
+            let first = self.rows.first(self.communicator.rank());
             return dofs
                 .map(|dof| motions[n * (place(dof) - first) + dof % n])
                 .collect();
         }
-        let all = self
-            .communicator
-            .all_gather(&motions, &self.partition.counts(n));
+        let all = self.communicator.all_gather(&motions, &self.rows.counts(n));
         dofs.map(|dof| all[n * place(dof) + dof % n]).collect()
     }
 }
@@ -334,10 +332,7 @@ impl TangentSolver for DistributedSolver {
         costs.assembly += start.elapsed();
         if !loose.is_empty() {
             self.kept.stale.extend(stale);
-            return Ok(loose
-                .into_iter()
-                .filter(|&it| self.unknowns.is_unknown(it))
-                .collect());
+            return Ok(loose);
         }
         let start = Instant::now();
         if self.tolerance.is_none() {
@@ -414,7 +409,7 @@ impl TangentSolver for DistributedSolver {
     fn inertia(&self) -> Option<Inertia> {
         self.pivots.map(|pivots| Inertia {
             negative: pivots.negative,
-            positive: self.unknowns.of_all().count() - pivots.negative,
+            positive: self.n_unknowns - pivots.negative,
         })
     }
 
@@ -430,7 +425,8 @@ impl TangentSolver for DistributedSolver {
         }
         let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;
-        self.kept = PreconditionerState::read(&self.numbers, from)?;
+        let n_components = self.unknowns.layout().components.len();
+        self.kept = PreconditionerState::read((&self.numbers, n_components), from)?;
         if !has_matrix {
             return Ok(());
         }
@@ -481,7 +477,7 @@ pub(crate) fn was_written(from: &[u8]) -> bool {
 ///
 /// If the bytes are damaged.
 pub(crate) fn skip_checkpoint(
-    numbers: &BondNumbers,
+    numbers: (&BondNumbers, usize),
     from: &mut &[u8],
 ) -> Result<(), CheckpointError> {
     let _ = u64::read(from)?;

@@ -65,7 +65,8 @@ impl FactorRecord {
     pub(super) fn write_all(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         numbers.write(&self.intact, true, out);
         numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
-        self.held.write(out);
+        let n_components = self.held.len() / numbers.subdomain().n_points().max(1);
+        numbers.write_points((&self.held, n_components), false, out);
         self.beside.write(out);
         self.changes.write(out);
     }
@@ -76,13 +77,13 @@ impl FactorRecord {
     ///
     /// If the bytes are damaged or belong to another body.
     pub(super) fn read_local(
-        numbers: &BondNumbers,
+        (numbers, n_components): (&BondNumbers, usize),
         from: &mut &[u8],
     ) -> Result<Self, CheckpointError> {
         Ok(Self {
             intact: numbers.read(from)?,
             remaining: numbers.read(from)?,
-            held: Serial::read(from)?,
+            held: numbers.read_points(n_components, from)?,
             beside: Serial::read(from)?,
             changes: Serial::read(from)?,
         })

@@ -65,13 +65,11 @@ impl<const D: usize> BondSet<D> {
         if a == point { b } else { a }
     }
 
-    /// Points of a cloud without any bond, ascending.
+    /// Owned points of a cloud without any bond, ascending.
     pub fn lone_points(&self, cloud: &PointCloud<D>) -> Vec<u32> {
-        let sizes = cloud.over_families(|point| [self.incidence.at(point).len() as f64]);
-        (0..)
-            .zip(sizes)
-            .filter(|(_, size)| *size == [0.0])
-            .map(|(point, _)| point)
+        let owned = cloud.subdomain.owned();
+        owned
+            .filter(|&point| self.incidence.at(point).is_empty())
             .collect()
     }
 

@@ -8,9 +8,6 @@ use crate::horizon::INCLUSION_TOLERANCE;
 use crate::shape::{Region, Shape, SolidShape};
 use crate::subdomain::Subdomain;
 
-/// Number of a missing cell.
-const NONE: u32 = u32::MAX;
-
 /// A rectangle of equal cells, or for D = 3 a box, without the cells removed by holes.
 ///
 /// The remaining cells are numbered from the lowest corner, x fastest, then y.
@@ -26,8 +23,6 @@ pub struct Lattice<const D: usize = 2, S = Shape> {
     pub holes: Vec<S>,
     /// Index along each axis (from 0) of each remaining cell, shape (n_points).
     pub cells: Vec<[u32; D]>,
-    /// Number of the cell at each index of the whole box, x fastest.
-    numbers: Vec<u32>,
 }
 
 /// A box of equal cells without the cells removed by holes.
@@ -56,12 +51,10 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
             corner,
             holes,
             cells: Vec::new(),
-            numbers: Vec::new(),
         };
         let local: Vec<S> = lattice.holes.iter().map(|it| lattice.local(it)).collect();
         let slack = lattice.slack();
-        let n_whole: usize = size.iter().map(|&count| count as usize).product();
-        for place in 0..n_whole {
+        for place in 0..lattice.n_whole() {
             let mut rest = place;
             let cell = size.map(|count| {
                 let along = rest % count as usize;
@@ -69,19 +62,37 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
                 along as u32
             });
             let centre = lattice.offset(cell);
-            let is_taken = local.iter().any(|hole| hole.contains(centre, slack));
-            let number = lattice.cells.len() as u32;
-            lattice.numbers.push(if is_taken { NONE } else { number });
-            if !is_taken {
+            if !local.iter().any(|hole| hole.contains(centre, slack)) {
                 lattice.cells.push(cell);
             }
         }
         lattice
     }
 
+    /// The lattice with the cells of some points (ascending) alone.
+    pub fn part(&self, points: &[u32]) -> Self
+    where
+        S: Clone,
+    {
+        let cells = points.iter().map(|&point| self.cells[point as usize]);
+        Self {
+            cells: cells.collect(),
+            holes: self.holes.clone(),
+            ..*self
+        }
+    }
+
     /// Number of cells of the whole box.
     pub fn n_whole(&self) -> usize {
-        self.numbers.len()
+        self.size.iter().map(|&count| count as usize).product()
+    }
+
+    /// Index of a cell in the whole box, x fastest.
+    fn place(&self, cell: [u32; D]) -> usize {
+        let along = cell.into_iter().zip(self.size).rev();
+        along.fold(0, |place, (along, count)| {
+            place * count as usize + along as usize
+        })
     }
 
     /// Middle of the box, m.
@@ -107,13 +118,24 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
 
     /// Number of the point in a cell that may lie beyond the box; `None` for a missing cell.
     pub fn point_in(&self, cell: [i64; D]) -> Option<u32> {
-        let mut place = 0;
-        for (along, count) in cell.into_iter().zip(self.size).rev() {
-            let along = u32::try_from(along).ok().filter(|along| *along < count)?;
-            place = place * count as usize + along as usize;
+        let place = self.place(self.in_box(cell)?);
+        if self.cells.len() == self.n_whole() {
+            return Some(place as u32);
         }
-        let number = self.numbers[place];
-        (number != NONE).then_some(number)
+        let found = self
+            .cells
+            .binary_search_by_key(&place, |it| self.place(*it));
+        found.ok().map(|point| point as u32)
+    }
+
+    /// A cell that may lie beyond the box; `None` if it does.
+    fn in_box(&self, cell: [i64; D]) -> Option<[u32; D]> {
+        let mut inside = [0; D];
+        for axis in 0..D {
+            let along = u32::try_from(cell[axis]).ok();
+            inside[axis] = along.filter(|along| *along < self.size[axis])?;
+        }
+        Some(inside)
     }
 
     /// Points and weights (sum one) that interpolate a value at a position (m): linear along each axis between the centres of cells,
@@ -161,7 +183,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
 
     /// Faces of cells without a cell behind them, by the numbers of the points, then below and above along x, y and z.
     pub fn outline(&self) -> Vec<Face<D>> {
-        let (slack, size) = (self.slack(), self.size.map(i64::from));
+        let slack = self.slack();
         let holes: Vec<S> = self.holes.iter().map(|hole| self.local(hole)).collect();
         let mut faces = Vec::new();
         for (point, &cell) in (0..).zip(&self.cells) {
@@ -171,12 +193,17 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
                     continue;
                 }
                 let centre = self.centre(next);
-                faces.push(Face {
-                    point,
-                    normal,
-                    is_on_box: (0..D).any(|axis| next[axis] < 0 || next[axis] >= size[axis]),
-                    hole: holes.iter().position(|hole| hole.contains(centre, slack)),
-                });
+                let hole = holes.iter().position(|hole| hole.contains(centre, slack));
+                let is_on_box = self.in_box(next).is_none();
+                // A part of the lattice borders on its other cells.
+                if is_on_box || hole.is_some() {
+                    faces.push(Face {
+                        point,
+                        normal,
+                        is_on_box,
+                        hole,
+                    });
+                }
             }
         }
         faces

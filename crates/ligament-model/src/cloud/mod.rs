@@ -15,6 +15,7 @@ use rstar::primitives::GeomWithData;
 
 use crate::communicator::Communicator;
 use crate::geometry::bounding_box;
+use crate::ghosts::Ghosts;
 use crate::subdomain::{Partition, Subdomain};
 use crate::tensor::{dot, minus, norm};
 
@@ -46,7 +47,7 @@ pub struct PointCloud<const D: usize = 2> {
     pub curve: Vec<u32>,
     /// Numbering of the points, internal and in the file.
     pub numbering: Numbering,
-    /// Points owned by this process.
+    /// Points of this process.
     pub subdomain: Subdomain,
 }
 
@@ -88,14 +89,14 @@ impl<const D: usize> PointCloud<D> {
         self.over_some(&self.curve, T::default(), value)
     }
 
-    /// Values of each point from its bonds, shape (n_points, N): computed at owned points, in parallel along the curve, and gathered from
-    /// all processes.
+    /// Values of each point from its bonds, shape (n_points, N): computed at owned points, in parallel along the curve; other processes send
+    /// theirs.
     pub fn over_families<const N: usize>(
         &self,
         values: impl Fn(u32) -> [f64; N] + Sync,
     ) -> Vec<[f64; N]> {
         let mut all = self.over_some(&self.owned_along_curve(), [0.0; N], values);
-        self.subdomain.all_gather_points(all.as_flattened_mut(), N);
+        Ghosts::all(&self.subdomain).update(all.as_flattened_mut(), N);
         all
     }
 
@@ -187,10 +188,18 @@ impl<const D: usize> PointCloud<D> {
             .collect()
     }
 
-    /// Diagonal of the box around all points, m.
+    /// Diagonal of the box around all points of the body, m; collective.
     pub(crate) fn extent(&self) -> f64 {
-        let [lower, upper] = bounding_box(self.positions.iter().copied());
+        let [lower, upper] = self.corners();
         norm(minus(upper, lower))
+    }
+
+    /// Lowest and highest corner of the box around all points of the body, m; collective.
+    pub fn corners(&self) -> [[f64; D]; 2] {
+        let [lower, upper] = self.box_around(self.subdomain.owned());
+        let mut ends = [lower.map(|it| -it), upper];
+        self.subdomain.all_reduce_max(ends.as_flattened_mut());
+        [ends[0].map(|it| -it), ends[1]]
     }
 
     /// Orders some points so that the first half of them lies on one side of the second half along the axis of their largest extent (the
@@ -209,11 +218,50 @@ impl<const D: usize> PointCloud<D> {
         });
     }
 
-    /// The owned points of this process where the body is divided between processes.
+    /// The points of this process where the body is divided between processes, with all points of the body.
     pub fn divided(&self, communicator: Arc<dyn Communicator>) -> Subdomain {
         let halve = |points: &mut [u32]| self.halve(points);
         let partition = Partition::new(self.len(), communicator.size(), &halve);
         Subdomain::new(partition, communicator)
+    }
+
+    /// Lowest and highest corner of the box around some points, m.
+    pub fn box_around(&self, points: impl Iterator<Item = u32>) -> [[f64; D]; 2] {
+        bounding_box(points.map(|it| self.positions[it as usize]))
+    }
+
+    /// Marks the points that may have bonds with owned points, and these, shape (n_points); horizons have the radii `horizon` (n_points), m.
+    pub fn near_owned(&self, horizon: &[f64]) -> Vec<bool> {
+        let [lower, upper] = self.box_around(self.subdomain.owned());
+        let reach = |point: usize| horizon[point] * (1.0 + 2.0 * self.tolerance(point as u32));
+        let owned = self.subdomain.owned().map(|it| it as usize);
+        let farthest = owned.map(reach).fold(0.0, f64::max);
+        let is_near = |point: usize| {
+            let position = self.positions[point];
+            let inside = std::array::from_fn(|k| position[k].max(lower[k]).min(upper[k]));
+            distance(position, inside) <= reach(point).max(farthest)
+        };
+        (0..self.len()).map(is_near).collect()
+    }
+
+    /// Some of the points (ascending), among them all owned ones.
+    pub fn part(&self, points: &[u32]) -> Self {
+        let n = self.n_materials;
+        let indices = || points.iter().map(|&it| it as usize);
+        let along_curve = self.curve.iter();
+        let curve = along_curve.filter_map(|it| points.binary_search(it).ok());
+        Self {
+            positions: indices().map(|it| self.positions[it]).collect(),
+            volumes: indices().map(|it| self.volumes[it]).collect(),
+            spacing: indices().map(|it| self.spacing[it]).collect(),
+            material_shares: indices()
+                .flat_map(|it| self.material_shares[n * it..n * (it + 1)].iter().copied())
+                .collect(),
+            curve: curve.map(|point| point as u32).collect(),
+            numbering: self.numbering.part(points),
+            subdomain: self.subdomain.part(points),
+            ..*self
+        }
     }
 
     /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with `n_components` components of motion, each of shape

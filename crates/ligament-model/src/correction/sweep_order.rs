@@ -47,12 +47,12 @@ impl<'a> SweepOrder<'a> {
 
     /// Owned points.
     pub(crate) fn owned(&self) -> &[u32] {
-        &self.points[..self.subdomain.owned().len()]
+        &self.points[..self.subdomain.n_owned()]
     }
 
     /// Index of each point of the cloud, shape (n_points).
     pub(crate) fn indices(&self) -> Vec<u32> {
-        let mut indices = vec![NONE; self.subdomain.partition().len()];
+        let mut indices = vec![NONE; self.subdomain.n_points()];
         for (index, &point) in (0..).zip(&*self.points) {
             indices[point as usize] = index;
         }
@@ -66,11 +66,11 @@ impl<'a> SweepOrder<'a> {
 
     /// Value of each point of the cloud from those of owned points, by index.
     pub(crate) fn of_points(&self, values: &[f64]) -> Vec<f64> {
-        let mut of_points = vec![0.0; self.subdomain.partition().len()];
+        let mut of_points = vec![0.0; self.subdomain.n_points()];
         for (&point, &value) in self.owned().iter().zip(values) {
             of_points[point as usize] = value;
         }
-        self.subdomain.all_gather_points(&mut of_points, 1);
+        Ghosts::all(self.subdomain).update(&mut of_points, 1);
         of_points
     }
 }

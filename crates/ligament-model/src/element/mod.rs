@@ -25,6 +25,7 @@ pub mod true_strain;
 use crate::bonds::{BondSet, Incidence};
 use crate::communicator::Wire;
 use crate::deformation::Deformation;
+use crate::ghosts::Ghosts;
 use crate::layout::{Component, Layout};
 use crate::subdomain::Subdomain;
 use crate::tensor::SymTensor;
@@ -110,8 +111,9 @@ impl Rigidities {
         if subdomain.is_whole() {
             return resisted;
         }
+        // Only the owner of a point has all of its bonds.
         let mut marks: Vec<f64> = (resisted.iter().map(|&it| f64::from(u8::from(it)))).collect();
-        subdomain.all_reduce_max(&mut marks);
+        Ghosts::all(subdomain).update(&mut marks, layout.components.len());
         marks.into_iter().map(|it| it > 0.0).collect()
     }
 }

@@ -12,6 +12,7 @@
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
 use rayon::prelude::*;
 
+use crate::ghosts::Ghosts;
 use crate::layout::Layout;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, dot, minus, norm};
@@ -117,7 +118,7 @@ pub struct Motion<'a> {
 
 impl<const D: usize> BondSystem<D> {
     /// Strain of each point less what the temperature gives it, shape (n_points); None where its bonds do not span the space. Where
-    /// processes share the body out, the strains of all points are those of their owners.
+    /// processes share the body out, the strains of points of other processes are those of their owners.
     pub(crate) fn point_strains(
         &self,
         layout: Layout,
@@ -141,7 +142,7 @@ impl<const D: usize> BondSystem<D> {
                     .for_each(|(to, it)| *to = it);
             }
         }
-        subdomain.all_gather_points(&mut all, n_components);
+        Ghosts::all(subdomain).update(&mut all, n_components);
         let strains = all.chunks_exact(n_components);
         let strain = |it: &[f64]| (!it[0].is_nan()).then(|| SymTensor::from_components(it));
         strains.map(strain).collect()

@@ -3,6 +3,7 @@
 use ligament_mesh::Numbering;
 
 use super::contact::Moved;
+use super::parts::Given;
 use super::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
@@ -15,7 +16,7 @@ use crate::failure::starting::Starting;
 use crate::far_field::FarField;
 use crate::interface::{
     BondContact, BondKinetics, BondReadings, BondTopology, CentralMotions, CoupledPoints,
-    PointStiffness, StressReading, Stresses,
+    FreeShapes, PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
 use crate::product::NearLimits;
@@ -164,14 +165,30 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         is_fixed: &dyn Fn(usize) -> bool,
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
-        let in_file = self.system.cloud.numbering.sorted(points);
-        let motions = self.rigid_motions(&in_file);
-        motions.holds(&in_file, self.resisting(is_fixed), can_hold)
+        let resisting = self.resisting(is_fixed);
+        let given = |dof| Given {
+            is_fixed: resisting(dof),
+            can_hold: can_hold(dof),
+            force: 0.0,
+        };
+        let part = self.free_part(points, &given);
+        part.map_or_else(Vec::new, |it| it.holds())
     }
 
-    fn free_shapes(&self, points: &[u32], is_fixed: &dyn Fn(usize) -> bool) -> Vec<Vec<f64>> {
-        let motions = self.rigid_motions(points);
-        motions.free_shapes(points, self.resisting(is_fixed))
+    fn free_shapes(
+        &self,
+        points: &[u32],
+        is_fixed: &dyn Fn(usize) -> bool,
+        can_hold: &dyn Fn(usize) -> bool,
+    ) -> FreeShapes {
+        let resisting = self.resisting(is_fixed);
+        let given = |dof| Given {
+            is_fixed: resisting(dof),
+            can_hold: can_hold(dof) && !is_fixed(dof),
+            force: 0.0,
+        };
+        let part = self.free_part(points, &given);
+        part.map_or_else(FreeShapes::default, |it| it.shapes())
     }
 
     fn free_motions(
@@ -180,13 +197,33 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         is_fixed: &dyn Fn(usize) -> bool,
         force: &dyn Fn(usize) -> f64,
     ) -> Vec<FreeMotion> {
-        let motions = self.rigid_motions(points);
-        motions.free_motions(points, self.resisting(is_fixed), force)
+        let resisting = self.resisting(is_fixed);
+        let given = |dof| Given {
+            is_fixed: resisting(dof),
+            can_hold: false,
+            force: force(dof),
+        };
+        self.part(points, self.turn(points), &given).free_motions()
     }
 
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
         let (layout, positions) = (self.layout(), &self.system.cloud.positions);
         RigidMotions::new(layout, positions, points, Turn::OfPointsAlong).shapes(points)
+    }
+
+    fn rigid_shapes_of_body(&self) -> Vec<Vec<f64>> {
+        let cloud = &self.system.cloud;
+        let [positions, all]: [Vec<u32>; 2] = [
+            cloud.subdomain.owned().collect(),
+            (0..cloud.len() as u32).collect(),
+        ];
+        RigidMotions::of_body(
+            self.layout(),
+            &cloud.positions,
+            &positions,
+            &cloud.subdomain,
+        )
+        .shapes(&all)
     }
 
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {

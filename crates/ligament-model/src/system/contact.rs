@@ -220,7 +220,11 @@ impl<const D: usize> BondSystem<D> {
         let beyond = overlaps.filter(|it| it.depth > beyond);
         let larger = |most: Overlap, it: Overlap| if it.depth > most.depth { it } else { most };
         let owned = beyond.filter(|it| subdomain.owns_bond(it.ends));
-        let here = owned.reduce(larger).into_iter().collect();
+        let here = owned.reduce(larger).map(|it| Overlap {
+            ends: subdomain.numbers(it.ends),
+            ..it
+        });
+        let here = here.into_iter().collect();
         subdomain.all_gather_list(here).into_iter().reduce(larger)
     }
 

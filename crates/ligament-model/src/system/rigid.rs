@@ -3,7 +3,7 @@
 use super::{BondSystem, ElementSystem};
 use crate::element::Elements;
 use crate::interface::BondTopology;
-use crate::rigid_motions::{RigidMotions, Turn};
+use crate::rigid_motions::Turn;
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// Whether a fixed degree of freedom holds its point: the rotation of a point of the far field alone has no effect.
@@ -19,8 +19,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         move |dof| is_fixed(dof) && has_effect(dof)
     }
 
-    /// Rigid motions of some points that their bonds do not resist.
-    pub(super) fn rigid_motions(&self, points: &[u32]) -> RigidMotions<'_, D> {
+    /// Cost and effect of rotating a part of the body, of which this process owns some points; collective.
+    pub(super) fn turn(&self, points: &[u32]) -> Turn {
         let BondSystem {
             bonds, rigidities, ..
         } = &self.system;
@@ -28,12 +28,10 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         let resist = bonds.any(|&bond| rigidities.resist_rotations(bond as usize));
         let resist = self.subdomain().any(resist);
         let turn_points = E::COMPONENTS.iter().any(|it| it.is_rotation());
-        let turn = match (resist, self.elements.rotates_freely()) {
+        match (resist, self.elements.rotates_freely()) {
             (true, true) if turn_points => Turn::OfPointsAlong,
             (true, false) => Turn::Costly,
             (false, _) | (true, true) => Turn::OfPositions,
-        };
-        let positions = &self.system.cloud.positions;
-        RigidMotions::new(self.layout(), positions, points, turn)
+        }
     }
 }

@@ -53,7 +53,9 @@ impl Lines {
             None => ends,
             Some(order) => order.iter().map(|&bond| ends[bond as usize]).collect(),
         };
-        let lines = ends.iter().map(|it| numbering.ends_in_file(*it));
+        let places = numbering.places();
+        let place = |end: u32| places.as_ref().map_or(end, |it| it[end as usize]);
+        let lines = ends.iter().map(|it| numbering.ordered(*it).map(place));
         Self {
             cells: lines.map(vtu::Cell::Line).collect(),
             first_ends: ends.iter().map(|it| it[0]).collect(),
@@ -87,7 +89,10 @@ impl Lines {
         let shared = SharedCells {
             subdomain,
             points: &self.first_ends,
-            held: Held::OwnCells,
+            held: Held {
+                points: &numbers_in_order(body),
+                cells: None,
+            },
         };
         vtu::write_shared(path, &grid, shared)
     }
@@ -105,7 +110,7 @@ pub(super) fn write_grid(
         return write_around(path, body, fields, subdomain);
     }
     let order = body.numbering.order_of_file();
-    let numbering = &body.numbering;
+    let (numbering, numbers) = (&body.numbering, numbers_in_order(body));
     let body = &body.in_order_of_file();
     let all: Vec<Field<'_>> = fields.iter().map(|it| it.ordered(order)).collect();
     let cells = cells(&body.canvas);
@@ -114,7 +119,10 @@ pub(super) fn write_grid(
     let shared = SharedCells {
         subdomain,
         points: &points_of_cells,
-        held: Held::All,
+        held: Held {
+            points: &numbers,
+            cells: Some(&body.cell_numbers),
+        },
     };
     let grid = UnstructuredGrid {
         points: &body.positions,
@@ -161,12 +169,20 @@ fn write_around(
     let shared = SharedCells {
         subdomain,
         points: &points,
-        held: Held::Own {
+        held: Held {
             points: &corners_in_file,
-            cells: &in_file,
+            cells: Some(&in_file),
         },
     };
     vtu::write_shared(path, &grid, shared)
+}
+
+/// Numbers in the file of the points in its order, shape (n_points).
+fn numbers_in_order(body: &BodyGrid) -> Vec<u32> {
+    let points: Vec<u32> = (0..body.positions.len() as u32).collect();
+    let in_order = body.numbering.sorted(&points);
+    let numbers = in_order.iter().map(|&point| body.numbering.in_file(point));
+    numbers.collect()
 }
 
 /// The cells around some points.
@@ -218,6 +234,8 @@ mod tests {
             numbering: Numbering::default(),
             tags: vec![1, 2],
             tagged: "cell",
+            cell_numbers: Vec::new(),
+            of_body: None,
             canvas: Canvas::Around(vec![square(0.0), square(1.0)]),
         };
         let folder = tempfile::tempdir().unwrap();

@@ -339,9 +339,11 @@ impl Observer for ResultWriter<'_> {
 
 /// Sets the steps of breaking of the bonds on this process.
 fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u32)]) {
-    let ends = problem.system.ends();
+    let (ends, subdomain) = (problem.system.ends(), problem.system.subdomain());
     for (of_bond, step) in breaks {
-        if let Ok(bond) = ends.binary_search(of_bond) {
+        let [a, b] = of_bond.map(|end| subdomain.point(end));
+        let bond = a.zip(b).map(|(a, b)| ends.binary_search(&[a, b]));
+        if let Some(Ok(bond)) = bond {
             step_of_breaking[bond] = i64::from(*step);
         }
     }

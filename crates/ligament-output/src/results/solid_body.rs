@@ -63,6 +63,8 @@ impl SolidBody {
             grid: BodyGrid {
                 positions,
                 numbering: Numbering::default(),
+                cell_numbers: Vec::new(),
+                of_body: None,
                 tags,
                 tagged,
                 canvas,

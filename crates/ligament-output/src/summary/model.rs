@@ -1,5 +1,6 @@
 //! Summary of the discrete model.
 
+use ligament_model::subdomain::Subdomain;
 use serde::{Deserialize, Serialize};
 
 use super::values::{Text, number};
@@ -114,6 +115,19 @@ impl Spread {
             min: values.clone().fold(f64::INFINITY, f64::min),
             mean: values.clone().sum::<f64>() / count,
             max: values.fold(f64::NEG_INFINITY, f64::max),
+        }
+    }
+
+    /// Smallest, mean and largest of the values at the points (n_points) of a body, over all processes; collective.
+    pub fn over_points(subdomain: &Subdomain, values: &[f64]) -> Self {
+        let owned = subdomain.owned().map(|point| values[point as usize]);
+        let here = Self::over(owned.clone());
+        let mut ends = [-here.min, here.max];
+        subdomain.all_reduce_max(&mut ends);
+        Self {
+            min: -ends[0],
+            mean: subdomain.sum(owned.sum()) / subdomain.n_all().max(1) as f64,
+            max: ends[1],
         }
     }
 }

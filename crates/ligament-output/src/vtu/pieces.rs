@@ -66,40 +66,23 @@ pub struct SharedCells<'a> {
     pub subdomain: &'a Subdomain,
     /// For each cell, the point of the body whose owner owns the cell, shape (n_cells).
     pub points: &'a [u32],
-    /// Part of the whole grid on this process.
+    /// Indices of the points and cells in the whole grid.
     pub held: Held<'a>,
 }
 
-/// Part of a grid on one of several processes.
+/// Indices in the whole grid of the points and cells of one of several processes; empty on one process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Held<'a> {
-    /// All points and cells.
-    All,
-    /// All points, and owned cells without indices in the whole grid.
-    OwnCells,
-    /// Owned cells with their points, and the indices of both in the whole grid.
-    Own {
-        /// Indices of the points, shape (n_points).
-        points: &'a [u32],
-        /// Indices of the cells, shape (n_cells).
-        cells: &'a [u32],
-    },
+pub struct Held<'a> {
+    /// Indices of the points, shape (n_points).
+    pub points: &'a [u32],
+    /// Indices of the cells, shape (n_cells); none where they have no order in the whole grid.
+    pub cells: Option<&'a [u32]>,
 }
 
-impl Held<'_> {
-    /// Indices in the whole grid of points and of owned cells.
-    fn numbers(self, points: &[u32], own: &[u32]) -> [Vec<i64>; 2] {
-        let numbers = |all: Option<&[u32]>, some: &[u32]| {
-            let number = |&it: &u32| all.map_or(it, |all| all[it as usize]);
-            some.iter().map(|it| i64::from(number(it))).collect()
-        };
-        match self {
-            Self::Own { points: all, cells } => {
-                [numbers(Some(all), points), numbers(Some(cells), own)]
-            }
-            Self::All | Self::OwnCells => [numbers(None, points), numbers(None, own)],
-        }
-    }
+/// Some of the indices.
+fn at(indices: &[u32], places: &[u32]) -> Vec<i64> {
+    let chosen = places.iter().map(|&place| indices[place as usize]);
+    chosen.map(i64::from).collect()
 }
 
 /// Writes a grid to `path`, in pieces where the body is divided. The call is then collective: each process has right values at its cells,
@@ -169,7 +152,8 @@ fn write_piece(
         .iter()
         .map(|&point| grid.points[point as usize])
         .collect();
-    let [point_numbers, cell_numbers] = held.numbers(&points, own);
+    let point_numbers = at(held.points, &points);
+    let cell_numbers = held.cells.map(|it| at(it, own));
     let [of_points, of_cells] = [(grid.point_fields, &points[..]), (grid.cell_fields, own)]
         .map(|(fields, rows)| fields.iter().map(|it| it.at(rows)).collect());
     let of_points: Vec<Chosen> = of_points;
@@ -177,8 +161,8 @@ fn write_piece(
     let mut point_fields: Vec<Field<'_>> = chosen(grid.point_fields, &of_points);
     point_fields.push(Field::integer(POINT_NUMBER, &point_numbers));
     let mut cell_fields: Vec<Field<'_>> = chosen(grid.cell_fields, &of_cells);
-    if held != Held::OwnCells {
-        cell_fields.push(Field::integer(CELL_NUMBER, &cell_numbers));
+    if let Some(numbers) = &cell_numbers {
+        cell_fields.push(Field::integer(CELL_NUMBER, numbers));
     }
     let piece = UnstructuredGrid {
         points: &positions,
@@ -204,7 +188,7 @@ fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], held: Held<'_>) -> S
     let mut point_fields = grid.point_fields.to_vec();
     point_fields.push(Field::integer(POINT_NUMBER, &[]));
     let mut cell_fields = grid.cell_fields.to_vec();
-    if held != Held::OwnCells {
+    if held.cells.is_some() {
         cell_fields.push(Field::integer(CELL_NUMBER, &[]));
     }
     push_fields(&mut xml, "PPointData", &point_fields, |it| it.outline());

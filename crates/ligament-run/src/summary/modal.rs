@@ -9,7 +9,7 @@ use ligament_output::summary::{
     ModalSummary, ModeSummary, ModelSummary, Provenance, StabilitySummary, Stage,
 };
 
-use super::model::{heading, model_summary};
+use super::model::{OfPoints, heading, model_summary};
 use super::solver::solver_summary;
 use ligament::Model;
 use ligament_case::case::CaseFile;
@@ -34,7 +34,7 @@ pub fn modal_summary(
     let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
     warnings.extend(outcome.notices.iter().map(ToString::to_string));
     ModalSummary {
-        model: model_summary(case, model),
+        model: model_summary(case, model, OfPoints::new(model)),
         mass: moving.total,
         centre_of_mass: moving.centre.clone(),
         moving: moving.free.clone(),

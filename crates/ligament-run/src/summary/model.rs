@@ -10,6 +10,7 @@ use ligament_case::case::{CaseFile, Worded};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::material::Space;
 use ligament_model::scatter::{Factors, seed_at};
+use ligament_model::subdomain::Subdomain;
 
 /// First line of the report on a case: its title.
 pub fn heading(title: &str) -> &str {
@@ -20,22 +21,50 @@ pub fn heading(title: &str) -> &str {
     }
 }
 
+/// What the summary says about the points of a model.
+#[derive(Debug, Clone)]
+pub struct OfPoints {
+    no_fail_points: usize,
+    volume: f64,
+    horizon: Spread,
+    energy_ratios: Vec<Spread>,
+    scatter: Vec<ScatterSummary>,
+}
+
+impl OfPoints {
+    /// Sums and extremes over the points of all processes; collective.
+    pub fn new(model: &Model) -> Self {
+        let subdomain = model.system.subdomain();
+        let owned = || subdomain.owned().map(|point| point as usize);
+        let (volumes, no_fail) = (model.system.volumes(), &model.fixed.no_fail);
+        let spread = |values: &[f64]| Spread::over_points(subdomain, values);
+        let ratios = model.fixed.energy_ratios.iter();
+        Self {
+            no_fail_points: subdomain.count(owned().filter(|&it| no_fail[it]).count()),
+            volume: subdomain.sum(owned().map(|it| volumes[it]).sum()),
+            horizon: spread(&model.fixed.horizon),
+            energy_ratios: ratios.map(|it| spread(&it.at_points)).collect(),
+            scatter: scatter(model),
+        }
+    }
+}
+
 /// Summary of a model.
-pub(super) fn model_summary(case: &CaseFile, model: &Model) -> ModelSummary {
+pub(super) fn model_summary(case: &CaseFile, model: &Model, of_points: OfPoints) -> ModelSummary {
     ModelSummary {
         title: case.case.title.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
         formulation: formulation_words(model),
-        points: model.system.n_points(),
+        points: model.system.subdomain().n_all(),
         bonds: model.counts.bonds,
         cut_bonds: model.cut_bonds(),
         far_points: model.counts.far_points,
-        no_fail_points: model.no_fail_points(),
-        volume: model.system.volumes().iter().sum(),
-        horizon: Spread::over(model.fixed.horizon.iter().copied()),
+        no_fail_points: of_points.no_fail_points,
+        volume: of_points.volume,
+        horizon: of_points.horizon,
         family: family(model),
-        correction: correction(model),
-        scatter: first_with_others(scatter(model)),
+        correction: correction(model, of_points.energy_ratios),
+        scatter: first_with_others(of_points.scatter),
     }
 }
 
@@ -49,19 +78,25 @@ fn first_with_others(all: Vec<ScatterSummary>) -> Option<ScatterSummary> {
     })
 }
 
-/// Summary of each property of a model that varies at random.
+/// Summary of each property of a model that varies at random; collective.
 pub fn scatter(model: &Model) -> Vec<ScatterSummary> {
     let factors = model.fixed.scatter.iter().enumerate();
     let seed = |place| seed_at(&model.setup.scatter, place);
+    let subdomain = model.system.subdomain();
     factors
-        .map(|(place, it)| scatter_of(it, seed(place)))
+        .map(|(place, it)| scatter_of(subdomain, it, seed(place)))
         .collect()
 }
 
-fn scatter_of(Factors { of, at_points }: &Factors, seed: u64) -> ScatterSummary {
-    let factor = Spread::over(at_points.iter().copied());
-    let squares = at_points.iter().map(|it| (it - factor.mean).powi(2));
-    let variance = squares.sum::<f64>() / at_points.len().max(1) as f64;
+fn scatter_of(
+    subdomain: &Subdomain,
+    Factors { of, at_points }: &Factors,
+    seed: u64,
+) -> ScatterSummary {
+    let factor = Spread::over_points(subdomain, at_points);
+    let owned = subdomain.owned().map(|point| at_points[point as usize]);
+    let squares = owned.map(|it| (it - factor.mean).powi(2));
+    let variance = subdomain.sum(squares.sum()) / subdomain.n_all().max(1) as f64;
     ScatterSummary {
         of: of.word()[0].into(),
         seed,
@@ -80,7 +115,7 @@ fn formulation_words(model: &Model) -> String {
 /// Smallest, mean and largest number of bonds of a point.
 pub fn family(model: &Model) -> Spread {
     let [min, max] = model.counts.of_points.map(|it| it as f64);
-    let n_points = model.system.n_points() - model.counts.far_points;
+    let n_points = model.system.subdomain().n_all() - model.counts.far_points;
     Spread {
         min,
         mean: (2 * model.counts.bonds) as f64 / n_points.max(1) as f64,
@@ -89,7 +124,7 @@ pub fn family(model: &Model) -> Spread {
 }
 
 /// Summary of the correction of a model.
-fn correction(model: &Model) -> CorrectionSummary {
+fn correction(model: &Model, energy_ratios: Vec<Spread>) -> CorrectionSummary {
     let report = model.correction.as_ref();
     let domain = report.and_then(CorrectionReport::domain);
     let patch = report.and_then(CorrectionReport::patch);
@@ -105,9 +140,7 @@ fn correction(model: &Model) -> CorrectionSummary {
         largest_residual: domain.map(|it| it.largest_residual),
         newton_steps: patch.map(|it| it.steps),
         left: patch.map(|it| it.left),
-        energy_ratios: (model.fixed.energy_ratios.iter())
-            .map(|it| Spread::over(it.at_points.iter().copied()))
-            .collect(),
+        energy_ratios,
     }
 }
 

@@ -12,18 +12,18 @@ use ligament_output::summary::{BondEvent, Resultant};
 
 /// Summary of the first breakage or softening in a model.
 pub(super) fn bond_event(model: &Model, first: &FirstBond) -> BondEvent {
-    let ends = model.system.numbering().ordered(first.ends);
+    let ends = model.names.numbering().ordered(first.ends);
     let criteria = model.criteria.list.iter().map(|it| it.name);
     let mut labels = criterion_labels(criteria);
     BondEvent {
-        ends: ends.map(|end| model.body().tag(end)),
+        ends: ends.map(|end| model.names.tag(end)),
         place: model.middle(ends),
         step: first.step,
         load_factor: first.load_factor,
         displacement: first.displacement,
         reaction: first.reaction,
         criterion: labels.swap_remove(first.criterion as usize),
-        tagged: model.body().tagged(),
+        tagged: model.names.tagged(),
     }
 }
 /// Resultants of the groups, by their names in the history, at the record with the largest reaction and no bond left to break.

@@ -42,6 +42,14 @@ impl AnyBody {
         }
     }
 
+    /// The body without its dimension.
+    pub fn as_body(&self) -> Arc<dyn Body> {
+        match self {
+            Self::Plane(body) => body.clone(),
+            Self::Solid(body) => body.clone(),
+        }
+    }
+
     /// The geometry of a body of D dimensions.
     ///
     /// # Panics

@@ -85,7 +85,7 @@ struct Set<const D: usize> {
 }
 
 /// Selection of the faces of the outline that belong to a set.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 enum Faces<const D: usize> {
     /// Faces of the set's cells.
     OfCells,
@@ -152,6 +152,20 @@ impl<const D: usize> CellSets<D> {
             sets.insert(name.clone(), set);
         }
         Ok(Self(sets))
+    }
+
+    /// The sets with some of the points (ascending), numbered among these.
+    pub(super) fn part(&self, points: &[u32]) -> Self {
+        let part = |set: &Set<D>| Set {
+            points: among(&set.points, points),
+            part_of_side: set.part_of_side,
+            faces: set.faces.clone(),
+        };
+        Self(
+            (self.0.iter())
+                .map(|(name, set)| (name.clone(), part(set)))
+                .collect(),
+        )
     }
 
     pub(super) fn names(&self) -> Vec<String> {
@@ -228,6 +242,13 @@ impl<const D: usize> Set<D> {
             },
         }
     }
+}
+
+/// Those of some points (ascending) that are among others (ascending), by their indices there.
+pub(super) fn among(points: &[u32], others: &[u32]) -> Vec<u32> {
+    let place = |point: &u32| others.binary_search(point).ok();
+    let places = points.iter().filter_map(place);
+    places.map(|place| place as u32).collect()
 }
 
 /// The cells that lack a neighbour, shape (n_points).

@@ -8,7 +8,7 @@ use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
 use ligament_model::surface::{CellFaces, Facet};
-use ligament_model::{BodyGrid, BondSet, BondSystem, Lattice, PointCloud};
+use ligament_model::{BodyGrid, BondSet, BondSystem, Lattice, PointCloud, PointTags};
 use thiserror::Error;
 
 use crate::coordinates::coordinates;
@@ -141,8 +141,20 @@ pub trait Body: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Numbering and tags of the points.
+    fn point_tags(&self) -> PointTags {
+        let points = 0..self.n_points() as u32;
+        PointTags {
+            numbering: self.numbering(),
+            tags: points.map(|point| self.tag(point) as i64).collect(),
+        }
+    }
+
     /// Grid of the body for result files.
     fn grid(&self) -> BodyGrid;
+
+    /// The points of the body without cells and groups, for their descriptions.
+    fn names(&self) -> Arc<dyn Body>;
 
     /// Description of a point for messages: "node 12".
     fn label(&self, point: u32) -> String {
@@ -156,6 +168,14 @@ pub trait Body: Debug + Send + Sync {
     }
 }
 
+/// A body with some of its points.
+pub struct Restricted<const D: usize> {
+    /// The points, in the order of the whole body, and the cells that have no other corners.
+    pub body: Arc<dyn Geometry<D>>,
+    /// Numbers of these cells in the whole body, ascending.
+    pub cells: Vec<u32>,
+}
+
 /// The geometry of a body in D dimensions.
 pub trait Geometry<const D: usize>: Body {
     /// Positions of the points, shape (n_points), m.
@@ -163,6 +183,9 @@ pub trait Geometry<const D: usize>: Body {
 
     /// The material points; `material_of_cell` (n_cells) has the index of each cell's material.
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
+
+    /// The body with some of its points (ascending); groups keep their names where they lose all points.
+    fn restricted(&self, points: &[u32]) -> Restricted<D>;
 
     /// Points of the cell around a position (m) and their interpolation weights, which sum to one; `None` outside of all cells and for
     /// bodies without cells.

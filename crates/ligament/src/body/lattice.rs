@@ -1,6 +1,7 @@
 //! A body on a lattice: points at the centres of the cells, named sets.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::parts::LatticeCells;
@@ -9,10 +10,10 @@ use ligament_model::correction::patch::{self, CellForces};
 use ligament_model::material::Stiffness;
 use ligament_model::shape::{Shape, SolidShape};
 use ligament_model::surface::{CellFaces, Facet};
-use ligament_model::{BodyGrid, BondSet, PointCloud, raised};
+use ligament_model::{BodyGrid, BondSet, Numbering, PointCloud, raised};
 
 use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
-use super::interface::{Body, Geometry, OffOutline, Origin};
+use super::interface::{Body, Geometry, OffOutline, Origin, Restricted};
 use super::lattice_cells::LatticeShape;
 
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
@@ -21,6 +22,7 @@ pub struct BodyOnLattice<const D: usize, S> {
     lattice: Lattice<D, S>,
     /// Positions of the points, shape (n_points), m.
     positions: Vec<[f64; D]>,
+    numbering: Numbering,
     sets: CellSets<D>,
 }
 
@@ -48,6 +50,7 @@ impl<const D: usize, S: LatticeShape<D>> BodyOnLattice<D, S> {
         Ok(Self {
             sets: CellSets::new(&lattice, holes, named)?,
             positions,
+            numbering: Numbering::default(),
             lattice,
         })
     }
@@ -66,13 +69,17 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         &self.positions()[point as usize]
     }
 
+    fn numbering(&self) -> Numbering {
+        self.numbering.clone()
+    }
+
     fn tagged(&self) -> &'static str {
         "cell"
     }
 
     /// Number of the remaining cell, from 1.
     fn tag(&self, point: u32) -> u64 {
-        u64::from(point) + 1
+        u64::from(self.numbering.in_file(point)) + 1
     }
 
     fn n_cells(&self) -> usize {
@@ -112,6 +119,15 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         }
     }
 
+    fn names(&self) -> Arc<dyn Body> {
+        Arc::new(Self {
+            lattice: self.lattice.part(&[]),
+            positions: self.positions.clone(),
+            numbering: self.numbering.clone(),
+            sets: self.sets.part(&[]),
+        })
+    }
+
     fn rim(&self) -> Vec<bool> {
         rim(&self.lattice)
     }
@@ -120,7 +136,11 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         BodyGrid {
             numbering: self.numbering(),
             positions: raised(&self.positions),
-            tags: (1..=self.positions.len() as i64).collect(),
+            tags: (0..self.positions.len() as u32)
+                .map(|point| i64::from(self.numbering.in_file(point)) + 1)
+                .collect(),
+            cell_numbers: Vec::new(),
+            of_body: None,
             tagged: self.tagged(),
             canvas: S::canvas(&self.positions, self.lattice.spacing.map(|side| 0.5 * side)),
         }
@@ -134,6 +154,19 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
         PointCloud::from_lattice(&self.lattice, thickness, material_of_cell, n_materials)
+    }
+
+    fn restricted(&self, points: &[u32]) -> Restricted<D> {
+        let positions = points.iter().map(|&point| self.positions[point as usize]);
+        Restricted {
+            body: Arc::new(Self {
+                lattice: self.lattice.part(points),
+                positions: positions.collect(),
+                numbering: self.numbering.part(points),
+                sets: self.sets.part(points),
+            }),
+            cells: points.to_vec(),
+        }
     }
 
     fn interpolation_weights(&self, position: [f64; D]) -> Option<Vec<(u32, f64)>> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ligament_mesh::{Cell, Group, Mesh, NodeField, Numbering, SolidCell};
+use ligament_mesh::{Cell, Group, Mesh, MeshCell, NodeField, Numbering, SolidCell};
 use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
 use ligament_model::far_field::Simplex;
@@ -10,7 +10,8 @@ use ligament_model::material::Stiffness;
 use ligament_model::surface::{CellFaces, InnerFace};
 use ligament_model::{BodyGrid, BondSet, BondSystem, PointCloud, raised};
 
-use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin};
+use super::cells::among;
+use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin, Restricted};
 use super::mesh_cells::BodyCell;
 
 /// A body with a point at each node of a mesh; its groups are the physical groups.
@@ -19,6 +20,8 @@ pub struct BodyOnMesh<const D: usize, C> {
     /// The mesh with its nodes numbered along a space-filling curve.
     mesh: Mesh<D, C>,
     numbering: Numbering,
+    /// Number of each cell in the file, of a part of a mesh, shape (n_cells); empty for a whole mesh.
+    cell_numbers: Vec<u32>,
 }
 
 /// A body meshed with triangles and quadrangles in the plane.
@@ -30,7 +33,11 @@ pub type SolidMeshBody = BodyOnMesh<3, SolidCell>;
 impl<const D: usize, C: BodyCell<D>> From<Mesh<D, C>> for BodyOnMesh<D, C> {
     fn from(mesh: Mesh<D, C>) -> Self {
         let (mesh, numbering) = mesh.along_curve();
-        Self { mesh, numbering }
+        Self {
+            mesh,
+            numbering,
+            cell_numbers: Vec::new(),
+        }
     }
 }
 
@@ -46,11 +53,36 @@ impl<const D: usize, C: BodyCell<D>> BodyOnMesh<D, C> {
         Some(all)
     }
 
+    /// Some nodes (ascending), without cells.
+    fn nodes(&self, nodes: &[u32]) -> Mesh<D, C> {
+        let of_nodes = nodes.iter().map(|&node| node as usize);
+        Mesh {
+            node_tags: of_nodes.clone().map(|it| self.mesh.node_tags[it]).collect(),
+            positions: of_nodes.map(|it| self.mesh.positions[it]).collect(),
+            ..Mesh::default()
+        }
+    }
+
+    /// Some cells between some nodes (ascending), numbered among these.
+    fn cells_between(&self, cells: &[usize], nodes: &[u32]) -> Vec<C> {
+        let node = |node: u32| nodes.partition_point(|it| *it < node) as u32;
+        let cells = cells.iter().map(|&cell| self.mesh.cells[cell]);
+        cells.map(|cell| renumbered(cell, node)).collect()
+    }
+
     /// Sides of cells that `held` returns for the groups of a name.
     fn of_groups<T: Copy>(&self, name: &str, held: fn(&Group) -> &[T]) -> Vec<T> {
         let groups = self.mesh.groups_named(name);
         groups.flat_map(held).copied().collect()
     }
+}
+
+/// A cell with other numbers of its corners.
+fn renumbered<const D: usize, C: MeshCell<D>>(mut cell: C, number: impl Fn(u32) -> u32) -> C {
+    for corner in cell.corners_mut() {
+        *corner = number(*corner);
+    }
+    cell
 }
 
 /// The outline of a mesh, with its cells.
@@ -166,12 +198,26 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
         remarks.map(|remark| format!("mesh: {remark}")).collect()
     }
 
+    fn names(&self) -> Arc<dyn Body> {
+        Arc::new(Self {
+            mesh: Mesh {
+                node_tags: self.mesh.node_tags.clone(),
+                positions: self.mesh.positions.clone(),
+                ..Mesh::default()
+            },
+            numbering: self.numbering.clone(),
+            cell_numbers: Vec::new(),
+        })
+    }
+
     fn grid(&self) -> BodyGrid {
         BodyGrid {
             numbering: self.numbering(),
             positions: raised(&self.mesh.positions),
             tags: self.mesh.node_tags.iter().map(|&tag| tag as i64).collect(),
             tagged: self.tagged(),
+            cell_numbers: self.cell_numbers.clone(),
+            of_body: None,
             canvas: C::canvas(&self.mesh.cells),
         }
     }
@@ -223,29 +269,67 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
 
     /// A body of some cells and their nodes, without groups.
     fn part(&self, cells: &[usize]) -> Option<Arc<dyn Geometry<D>>> {
-        let cells = cells.iter().map(|&cell| self.mesh.cells[cell]);
-        let mut nodes: Vec<u32> = (cells.clone())
-            .flat_map(|cell| cell.corners().to_vec())
-            .collect();
+        let corners = cells
+            .iter()
+            .flat_map(|&cell| self.mesh.cells[cell].corners());
+        let mut nodes: Vec<u32> = corners.copied().collect();
         nodes.sort_unstable();
         nodes.dedup();
-        let renumbered = |mut cell: C| {
-            for corner in cell.corners_mut() {
-                *corner = nodes.partition_point(|node| node < corner) as u32;
-            }
-            cell
-        };
-        let of_nodes = nodes.iter().map(|&node| node as usize);
-        let part = Mesh {
-            node_tags: of_nodes.clone().map(|it| self.mesh.node_tags[it]).collect(),
-            positions: of_nodes.map(|it| self.mesh.positions[it]).collect(),
-            cells: cells.map(renumbered).collect(),
-            ..Mesh::default()
-        };
         Some(Arc::new(Self {
-            mesh: part,
+            mesh: Mesh {
+                cells: self.cells_between(cells, &nodes),
+                ..self.nodes(&nodes)
+            },
             numbering: Numbering::default(),
+            cell_numbers: Vec::new(),
         }))
+    }
+
+    fn restricted(&self, points: &[u32]) -> Restricted<D> {
+        let mut is_here = vec![false; self.mesh.positions.len()];
+        points.iter().for_each(|&it| is_here[it as usize] = true);
+        let is_inside = |corners: &[u32]| corners.iter().all(|&it| is_here[it as usize]);
+        let numbered = (0..).zip(&self.mesh.cells);
+        let inside = numbered.filter(|(_, cell)| is_inside(cell.corners()));
+        let cells: Vec<u32> = inside.map(|(number, _)| number).collect();
+        let numbers: Vec<usize> = cells.iter().map(|&cell| cell as usize).collect();
+        let node = |node: u32| points.partition_point(|it| *it < node) as u32;
+        let group = |group: &Group| Group {
+            name: group.name.clone(),
+            nodes: among(&group.nodes, points),
+            edges: (group.edges.iter())
+                .filter(|edge| is_inside(*edge))
+                .map(|edge| edge.map(node))
+                .collect(),
+            faces: (group.faces.iter())
+                .filter(|face| is_inside(face.corners()))
+                .map(|face| renumbered(*face, node))
+                .collect(),
+            cells: among(&group.cells, &cells),
+            ..*group
+        };
+        let field = |field: &NodeField| {
+            let values = field.values.iter();
+            let values = values.filter(|(it, _)| is_here[*it as usize]);
+            NodeField {
+                name: field.name.clone(),
+                values: values.map(|&(it, value)| (node(it), value)).collect(),
+                ..*field
+            }
+        };
+        let mesh = Mesh {
+            cells: self.cells_between(&numbers, points),
+            groups: self.mesh.groups.iter().map(group).collect(),
+            fields: self.mesh.fields.iter().map(field).collect(),
+            remarks: self.mesh.remarks.clone(),
+            ..self.nodes(points)
+        };
+        let body = Arc::new(Self {
+            mesh,
+            numbering: self.numbering.part(points),
+            cell_numbers: cells.clone(),
+        });
+        Restricted { body, cells }
     }
 
     fn outline(&self, cloud: &PointCloud<D>) -> Option<Box<dyn BodyOutline<D> + '_>> {

@@ -1,13 +1,15 @@
 //! A body from arrays: positions, volumes and named groups of points.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
 use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud, raised};
 use thiserror::Error;
 
-use super::interface::{Body, Geometry, OffOutline, Origin};
+use super::cells::among;
+use super::interface::{Body, Geometry, OffOutline, Origin, Restricted};
 
 /// A body of points from arrays, each with the area, or in space the volume, that it represents. Groups are sets of points without length
 /// and outline, so that forces are distributed over their points by volume.
@@ -181,6 +183,13 @@ impl<const D: usize> Body for Points<D> {
         Vec::new()
     }
 
+    fn names(&self) -> Arc<dyn Body> {
+        Arc::new(Self {
+            groups: BTreeMap::new(),
+            ..self.clone()
+        })
+    }
+
     /// Marks no point: arrays do not define the edge of the body.
     fn rim(&self) -> Vec<bool> {
         vec![false; self.positions.len()]
@@ -210,13 +219,38 @@ impl<const D: usize> Body for Points<D> {
                 .map(|point| i64::from(self.numbering.in_file(point)))
                 .collect(),
             positions,
+            cell_numbers: Vec::new(),
+            of_body: None,
             tagged: self.tagged(),
             canvas,
         }
     }
 }
 
+impl<const D: usize> Points<D> {
+    /// Some of the points (ascending), with their groups.
+    fn part(&self, points: &[u32]) -> Self {
+        let indices = points.iter().map(|&point| point as usize);
+        let groups = self.groups.iter();
+        Self {
+            numbering: self.numbering.part(points),
+            positions: indices.clone().map(|it| self.positions[it]).collect(),
+            sizes: indices.map(|it| self.sizes[it]).collect(),
+            groups: groups
+                .map(|(name, group)| (name.clone(), among(group, points)))
+                .collect(),
+        }
+    }
+}
+
 impl<const D: usize> Geometry<D> for Points<D> {
+    fn restricted(&self, points: &[u32]) -> Restricted<D> {
+        Restricted {
+            body: Arc::new(self.part(points)),
+            cells: points.to_vec(),
+        }
+    }
+
     fn positions(&self) -> &[[f64; D]] {
         &self.positions
     }

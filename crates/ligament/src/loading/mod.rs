@@ -27,6 +27,7 @@ pub use motion::Inertia;
 pub(crate) use near_cells::REACH;
 pub use near_cells::near_cells;
 use places::Places;
+pub(crate) use places::points_known_to_all;
 pub use places::{material_of_cell, no_fail};
 pub use vibration::Vibration;
 

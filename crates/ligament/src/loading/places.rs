@@ -4,7 +4,7 @@ use ligament_model::PointCloud;
 
 use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{Place, Reading, Setup};
+use crate::setup::{CrackShape, Place, Reading, Setup};
 
 /// A setup and the points of its body, which resolve places.
 #[derive(Clone, Copy)]
@@ -84,6 +84,41 @@ impl<const D: usize> Places<'_, D> {
             distance,
         }))
     }
+}
+
+/// Points of a body that all of several processes know: those of supports, loads, probes and surfaces that cut bonds; all points where the
+/// temperature changes.
+pub(crate) fn points_known_to_all<const D: usize>(
+    setup: &Setup,
+    cloud: &PointCloud<D>,
+) -> Result<Vec<u32>, SetupError> {
+    let (places, body) = (Places { setup, cloud }, setup.body.geometry::<D>());
+    if !setup.temperatures.is_empty() {
+        return Ok((0..cloud.len() as u32).collect());
+    }
+    let mut known = Vec::new();
+    for (index, support) in setup.supports.iter().enumerate() {
+        known.extend(places.points(Field::element("supports", index), &support.place)?);
+    }
+    for (index, load) in setup.loads.iter().enumerate() {
+        known.extend(places.points(Field::element("loads", index), &load.place)?);
+    }
+    let positions = setup.probes.iter().flat_map(|probe| match &probe.reading {
+        Reading::At { position, .. } => std::slice::from_ref(position),
+        Reading::Between { positions, .. } => positions,
+        Reading::Section { .. } => &[],
+    });
+    for position in positions.map(|it| narrowed(*it)) {
+        known.push(cloud.nearest_point(position));
+        let around = body.interpolation_weights(position).unwrap_or_default();
+        known.extend(around.iter().map(|(point, _)| *point));
+    }
+    for crack in &setup.precracks {
+        if let CrackShape::Group(group) = &crack.shape {
+            known.extend(body.points_of(group).unwrap_or_default());
+        }
+    }
+    Ok(known)
 }
 
 /// Marks the points whose bonds never break, shape (n_points).

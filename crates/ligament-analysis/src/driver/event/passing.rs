@@ -55,7 +55,7 @@ pub(super) fn may_wait(path: &Path<'_>, body: &Body) -> bool {
     let fragments = path.equilibrium.fragments();
     let layout = path.problem.system.layout();
     let fragment = |point: u32| fragments.of_point[point as usize] as usize;
-    let mut is_asked_for = vec![false; fragments.points.len()];
+    let mut is_asked_for = vec![false; fragments.len()];
     for &point in body.wanted() {
         is_asked_for[fragment(point)] = true;
     }

@@ -86,7 +86,7 @@ impl EquilibriumLine for Proportional {
         // A temperature strains all parts, and where faces close any part may press on another.
         let faces_close = path.problem.system.faces_close();
         let is_heated = !path.problem.loads.thermal_strain(load_factor).is_none();
-        let mut is_loaded = vec![is_heated || faces_close; fragments.points.len()];
+        let mut is_loaded = vec![is_heated || faces_close; fragments.len()];
         let layout = path.problem.system.layout();
         for &dof in &self.loaded {
             let point = layout.point(dof as usize);

@@ -42,7 +42,8 @@ impl ExplicitKept {
     pub(super) fn read(problem: &mut MotionProblem, from: &mut &[u8]) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
-        let state = State::read(&numbers, from)?;
+        let n_components = problem.problem.system.layout().components.len();
+        let state = State::read((&numbers, n_components), from)?;
         let velocities: Velocities = Serial::read(from).map_err(damaged)?;
         let anchored: Vec<(u32, Anchored)> = Serial::read(from).map_err(damaged)?;
         let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;

@@ -46,7 +46,8 @@ impl ImplicitKept {
     ) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
-        let state = State::read(&numbers, from)?;
+        let n_components = problem.problem.system.layout().components.len();
+        let state = State::read((&numbers, n_components), from)?;
         let motion: Motion = Serial::read(from).map_err(damaged)?;
         let pace: Pace = Serial::read(from).map_err(damaged)?;
         let costs: Costs = Serial::read(from).map_err(damaged)?;

@@ -41,14 +41,20 @@ impl PreconditionerState {
     /// # Errors
     ///
     /// If the bytes are damaged or belong to another body.
-    pub(super) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
-        let mut making = || FactorRecord::read_local(numbers, from);
+    pub(super) fn read(
+        (numbers, n_components): (&BondNumbers, usize),
+        from: &mut &[u8],
+    ) -> Result<Self, CheckpointError> {
+        let mut making = || FactorRecord::read_local((numbers, n_components), from);
         let (preconditioner_of, matrix_of) = (making()?, making()?);
         let stale: Vec<u32> = Serial::read(from)?;
+        let stale = stale
+            .into_iter()
+            .filter_map(|it| numbers.subdomain().point(it));
         Ok(Self {
             preconditioner_of,
             matrix_of,
-            stale: stale.into_iter().collect(),
+            stale: stale.collect(),
             is_due: Serial::read(from)?,
             pace: Serial::read(from)?,
             excess: Serial::read(from)?,
@@ -59,8 +65,13 @@ impl PreconditionerState {
     pub(super) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
         self.preconditioner_of.write_all(numbers, out);
         self.matrix_of.write_all(numbers, out);
-        let stale = self.stale.iter().map(|&point| [point]).collect();
-        let stale = numbers.subdomain().all_gather_list(stale).into_iter();
+        let subdomain = numbers.subdomain();
+        let stale = self
+            .stale
+            .iter()
+            .map(|&it| [subdomain.number(it)])
+            .collect();
+        let stale = subdomain.all_gather_list(stale).into_iter();
         let stale: BTreeSet<u32> = stale.map(|[point]| point).collect();
         stale.into_iter().collect::<Vec<u32>>().write(out);
         self.is_due.write(out);

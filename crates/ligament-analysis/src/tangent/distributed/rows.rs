@@ -4,7 +4,7 @@
 //! symmetry. A rank computes the columns of its owned points and of points of larger number coupled with them, and stores its own
 //! rows.
 
-use ligament_model::subdomain::Partition;
+use ligament_model::subdomain::Subdomain;
 use ligament_model::{Bonds, UnbrokenBonds};
 use rayon::prelude::*;
 
@@ -19,8 +19,7 @@ const TASK: usize = 1024;
 pub(super) struct OwnRows<'a> {
     pub(super) system: &'a dyn Bonds,
     pub(super) unknowns: &'a Unknowns,
-    pub(super) partition: &'a Partition,
-    pub(super) rank: usize,
+    pub(super) subdomain: &'a Subdomain,
 }
 
 /// Bonds, and whether each degree of freedom is free (n_degrees_of_freedom); the others are decoupled, with a diagonal entry alone.
@@ -47,17 +46,8 @@ impl OwnRows<'_> {
         restraints.lower_points(layout, self.system.coupled_points(), point as usize)
     }
 
-    /// Index of a point among the owned ones; None for other points.
-    fn own_place(&self, point: u32) -> Option<usize> {
-        let (place, own) = (
-            self.partition.place(point),
-            self.partition.places(self.rank),
-        );
-        own.contains(&place).then(|| place - own.start)
-    }
-
     pub(super) fn is_own(&self, point: u32) -> bool {
-        self.own_place(point).is_some()
+        self.subdomain.owns(point)
     }
 
     /// Points whose columns have entries in owned rows, ascending.
@@ -71,9 +61,9 @@ impl OwnRows<'_> {
 
     /// Numbers of blocks in the rows of each owned point, in owned columns and in others, shape (n_own).
     pub(super) fn couplings(&self, columns: &[u32]) -> Vec<[usize; 2]> {
-        let mut couplings = vec![[0, 0]; self.partition.places(self.rank).len()];
+        let mut couplings = vec![[0, 0]; self.subdomain.n_owned()];
         let mut count = |row: u32, column: u32| {
-            if let Some(place) = self.own_place(row) {
+            if let Some(place) = self.subdomain.row(row) {
                 couplings[place][usize::from(!self.is_own(column))] += 1;
             }
         };
@@ -105,7 +95,7 @@ impl OwnRows<'_> {
     pub(super) fn rows<'a>(&self, couplings: &'a [[usize; 2]]) -> Rows<'a> {
         Rows {
             n_components: self.n_components(),
-            n_all: self.system.n_points(),
+            n_all: self.subdomain.n_all(),
             couplings,
         }
     }
@@ -174,17 +164,17 @@ impl OwnRows<'_> {
             lower,
             blocks,
         } = column;
-        let place = self.partition.place(*point);
+        let place = self.subdomain.place(*point);
         for (&other, block) in lower.iter().zip(blocks.chunks_exact(n * n)) {
             if self.is_own(other) {
-                matrix.set(self.partition.place(other), &[place], block);
+                matrix.set(self.subdomain.place(other), &[place], block);
             }
         }
         if !self.is_own(*point) {
             return;
         }
         let all = lower.iter().chain([point]);
-        let places: Vec<usize> = all.map(|&it| self.partition.place(it)).collect();
+        let places: Vec<usize> = all.map(|&it| self.subdomain.place(it)).collect();
         let mut row = vec![0.0; blocks.len()];
         for (k, block) in blocks.chunks_exact(n * n).enumerate() {
             for r in 0..n {

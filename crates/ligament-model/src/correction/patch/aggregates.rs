@@ -47,12 +47,12 @@ impl<'a> Aggregates<'a> {
         order: &'a SweepOrder<'a>,
         width: usize,
     ) -> Self {
-        let count = (cloud.len() / FEWEST_POINTS).clamp(1, MOST);
+        let count = (cloud.subdomain.n_all() / FEWEST_POINTS).clamp(1, MOST);
         let mut distance = vec![f64::INFINITY; cloud.len()];
         let mut aggregate = vec![0; cloud.len()];
         let mut seed = farthest(cloud, &distances_from(centroid(cloud), cloud));
         for number in 0..count {
-            let from_seed = distances_from(cloud.positions[seed], cloud);
+            let from_seed = distances_from(seed, cloud);
             for (point, from_seed) in from_seed.into_iter().enumerate() {
                 if from_seed < TIE * distance[point] {
                     (distance[point], aggregate[point]) = (from_seed, number);
@@ -107,12 +107,14 @@ impl<'a> Aggregates<'a> {
 
 /// Volume-weighted mean of the positions, m.
 fn centroid<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
-    let total: f64 = cloud.volumes.iter().sum();
-    std::array::from_fn(|axis| {
-        let positions = cloud.positions.iter().zip(&cloud.volumes);
-        let moments = positions.map(|(position, volume)| volume * position[axis]);
-        moments.sum::<f64>() / total
-    })
+    let owned = || cloud.subdomain.owned().map(|it| it as usize);
+    let total = cloud
+        .subdomain
+        .sum(owned().map(|it| cloud.volumes[it]).sum());
+    let moment = |axis: usize| owned().map(move |it| cloud.volumes[it] * cloud.positions[it][axis]);
+    let mut moments: [f64; D] = std::array::from_fn(|axis| moment(axis).sum());
+    cloud.subdomain.all_reduce_sum(&mut moments);
+    moments.map(|it| it / total)
 }
 
 /// Distances of all points from a position, m.
@@ -121,17 +123,25 @@ fn distances_from<const D: usize>(place: [f64; D], cloud: &PointCloud<D>) -> Vec
     cloud.positions.iter().map(from_place).collect()
 }
 
-/// The point with the largest of some distances (n_points); of several at equal distance the one of the largest volume, and of those the
-/// first in the file.
-fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> usize {
-    let largest = distances.iter().copied().fold(0.0, f64::max);
-    let in_file = (0..cloud.len() as u32).map(|number| cloud.numbering.point(number) as usize);
-    let mut farthest = in_file.filter(|&point| distances[point] >= TIE * largest);
-    let first = farthest.next().unwrap_or(0);
-    farthest.fold(first, |best, point| {
-        let is_larger = TIE * cloud.volumes[point] > cloud.volumes[best];
-        if is_larger { point } else { best }
-    })
+/// Position of the point of the body with the largest of some distances (n_points); of several at equal distance the one of the largest
+/// volume, and of those the first in the file, m.
+fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> [f64; D] {
+    let subdomain = &cloud.subdomain;
+    let owned = || subdomain.owned().map(|it| it as usize);
+    let largest = subdomain.max(owned().map(|it| distances[it]).fold(0.0, f64::max));
+    let farthest = owned().filter(|&point| distances[point] >= TIE * largest);
+    let rows = farthest.map(|point| {
+        let [x, y, z] = [0, 1, 2].map(|k| cloud.positions[point].get(k).copied().unwrap_or(0.0));
+        let in_file = f64::from(cloud.numbering.in_file(point as u32));
+        [in_file, cloud.volumes[point], x, y, z]
+    });
+    let mut of_all = subdomain.all_gather_list(rows.collect());
+    of_all.sort_unstable_by(|one, other| one[0].total_cmp(&other[0]));
+    let best = of_all.into_iter().reduce(|best, row| {
+        let is_larger = TIE * row[1] > best[1];
+        if is_larger { row } else { best }
+    });
+    std::array::from_fn(|axis| best.map_or(0.0, |it| it[2 + axis]))
 }
 
 /// Regularisation of the multipliers of each point about a centre: r/d^2 times their deviation from it, less the mean deviation of the

@@ -33,7 +33,7 @@ impl<'a> Pairs<'a> {
         let (indices, n_own) = (order.indices(), order.owned().len());
         let mut pairs = Self {
             order,
-            n_all: cloud.len(),
+            n_all: cloud.subdomain.n_all(),
             n_bonds: bonds.len(),
             starts: Vec::with_capacity(n_own + 1),
             other: Vec::with_capacity(bonds.len()),
