@@ -35,7 +35,7 @@ fn values_of_ghosts_are_those_of_their_ranks() {
         for (point, told) in (0..).zip(values) {
             let is_seen = (first.saturating_sub(2)..last + 3).contains(&point);
             let from = if is_seen {
-                subdomain.partition().rank(point)
+                subdomain.rank(point)
             } else {
                 ranks.rank()
             };

@@ -89,6 +89,11 @@ impl Body {
     }
 }
 
+/// Indices of all points or cells: each process knows the whole body.
+fn all(count: usize) -> Vec<u32> {
+    (0..count as u32).collect()
+}
+
 fn numbers(file: &VtuFile, location: FieldLocation, name: &str) -> Vec<f64> {
     file.required_numbers(location, name).unwrap()
 }
@@ -104,7 +109,10 @@ fn pieces_read_as_the_whole() {
         let cells = SharedCells {
             subdomain: &subdomain,
             points: &Body::points(&body.cells),
-            held: Held::All,
+            held: Held {
+                points: &all(body.positions.len()),
+                cells: Some(&all(body.cells.len())),
+            },
         };
         let write = |grid: &UnstructuredGrid<'_>| write_shared(&shared, grid, cells);
         body.grid(&body.cells, &body.area, write).unwrap();
@@ -156,12 +164,16 @@ fn lines_that_two_processes_know_are_written_once() {
             .copied()
             .filter(|it| subdomain.contains_bond(*it))
             .collect();
+        let points = self::all(body.positions.len());
         let lines: Vec<Cell> = known.iter().copied().map(Cell::Line).collect();
         let first: Vec<f64> = known.iter().map(|it| f64::from(it[0])).collect();
         let cells = SharedCells {
             subdomain: &subdomain,
             points: &Body::points(&lines),
-            held: Held::OwnCells,
+            held: Held {
+                points: &points,
+                cells: None,
+            },
         };
         body.grid(&lines, &first, |grid| write_shared(&path, grid, cells))
             .unwrap();
@@ -194,7 +206,10 @@ fn what_is_missing_of_a_grid_in_pieces_is_told() {
             let cells = SharedCells {
                 subdomain: &subdomain,
                 points: &Body::points(&body.cells),
-                held: Held::All,
+                held: Held {
+                    points: &all(body.positions.len()),
+                    cells: Some(&all(body.cells.len())),
+                },
             };
             let write = |grid: &UnstructuredGrid<'_>| write_shared(path, grid, cells);
             body.grid(&body.cells, &body.area, write)

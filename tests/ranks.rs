@@ -10,7 +10,7 @@ use ligament_analysis::solver::{DistributedChoice, Reason, SolverChoice, Unfit};
 use verification::bench::{Bench, Run};
 use verification::numbers::deviation;
 use verification::problems::{PLATE, SQUARE};
-use verification::threads_as_ranks::on_ranks;
+use verification::threads_as_ranks::{joined, on_ranks};
 
 /// Dense factors leave rounding: 1e-16 times a condition number of some 1e6.
 const EXACT: f64 = 1e-9;
@@ -55,19 +55,32 @@ fn bench(text: &str, settings: &[&str], together: Arc<dyn MatrixCommunicator>) -
     Bench::on_ranks(text, settings, together)
 }
 
-/// One process and several ranks, which must have seen the same to the bit.
+/// One process and several ranks, which must have seen the same to the bit; displacements are those of the owners.
 fn both(text: &str, settings: &[&str], run: impl Fn(&Bench) -> Run + Sync) -> [Seen; 2] {
     let alone = seen(&run(&Bench::new(text, settings)));
-    let together = on_ranks(RANKS, |ranks| {
-        let run = run(&bench(text, settings, ranks));
+    let of_ranks = on_ranks(RANKS, |ranks| {
+        let bench = bench(text, settings, ranks);
+        let run = run(&bench);
         assert!(matches!(
             run.outcome.solver,
             SolverChoice::Distributed(DistributedChoice { n_ranks: RANKS, .. })
         ));
-        seen(&run)
+        let mut seen = seen(&run);
+        let subdomain = bench.model.system.subdomain().clone();
+        let own = (subdomain, std::mem::take(&mut seen.displacement));
+        (seen, own)
     });
+    let (together, own): (Vec<Seen>, Vec<_>) = of_ranks.into_iter().unzip();
     assert!(together.iter().all(|it| *it == together[0]));
-    [alone, together[0].clone()]
+    let n_values = own[0].1.len() / own[0].0.n_points();
+    let displacement = joined(&own, n_values, 0.0);
+    [
+        alone,
+        Seen {
+            displacement,
+            ..together[0].clone()
+        },
+    ]
 }
 
 /// Restraints that couple points, elements that couple more than their ends, and bonds with negative stiffness, which take a factor.

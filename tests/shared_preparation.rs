@@ -11,6 +11,7 @@ use ligament_case::case::CaseFile;
 use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::ConstantFields;
 use ligament_model::correction::CorrectionReport;
+use ligament_model::subdomain::Subdomain;
 use ligament_run::memory::foresee_model;
 use verification::bench::case;
 use verification::problems::{BAR, TWO};
@@ -84,6 +85,11 @@ fn of_points(fixed: &ConstantFields) -> Vec<(&'static str, Vec<f64>)> {
     others.into_iter().chain(ratios).collect()
 }
 
+/// Whether this rank owns a point with a number in the body.
+fn is_owned_by(subdomain: &Subdomain, number: u32) -> bool {
+    subdomain.point(number).is_some_and(|it| subdomain.owns(it))
+}
+
 /// Shares a body out among 1, 2 and 3 ranks and compares with one process.
 fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
     let whole = Model::build(setup.clone(), &mut ()).unwrap();
@@ -95,13 +101,26 @@ fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
             let model = Model::build(setup, &mut ()).unwrap();
             let subdomain = model.system.subdomain();
             // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
-            let is_known = |ends: &[u32; 2]| ends.iter().any(|&end| subdomain.owns(end));
+            let here = |ends: [u32; 2]| {
+                let [a, b] = ends.map(|end| subdomain.point(end));
+                let ends = [a?, b?];
+                subdomain.contains_bond(ends).then_some(ends)
+            };
+            let is_known = |ends: &[u32; 2]| here(*ends).is_some();
             let places: Vec<usize> = (0..ends.len()).filter(|&it| is_known(&ends[it])).collect();
-            let expected: Vec<[u32; 2]> = places.iter().map(|&it| ends[it]).collect();
+            let expected: Vec<[u32; 2]> = ends.iter().filter_map(|&it| here(it)).collect();
             assert_eq!(model.system.ends(), expected);
-            let absent = whole.fixed.absent.iter().copied();
-            let absent: Vec<_> = absent.filter(|it| is_known(&it.ends)).collect();
-            assert_eq!(model.fixed.absent, absent);
+            let is_owned = |ends: &[u32; 2]| ends.iter().any(|&end| is_owned_by(subdomain, end));
+            assert_eq!(
+                places.len(),
+                ends.iter().filter(|ends| is_owned(ends)).count()
+            );
+            let absent = whole.fixed.absent.iter();
+            let absent = absent.filter_map(|it| Some((here(it.ends)?, it.absence)));
+            let found = model.fixed.absent.iter().map(|it| (it.ends, it.absence));
+            assert_eq!(found.collect::<Vec<_>>(), absent.collect::<Vec<_>>());
+            let points = 0..subdomain.n_points() as u32;
+            let numbers: Vec<usize> = points.map(|it| subdomain.number(it) as usize).collect();
             let own = of_bonds(&model);
             let mut most: f64 = 0.0;
             for ((what, expected), (_, found)) in lists.iter().zip(&own) {
@@ -112,6 +131,7 @@ fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
             for ((what, expected), (_, found)) in
                 of_points(&whole.fixed).iter().zip(&of_points(&model.fixed))
             {
+                let expected = &at(&numbers, expected);
                 let off = farthest(expected, found);
                 // What is left of equations that are met is a difference of near numbers.
                 let is_left = accuracy == Accuracy::Newton && *what == "patch residual";

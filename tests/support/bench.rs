@@ -282,8 +282,11 @@ impl Observer for Watch {
     }
 
     fn step(&mut self, _: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        let held = view.state.held.iter().filter(|held| **held).count();
-        self.held.push(held);
+        let (subdomain, layout) = (view.system.subdomain(), view.system.layout());
+        let is_held = |dof: &usize| view.state.held[*dof];
+        let dofs = subdomain.owned().flat_map(|point| layout.range(point));
+        self.held
+            .push(subdomain.count(dofs.filter(is_held).count()));
         self.largest_residual = self.largest_residual.max(view.balanced.residual);
         let parts = view.fragments.points.iter().map(Vec::len);
         self.smallest_part.push(parts.min().unwrap_or(0));

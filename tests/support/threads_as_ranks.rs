@@ -6,6 +6,7 @@ use std::sync::{Arc, Barrier, Mutex};
 use ligament_analysis::distributed_matrix::{
     Communicator, DistributedMatrix, MatrixCommunicator, Pivots, Rows, Solved, Tolerated,
 };
+use ligament_model::subdomain::Subdomain;
 use nalgebra::{DMatrix, DVector};
 
 /// What all threads see.
@@ -54,6 +55,16 @@ pub fn on_ranks<T: Send>(
         let ended = started.into_iter().map(|thread| thread.join().unwrap());
         ended.collect()
     })
+}
+
+/// Values at the points of a body, as many per point as `n_values`, from those at the points of each rank.
+pub fn joined<T: Copy>(of_ranks: &[(Subdomain, Vec<T>)], n_values: usize, usual: T) -> Vec<T> {
+    let mut all = vec![usual; n_values * of_ranks[0].0.n_all()];
+    for (subdomain, values) in of_ranks {
+        let owned = (0..values.len()).filter(|it| subdomain.owns((it / n_values) as u32));
+        owned.for_each(|it| all[subdomain.index_in_body(it, n_values)] = values[it]);
+    }
+    all
 }
 
 impl Thread {

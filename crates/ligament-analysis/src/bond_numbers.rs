@@ -14,6 +14,9 @@ use thiserror::Error;
 use crate::checkpoint::CheckpointError;
 use crate::serial::{Serial, write_list};
 
+/// Bit that marks a list of several processes in a checkpoint, beside the number of bonds of the body.
+const SPARSE: u64 = 1 << 63;
+
 /// Error of a divided body without any bond on one of the processes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("there are more processes than the body has parts with bonds: start fewer of them")]
@@ -29,8 +32,8 @@ pub struct BondNumbers {
 /// Bonds stored by a process.
 #[derive(Debug, Clone)]
 enum StoredBonds {
-    /// All bonds of the body.
-    All,
+    /// All bonds of the body, with their number.
+    All(usize),
     /// Bonds at owned points.
     Some(LocalBonds),
 }
@@ -46,11 +49,11 @@ struct LocalBonds {
 }
 
 impl BondNumbers {
-    /// Numbers of the bonds of a body of `n_points` points on one process.
+    /// Numbers of the bonds of a body of `n_points` points on one process, whose values no checkpoint has.
     pub fn whole(n_points: usize) -> Self {
         Self {
             subdomain: Subdomain::whole(n_points),
-            held: StoredBonds::All,
+            held: StoredBonds::All(0),
         }
     }
 
@@ -62,7 +65,7 @@ impl BondNumbers {
     pub(crate) fn new(system: &dyn Bonds) -> Result<Self, WithoutBonds> {
         let (subdomain, ends) = (system.subdomain(), system.ends());
         let held = if subdomain.is_whole() {
-            StoredBonds::All
+            StoredBonds::All(ends.len())
         } else if subdomain.any(ends.is_empty()) {
             return Err(WithoutBonds);
         } else {
@@ -82,7 +85,7 @@ impl BondNumbers {
     /// Global number of a local bond.
     pub(crate) fn number(&self, bond: u32) -> u32 {
         match &self.held {
-            StoredBonds::All => bond,
+            StoredBonds::All(_) => bond,
             StoredBonds::Some(it) => it.numbers[bond as usize],
         }
     }
@@ -90,7 +93,7 @@ impl BondNumbers {
     /// Whether this process owns a local bond.
     pub(crate) fn owns(&self, bond: usize) -> bool {
         match &self.held {
-            StoredBonds::All => true,
+            StoredBonds::All(_) => true,
             StoredBonds::Some(it) => it.is_owned[bond],
         }
     }
@@ -98,7 +101,7 @@ impl BondNumbers {
     /// Local bond with a global number, if this process stores it.
     pub(crate) fn local(&self, number: u32) -> Option<usize> {
         match &self.held {
-            StoredBonds::All => Some(number as usize),
+            StoredBonds::All(_) => Some(number as usize),
             StoredBonds::Some(it) => it.numbers.binary_search(&number).ok(),
         }
     }
@@ -106,7 +109,7 @@ impl BondNumbers {
     /// Local bonds among those with some global numbers.
     pub(crate) fn all_local<'a>(&self, numbers: &'a [u32]) -> Cow<'a, [u32]> {
         match &self.held {
-            StoredBonds::All => Cow::Borrowed(numbers),
+            StoredBonds::All(_) => Cow::Borrowed(numbers),
             StoredBonds::Some(_) => {
                 let local = numbers.iter().filter_map(|&number| self.local(number));
                 local.map(|bond| bond as u32).collect()
@@ -117,7 +120,7 @@ impl BondNumbers {
     /// Marks of the owned bonds among marked ones, both of shape (n_bonds).
     pub(crate) fn owned_of<'a>(&self, marked: &'a [bool]) -> Cow<'a, [bool]> {
         match &self.held {
-            StoredBonds::All => Cow::Borrowed(marked),
+            StoredBonds::All(_) => Cow::Borrowed(marked),
             StoredBonds::Some(it) => {
                 let both = marked.iter().zip(&it.is_owned);
                 both.map(|(marked, is_owned)| *marked && *is_owned)
@@ -132,12 +135,21 @@ impl BondNumbers {
         self.subdomain.count(owned.filter(|it| it.1).count())
     }
 
-    /// Reads the values of all bonds of the body, and returns those of the local bonds (n_bonds); an empty list stays empty.
+    /// Reads the values of all bonds of the body, and returns those of the local bonds (n_bonds), `usual` where several processes wrote none; an
+    /// empty list stays empty.
     ///
     /// # Errors
     ///
     /// If the bytes are damaged, or belong to a body with another number of bonds.
-    pub(crate) fn read<T: Serial>(&self, from: &mut &[u8]) -> Result<Vec<T>, CheckpointError> {
+    pub(crate) fn read<T: Serial + Clone>(
+        &self,
+        usual: T,
+        from: &mut &[u8],
+    ) -> Result<Vec<T>, CheckpointError> {
+        let header = from.first_chunk().map_or(0, |it| u64::from_le_bytes(*it));
+        if header >= SPARSE {
+            return self.read_sparse(usual, from);
+        }
         let StoredBonds::Some(LocalBonds { numbers, n_all, .. }) = &self.held else {
             return Ok(Serial::read(from)?);
         };
@@ -157,6 +169,29 @@ impl BondNumbers {
             }
             number += 1;
         })?;
+        Ok(local)
+    }
+
+    /// Reads a list of several processes, which has the unusual values with the numbers of their bonds.
+    fn read_sparse<T: Serial + Clone>(
+        &self,
+        usual: T,
+        from: &mut &[u8],
+    ) -> Result<Vec<T>, CheckpointError> {
+        let (count, rows) = (u64::read(from)? - SPARSE, usize::read(from)?);
+        let (n_all, n_bonds) = match &self.held {
+            StoredBonds::All(n_bonds) => (*n_bonds, *n_bonds),
+            StoredBonds::Some(it) => (it.n_all, it.numbers.len()),
+        };
+        if count != n_all as u64 {
+            return Err(CheckpointError::OtherModel);
+        }
+        let mut local = vec![usual; n_bonds];
+        for _ in 0..rows {
+            let (number, value) = (u32::read(from)?, T::read(from)?);
+            let here = self.local(number).and_then(|it| local.get_mut(it));
+            here.into_iter().for_each(|it| *it = value.clone());
+        }
         Ok(local)
     }
 
@@ -207,21 +242,33 @@ impl BondNumbers {
             .filter(|(index, value)| subdomain.owns((index / n_values) as u32) && **value != usual);
         let numbered =
             owned.map(|(index, value)| (subdomain.index_in_body(index, n_values), value));
-        let n_all = n_values * subdomain.n_all();
-        write_list(&on_root(subdomain, numbered, usual, n_all), out);
+        let rows = on_root(subdomain, numbered);
+        let mut all = Vec::new();
+        if subdomain.communicator().is_root() {
+            all.resize(n_values * subdomain.n_all(), usual);
+        }
+        rows.into_iter()
+            .for_each(|(number, value)| all[number] = value);
+        write_list(&all, out);
     }
 
-    /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); on a divided body rank 0 writes them
-    /// and the others an empty list. Values equal to `usual` are not sent. Collective.
+    /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); on a divided body rank 0 writes those that are
+    /// not `usual`, with their numbers. Collective.
     pub(crate) fn write<T, const N: usize>(&self, local: &[T], usual: T, out: &mut Vec<u8>)
     where
         T: Serial + Wire<N> + Copy + PartialEq,
     {
         match &self.held {
             StoredBonds::Some(it) if !local.is_empty() => {
-                write_list(&it.of_all(&self.subdomain, local, usual), out);
+                let rows = it.unusual(&self.subdomain, local, usual);
+                (SPARSE + it.n_all as u64).write(out);
+                rows.len().write(out);
+                for (number, value) in rows {
+                    (number as u32).write(out);
+                    value.write(out);
+                }
             }
-            StoredBonds::All | StoredBonds::Some(_) => write_list(local, out),
+            StoredBonds::All(_) | StoredBonds::Some(_) => write_list(local, out),
         }
     }
 }
@@ -259,43 +306,44 @@ impl LocalBonds {
         }
     }
 
-    /// Values of all bonds of the body on rank 0, and an empty list on other ranks.
-    fn of_all<T, const N: usize>(&self, subdomain: &Subdomain, local: &[T], usual: T) -> Vec<T>
+    /// Values of the bonds of the body that are not usual, with their numbers, on rank 0, and an empty list on other ranks.
+    fn unusual<T, const N: usize>(
+        &self,
+        subdomain: &Subdomain,
+        local: &[T],
+        usual: T,
+    ) -> Vec<(usize, T)>
     where
         T: Wire<N> + Copy + PartialEq,
     {
         let others = local.iter().enumerate();
         let others = others.filter(|(bond, value)| self.is_owned[*bond] && **value != usual);
-        let numbered = others.map(|(bond, value)| (self.numbers[bond] as usize, value));
-        on_root(subdomain, numbered, usual, self.n_all)
+        on_root(
+            subdomain,
+            others.map(|(bond, value)| (self.numbers[bond] as usize, value)),
+        )
     }
 }
 
-/// A list of `n_all` values on rank 0, from numbered ones of all processes and usual ones, and an empty list on other ranks; collective.
+/// Numbered values of all processes on rank 0, and an empty list on other ranks; collective.
 fn on_root<'a, T, const N: usize>(
     subdomain: &Subdomain,
     numbered: impl Iterator<Item = (usize, &'a T)>,
-    usual: T,
-    n_all: usize,
-) -> Vec<T>
+) -> Vec<(usize, T)>
 where
-    T: Wire<N> + Copy + 'a,
+    T: Wire<N> + 'a,
 {
     let rows = numbered.flat_map(|(number, value)| {
         let number = [number as f64];
         number.into_iter().chain(value.numbers())
     });
     let all_rows = subdomain.gather_list(rows.collect());
-    if !subdomain.communicator().is_root() {
-        return Vec::new();
-    }
-    let mut all = vec![usual; n_all];
-    for row in all_rows.chunks_exact(1 + N) {
+    let row = |row: &[f64]| {
         let mut numbers = [0.0; N];
         numbers.copy_from_slice(&row[1..]);
-        all[row[0] as usize] = T::from_numbers(numbers);
-    }
-    all
+        (row[0] as usize, T::from_numbers(numbers))
+    };
+    all_rows.chunks_exact(1 + N).map(row).collect()
 }
 
 /// Ends and global numbers of local bonds that other ranks own, from their owners.

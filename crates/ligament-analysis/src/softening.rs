@@ -59,15 +59,15 @@ impl Softening {
     ///
     /// If the bytes are damaged or belong to another body.
     pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
-        let lists = |from: &mut &[u8]| -> Result<Vec<Vec<f64>>, CheckpointError> {
+        let lists = |usual: f64, from: &mut &[u8]| -> Result<Vec<Vec<f64>>, CheckpointError> {
             let count = usize::read(from)?;
-            (0..count).map(|_| numbers.read(from)).collect()
+            (0..count).map(|_| numbers.read(usual, from)).collect()
         };
         Ok(Self {
-            largest: lists(from)?,
-            trial: lists(from)?,
-            remaining: numbers.read(from)?,
-            begun: lists(from)?,
+            largest: lists(0.0, from)?,
+            trial: lists(0.0, from)?,
+            remaining: numbers.read(StiffnessFactors::WHOLE, from)?,
+            begun: lists(f64::INFINITY, from)?,
         })
     }
 

@@ -99,10 +99,10 @@ impl State {
         let mut state = Self {
             load_factor: Serial::read(from)?,
             displacement: numbers.read_points(n_components, from)?,
-            intact: numbers.read(from)?,
-            broken_by: numbers.read(from)?,
+            intact: numbers.read(true, from)?,
+            broken_by: numbers.read(None, from)?,
             softening: Softening::read(numbers, from)?,
-            dissipated: numbers.read(from)?,
+            dissipated: numbers.read(0.0, from)?,
             held: numbers.read_points(n_components, from)?,
             friction: Serial::read(from)?,
             surfaces: LastTouching::default(),

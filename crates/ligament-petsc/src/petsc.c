@@ -83,6 +83,8 @@ void ligament_start(void)
   if (level < MPI_THREAD_SERIALIZED) fail("MPI", "it does not allow calls from several threads, one at a time");
   /* Signals are the program's own business. */
   CHECK(PetscOptionsSetValue(NULL, "-no_signal_handler", "true"));
+  /* Coarse matrices row by row: the usual product holds another copy of the coarse rows of neighbours. */
+  if (world_size > 1) CHECK(PetscOptionsSetValue(NULL, "-matptap_via", "allatonce"));
   CHECK(PetscInitializeNoArguments());
   CHECK(PetscPushErrorHandler(on_error, NULL));
 }

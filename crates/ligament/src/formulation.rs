@@ -238,6 +238,7 @@ pub fn criteria<const D: usize>(
 /// Lattice of the points of a body in the plane.
 fn lattice(setup: &Setup, system: &BondSystem) -> Lattice {
     let spacing = (system.cloud.spacing.iter().copied()).fold(f64::INFINITY, f64::min);
+    let spacing = -system.cloud.subdomain.max(-spacing);
     Lattice {
         spacing: system.cloud.cell_size(0),
         horizon: setup.horizon.at_spacing(spacing),

@@ -81,8 +81,8 @@ impl FactorRecord {
         from: &mut &[u8],
     ) -> Result<Self, CheckpointError> {
         Ok(Self {
-            intact: numbers.read(from)?,
-            remaining: numbers.read(from)?,
+            intact: numbers.read(true, from)?,
+            remaining: numbers.read(StiffnessFactors::WHOLE, from)?,
             held: numbers.read_points(n_components, from)?,
             beside: Serial::read(from)?,
             changes: Serial::read(from)?,

@@ -235,7 +235,9 @@ impl<const D: usize> PointCloud<D> {
         let [lower, upper] = self.box_around(self.subdomain.owned());
         let reach = |point: usize| horizon[point] * (1.0 + 2.0 * self.tolerance(point as u32));
         let owned = self.subdomain.owned().map(|it| it as usize);
-        let farthest = owned.map(reach).fold(0.0, f64::max);
+        // Cells of a lattice are corners of blocks between them.
+        let diagonal = self.lattice_cell.map_or(0.0, |sides| 1.01 * norm(sides));
+        let farthest = owned.map(reach).fold(diagonal, f64::max);
         let is_near = |point: usize| {
             let position = self.positions[point];
             let inside = std::array::from_fn(|k| position[k].max(lower[k]).min(upper[k]));

@@ -101,12 +101,14 @@ impl<const D: usize> Parts<D> {
         Self { faces, corners }
     }
 
-    /// Volumes of a material over which its stresses do work.
+    /// Volumes of a material over which its stresses do work; collective.
     fn reach(&self, material: u32, cloud: &PointCloud<D>) -> WorkVolumes {
         let sum = |parts: &[Part<D>], axis: usize| -> f64 {
-            let of_material = parts.iter().filter(|part| part.material == material);
+            let is_counted =
+                |part: &&Part<D>| part.material == material && cloud.subdomain.owns(part.at);
             let work = |part: &Part<D>| cloud.positions[part.at as usize][axis] * part.area[axis];
-            of_material.map(work).sum()
+            let counted = parts.iter().filter(is_counted);
+            cloud.subdomain.sum(counted.map(work).sum())
         };
         let volume = |&[row, column]: &[usize; 2]| match row == column {
             true => sum(&self.faces, row),

@@ -214,9 +214,10 @@ fn body_factor<const D: usize>(
     work(cloud, forces) / order.subdomain.sum(counted.map(of_bond).sum::<f64>())
 }
 
-/// Work of the cells in all strains, J.
+/// Work of the cells in all strains, J; collective.
 fn work<const D: usize>(cloud: &PointCloud<D>, forces: &CellForces<D>) -> f64 {
-    let of_point = |(forces, x): (&[[f64; D]], &[f64; D])| {
+    let of_point = |point: u32| {
+        let (forces, x) = (forces.of_point(point), cloud.positions[point as usize]);
         let strains = forces.iter().zip(SymTensor::<D>::COMPONENTS);
         let of_strain = |(force, &[i, j]): (&[f64; D], &[usize; 2])| match i == j {
             true => force[i] * x[i],
@@ -224,8 +225,8 @@ fn work<const D: usize>(cloud: &PointCloud<D>, forces: &CellForces<D>) -> f64 {
         };
         strains.map(of_strain).sum::<f64>()
     };
-    let points = forces.of_points().zip(&cloud.positions);
-    points.map(of_point).sum()
+    let owned = cloud.subdomain.owned();
+    cloud.subdomain.sum(owned.map(of_point).sum())
 }
 
 impl<const D: usize, const N: usize> Equations<N> for Rows<'_, D, N> {
