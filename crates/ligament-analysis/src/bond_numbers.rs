@@ -354,24 +354,12 @@ fn received(subdomain: &Subdomain, ends: &[[u32; 2]], numbers: &[Option<u32>]) -
         let [a, b_in_body] = subdomain.numbers([a, b]);
         Some((subdomain.rank(b), [a, b_in_body, number]))
     });
-    let mut across: Vec<(usize, [u32; 3])> = across.collect();
-    across.sort_unstable();
-    let (communicator, n_ranks) = (subdomain.communicator(), subdomain.n_ranks());
-    let before = |rank| across.partition_point(|it| it.0 < rank);
-    let to: Vec<usize> = (0..n_ranks)
-        .map(|rank| 3 * (before(rank + 1) - before(rank)))
-        .collect();
-    let one = vec![1; n_ranks];
-    let counts: Vec<f64> = to.iter().map(|&count| count as f64).collect();
-    let from = communicator.all_to_all(&counts, &one, &one).into_iter();
-    let from: Vec<usize> = from.map(|count| count as usize).collect();
-    let rows: Vec<f64> = (across.iter()).flat_map(|it| it.1.numbers()).collect();
-    let rows = communicator.all_to_all(&rows, &to, &from);
-    let row = |row: &[f64; 3]| {
-        let [a, b, number] = <[u32; 3]>::from_numbers(*row);
-        Some([subdomain.point(a)?, subdomain.point(b)?, number])
+    let received = subdomain.send(across.collect()).into_iter();
+    let local = |[a, b, number]: [u32; 3]| {
+        let [a, b] = [a, b].map(|end| subdomain.point(end));
+        Some([a?, b?, number])
     };
-    rows.as_chunks().0.iter().filter_map(row).collect()
+    received.filter_map(local).collect()
 }
 
 /// Sum of values of the bonds of a body (n_bonds), over all processes.

@@ -309,23 +309,27 @@ impl Subdomain {
         all.reduce(|one, other| if other < one { other } else { one })
     }
 
-    /// Concatenates the lists of all processes on rank 0, in the order of their ranks; other ranks receive an empty list.
-    pub fn gather_list(&self, own: Vec<f64>) -> Vec<f64> {
-        let on_root = |count: usize| {
-            let mut counts = vec![0; self.n_ranks()];
-            counts[0] = count;
-            counts
-        };
+    /// Sends values to ranks; returns the received ones in the order of the ranks that sent them.
+    pub fn send<T: Wire<N>, const N: usize>(&self, mut own: Vec<(usize, T)>) -> Vec<T> {
+        own.sort_by_key(|(rank, _)| *rank);
         let communicator = self.communicator();
-        let from = self.all_gather_list(vec![own.len() as f64]).into_iter();
-        let from = from.map(|it| {
-            if communicator.is_root() {
-                it as usize
-            } else {
-                0
-            }
-        });
-        communicator.all_to_all(&own, &on_root(own.len()), &from.collect::<Vec<_>>())
+        let before = |rank: usize| own.partition_point(|it| it.0 < rank);
+        let ranks = 0..self.n_ranks();
+        let to = ranks.map(|rank| N * (before(rank + 1) - before(rank)));
+        let to: Vec<usize> = to.collect();
+        let one = vec![1; to.len()];
+        let counts: Vec<f64> = to.iter().map(|&count| count as f64).collect();
+        let from = communicator.all_to_all(&counts, &one, &one).into_iter();
+        let from: Vec<usize> = from.map(|count| count as usize).collect();
+        let own: Vec<f64> = own.iter().flat_map(|(_, value)| value.numbers()).collect();
+        let received = communicator.all_to_all(&own, &to, &from);
+        let received = received.as_chunks().0.iter();
+        received.map(|numbers| T::from_numbers(*numbers)).collect()
+    }
+
+    /// Concatenates the lists of all processes on rank 0, in the order of their ranks; other ranks receive an empty list.
+    pub fn gather_list<T: Wire<N>, const N: usize>(&self, own: Vec<T>) -> Vec<T> {
+        self.send(own.into_iter().map(|value| (0, value)).collect())
     }
 
     /// Concatenates the lists of all processes in the order of their ranks.

@@ -5,6 +5,7 @@ use ligament::setup::Analysis;
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::{CaseFile, StressField};
+use ligament_model::BodyGrid;
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
 use ligament_output::summary::{self, Build, Summary};
@@ -56,10 +57,7 @@ impl LoadedBody<'_> {
         let posed = Posed::new(&problem, motion.as_ref());
         let analysis = &model.setup.analysis;
         let of_points = OfPoints::new(model);
-        let mut grid = model.body().grid();
-        if !model.system.subdomain().is_whole() {
-            grid.of_body = Some(model.names.point_tags());
-        }
+        let grid = grid(model);
         broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;
         let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
         let mut contents = Contents::default();
@@ -151,6 +149,15 @@ impl LoadedBody<'_> {
             Ok(growth) => growth.into(),
             Err(error) => self.case.explained(error),
         })
+    }
+}
+
+/// The grid of the body on this process, with the tags of all points where it has a part of the body.
+fn grid(model: &Model) -> BodyGrid {
+    let is_whole = model.system.subdomain().is_whole();
+    BodyGrid {
+        of_body: (!is_whole).then(|| model.names.point_tags()),
+        ..model.body().grid()
     }
 }
 

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
-use ligament::model::partition_communicator;
 use ligament::plausibility::corners;
+use ligament::processes::partition_communicator;
 use ligament::setup::{ELASTIC_ENERGY_TOLERANCE, Horizon, Setup};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::Problem;

@@ -1,5 +1,6 @@
-//! Numbers of the bonds of a whole body, summed over the processes.
+//! Numbers of the bonds of a whole body and ranges of their factors, over all processes.
 
+use ligament_model::correction::Correction;
 use ligament_model::{Absence, AbsentBond, BondSet, BondSystem, PointCloud};
 
 use crate::stage::Finding;
@@ -67,4 +68,16 @@ pub(crate) fn finding<const D: usize>(
 fn count<const D: usize>(cloud: &PointCloud<D>, absent: &[AbsentBond], absence: Absence) -> usize {
     let counted = |it: &&AbsentBond| it.absence == absence && cloud.subdomain.owns_bond(it.ends);
     cloud.subdomain.count(absent.iter().filter(counted).count())
+}
+
+/// Smallest and largest Omega of the bonds of a body.
+pub(crate) fn correction_range<const D: usize>(
+    correction: &Correction,
+    cloud: &PointCloud<D>,
+) -> (f64, f64) {
+    let (smallest, largest) = correction.domain_factor_range();
+    (
+        -cloud.subdomain.max(-smallest),
+        cloud.subdomain.max(largest),
+    )
 }

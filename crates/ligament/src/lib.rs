@@ -68,6 +68,7 @@ pub mod patch_test;
 pub mod plausibility;
 mod precracks;
 pub mod prelude;
+pub mod processes;
 pub mod run;
 pub mod setup;
 mod soundness;

@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use ligament_model::bonds::precrack::Crack;
-use ligament_model::communicator::{Communicator, Solo};
 use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
@@ -20,14 +19,12 @@ use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
-use crate::local::LocalBody;
+use crate::local::{Bounds, Described, Discrete, bounds, points};
 use crate::near_field::NearField;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
-use crate::setup::{Analysis, CorrectionDomain, Position, Setup};
-use crate::soundness::{
-    forbid_overlap, require_connected, require_distinct, require_factors, require_finite_rigidities,
-};
+use crate::setup::{CorrectionDomain, Position, Setup};
+use crate::soundness::{require_connected, require_factors, require_finite_rigidities};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::system::{AnySystem, over_dimension};
 use crate::warning::{self, Warning};
@@ -111,6 +108,10 @@ impl Model {
             no_fail,
         } = discrete;
         let body = setup.body.geometry::<D>().clone();
+        let described = Described {
+            setup: &setup,
+            names: &*names,
+        };
         let near = match setup.far_field {
             Some(_) => NearField::new(&setup, &*body, cloud.clone(), &material_of_cell)?,
             None => None,
@@ -121,15 +122,21 @@ impl Model {
             correction,
             crossed,
         } = match near {
-            None => {
-                let named = (&setup, &*body, &*names);
-                bonded(named, (cloud, outline), &material_of_cell, watcher)?
-            }
+            None => bonded(
+                described,
+                &*body,
+                (cloud, outline),
+                &material_of_cell,
+                watcher,
+            )?,
             Some(near) => {
                 let part = near.body();
                 let points = points(&near.setup, &*part, &near.material_of_cell)?;
-                let of_part = (&near.setup, &*part, &*part.names());
-                let bonded = bonded(of_part, points, &near.material_of_cell, watcher)?;
+                let described = Described {
+                    setup: &near.setup,
+                    names: &*part,
+                };
+                let bonded = bonded(described, &*part, points, &near.material_of_cell, watcher)?;
                 bonded.within(near, &*body, &material_of_cell)
             }
         };
@@ -138,10 +145,9 @@ impl Model {
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
         let report = correction.report.as_ref();
-        let described = (&setup, &*names);
         Ok(Self {
             warnings: warnings(described, &system.cloud, report, &fixed, &criteria, crossed),
-            correction_range: correction_range(&correction, &system.cloud),
+            correction_range: counts::correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system, &fixed.absent),
             correction: correction.report,
             names,
@@ -250,20 +256,22 @@ impl<const D: usize> Bonded<D> {
     }
 }
 
-/// Finds and corrects the bonds between the points of a body; `names` has the points of the whole body.
+/// Finds and corrects the bonds between the points of a body.
 fn bonded<const D: usize>(
-    (setup, body, names): (&Setup, &dyn Geometry<D>, &dyn Body),
+    described: Described<'_>,
+    body: &dyn Geometry<D>,
     (cloud, outline): (PointCloud<D>, Bounds<'_, D>),
     material_of_cell: &[u32],
     watcher: &mut dyn StageWatcher,
 ) -> Result<Bonded<D>, SetupError> {
+    let setup = described.setup;
     let horizons = setup.horizon.of_points(&cloud);
     let (bonds, absent) = stage(watcher, "bonds", || {
         let all = BondSet::search(&cloud, &horizons);
         let (bonds, absent) = inside_body(body, all, &cloud, outline.as_deref());
         (composed(body, bonds, &cloud, material_of_cell), absent)
     });
-    require_connected((setup, names), &cloud, &horizons, &bonds)?;
+    require_connected(described, &cloud, &horizons, &bonds)?;
     watcher.found(&counts::finding(&cloud, &bonds, &absent));
     let cracks = precracks::cracks(body, &setup.precracks)?;
     let mut crossed = stage(watcher, "pre-cracks", || {
@@ -292,7 +300,7 @@ fn bonded<const D: usize>(
         ..of_correction(&correction)
     };
     let system = stage(watcher, "rigidities", || {
-        bond_system((setup, names), cloud, bonds, stiffness, &correction, faces)
+        bond_system(described, cloud, bonds, stiffness, &correction, faces)
     })?;
     Ok(Bonded {
         system,
@@ -302,92 +310,9 @@ fn bonded<const D: usize>(
     })
 }
 
-/// The processes between which the body of a setup is divided. Elements that couple more points than the bond's ends, closing faces,
-/// far fields, contact between surfaces, natural modes and motions need the whole body on each process.
-pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
-    let needs_all = setup.closing
-        || setup.far_field.is_some()
-        || setup.has_contact()
-        || !setup.law.row.couples_ends_alone
-        || matches!(setup.analysis, Analysis::Modal(_) | Analysis::Motion(_));
-    match needs_all {
-        true => Arc::new(Solo),
-        false => setup.solver.communicator.clone(),
-    }
-}
-
-/// The outline of a meshed body, which bonds must not cross.
-type Bounds<'a, const D: usize> = Option<Box<dyn BodyOutline<D> + 'a>>;
-
-/// The outline of a mesh, if bonds must not cross it.
-fn bounds<'a, const D: usize>(
-    setup: &Setup,
-    body: &'a dyn Geometry<D>,
-    cloud: &PointCloud<D>,
-) -> Bounds<'a, D> {
-    match setup.bonds_through_voids {
-        true => None,
-        false => body.outline(cloud),
-    }
-}
-
-/// The points of a body on this process.
-struct Discrete<const D: usize> {
-    /// Setup of the part of the body that this process keeps.
-    setup: Setup,
-    /// The points of the whole body.
-    names: Arc<dyn Body>,
-    cloud: PointCloud<D>,
-    /// Index of the material of each cell, shape (n_cells).
-    material_of_cell: Vec<u32>,
-    /// Whether the bonds of each point never break, shape (n_points).
-    no_fail: Vec<bool>,
-}
-
-impl<const D: usize> Discrete<D> {
-    /// The points that this process keeps.
-    fn on_this_process(self) -> Result<Self, SetupError> {
-        let local = LocalBody::new(&self.setup, &self.cloud, &self.material_of_cell)?;
-        Ok(Self {
-            names: self.names.names(),
-            no_fail: local.of_points(&self.no_fail),
-            setup: Setup {
-                body: local.body,
-                ..self.setup
-            },
-            cloud: local.cloud,
-            material_of_cell: local.material_of_cell,
-        })
-    }
-}
-
-/// All points of the body with their owners, and the outline of a mesh, which bonds must not cross; `material_of_cell` (n_cells) has the index
-/// of each cell's material.
-fn points<'a, const D: usize>(
-    setup: &Setup,
-    body: &'a dyn Geometry<D>,
-    material_of_cell: &[u32],
-) -> Result<(PointCloud<D>, Bounds<'a, D>), SetupError> {
-    let cloud = body.cloud(setup.thickness(), material_of_cell, setup.materials.len());
-    require_distinct(body, &cloud)?;
-    let outline = body.outline(&cloud);
-    if let Some(outline) = &outline {
-        forbid_overlap(body, &**outline)?;
-    }
-    let outline = outline.filter(|_| !setup.bonds_through_voids);
-    let spacing = outline.as_ref().map(|it| it.spacing(&cloud));
-    let subdomain = cloud.divided(partition_communicator(setup));
-    let cloud = PointCloud {
-        spacing: spacing.unwrap_or(cloud.spacing),
-        subdomain,
-        ..cloud
-    };
-    Ok((cloud, outline))
-}
-
 /// Points and corrected bonds with the rigidities of their elements.
 fn bond_system<const D: usize>(
-    (setup, names): (&Setup, &dyn Body),
+    Described { setup, names }: Described<'_>,
     cloud: PointCloud<D>,
     bonds: BondSet<D>,
     stiffness: BondStiffness,
@@ -552,14 +477,13 @@ fn of_correction(correction: &Correction) -> ConstantFields {
 
 /// Warnings about a model; `crossed` has the pre-cracks that cut no bond and the number of bonds that only touch one.
 fn warnings<const D: usize>(
-    (setup, names): (&Setup, &dyn Body),
+    described: Described<'_>,
     cloud: &PointCloud<D>,
     report: Option<&CorrectionReport>,
     fixed: &ConstantFields,
     criteria: &Criteria,
     crossed: Precracked,
 ) -> Vec<Warning> {
-    let described = (setup, names);
     let implausible = plausibility::of_model(described, cloud, criteria, crossed.idle).into_iter();
     let points = (&cloud.subdomain, cloud.spacing.as_slice());
     let of_model = warning::of_model(described, points, report, fixed, crossed.touched);
@@ -568,13 +492,4 @@ fn warnings<const D: usize>(
         .chain(of_model)
         .chain(warning::of_criteria(criteria))
         .collect()
-}
-
-/// Smallest and largest Omega of the bonds of a body.
-fn correction_range<const D: usize>(correction: &Correction, cloud: &PointCloud<D>) -> (f64, f64) {
-    let (smallest, largest) = correction.domain_factor_range();
-    (
-        -cloud.subdomain.max(-smallest),
-        cloud.subdomain.max(largest),
-    )
 }

@@ -7,6 +7,7 @@ use ligament_model::{Elasticity, Material, PointCloud};
 use crate::body::Body;
 use crate::error::Fault;
 use crate::implausible::{Implausible, LARGEST_STRAIN, LEAST_ENERGY, Note};
+use crate::local::Described;
 use crate::setup::{Action, Analysis, Setup};
 
 /// Smallest plausible Young's modulus of a body with small strains, Pa; a smaller value is probably in GPa.
@@ -37,7 +38,7 @@ pub fn notes(setup: &Setup) -> Vec<Note> {
 
 /// Implausible values of a setup and its model, with the points of the whole body; `criteria` has the limits of the bonds, `idle` the indices of pre-cracks that cut no bond.
 pub(crate) fn of_model<const D: usize>(
-    (setup, body): (&Setup, &dyn Body),
+    Described { setup, names }: Described<'_>,
     cloud: &PointCloud<D>,
     criteria: &Criteria,
     idle: Vec<usize>,
@@ -46,7 +47,7 @@ pub(crate) fn of_model<const D: usize>(
     for region in &setup.materials {
         found.extend(of_constants(&region.material, &setup.analysis));
         let softening = setup.criteria.iter().filter(|it| softens_by_energy(it));
-        let lengths = softening.filter_map(|it| of_length(body, cloud, &region.material, it));
+        let lengths = softening.filter_map(|it| of_length(names, cloud, &region.material, it));
         found.extend(lengths.take(1));
     }
     // Limits follow from constants: where constants are implausible, only these are reported.
@@ -57,7 +58,7 @@ pub(crate) fn of_model<const D: usize>(
     if !idle.is_empty() {
         found.push(Implausible::CutsNothing {
             cracks: idle,
-            corners: corners(body),
+            corners: corners(names),
         });
     }
     [setup.remarks.clone(), found].concat()

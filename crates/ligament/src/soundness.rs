@@ -6,8 +6,9 @@ use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
 use crate::body::{Body, BodyOutline};
 use crate::error::{Fault, Field, SetupError, Torn};
+use crate::local::Described;
 use crate::parts::Parts;
-use crate::setup::{Horizon, Setup};
+use crate::setup::Horizon;
 
 /// Distance over the size of a point below which two points coincide.
 ///
@@ -83,7 +84,7 @@ fn require_neighbours<const D: usize>(
 /// Refuses bonds that leave points without a neighbour, or that connect a body of cells in more parts than its cells do, because edges of
 /// cells are longer than the horizons.
 pub(crate) fn require_connected<const D: usize>(
-    (setup, names): (&Setup, &dyn Body),
+    Described { setup, names }: Described<'_>,
     cloud: &PointCloud<D>,
     horizons: &Horizons,
     bonds: &BondSet<D>,

@@ -1,8 +1,9 @@
 //! Warnings about a model that concern the trust in its results.
 
+mod correction;
 mod criteria;
 
-use ligament_model::correction::{CorrectionReport, DomainReport};
+use ligament_model::correction::CorrectionReport;
 use ligament_model::failure::Criteria;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
@@ -11,9 +12,11 @@ use ligament_model::subdomain::Subdomain;
 use ligament_model::{ConstantFields, ElementKind, Isotropic};
 use thiserror::Error;
 
+use self::correction::{not_converged, not_met};
 use self::criteria::{below_strength, rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
 use crate::implausible::Implausible;
+use crate::local::Described;
 use crate::plausibility::corners;
 use crate::setup::{Horizon, Setup};
 
@@ -243,7 +246,7 @@ fn place(position: &[f64]) -> String {
 /// Warnings about the body with all its points, the horizons over the distances (n_points, m) of nearest points, the correction, pre-cracks
 /// (`touched`: number of bonds that only touch an end of one) and the materials.
 pub(crate) fn of_model(
-    (setup, body): (&Setup, &dyn Body),
+    Described { setup, names: body }: Described<'_>,
     points: (&Subdomain, &[f64]),
     correction: Option<&CorrectionReport>,
     fixed: &ConstantFields,
@@ -288,11 +291,18 @@ pub(crate) fn of_model(
     if laws.any(|law| law == linear::BILINEAR) {
         warnings.push(Warning::OneLine);
     }
+    warnings.extend(of_constants(setup));
+    warnings
+}
+
+/// Warnings about the constants of the materials with the law and the criteria of a setup.
+fn of_constants(setup: &Setup) -> Vec<Warning> {
     let materials = setup.materials.iter();
     let constants: Vec<Isotropic> = materials
         .filter_map(|it| it.material.elasticity.isotropic())
         .collect();
-    warnings.extend(constants.iter().filter_map(|it| of_poisson(setup, it)));
+    let poisson = constants.iter().filter_map(|it| of_poisson(setup, it));
+    let mut warnings: Vec<Warning> = poisson.collect();
     warnings.extend(constants.iter().find_map(|it| rotation_resisted(setup, it)));
     let as_sliding = rotation_as_sliding(setup);
     warnings
@@ -395,62 +405,11 @@ fn large_horizon(
     })
 }
 
-fn not_met(
-    (body, subdomain): (&dyn Body, &Subdomain),
-    (left, residual): (f64, &[f64]),
-    factor: Option<f64>,
-) -> Warning {
-    let (worst, largest) = last_largest(subdomain, |point| residual[point as usize]);
-    Warning::NotMet {
-        left,
-        largest,
-        worst: body.label(worst),
-        position: body.position(worst).to_vec(),
-        factor,
-    }
-}
-
-/// Number in the body of the last point with the largest of some values, and the value; collective.
-fn last_largest(subdomain: &Subdomain, value: impl Fn(u32) -> f64) -> (u32, f64) {
-    let owned = subdomain.owned().map(|point| (point, value(point)));
-    let largest = owned.max_by(|one, other| one.1.total_cmp(&other.1));
-    let row = largest.map(|(point, value)| [-value, -f64::from(subdomain.number(point))]);
-    let [value, number] = subdomain.all_reduce_min(row).unwrap_or_default();
-    (-number as u32, -value)
-}
-
 /// Advice for a body that does not satisfy the equations of the patch correction.
 fn more_bonds(factor: Option<f64>) -> String {
     match factor {
         Some(factor) => format!("more bonds per point help (model.horizon_factor = {factor})"),
         None => "smaller cells help where the body is thin or edges are sharp".to_owned(),
-    }
-}
-
-fn not_converged(
-    (body, subdomain): (&dyn Body, &Subdomain),
-    correction: &DomainReport,
-    fixed: &ConstantFields,
-) -> Warning {
-    let along_axes = &fixed.energy_ratios[..body.position(0).len()];
-    let error = |point: u32| {
-        let errors = along_axes
-            .iter()
-            .map(|it| (it.at_points[point as usize] - 1.0).abs());
-        errors.fold(0.0, f64::max)
-    };
-    let owned = subdomain.owned();
-    let off = owned.filter(|&point| error(point) > ENERGY_TOLERANCE);
-    let off = subdomain.count(off.count());
-    let (worst, largest) = last_largest(subdomain, error);
-    Warning::NotConverged {
-        sweeps: correction.sweeps,
-        last_change: correction.last_change,
-        off,
-        n_points: subdomain.n_all(),
-        error: largest,
-        worst: body.label(worst),
-        position: body.position(worst).to_vec(),
     }
 }
 

@@ -146,8 +146,7 @@ impl Equations {
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
         if !is_shared && distributed::was_written(from) {
             // A run on one process continues from the state alone.
-            let n_components = self.layout().components.len();
-            distributed::skip_checkpoint((numbers, n_components), from)?;
+            distributed::skip_checkpoint((numbers, self.layout()), from)?;
         } else {
             self.solver.restore(from)?;
         }

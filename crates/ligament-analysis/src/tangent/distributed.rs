@@ -32,7 +32,7 @@ use crate::distributed_matrix::{DistributedMatrix, MatrixCommunicator, Pivots, S
 use crate::resisting::Resisting;
 use crate::serial::Serial;
 use crate::state::State;
-use crate::unknowns::Unknowns;
+use crate::unknowns::{Layout, Unknowns};
 use crate::vectors::dot_of_chunks;
 
 /// Number of iterations that cost as much as a new preconditioner.
@@ -477,11 +477,11 @@ pub(crate) fn was_written(from: &[u8]) -> bool {
 ///
 /// If the bytes are damaged.
 pub(crate) fn skip_checkpoint(
-    numbers: (&BondNumbers, usize),
+    (numbers, layout): (&BondNumbers, Layout),
     from: &mut &[u8],
 ) -> Result<(), CheckpointError> {
     let _ = u64::read(from)?;
     let _ = bool::read(from)?;
-    let _ = PreconditionerState::read(numbers, from)?;
+    let _ = PreconditionerState::read((numbers, layout.components.len()), from)?;
     Ok(())
 }

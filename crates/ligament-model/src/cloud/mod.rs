@@ -230,10 +230,13 @@ impl<const D: usize> PointCloud<D> {
         bounding_box(points.map(|it| self.positions[it as usize]))
     }
 
-    /// Marks the points that may have bonds with owned points, and these, shape (n_points); horizons have the radii `horizon` (n_points), m.
-    pub fn near_owned(&self, horizon: &[f64]) -> Vec<bool> {
+    /// Marks the points that may have bonds with owned points, and these, shape (n_points), for the radius of each point's horizon, m.
+    pub fn near_owned(&self, horizon: impl Fn(u32) -> f64) -> Vec<bool> {
         let [lower, upper] = self.box_around(self.subdomain.owned());
-        let reach = |point: usize| horizon[point] * (1.0 + 2.0 * self.tolerance(point as u32));
+        let reach = |point: usize| {
+            let point = point as u32;
+            horizon(point) * (1.0 + 2.0 * self.tolerance(point))
+        };
         let owned = self.subdomain.owned().map(|it| it as usize);
         // Cells of a lattice are corners of blocks between them.
         let diagonal = self.lattice_cell.map_or(0.0, |sides| 1.01 * norm(sides));

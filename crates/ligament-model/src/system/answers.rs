@@ -3,7 +3,6 @@
 use ligament_mesh::Numbering;
 
 use super::contact::Moved;
-use super::parts::Given;
 use super::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::bonds::Incidence;
 use crate::change::ChangedElements;
@@ -165,13 +164,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         is_fixed: &dyn Fn(usize) -> bool,
         can_hold: &dyn Fn(usize) -> bool,
     ) -> Vec<usize> {
-        let resisting = self.resisting(is_fixed);
-        let given = |dof| Given {
-            is_fixed: resisting(dof),
-            can_hold: can_hold(dof),
-            force: 0.0,
-        };
-        let part = self.free_part(points, &given);
+        let part = self.free_part(points, is_fixed, can_hold);
         part.map_or_else(Vec::new, |it| it.holds())
     }
 
@@ -181,13 +174,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         is_fixed: &dyn Fn(usize) -> bool,
         can_hold: &dyn Fn(usize) -> bool,
     ) -> FreeShapes {
-        let resisting = self.resisting(is_fixed);
-        let given = |dof| Given {
-            is_fixed: resisting(dof),
-            can_hold: can_hold(dof) && !is_fixed(dof),
-            force: 0.0,
-        };
-        let part = self.free_part(points, &given);
+        let part = self.free_part(points, is_fixed, &|dof| can_hold(dof) && !is_fixed(dof));
         part.map_or_else(FreeShapes::default, |it| it.shapes())
     }
 
@@ -197,13 +184,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
         is_fixed: &dyn Fn(usize) -> bool,
         force: &dyn Fn(usize) -> f64,
     ) -> Vec<FreeMotion> {
-        let resisting = self.resisting(is_fixed);
-        let given = |dof| Given {
-            is_fixed: resisting(dof),
-            can_hold: false,
-            force: force(dof),
-        };
-        self.part(points, self.turn(points), &given).free_motions()
+        self.part_with_forces(points, is_fixed, force)
+            .free_motions()
     }
 
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
@@ -212,18 +194,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
     }
 
     fn rigid_shapes_of_body(&self) -> Vec<Vec<f64>> {
-        let cloud = &self.system.cloud;
-        let [positions, all]: [Vec<u32>; 2] = [
-            cloud.subdomain.owned().collect(),
-            (0..cloud.len() as u32).collect(),
-        ];
-        RigidMotions::of_body(
-            self.layout(),
-            &cloud.positions,
-            &positions,
-            &cloud.subdomain,
-        )
-        .shapes(&all)
+        self.shapes_of_body()
     }
 
     fn motions_about_centre(&self, masses: &[f64]) -> CentralMotions {

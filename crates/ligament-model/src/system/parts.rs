@@ -8,13 +8,13 @@ use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
 
 /// Values at a degree of freedom of a part.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Given {
+struct Given {
     /// Whether it is fixed.
-    pub(super) is_fixed: bool,
+    is_fixed: bool,
     /// Whether a support can be added.
-    pub(super) can_hold: bool,
+    can_hold: bool,
     /// Force on it, N or N m.
-    pub(super) force: f64,
+    force: f64,
 }
 
 /// Points of a part with the values at their degrees of freedom, in the order of their numbers in the body.
@@ -36,8 +36,15 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     pub(super) fn free_part(
         &self,
         points: &[u32],
-        given: &dyn Fn(usize) -> Given,
+        is_fixed: &dyn Fn(usize) -> bool,
+        can_hold: &dyn Fn(usize) -> bool,
     ) -> Option<Part<D>> {
+        let resisting = self.resisting(is_fixed);
+        let given = &|dof| Given {
+            is_fixed: resisting(dof),
+            can_hold: can_hold(dof),
+            force: 0.0,
+        };
         let turn = self.turn(points);
         if !self.subdomain().is_whole() {
             let layout = self.layout();
@@ -51,13 +58,24 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         Some(self.part(points, turn, given))
     }
 
-    /// The part of which this process owns some points; collective.
-    pub(super) fn part(
+    /// The part of which this process owns some points, with forces on it; collective.
+    pub(super) fn part_with_forces(
         &self,
         points: &[u32],
-        turn: Turn,
-        given: &dyn Fn(usize) -> Given,
+        is_fixed: &dyn Fn(usize) -> bool,
+        force: &dyn Fn(usize) -> f64,
     ) -> Part<D> {
+        let resisting = self.resisting(is_fixed);
+        let given = |dof| Given {
+            is_fixed: resisting(dof),
+            can_hold: false,
+            force: force(dof),
+        };
+        self.part(points, self.turn(points), &given)
+    }
+
+    /// The part of which this process owns some points, with values at their degrees of freedom; collective.
+    fn part(&self, points: &[u32], turn: Turn, given: &dyn Fn(usize) -> Given) -> Part<D> {
         let (cloud, layout) = (&self.system.cloud, self.layout());
         let row = |&point: &u32| {
             let at_point = layout.range(point).flat_map(|dof| {

@@ -3,7 +3,7 @@
 use super::{BondSystem, ElementSystem};
 use crate::element::Elements;
 use crate::interface::BondTopology;
-use crate::rigid_motions::Turn;
+use crate::rigid_motions::{RigidMotions, Turn};
 
 impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     /// Whether a fixed degree of freedom holds its point: the rotation of a point of the far field alone has no effect.
@@ -17,6 +17,15 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             self.system.far.is_none() || !layout.component(dof).is_rotation() || has_bonds(dof)
         };
         move |dof| is_fixed(dof) && has_effect(dof)
+    }
+
+    /// Shapes of the rigid motions of the body at the points of this process; collective.
+    pub(super) fn shapes_of_body(&self) -> Vec<Vec<f64>> {
+        let cloud = &self.system.cloud;
+        let owned: Vec<u32> = cloud.subdomain.owned().collect();
+        let all: Vec<u32> = (0..cloud.len() as u32).collect();
+        let (layout, subdomain) = (self.layout(), &cloud.subdomain);
+        RigidMotions::of_body(layout, &cloud.positions, &owned, subdomain).shapes(&all)
     }
 
     /// Cost and effect of rotating a part of the body, of which this process owns some points; collective.

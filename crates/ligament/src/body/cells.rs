@@ -244,7 +244,7 @@ impl<const D: usize> Set<D> {
     }
 }
 
-/// Those of some points (ascending) that are among others (ascending), by their indices there.
+/// Indices, among other points (ascending), of those of some points (ascending) that are there.
 pub(super) fn among(points: &[u32], others: &[u32]) -> Vec<u32> {
     let place = |point: &u32| others.binary_search(point).ok();
     let places = points.iter().filter_map(place);

@@ -20,8 +20,8 @@ use super::lattice_cells::LatticeShape;
 #[derive(Debug)]
 pub struct BodyOnLattice<const D: usize, S> {
     lattice: Lattice<D, S>,
-    /// Positions of the points, shape (n_points), m.
-    positions: Vec<[f64; D]>,
+    /// Positions of the points, shape (n_points), m; the points of a divided body keep those of the whole.
+    positions: Arc<[[f64; D]]>,
     numbering: Numbering,
     sets: CellSets<D>,
 }
@@ -49,7 +49,7 @@ impl<const D: usize, S: LatticeShape<D>> BodyOnLattice<D, S> {
         let named = named.iter().map(|(name, set)| (name.clone(), set.clone()));
         Ok(Self {
             sets: CellSets::new(&lattice, holes, named)?,
-            positions,
+            positions: positions.into(),
             numbering: Numbering::default(),
             lattice,
         })
