@@ -11,7 +11,9 @@ use ligament_analysis::distributed_matrix::{
     Communicator, DistributedMatrix, MatrixCommunicator, Rows,
 };
 use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
+use ligament_model::connected::first_points;
 use ligament_model::ghosts::Ghosts;
+use ligament_model::prefix_sums::sums_before;
 use ligament_model::subdomain::{Partition, Subdomain};
 use verification::bench::Bench;
 use verification::threads_as_ranks::on_ranks;
@@ -42,6 +44,61 @@ fn values_of_ghosts_are_those_of_their_ranks() {
             assert_eq!(told, [f64::from(point), from as f64], "{point}");
         }
         assert_eq!(ghosts.points().len(), if ranks.rank() == 1 { 4 } else { 2 });
+    });
+}
+
+/// A rank with every third point and two others: sums over all points of smaller numbers in the body, values of points by their numbers, and
+/// parts of a chain with a gap, by their first points.
+#[test]
+fn local_points_are_those_of_the_body() {
+    const POINTS: u32 = 20;
+    on_ranks(RANKS, |ranks| {
+        let halve = |points: &mut [u32]| points.sort_unstable_by_key(|it| (it % 3, *it));
+        let whole = Subdomain::new(Partition::new(POINTS as usize, RANKS, &halve), ranks);
+        let read = [3, 17];
+        let points: Vec<u32> = (0..POINTS)
+            .filter(|it| whole.owns(*it) || read.contains(it))
+            .collect();
+        let subdomain = whole.part(&points);
+        assert_eq!(subdomain.n_points(), points.len());
+        assert_eq!(subdomain.n_all(), POINTS as usize);
+        for (point, &number) in (0..).zip(&points) {
+            assert_eq!(subdomain.number(point), number);
+            assert_eq!(subdomain.point(number), Some(point));
+            assert_eq!(subdomain.owns(point), whole.owns(number));
+            assert_eq!(subdomain.place(point), whole.place(number));
+        }
+        let squares: Vec<f64> = subdomain
+            .owned()
+            .map(|point| f64::from(subdomain.number(point).pow(2)))
+            .collect();
+        let sums = sums_before(&subdomain, &squares);
+        for (point, sum) in subdomain.owned().zip(sums) {
+            let before = 0..subdomain.number(point);
+            assert_eq!(sum, f64::from(before.map(|it| it * it).sum::<u32>()));
+        }
+        let mut values: Vec<f64> = points.iter().map(|_| f64::NAN).collect();
+        for point in subdomain.owned() {
+            values[point as usize] = f64::from(subdomain.number(point));
+        }
+        Ghosts::all(&subdomain).update(&mut values, 1);
+        let numbers: Vec<f64> = points.iter().map(|it| f64::from(*it)).collect();
+        assert_eq!(values, numbers);
+    });
+}
+
+/// A chain of points over several ranks with a gap falls into two parts, whose first points all ranks know.
+#[test]
+fn parts_have_their_first_points() {
+    const POINTS: u32 = 20;
+    on_ranks(RANKS, |ranks| {
+        let halve = |points: &mut [u32]| points.sort_unstable();
+        let subdomain = Subdomain::new(Partition::new(POINTS as usize, RANKS, &halve), ranks);
+        let pairs = (0..POINTS - 1).filter(|it| *it != 8).map(|it| [it, it + 1]);
+        let pairs = pairs.filter(|ends| subdomain.contains_bond(*ends));
+        let firsts = first_points(&subdomain, pairs);
+        let expected: Vec<u32> = (0..POINTS).map(|it| if it > 8 { 9 } else { 0 }).collect();
+        assert_eq!(firsts, expected);
     });
 }
 
