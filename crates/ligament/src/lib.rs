@@ -45,11 +45,13 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+mod absent;
 pub mod bending_test;
 pub mod body;
 mod coordinates;
 pub mod counts;
 pub mod crack_energy;
+mod described;
 pub mod direction;
 pub mod ensemble;
 pub mod error;

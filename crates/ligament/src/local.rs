@@ -11,13 +11,6 @@ use crate::processes::partition_communicator;
 use crate::setup::Setup;
 use crate::soundness::{forbid_overlap, require_distinct};
 
-/// A setup, and the points of the whole body for descriptions.
-#[derive(Clone, Copy)]
-pub(crate) struct Described<'a> {
-    pub(crate) setup: &'a Setup,
-    pub(crate) names: &'a dyn Body,
-}
-
 /// The outline of a meshed body, which bonds must not cross.
 pub(crate) type Bounds<'a, const D: usize> = Option<Box<dyn BodyOutline<D> + 'a>>;
 

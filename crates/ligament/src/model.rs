@@ -8,18 +8,19 @@ use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
 use ligament_model::scatter;
 use ligament_model::{
-    Absence, AbsentBond, BondSet, BondStiffness, BondSystem, ConstantFields, EnergyRatio,
-    PointCloud, System,
+    BondSet, BondStiffness, BondSystem, ConstantFields, EnergyRatio, PointCloud, System,
 };
 
-use crate::body::{AnyBody, Body, BodyOutline, Geometry};
+use crate::absent::{inside_body, with_cut};
+use crate::body::{AnyBody, Body, Geometry};
 use crate::coordinates::in_dimensions;
 use crate::counts::{self, BondCounts};
+use crate::described::Described;
 use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
 use crate::loading;
-use crate::local::{Bounds, Described, Discrete, bounds, points};
+use crate::local::{Bounds, Discrete, bounds, points};
 use crate::near_field::NearField;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
@@ -129,16 +130,7 @@ impl Model {
                 &material_of_cell,
                 watcher,
             )?,
-            Some(near) => {
-                let part = near.body();
-                let points = points(&near.setup, &*part, &near.material_of_cell)?;
-                let described = Described {
-                    setup: &near.setup,
-                    names: &*part,
-                };
-                let bonded = bonded(described, &*part, points, &near.material_of_cell, watcher)?;
-                bonded.within(near, &*body, &material_of_cell)
-            }
+            Some(near) => Bonded::of_near_field(near, &*body, &material_of_cell, watcher)?,
         };
         fixed.no_fail = no_fail;
         fixed.scatter = scatter::factors(&setup.scatter, body.positions(), &body.numbering());
@@ -246,6 +238,23 @@ struct Bonded<const D: usize> {
 }
 
 impl<const D: usize> Bonded<D> {
+    /// The bonds of a near field, with the elements of the far field.
+    fn of_near_field(
+        near: NearField<D>,
+        body: &dyn Geometry<D>,
+        material_of_cell: &[u32],
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
+        let part = near.body();
+        let points = points(&near.setup, &*part, &near.material_of_cell)?;
+        let described = Described {
+            setup: &near.setup,
+            names: &*part,
+        };
+        let bonded = bonded(described, &*part, points, &near.material_of_cell, watcher)?;
+        Ok(bonded.within(near, body, material_of_cell))
+    }
+
     /// The bonds of a near field in the whole body, with the elements of the far field.
     fn within(self, near: NearField<D>, body: &dyn Geometry<D>, material_of_cell: &[u32]) -> Self {
         Self {
@@ -340,53 +349,6 @@ fn composed<const D: usize>(
         1 => bonds,
         _ => body.composed(bonds, cloud, materials),
     }
-}
-
-/// The bonds inside the body, and the pairs of points that its voids separate.
-fn inside_body<const D: usize>(
-    body: &dyn Geometry<D>,
-    bonds: BondSet<D>,
-    cloud: &PointCloud<D>,
-    outline: Option<&(dyn BodyOutline<D> + '_)>,
-) -> (BondSet<D>, Vec<AbsentBond>) {
-    let crosses = match outline {
-        Some(outline) => outline.is_crossed_by_bonds(&bonds, cloud),
-        None => body.crosses_holes(&bonds, cloud),
-    };
-    if !crosses.contains(&true) {
-        return (bonds, Vec::new());
-    }
-    let keep: Vec<bool> = crosses.iter().map(|crosses| !crosses).collect();
-    let absent = absent_bonds(&bonds, &crosses, Absence::Void);
-    (bonds.retained(&keep), absent)
-}
-
-/// Absent bonds and the bonds that pre-cracks cut, in the order of their ends; `is_cut` has shape (n_bonds).
-fn with_cut<const D: usize>(
-    mut absent: Vec<AbsentBond>,
-    bonds: &BondSet<D>,
-    is_cut: &[bool],
-) -> Vec<AbsentBond> {
-    absent.extend(absent_bonds(bonds, is_cut, Absence::PreCrack));
-    absent.sort_unstable_by_key(|it| it.ends);
-    absent
-}
-
-/// The bonds for which `is_absent` (n_bonds) is true, as absent bonds.
-fn absent_bonds<const D: usize>(
-    bonds: &BondSet<D>,
-    is_absent: &[bool],
-    absence: Absence,
-) -> Vec<AbsentBond> {
-    (bonds.ends.iter().zip(&bonds.horizon))
-        .zip(is_absent)
-        .filter(|(_, is_absent)| **is_absent)
-        .map(|((&ends, &horizon), _)| AbsentBond {
-            ends,
-            horizon,
-            absence,
-        })
-        .collect()
 }
 
 /// Bonds that pre-cracks do not cut, with their stiffness and correction.

@@ -5,9 +5,9 @@ use ligament_model::failure::{Choice, Criteria, NoLimit};
 use ligament_model::{Elasticity, Material, PointCloud};
 
 use crate::body::Body;
+use crate::described::Described;
 use crate::error::Fault;
 use crate::implausible::{Implausible, LARGEST_STRAIN, LEAST_ENERGY, Note};
-use crate::local::Described;
 use crate::setup::{Action, Analysis, Setup};
 
 /// Smallest plausible Young's modulus of a body with small strains, Pa; a smaller value is probably in GPa.

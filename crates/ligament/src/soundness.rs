@@ -5,8 +5,8 @@ use ligament_model::tensor::{minus, norm};
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
 
 use crate::body::{Body, BodyOutline};
+use crate::described::Described;
 use crate::error::{Fault, Field, SetupError, Torn};
-use crate::local::Described;
 use crate::parts::Parts;
 use crate::setup::Horizon;
 

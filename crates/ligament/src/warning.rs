@@ -3,7 +3,7 @@
 mod correction;
 mod criteria;
 
-use ligament_model::correction::CorrectionReport;
+use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::failure::Criteria;
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
@@ -12,11 +12,11 @@ use ligament_model::subdomain::Subdomain;
 use ligament_model::{ConstantFields, ElementKind, Isotropic};
 use thiserror::Error;
 
-use self::correction::{not_converged, not_met};
+use self::correction::{Worst, off_energies};
 use self::criteria::{below_strength, rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
+use crate::described::Described;
 use crate::implausible::Implausible;
-use crate::local::Described;
 use crate::plausibility::corners;
 use crate::setup::{Horizon, Setup};
 
@@ -253,12 +253,8 @@ pub(crate) fn of_model(
     touched: usize,
 ) -> Vec<Warning> {
     let (subdomain, _) = points;
-    let mut warnings: Vec<Warning> = setup
-        .body
-        .remarks()
-        .into_iter()
-        .map(Warning::Body)
-        .collect();
+    let remarks = setup.body.remarks().into_iter();
+    let mut warnings: Vec<Warning> = remarks.map(Warning::Body).collect();
     let length = length(body);
     if length > SUSPICIOUSLY_LARGE {
         warnings.push(Warning::LargeBody { length });
@@ -403,6 +399,39 @@ fn large_horizon(
         horizon,
         length,
     })
+}
+
+fn not_met(
+    (body, subdomain): (&dyn Body, &Subdomain),
+    (left, residual): (f64, &[f64]),
+    factor: Option<f64>,
+) -> Warning {
+    let Worst { point, value } = Worst::new(subdomain, |point| residual[point as usize]);
+    Warning::NotMet {
+        left,
+        largest: value,
+        worst: body.label(point),
+        position: body.position(point).to_vec(),
+        factor,
+    }
+}
+
+fn not_converged(
+    (body, subdomain): (&dyn Body, &Subdomain),
+    correction: &DomainReport,
+    fixed: &ConstantFields,
+) -> Warning {
+    let asked = (body.position(0).len(), ENERGY_TOLERANCE);
+    let (off, Worst { point, value }) = off_energies(subdomain, fixed, asked);
+    Warning::NotConverged {
+        sweeps: correction.sweeps,
+        last_change: correction.last_change,
+        off,
+        n_points: subdomain.n_all(),
+        error: value,
+        worst: body.label(point),
+        position: body.position(point).to_vec(),
+    }
 }
 
 /// Advice for a body that does not satisfy the equations of the patch correction.
