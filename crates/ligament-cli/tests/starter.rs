@@ -59,7 +59,10 @@ fn meshes_have_cases_that_check(from: usize) {
         );
         let report = checked(&case(&starter, folder.path()), Extent::Model);
         assert!(report.contains("surface correction: patch"), "{report}");
-        starter.text = with_all_settings(&starter.text);
+        // The correction is the one of above: a coarse one will do.
+        let text = with_all_settings(&starter.text);
+        starter.text = text.replace("regularisation = 3e-7", "regularisation = 1e-3");
+        assert_ne!(starter.text, text);
         let report = checked(&case(&starter, folder.path()), Extent::Model);
         assert!(
             !report.contains("(0 cut by pre-cracks)"),

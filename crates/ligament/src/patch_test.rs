@@ -146,10 +146,10 @@ fn displacements(
         .map(|force| free_loading(system.layout(), force))
         .collect();
     let problem = Problem {
+        solver: setup.solver.for_few_solutions(&**system),
         system: system.to_bonds(),
         criteria: Arc::default(),
         loads: loads[0].clone(),
-        solver: setup.solver.clone(),
         probes: Arc::default(),
         face_friction: 0.0,
         contact: Default::default(),

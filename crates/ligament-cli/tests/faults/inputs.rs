@@ -63,6 +63,10 @@ fn memory_of_meshes_is_foreseen() {
                 assert!(matches!(code, Some(0 | 1)), "{megabytes} MB: {output:?}");
                 codes.push(code);
             }
+            // With more memory still it goes on as it did.
+            if codes.ends_with(&[Some(0); 4]) {
+                break;
+            }
             if code == Some(1) {
                 assert_refused(&output, &[mesh]);
             }

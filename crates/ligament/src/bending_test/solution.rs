@@ -114,10 +114,10 @@ impl Solver {
         let layout = system.layout();
         let state = State::fresh(&*system);
         let problem = Problem {
+            solver: strip.setup.solver.for_few_solutions(&*system),
             system,
             criteria: Arc::default(),
             loads: free_loading(layout, vec![0.0; layout.n_degrees_of_freedom()]),
-            solver: strip.setup.solver.clone(),
             probes: Arc::default(),
             face_friction: 0.0,
             contact: Default::default(),
