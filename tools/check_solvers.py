@@ -38,7 +38,9 @@ SAME_LOAD = 1e-5
 # none to the program either. A body whose first load step breaks it has no other largest load.
 NO_LOAD = 1e-5
 
-ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
+# More processes than processors run at a time: those that wait let others go on.
+ENVIRONMENT = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
+               "OMPI_MCA_mpi_yield_when_idle": "1"}
 
 
 def mesh(draw, counts, sizes):
