@@ -36,7 +36,8 @@ pub fn notes(setup: &Setup) -> Vec<Note> {
     auxetic.collect()
 }
 
-/// Implausible values of a setup and its model, with the points of the whole body; `criteria` has the limits of the bonds, `idle` the indices of pre-cracks that cut no bond.
+/// Implausible values of a setup and its model, with the points of the whole body; `criteria` has the limits of the bonds, `idle` the indices
+/// of pre-cracks that cut no bond.
 pub(crate) fn of_model<const D: usize>(
     Described { setup, names }: Described<'_>,
     cloud: &PointCloud<D>,

@@ -105,7 +105,7 @@ impl<'a> Around<'a> {
         Some(around)
     }
 
-    /// Largest ratio of a bond that its part has stored.
+    /// Ratio of a bond by the stored motions; 0 where it is broken.
     pub(super) fn ratio(&self, bond: u32) -> f64 {
         self.ratios[bond as usize]
     }

@@ -90,7 +90,7 @@ impl Criterion {
             .value(deformation, coefficients, || self.stress(bond))
     }
 
-    /// Largest measure of a bond with a stretch, sublinear in the stretch and in the strain around the bond, over all signs of both.
+    /// Largest value of a measure of stress over both signs of a bond's stretch and of the lateral strain around it; None for a bar.
     pub fn largest_of_stress(
         &self,
         bond: usize,
