@@ -35,6 +35,9 @@ pub struct SolverSettings {
     /// A factor that was updated in place depends on all its updates; a resumed run repeats those since the factor was last
     /// computed anew.
     pub rebuild_every: usize,
+    /// Number of points in space from which conjugate gradients have a third level. The factor of the second takes memory as n^(4/3) and
+    /// time as n^2 for n points: at 47,000 points twice the time of both, at 97,000 a fifth of the memory of a run (measured).
+    pub clusters_from: usize,
     /// Bytes available for the matrix and its factor; open: unknown.
     pub memory: Option<usize>,
     /// Processes that solve the equations.
@@ -193,6 +196,8 @@ pub struct IterativeChoice {
     pub tolerance: f64,
     /// Largest number of points of an aggregate, see [`points_of_aggregate`].
     pub aggregate: usize,
+    /// Largest number of points of a cluster of aggregates; none without a third level.
+    pub cluster: Option<usize>,
 }
 
 /// Settings chosen for a factor.
@@ -223,6 +228,7 @@ impl Default for SolverSettings {
             ordering: None,
             update: None,
             rebuild_every: 1000,
+            clusters_from: POINTS_FOR_CLUSTERS,
             memory: None,
             communicator: Arc::new(Solo),
         }
@@ -246,19 +252,20 @@ pub fn points_for_iteration(n_axes: usize) -> usize {
 /// breaks: at 2,700 points two solutions take 0.3 s instead of 2.8.
 const POINTS_FOR_FEW: usize = 500;
 
-/// Largest number of points of an aggregate whose rigid motions span the coarse space, by the numbers of axes and points of a body.
+/// Largest number of points of an aggregate whose rigid motions span the coarse space, by the number of axes of a body.
 ///
 /// In the plane halving squares of four times as many points ended at ten costs the least time: with at most 5, 10, 20 and 40
-/// points of 160,000 a breakage took 12.5, 15, 23 and 26 iterations and 1.3, 1.0, 1.2 and 1.5 times as long. In space from 100,000
-/// points on larger ones take as long per breakage, .3 times as long to build and .6 times the memory (170,000 points; 13 and 19
-/// iterations).
-pub fn points_of_aggregate(n_axes: usize, n_points: usize) -> usize {
-    match n_axes {
-        ..=2 => 10,
-        _ if n_points < 100_000 => 40,
-        _ => 160,
-    }
+/// points of 160,000 a breakage took 12.5, 15, 23 and 26 iterations and 1.3, 1.0, 1.2 and 1.5 times as long.
+pub fn points_of_aggregate(n_axes: usize) -> usize {
+    if n_axes > 2 { 40 } else { 10 }
 }
+
+/// Number of points in space from which clusters of aggregates span the space of a third level, see [`SolverSettings::clusters_from`].
+pub const POINTS_FOR_CLUSTERS: usize = 50_000;
+
+/// Largest number of points of a cluster: some sixty aggregates, so that the factor of the clusters costs nothing (2,000 points for
+/// 10^6), and few more iterations of the second level than smaller clusters need (11 for 9, measured).
+const POINTS_OF_CLUSTER: usize = 2560;
 
 impl SolverSettings {
     /// Settings for a few solutions with all bonds of a body, by conjugate gradients in space unless a method was named.
@@ -303,7 +310,9 @@ impl SolverSettings {
         IterativeChoice {
             reason,
             tolerance: self.tolerance,
-            aggregate: points_of_aggregate(n_axes(system), system.n_points()),
+            aggregate: points_of_aggregate(n_axes(system)),
+            cluster: (n_axes(system) > 2 && system.n_points() >= self.clusters_from)
+                .then_some(POINTS_OF_CLUSTER),
         }
     }
 

@@ -5,8 +5,11 @@
 //! became detached, and where the iterations in excess of its initial rate have cost as much as a rebuild.
 
 mod aggregates;
+mod clusters;
 mod coarse;
 mod coarse_basis;
+mod coarse_factor;
+mod coarse_iteration;
 mod coarse_stiffness;
 mod conjugate;
 mod operator;
@@ -162,7 +165,7 @@ impl IterativeSolver {
         if !loose.is_empty() {
             return Ok(Err(loose));
         }
-        let coarse = Coarse::new(&operator, blocks.diagonal(), self.choice.aggregate)?;
+        let coarse = Coarse::new(&operator, blocks.diagonal(), &self.choice)?;
         Ok(Ok(TwoLevels { blocks, coarse }))
     }
 

@@ -71,13 +71,19 @@ fn write_iteration(
         reason,
         tolerance,
         aggregate,
+        cluster,
     } = choice;
     writeln!(out, "equations")?;
     entry(out, "unknowns", unknowns)?;
     write_memory(out, case, model, None)?;
     let method = format!("iterative, by conjugate gradients without a matrix: {reason}");
     entry(out, "method", method)?;
-    let aggregates = format!("rigid motions of at most {aggregate} points each");
+    let aggregates = match cluster {
+        None => format!("rigid motions of at most {aggregate} points each"),
+        Some(cluster) => {
+            format!("rigid motions of at most {aggregate} points each, then of {cluster}")
+        }
+    };
     entry(out, "coarse space", aggregates)?;
     let tied = TIED * tolerance;
     let left = format!(

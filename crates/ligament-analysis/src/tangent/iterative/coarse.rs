@@ -1,28 +1,25 @@
-//! The coarse space, its forces and the factor of its stiffness, updated while bonds break.
+//! The coarse space, its forces and its equations, updated while bonds break.
 
-use std::collections::BTreeSet;
-use std::sync::Arc;
+use ligament_linalg::{FactorError, RankOne};
 
-use ligament_linalg::{FactorError, Factorisation, Pattern, RankOne};
-
+use super::clusters::Clusters;
 use super::coarse_basis::CoarseBasis;
-use super::coarse_stiffness::{CoarseStiffness, Factored};
+use super::coarse_factor::CoarseFactor;
+use super::coarse_iteration::CoarseIteration;
+use super::coarse_stiffness::{CoarseEquations, CoarseStiffness};
 use super::operator::Operator;
 use super::resistance::Resistance;
+use crate::solver::IterativeChoice;
 
-/// Coarse space Z, forces K Z and factor of E = Z^T K Z.
+/// Coarse space Z, forces K Z and equations of E = Z^T K Z.
 pub(super) struct Coarse {
     space: CoarseBasis,
     resistance: Resistance,
-    factor: Box<dyn Factorisation>,
-    pattern: Arc<Pattern>,
-    /// Coarse unknowns decoupled from the others in the factor.
-    left_out: BTreeSet<usize>,
+    equations: Box<dyn CoarseEquations>,
 }
 
 impl Coarse {
-    /// Coarse space of the bonds of an operator, from aggregates of at most `largest` points and the diagonal of K
-    /// (n_degrees_of_freedom).
+    /// Coarse space of the bonds of an operator, from the diagonal of K (n_degrees_of_freedom).
     ///
     /// # Errors
     ///
@@ -30,24 +27,22 @@ impl Coarse {
     pub(super) fn new(
         operator: &Operator<'_>,
         diagonal: &[f64],
-        largest: usize,
+        choice: &IterativeChoice,
     ) -> Result<Self, FactorError> {
-        let space = CoarseBasis::new(operator, diagonal, largest);
+        let space = CoarseBasis::new(operator, diagonal, choice.aggregate);
         let (resistance, blocks) = Resistance::new(operator, &space, diagonal);
-        let stiffness = CoarseStiffness {
-            operator,
-            space: &space,
-            blocks,
+        let stiffness = CoarseStiffness::new(operator, &space, blocks);
+        let equations: Box<dyn CoarseEquations> = match choice.cluster {
+            None => Box::new(CoarseFactor::new(&stiffness)?),
+            Some(largest) => {
+                let clusters = Clusters::new(operator, &space, diagonal, largest);
+                Box::new(CoarseIteration::new(&stiffness, clusters)?)
+            }
         };
-        let matrix = stiffness.matrix()?;
-        let pattern = matrix.pattern().clone();
-        let Factored { factor, left_out } = Factored::new(matrix)?;
         Ok(Self {
             space,
             resistance,
-            factor,
-            pattern,
-            left_out,
+            equations,
         })
     }
 
@@ -63,35 +58,19 @@ impl Coarse {
         let mut in_space = Vec::new();
         for term in terms {
             let works = self.space.works(&term.entries);
-            if !self.couples(&works) {
-                return false;
-            }
             self.resistance.add(&self.space, term, &works);
-            let entries = works.into_iter();
             in_space.push(RankOne {
                 weight: term.weight,
-                entries: entries
-                    .filter(|(unknown, _)| !self.left_out.contains(unknown))
-                    .collect(),
+                entries: works,
             });
         }
-        self.factor.change(&in_space, &[]).is_ok()
-    }
-
-    /// Whether the pattern of the factor contains the product of any two of the works.
-    fn couples(&self, works: &[(usize, f64)]) -> bool {
-        let (starts, rows) = (self.pattern.column_starts(), self.pattern.rows());
-        works.iter().enumerate().all(|(place, &(column, _))| {
-            let of_column = &rows[starts[column]..starts[column + 1]];
-            let mut above = works[..place].iter();
-            above.all(|(row, _)| of_column.binary_search(row).is_ok())
-        })
+        self.equations.change(&in_space)
     }
 
     /// Amounts E^-1 Z^T f of the coarse motions for forces f (n_degrees_of_freedom), shape (n_aggregates, n_motions).
     pub(super) fn amounts(&mut self, forces: &[f64]) -> Vec<f64> {
         let mut works = self.space.works_of_all(forces);
-        self.factor.solve_in_place(&mut works);
+        self.equations.solve(&mut works);
         works
     }
 
@@ -111,7 +90,7 @@ impl Coarse {
                 works[unknown] -= weight * moved * work;
             }
         }
-        self.factor.solve_in_place(&mut works);
+        self.equations.solve(&mut works);
         works
     }
 }

@@ -1,33 +1,69 @@
-//! The stiffness E = Z^T K Z of a coarse space, and its factor.
+//! The stiffness E = Z^T K Z of a coarse space.
 
-use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use ligament_linalg::{
-    Elimination, FactorError, FactorKind, Factorisation, Pattern, Symbolic, SymmetricMatrix,
-    VANISHING_PIVOT,
-};
+use ligament_linalg::{FactorError, Pattern, RankOne, SymmetricMatrix};
 
 use super::coarse_basis::CoarseBasis;
 use super::operator::Operator;
 use super::resistance::Block;
 
-/// Data from which the stiffness of a coarse space is assembled.
-pub(super) struct CoarseStiffness<'a> {
-    pub(super) operator: &'a Operator<'a>,
-    pub(super) space: &'a CoarseBasis,
-    /// Blocks of the columns of each aggregate.
+/// Equations E a = w for the amounts a of coarse motions with works w.
+pub(super) trait CoarseEquations: Send {
+    /// Solves for amounts in place of works (n_aggregates, n_motions).
+    fn solve(&mut self, works: &mut Vec<f64>);
+
+    /// Adds terms at coarse unknowns, ascending, those that add stiffness first. Returns whether that succeeded; if not, the
+    /// equations must be made anew.
+    fn change(&mut self, terms: &[RankOne]) -> bool;
+}
+
+/// Stiffness E of a coarse space.
+pub(super) struct CoarseStiffness {
+    /// Number of motions of an aggregate.
+    pub(super) n_motions: usize,
+    /// Blocks by aggregate of their columns; several of the same aggregates are added.
     pub(super) blocks: Vec<Vec<Block>>,
 }
 
-impl CoarseStiffness<'_> {
-    /// Assembles E.
+impl CoarseStiffness {
+    /// Stiffness of `blocks` of bonds and restraints, and of the additional terms of an operator.
+    pub(super) fn new(
+        operator: &Operator<'_>,
+        space: &CoarseBasis,
+        mut blocks: Vec<Vec<Block>>,
+    ) -> Self {
+        let n = space.n_motions;
+        for (weight, entries) in operator.beside {
+            let works = space.works(entries);
+            let of_aggregates: Vec<_> = works.chunk_by(|a, b| a.0 / n == b.0 / n).collect();
+            for (place, of_second) in of_aggregates.iter().enumerate() {
+                let second = of_second[0].0 / n;
+                for of_first in &of_aggregates[..=place] {
+                    let mut block = vec![0.0; n * n];
+                    for &(column, one) in *of_second {
+                        for &(row, other) in *of_first {
+                            block[row % n * n + column % n] = weight * one * other;
+                        }
+                    }
+                    let first = of_first[0].0 / n;
+                    blocks[second].push(([first as u32, second as u32], block));
+                }
+            }
+        }
+        Self {
+            n_motions: n,
+            blocks,
+        }
+    }
+
+    /// Assembles E, with a unit on the diagonal of unknowns without stiffness.
     ///
     /// # Errors
     ///
     /// If E has too many entries for their indices.
     pub(super) fn matrix(&self) -> Result<SymmetricMatrix, FactorError> {
-        let n = self.space.n_motions;
+        let n = self.n_motions;
         let mut matrix = SymmetricMatrix::zero(Arc::new(self.pattern()?));
         let pattern = matrix.pattern().clone();
         // The rows in the columns of an aggregate are blocks of ascending aggregates.
@@ -46,9 +82,6 @@ impl CoarseStiffness<'_> {
                 }
             }
         }
-        for (weight, entries) in self.operator.beside {
-            matrix.add_outer(*weight, &self.space.works(entries));
-        }
         for unknown in 0..pattern.dimension() {
             let place = pattern.column_starts()[unknown + 1] - 1;
             if matrix.values[place] == 0.0 {
@@ -58,23 +91,12 @@ impl CoarseStiffness<'_> {
         Ok(matrix)
     }
 
-    /// Sparsity pattern of E for the blocks and the additional terms.
+    /// Sparsity pattern of E.
     fn pattern(&self) -> Result<Pattern, FactorError> {
-        let n = self.space.n_motions;
-        let mut above: Vec<Vec<u32>> = vec![Vec::new(); self.space.aggregates.len()];
-        for ([first, second], _) in self.blocks.iter().flatten() {
-            above[*second as usize].push(*first);
-        }
-        for (_, entries) in self.operator.beside {
-            let unknowns = self.space.works(entries);
-            let mut of: Vec<u32> = unknowns.iter().map(|(it, _)| (it / n) as u32).collect();
-            of.dedup();
-            for (place, second) in of.iter().enumerate() {
-                above[*second as usize].extend(&of[..place]);
-            }
-        }
+        let n = self.n_motions;
         let (mut column_starts, mut rows) = (vec![0], Vec::new());
-        for (aggregate, above) in above.iter_mut().enumerate() {
+        for (aggregate, blocks) in self.blocks.iter().enumerate() {
+            let mut above: Vec<u32> = blocks.iter().map(|([first, _], _)| *first).collect();
             above.push(aggregate as u32);
             above.sort_unstable();
             above.dedup();
@@ -86,63 +108,5 @@ impl CoarseStiffness<'_> {
             }
         }
         Pattern::new(column_starts, rows).map_err(|_| FactorError::IndexOverflow)
-    }
-}
-
-/// Factor of E.
-pub(super) struct Factored {
-    pub(super) factor: Box<dyn Factorisation>,
-    /// Motions without stiffness beyond those before them, as those of mechanisms; decoupled in the factor.
-    pub(super) left_out: BTreeSet<usize>,
-}
-
-impl Factored {
-    /// Factorises E.
-    ///
-    /// # Errors
-    ///
-    /// If the factor does not fit into memory.
-    pub(super) fn new(mut matrix: SymmetricMatrix) -> Result<Self, FactorError> {
-        let symbolic = Symbolic::analyse(matrix.pattern().clone(), Elimination::MinimumDegree)?;
-        let symbolic = Arc::new(symbolic);
-        let mut left_out = BTreeSet::new();
-        loop {
-            let without = match FactorKind::Llt.factorise(&symbolic, &matrix) {
-                Ok(factor) => {
-                    let pivots = factor.pivots().into_iter().enumerate();
-                    let vanishes =
-                        |(i, pivot): &(usize, f64)| *pivot < VANISHING_PIVOT * matrix.diagonal(*i);
-                    let vanishing: Vec<usize> = pivots.filter(vanishes).map(|it| it.0).collect();
-                    if vanishing.is_empty() {
-                        return Ok(Self { factor, left_out });
-                    }
-                    vanishing
-                }
-                Err(
-                    FactorError::NotPositiveDefinite { unknown }
-                    | FactorError::ZeroPivot { unknown },
-                ) => vec![unknown],
-                Err(other) => return Err(other),
-            };
-            left_out.extend(without);
-            cut_off(&mut matrix, &left_out);
-        }
-    }
-}
-
-/// Decouples unknowns from the others, with a unit on the diagonal.
-fn cut_off(matrix: &mut SymmetricMatrix, unknowns: &BTreeSet<usize>) {
-    let pattern = matrix.pattern().clone();
-    for column in 0..pattern.dimension() {
-        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-        let is_out = unknowns.contains(&column);
-        for (&row, value) in pattern.rows()[range.clone()]
-            .iter()
-            .zip(&mut matrix.values[range])
-        {
-            if is_out || unknowns.contains(&row) {
-                *value = f64::from(u8::from(row == column));
-            }
-        }
     }
 }

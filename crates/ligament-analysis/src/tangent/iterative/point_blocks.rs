@@ -183,6 +183,17 @@ pub(in crate::tangent) fn vanishing_of_block(
     Some(place)
 }
 
+/// Inverts a symmetric block (n, n) without the rows and columns whose pivots vanish or are negative, where the inverse keeps its zeros.
+pub(super) fn invert_without_vanishing(n: usize, block: &[f64], inverse: &mut [f64]) {
+    let mut rows: Vec<usize> = (0..n).collect();
+    inverse.fill(0.0);
+    while let Err(NoInverse::Vanishing(place) | NoInverse::Negative(place)) =
+        invert_among(&rows, n, block, inverse)
+    {
+        rows.retain(|it| *it != place);
+    }
+}
+
 /// Reason why a block has no inverse, with the row of the pivot.
 enum NoInverse {
     Vanishing(usize),
