@@ -59,6 +59,24 @@ fn is_declared(file: &Path, roots: &BTreeSet<PathBuf>) -> bool {
         || of_folder.any(|root| declares(root))
 }
 
+/// A crate with unit tests has them compiled and run; a crate without is not compiled once more for them.
+#[test]
+fn unit_tests_are_run() {
+    let tried = roots(|target| target["test"] == true);
+    for (name, _) in ARROWS {
+        let folder = repository().join("crates").join(name).join("src");
+        let has_tests = sources(&folder).iter().any(|path| {
+            let text = std::fs::read_to_string(path).unwrap();
+            text.lines().any(|line| line.trim() == "#[test]")
+        });
+        assert_eq!(
+            has_tests,
+            tried.contains(&folder.join("lib.rs")),
+            "{name}: test in [lib]"
+        );
+    }
+}
+
 /// Comments of documentation that hold code are compiled and run; a crate without code in them is not read for that.
 #[test]
 fn code_in_comments_is_run() {

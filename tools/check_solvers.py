@@ -178,11 +178,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program", type=Path)
     parser.add_argument("--problems", type=int, default=8, help="problems of each law and dimension")
+    parser.add_argument("--first", type=int, default=0, help="number of the first of them")
     parser.add_argument("--processes", type=int, nargs="*", default=[], help="run on so many processes with PETSc")
     parser.add_argument("--law", help="this law alone")
     options = parser.parse_args()
     tasks = [(dimensions, law, number) for dimensions, laws in LAWS.items() for law in laws if options.law in (None, law)
-             for number in range(options.problems)]
+             for number in range(options.first, options.first + options.problems)]
     program = options.program.resolve()
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found = list(pool.map(lambda task: compare(program, *task, options.processes), tasks))
