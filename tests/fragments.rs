@@ -93,7 +93,7 @@ impl Observer for Watched {
     }
 
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        self.checkpoints.push((moment.checkpoint)());
+        self.checkpoints.push(moment.bytes());
         Ok(Onward::Go)
     }
 }
@@ -178,7 +178,12 @@ fn fragments_keep_all_bits() {
     assert_eq!(one.rows, two.rows);
     let (motion, analysis) = problem(&[]);
     for row in [2, 40, 80] {
-        let restored = restore(Posed::Motion(&motion), &analysis, &one.checkpoints[row]).unwrap();
+        let restored = restore(
+            Posed::Motion(&motion),
+            &analysis,
+            &mut one.checkpoints[row].as_slice(),
+        )
+        .unwrap();
         let outcome = resume(&analysis, restored, &mut Watched::default()).unwrap();
         assert_eq!(outcome.history, one.rows);
     }

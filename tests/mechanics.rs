@@ -2,6 +2,7 @@
 //! of several processes.
 
 mod bending;
+mod checkpoints_in_parts;
 mod connectivity;
 mod discretisation;
 mod equilibrium;

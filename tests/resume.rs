@@ -72,7 +72,7 @@ impl Observer for Recorder {
         self.n_moments += 1;
         let is_stop = self.stop_at == Some(number);
         if is_stop || (self.every > 0 && number.is_multiple_of(self.every)) {
-            let checkpoint = (moment.checkpoint)();
+            let checkpoint = moment.bytes();
             self.moments.push((self.lines.len(), checkpoint));
         }
         Ok(if is_stop { Onward::Stop } else { Onward::Go })
@@ -144,7 +144,7 @@ fn assert_resumes_looking(name: &str, bench: &Bench, every: usize, looks_every: 
             ..Recorder::default()
         };
         let outcome = on_threads(threads, || {
-            let restored = run::restore(&problem, analysis, checkpoint).unwrap();
+            let restored = run::restore(&problem, analysis, &mut checkpoint.as_slice()).unwrap();
             run::resume(analysis, restored, &mut rest).unwrap()
         });
         let place = format!("{name}, moment {}", number * every);
@@ -386,7 +386,7 @@ fn a_run_that_a_rule_ended_can_be_prolonged() {
         let ended = run::follow(&short.problem(), &short.model.setup.analysis, &mut last).unwrap();
         assert!(ended.termination.is_by_rule(), "{}", ended.termination);
         let (problem, analysis) = (long.problem(), &long.model.setup.analysis);
-        let restored = run::restore(&problem, analysis, &last.0).unwrap();
+        let restored = run::restore(&problem, analysis, &mut last.0.as_slice()).unwrap();
         let prolonged = run::resume(analysis, restored, &mut Recorder::default()).unwrap();
         let whole = run::follow(&problem, analysis, &mut Recorder::default()).unwrap();
         assert!(prolonged.state.broken_bonds() > ended.state.broken_bonds());
@@ -401,7 +401,7 @@ struct LastMoment(Vec<u8>);
 impl Observer for LastMoment {
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         if moment.end.is_some() {
-            self.0 = (moment.checkpoint)();
+            self.0 = moment.bytes();
         }
         Ok(Onward::Go)
     }
@@ -428,14 +428,18 @@ fn an_observer_stops_a_run() {
         stopped.lines.last().unwrap().ends_with("true"),
         "the last state is told as the last"
     );
-    let restored = run::restore(&problem, analysis, &stopped.moments[0].1).unwrap();
+    let restored = run::restore(&problem, analysis, &mut stopped.moments[0].1.as_slice()).unwrap();
     let outcome = run::resume(analysis, restored, &mut Recorder::default()).unwrap();
     assert_eq!(words(outcome), words(whole));
 }
 
 /// The reason why a bench refuses a checkpoint.
-fn refusal(bench: &Bench, checkpoint: &[u8]) -> CheckpointError {
-    let restored = run::restore(&bench.problem(), &bench.model.setup.analysis, checkpoint);
+fn refusal(bench: &Bench, mut checkpoint: &[u8]) -> CheckpointError {
+    let restored = run::restore(
+        &bench.problem(),
+        &bench.model.setup.analysis,
+        &mut checkpoint,
+    );
     match restored.err() {
         Some(Error::Equations(SetupError::Checkpoint(reason))) => reason,
         other => panic!("{other:?}"),
@@ -493,7 +497,11 @@ fn a_damaged_checkpoint_is_refused() {
         let mut changed = whole.clone();
         let place = ((random.uniform() + 1.0) / 2.0 * changed.len() as f64) as usize;
         changed[place] = ((random.uniform() + 1.0) * 128.0) as u8;
-        let restored = run::restore(&bench.problem(), &bench.model.setup.analysis, &changed);
+        let restored = run::restore(
+            &bench.problem(),
+            &bench.model.setup.analysis,
+            &mut changed.as_slice(),
+        );
         n_refused += usize::from(restored.is_err());
     }
     println!("{n_refused} of 300 changed checkpoints refused");

@@ -111,7 +111,7 @@ impl Observer for Seen {
 
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         if self.keeps_at == Some(self.moments) {
-            self.checkpoint = Some((self.breaks.len(), (moment.checkpoint)()));
+            self.checkpoint = Some((self.breaks.len(), moment.bytes()));
         }
         self.moments += 1;
         Ok(Onward::Go)
@@ -181,8 +181,8 @@ fn followed(
     seen.subdomain = Some(subdomain.clone());
     let outcome = match from {
         None => follow(&problem, &analysis, &mut seen).unwrap(),
-        Some(from) => {
-            let restored = restore(&problem, &analysis, from).unwrap();
+        Some(mut from) => {
+            let restored = restore(&problem, &analysis, &mut from).unwrap();
             resume(&analysis, restored, &mut seen).unwrap()
         }
     };

@@ -48,12 +48,12 @@ impl Target for Solutions {
     }
 
     fn read(&mut self, input: &[u8]) -> bool {
-        let Some((number, solution)) = input.split_first() else {
+        let Some((number, mut solution)) = input.split_first() else {
             return false;
         };
         let bench = &self.0[usize::from(*number) % self.0.len()];
         let (problem, analysis) = (bench.problem(), &bench.model.setup.analysis);
-        let Ok(restored) = run::restore(&problem, analysis, solution) else {
+        let Ok(restored) = run::restore(&problem, analysis, &mut solution) else {
             return false;
         };
         // What it comes to is nobody's concern; some moments are enough.
@@ -67,7 +67,7 @@ struct All(Vec<Vec<u8>>);
 
 impl Observer for All {
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        self.0.push((moment.checkpoint)());
+        self.0.push(moment.bytes());
         Ok(Onward::Go)
     }
 
@@ -81,7 +81,7 @@ struct Few(usize);
 
 impl Observer for Few {
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        let _ = (moment.checkpoint)();
+        let _ = moment.bytes();
         self.0 -= 1;
         Ok(if self.0 == 0 {
             Onward::Stop

@@ -24,11 +24,11 @@ impl Checkpoints {
         let checkpoint = Checkpoint {
             version: "0.1.0".to_owned(),
             inputs: "lattice.cells = [8, 4]".to_owned(),
-            solution: (0..=255).collect(),
             results: vec![7; 90],
             notices: vec!["3 points came loose".to_owned()],
         };
-        checkpoint.write(folder.path()).unwrap();
+        let solution: Vec<u8> = (0..=255).collect();
+        (checkpoint.write(folder.path(), |out| out.put(&solution))).unwrap();
         let seed = fs::read(folder.path().join("checkpoint.bin")).unwrap();
         Self { seed }
     }
@@ -44,7 +44,7 @@ impl Target for Checkpoints {
     }
 
     fn read(&mut self, input: &[u8]) -> bool {
-        Checkpoint::from_bytes(input).is_ok()
+        Checkpoint::parse(input, input.len() as u64).is_ok()
     }
 }
 

@@ -4,6 +4,7 @@
 //! process that stores some of the bonds has local numbers for them.
 
 use std::borrow::Cow;
+use std::io::Read;
 
 use ligament_model::Bonds;
 use ligament_model::communicator::Wire;
@@ -12,7 +13,8 @@ use ligament_model::subdomain::Subdomain;
 use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
-use crate::serial::{Serial, write_list};
+use crate::lists_of_all::{read_by_index, write_by_index, write_rows};
+use crate::serial::{Damaged, Serial, Sink, write_list};
 
 /// Bit that marks a list of several processes in a checkpoint, beside the number of bonds of the body.
 const SPARSE: u64 = 1 << 63;
@@ -144,41 +146,33 @@ impl BondNumbers {
     pub(crate) fn read<T: Serial + Clone>(
         &self,
         usual: T,
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Vec<T>, CheckpointError> {
-        let header = from.first_chunk().map_or(0, |it| u64::from_le_bytes(*it));
+        let header = u64::read(from)?;
         if header >= SPARSE {
-            return self.read_sparse(usual, from);
+            return self.read_sparse(header - SPARSE, usual, from);
         }
-        let StoredBonds::Some(LocalBonds { numbers, n_all, .. }) = &self.held else {
-            return Ok(Serial::read(from)?);
-        };
-        let count = usize::read(from)?;
-        if count == 0 {
-            return Ok(Vec::new());
-        }
-        if count != *n_all {
-            return Err(CheckpointError::OtherModel);
-        }
-        let mut local = Vec::with_capacity(numbers.len());
-        let mut next = numbers.iter().peekable();
-        let mut number = 0;
-        T::read_each(count, from, |value| {
-            if next.next_if_eq(&&number).is_some() {
-                local.push(value);
+        let count = usize::try_from(header).map_err(|_| Damaged)?;
+        match &self.held {
+            StoredBonds::Some(it) if count > 0 => {
+                if count != it.n_all {
+                    return Err(CheckpointError::OtherModel);
+                }
+                let numbers = it.numbers.iter().map(|&number| number as usize);
+                Ok(read_by_index(count, numbers, from)?)
             }
-            number += 1;
-        })?;
-        Ok(local)
+            StoredBonds::All(_) | StoredBonds::Some(_) => Ok(T::read_list(count, from)?),
+        }
     }
 
     /// Reads a list of several processes, which has the unusual values with the numbers of their bonds.
     fn read_sparse<T: Serial + Clone>(
         &self,
+        count: u64,
         usual: T,
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Vec<T>, CheckpointError> {
-        let (count, rows) = (u64::read(from)? - SPARSE, usize::read(from)?);
+        let rows = usize::read(from)?;
         let (n_all, n_bonds) = match &self.held {
             StoredBonds::All(n_bonds) => (*n_bonds, *n_bonds),
             StoredBonds::Some(it) => (it.n_all, it.numbers.len()),
@@ -203,24 +197,19 @@ impl BondNumbers {
     pub(crate) fn read_points<T: Serial>(
         &self,
         n_values: usize,
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Vec<T>, CheckpointError> {
-        if self.subdomain.is_whole() {
+        let subdomain = &self.subdomain;
+        if subdomain.is_whole() {
             return Ok(Serial::read(from)?);
         }
         let count = usize::read(from)?;
-        if count != n_values * self.subdomain.n_all() {
+        if count != n_values * subdomain.n_all() {
             return Err(CheckpointError::OtherModel);
         }
-        let mut local = Vec::with_capacity(n_values * self.subdomain.n_points());
-        let mut number = 0;
-        T::read_each(count, from, |value| {
-            if self.subdomain.local_index(number, n_values).is_some() {
-                local.push(value);
-            }
-            number += 1;
-        })?;
-        Ok(local)
+        let local = 0..n_values * subdomain.n_points();
+        let indices = local.map(|index| subdomain.index_in_body(index, n_values));
+        Ok(read_by_index(count, indices, from)?)
     }
 
     /// Appends values at all points of the body, as many per point as `n_values`, from those at the local points; on a divided body rank 0
@@ -229,7 +218,7 @@ impl BondNumbers {
         &self,
         (local, n_values): (&[T], usize),
         usual: T,
-        out: &mut Vec<u8>,
+        out: &mut dyn Sink,
     ) where
         T: Serial + Wire<N> + Copy + PartialEq,
     {
@@ -237,36 +226,33 @@ impl BondNumbers {
         if subdomain.is_whole() {
             return write_list(local, out);
         }
-        let owned = local.iter().enumerate();
-        let owned = owned
-            .filter(|(index, value)| subdomain.owns((index / n_values) as u32) && **value != usual);
-        let numbered =
-            owned.map(|(index, value)| (subdomain.index_in_body(index, n_values), value));
-        let rows = on_root(subdomain, numbered);
-        let mut all = Vec::new();
-        if subdomain.communicator().is_root() {
-            all.resize(n_values * subdomain.n_all(), usual);
-        }
-        rows.into_iter()
-            .for_each(|(number, value)| all[number] = value);
-        write_list(&all, out);
+        let of_point = |point: u32| n_values * point as usize..n_values * (point as usize + 1);
+        let owned = subdomain.owned().flat_map(of_point);
+        let numbered = owned
+            .filter(|&index| local[index] != usual)
+            .map(|index| (subdomain.index_in_body(index, n_values), local[index]));
+        write_by_index(
+            subdomain,
+            n_values * subdomain.n_all(),
+            numbered,
+            usual,
+            out,
+        );
     }
 
     /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); on a divided body rank 0 writes those that are
     /// not `usual`, with their numbers. Collective.
-    pub(crate) fn write<T, const N: usize>(&self, local: &[T], usual: T, out: &mut Vec<u8>)
+    pub(crate) fn write<T, const N: usize>(&self, local: &[T], usual: T, out: &mut dyn Sink)
     where
         T: Serial + Wire<N> + Copy + PartialEq,
     {
         match &self.held {
             StoredBonds::Some(it) if !local.is_empty() => {
-                let rows = it.unusual(&self.subdomain, local, usual);
+                let bonds = 0..local.len();
+                let unusual = bonds.filter(|&bond| it.is_owned[bond] && local[bond] != usual);
+                let rows = unusual.map(|bond| (it.numbers[bond] as usize, local[bond]));
                 (SPARSE + it.n_all as u64).write(out);
-                rows.len().write(out);
-                for (number, value) in rows {
-                    (number as u32).write(out);
-                    value.write(out);
-                }
+                write_rows(&self.subdomain, rows, out);
             }
             StoredBonds::All(_) | StoredBonds::Some(_) => write_list(local, out),
         }
@@ -305,45 +291,6 @@ impl LocalBonds {
             n_all,
         }
     }
-
-    /// Values of the bonds of the body that are not usual, with their numbers, on rank 0, and an empty list on other ranks.
-    fn unusual<T, const N: usize>(
-        &self,
-        subdomain: &Subdomain,
-        local: &[T],
-        usual: T,
-    ) -> Vec<(usize, T)>
-    where
-        T: Wire<N> + Copy + PartialEq,
-    {
-        let others = local.iter().enumerate();
-        let others = others.filter(|(bond, value)| self.is_owned[*bond] && **value != usual);
-        on_root(
-            subdomain,
-            others.map(|(bond, value)| (self.numbers[bond] as usize, value)),
-        )
-    }
-}
-
-/// Numbered values of all processes on rank 0, and an empty list on other ranks; collective.
-fn on_root<'a, T, const N: usize>(
-    subdomain: &Subdomain,
-    numbered: impl Iterator<Item = (usize, &'a T)>,
-) -> Vec<(usize, T)>
-where
-    T: Wire<N> + 'a,
-{
-    let rows = numbered.flat_map(|(number, value)| {
-        let number = [number as f64];
-        number.into_iter().chain(value.numbers())
-    });
-    let all_rows = subdomain.gather_list(rows.collect());
-    let row = |row: &[f64]| {
-        let mut numbers = [0.0; N];
-        numbers.copy_from_slice(&row[1..]);
-        (row[0] as usize, T::from_numbers(numbers))
-    };
-    all_rows.chunks_exact(1 + N).map(row).collect()
 }
 
 /// Ends and global numbers of local bonds that other ranks own, from their owners.

@@ -22,6 +22,7 @@ mod rigid;
 mod secant;
 mod target;
 
+use std::io::Read;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -41,6 +42,7 @@ use crate::history::{Observer, ObserverError};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
 use crate::solver::SolverChoice;
+use crate::serial::Sink;
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::tangent::IntactSolver;
@@ -152,7 +154,7 @@ impl Equilibrium {
     }
 
     /// Appends the bytes from which the equilibrium is restored bit for bit.
-    pub(crate) fn write(&self, out: &mut Vec<u8>) {
+    pub(crate) fn write(&self, out: &mut dyn Sink) {
         self.equations.write(&self.numbers, out);
     }
 
@@ -166,7 +168,7 @@ impl Equilibrium {
         problem: &Problem,
         energy_tolerance: f64,
         (numbers, mut state): (BondNumbers, State),
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<(Self, State, Balanced), SetupError> {
         let n_bonds = problem.system.ends().len();
         let fits = state.fits(&*problem.system, n_bonds, &problem.criteria)

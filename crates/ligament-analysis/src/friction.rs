@@ -7,13 +7,15 @@
 //! In equilibria the friction of each follows from that of the last one, which a [`Friction`] keeps: the return mapping of implicit steps
 //! (Wriggers 2006, chapter 10).
 
+use std::io::Read;
+
 use ligament_model::contact::{ClosedPair, ContactPair, Rubbing};
 use ligament_model::layout::Layout;
 use ligament_model::surface::Vector;
 use ligament_model::tensor::{minus, norm};
 
 use crate::serial;
-use crate::serial::{Damaged, Serial};
+use crate::serial::{Damaged, Serial, Sink};
 
 /// Rounding by which a force may exceed its limit where nothing has moved.
 const ROUNDING: f64 = 1e-12;
@@ -57,11 +59,11 @@ pub struct Friction {
 }
 
 impl Serial for Friction {
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         self.pairs.write(out);
     }
 
-    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
         let pairs: Vec<(u32, Anchored)> = Serial::read(from)?;
         let is_ascending = pairs.is_sorted_by(|one, other| one.0 < other.0);
         is_ascending.then_some(Self { pairs }).ok_or(Damaged)

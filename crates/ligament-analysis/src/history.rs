@@ -13,6 +13,7 @@ use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
 use crate::motion::contact::{ContactReading, RigidState};
 use crate::serial;
+use crate::serial::Sink;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
 
@@ -409,8 +410,17 @@ pub struct ObserverError(#[from] pub Box<dyn std::error::Error + Send + Sync>);
 pub struct Moment<'a> {
     /// Reason why the run ends here, if it does.
     pub end: Option<&'a Termination>,
-    /// Computes the checkpoint.
-    pub checkpoint: &'a dyn Fn() -> Vec<u8>,
+    /// Writes the checkpoint.
+    pub checkpoint: &'a dyn Fn(&mut dyn Sink),
+}
+
+impl Moment<'_> {
+    /// The checkpoint in memory.
+    pub fn bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        (self.checkpoint)(&mut bytes);
+        bytes
+    }
 }
 
 /// Continuation of a run after a restart point.
@@ -455,10 +465,10 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Called before [`Observer::moment`], with the reason if the run ends there; returns whether the observer needs its
+    /// Called before [`Observer::moment`], with the reason if the run ends there; returns whether the observer writes its
     /// checkpoint.
     ///
-    /// On a divided body all processes compute it if one needs it; on others it may be empty.
+    /// On a divided body all processes take part if one writes it, and rank 0 alone receives its bytes.
     fn asks(&mut self, _end: Option<&Termination>) -> Result<bool, ObserverError> {
         Ok(true)
     }

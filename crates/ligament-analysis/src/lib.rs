@@ -31,6 +31,7 @@ mod halo;
 pub mod history;
 pub mod internal;
 mod lagging;
+pub mod lists_of_all;
 pub mod load_program;
 pub mod modal;
 pub mod motion;

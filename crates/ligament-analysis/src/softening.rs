@@ -4,6 +4,7 @@
 //! opened bond loses stiffness in tension, shear and rotation, not in compression; see [`Weakened`].
 
 use std::borrow::Cow;
+use std::io::Read;
 
 use ligament_model::Bonds;
 use ligament_model::element::{BondDeformation, StiffnessFactors};
@@ -12,7 +13,7 @@ use rayon::prelude::*;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 
 /// Relative difference from its extreme below which a bond counts as at its extreme.
 const SAME: f64 = 1e-9;
@@ -43,7 +44,7 @@ impl Softening {
     }
 
     /// Appends the softening of all bonds of the body, see [`BondNumbers::write`].
-    pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+    pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut dyn Sink) {
         for lists in [&self.largest, &self.trial] {
             lists.len().write(out);
             lists.iter().for_each(|list| numbers.write(list, 0.0, out));
@@ -58,8 +59,11 @@ impl Softening {
     /// # Errors
     ///
     /// If the bytes are damaged or belong to another body.
-    pub(crate) fn read(numbers: &BondNumbers, from: &mut &[u8]) -> Result<Self, CheckpointError> {
-        let lists = |usual: f64, from: &mut &[u8]| -> Result<Vec<Vec<f64>>, CheckpointError> {
+    pub(crate) fn read(
+        numbers: &BondNumbers,
+        from: &mut dyn Read,
+    ) -> Result<Self, CheckpointError> {
+        let lists = |usual: f64, from: &mut dyn Read| -> Result<Vec<Vec<f64>>, CheckpointError> {
             let count = usize::read(from)?;
             (0..count).map(|_| numbers.read(usual, from)).collect()
         };

@@ -1,5 +1,7 @@
 //! State of a body, which changes during a run.
 
+use std::io::Read;
+
 use ligament_model::Bonds;
 pub use ligament_model::UnbrokenBonds;
 use ligament_model::failure::Criteria;
@@ -8,7 +10,7 @@ use ligament_model::surface::Vector;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::friction::Friction;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::softening::Softening;
 use crate::surfaces::LastTouching;
 
@@ -73,7 +75,7 @@ impl State {
     }
 
     /// Appends the state of all points and bonds of the body, from those of each process; valid on rank 0 alone. Collective.
-    pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+    pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut dyn Sink) {
         let n_components = self.displacement.len() / numbers.subdomain().n_points().max(1);
         self.load_factor.write(out);
         numbers.write_points((&self.displacement, n_components), 0.0, out);
@@ -94,7 +96,7 @@ impl State {
     /// If the bytes are damaged or belong to another body.
     pub(crate) fn read(
         (numbers, n_components): (&BondNumbers, usize),
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Self, CheckpointError> {
         let mut state = Self {
             load_factor: Serial::read(from)?,

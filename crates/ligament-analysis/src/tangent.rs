@@ -8,12 +8,15 @@ pub(crate) mod solving;
 mod terms;
 pub(crate) mod unsymmetric;
 
+use std::io::Read;
+
 use ligament_linalg::{FactorError, Factorisation, ForwardSubstituted, Inertia};
 
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::resisting::Resisting;
+use crate::serial::Sink;
 use crate::state::State;
 use ligament_model::thermal::ThermalStrain;
 
@@ -132,14 +135,14 @@ pub(crate) trait TangentSolver {
     fn inertia(&self) -> Option<Inertia>;
 
     /// Appends the bytes from which the solver is restored bit for bit.
-    fn write(&self, out: &mut Vec<u8>);
+    fn write(&self, out: &mut dyn Sink);
 
     /// Restores a newly built solver from the bytes of [`TangentSolver::write`].
     ///
     /// # Errors
     ///
     /// If the bytes are damaged or belong to another model, or if the factor differs in any bit.
-    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError>;
+    fn restore(&mut self, from: &mut dyn Read) -> Result<(), CheckpointError>;
 }
 
 /// A solver of an intact body, which does not change: each run begins with a copy.

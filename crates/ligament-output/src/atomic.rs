@@ -1,7 +1,7 @@
 //! Atomic writes of whole files.
 
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
@@ -9,17 +9,21 @@ use crate::Error;
 /// File that marks a folder whose files need not survive a failure of the machine, such as a temporary one: they are not synced.
 pub(crate) const PASSING: &str = ".passing";
 
-/// Writes `contents` to `path`, and moves the previous file to `older`; both are synced to disk when this returns.
+/// Writes a file to `path` with a function, and moves the previous file to `older`; both are synced to disk when this returns.
 ///
 /// At any moment at least one of the two files is complete.
 ///
 /// # Errors
 ///
 /// If the file cannot be written or renamed.
-pub(crate) fn rotate_file(path: &Path, older: &Path, contents: &[u8]) -> Result<(), Error> {
+pub(crate) fn rotate_file(
+    path: &Path,
+    older: &Path,
+    write: impl FnOnce(&mut File) -> io::Result<()>,
+) -> Result<(), Error> {
     let rotate = || {
         let temporary = temporary_path(path)?;
-        let moved = write_synced(&temporary, contents).and_then(|()| {
+        let moved = write_synced(&temporary, write).and_then(|()| {
             if path.exists() {
                 fs::rename(path, older)?;
             }
@@ -79,11 +83,18 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
     text.map_err(Error::system("read", path))
 }
 
-/// Reads the bytes of a file; refuses a pipe or a device, which may never end.
+/// Reads the bytes of a file.
 pub(crate) fn read_bytes(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open_regular(path)?.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Opens a file; refuses a pipe or a device, which may never end.
+pub(crate) fn open_regular(path: &Path) -> io::Result<File> {
     let kind = fs::metadata(path)?.file_type();
     match kind.is_file() || kind.is_dir() {
-        true => fs::read(path),
+        true => File::open(path),
         false => Err(io::Error::new(
             io::ErrorKind::InvalidInput,
             "it is a pipe or a device",
@@ -103,7 +114,8 @@ pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
 /// Writes `contents` to a temporary file beside `path`, and renames it to `path`.
 pub(crate) fn replace_regular(path: &Path, contents: &[u8]) -> io::Result<()> {
     let temporary = temporary_path(path)?;
-    let written = write_synced(&temporary, contents).and_then(|()| fs::rename(&temporary, path));
+    let write = |file: &mut File| file.write_all(contents);
+    let written = write_synced(&temporary, write).and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
         // The first failure is the one to report; the temporary file may not even exist.
         let _ = fs::remove_file(&temporary);
@@ -111,11 +123,11 @@ pub(crate) fn replace_regular(path: &Path, contents: &[u8]) -> io::Result<()> {
     written
 }
 
-fn write_synced(path: &Path, contents: &[u8]) -> io::Result<()> {
+fn write_synced(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
     // A leftover of a killed process with the same number; the target of a link in its place is never written.
     remove_if_there(path)?;
     let mut file = File::create_new(path)?;
-    file.write_all(contents)?;
+    write(&mut file)?;
     // Full quotas and remote disks may report a failed write only here, before the rename.
     match path.with_file_name(PASSING).exists() {
         true => Ok(()),

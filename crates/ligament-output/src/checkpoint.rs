@@ -4,43 +4,50 @@
 //! |---|---|
 //! | 19 | `ligament checkpoint` |
 //! | 4 | [`FORMAT`] |
-//! | 8 | length of the rest without the digest |
-//! | ... | version of the program, inputs, solution, results, notices |
-//! | 8 | XXH64 of all before |
+//! | 8 | length of the content |
+//! | ... | content: version of the program, inputs, results, notices, solution |
+//! | 8 | XXH64 of the content |
 //!
-//! Numbers are little-endian. A file is written under a temporary name and renamed when it is complete and synced to disk; the previous
-//! checkpoint is kept, in case the newest one is damaged later.
+//! Numbers are little-endian. The solution goes into the file as it is written and is read from there, so that it is never in memory as
+//! bytes. A file is written under a temporary name and renamed when it is complete and synced to disk; the previous checkpoint is kept, in
+//! case the newest one is damaged later.
 
-use std::io;
+use std::fs::File;
+use std::hash::Hasher;
+use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use ligament_analysis::serial;
-use ligament_analysis::serial::Serial;
+use ligament_analysis::serial::{Serial, Sink};
 use twox_hash::XxHash64;
 
 use crate::Error;
-use crate::atomic::{read_bytes, remove_file, rotate_file};
+use crate::atomic::{open_regular, remove_file, rotate_file};
 
 /// File names of the newest checkpoint in a result folder, and of the previous one.
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
 
 /// Number of the format, which changes with every change of the content.
-pub const FORMAT: u32 = 7;
+pub const FORMAT: u32 = 8;
 
 const BEGINNING: &[u8; 19] = b"ligament checkpoint";
 
 /// Bytes before the content.
-const HEADER: usize = BEGINNING.len() + size_of::<u32>() + size_of::<u64>();
+const HEADER: u64 = (BEGINNING.len() + size_of::<u32>() + size_of::<u64>()) as u64;
 
-/// The state of a run.
+/// Bytes of the digest behind the content.
+const DIGEST: u64 = size_of::<u64>() as u64;
+
+/// Number of bytes that are written or read at a time.
+const AT_ONCE: usize = 1 << 16;
+
+/// The state of a run except its solution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checkpoint {
     /// Version of the program that wrote the checkpoint.
     pub version: String,
     /// All inputs of the run, as text.
     pub inputs: String,
-    /// Solution and state of the driver.
-    pub solution: Vec<u8>,
     /// State of the written results.
     pub results: Vec<u8>,
     /// Notices for the user so far.
@@ -50,43 +57,75 @@ pub struct Checkpoint {
 serial!(Checkpoint {
     version,
     inputs,
-    solution,
     results,
     notices
 });
 
+/// Place of the solution and of the state of the driver in the file of a checkpoint.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StoredSolution {
+    /// Index in [`NAMES`] of the file.
+    file: usize,
+    /// First byte and length.
+    bytes: [u64; 2],
+}
+
+serial!(StoredSolution { file, bytes });
+
+impl StoredSolution {
+    /// Opens the solution in the folder of the results.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read.
+    pub fn open(&self, folder: &Path) -> Result<impl Read + use<>, Error> {
+        let path = folder.join(NAMES[self.file]);
+        let [start, length] = self.bytes;
+        let open = || {
+            let mut file = open_regular(&path)?;
+            file.seek(SeekFrom::Start(start))?;
+            Ok(BufReader::with_capacity(AT_ONCE, file).take(length))
+        };
+        open().map_err(Error::system("read", &path))
+    }
+}
+
 impl Checkpoint {
-    /// Writes the checkpoint into a folder as the newest one, and returns its size in bytes.
+    /// Writes the checkpoint into a folder as the newest one, with a function that writes the solution.
     ///
     /// # Errors
     ///
     /// If the file cannot be written; the previous checkpoint then still exists.
-    pub fn write(&self, folder: &Path) -> Result<usize, Error> {
-        let mut bytes = BEGINNING.to_vec();
-        FORMAT.write(&mut bytes);
-        0_u64.write(&mut bytes);
-        self.write_content(&mut bytes);
+    pub fn write(&self, folder: &Path, solution: impl FnOnce(&mut dyn Sink)) -> Result<(), Error> {
         let [newest, older] = NAMES.map(|name| folder.join(name));
-        rotate_file(&newest, &older, &bytes)?;
-        Ok(bytes.len())
+        rotate_file(&newest, &older, |file| {
+            let mut header = BEGINNING.to_vec();
+            FORMAT.write(&mut header);
+            0_u64.write(&mut header);
+            file.write_all(&header)?;
+            let mut content = Content::new(file);
+            Serial::write(self, &mut content);
+            solution(&mut content);
+            let (length, digest) = content.end()?;
+            file.write_all(&digest.to_le_bytes())?;
+            file.seek(SeekFrom::Start(HEADER - size_of::<u64>() as u64))?;
+            file.write_all(&length.to_le_bytes())
+        })
     }
 
-    fn write_content(&self, bytes: &mut Vec<u8>) {
-        Serial::write(self, bytes);
-        let length = (bytes.len() - HEADER) as u64;
-        bytes[HEADER - size_of::<u64>()..HEADER].copy_from_slice(&length.to_le_bytes());
-        XxHash64::oneshot(0, bytes).write(bytes);
-    }
-
-    /// The existing checkpoints of a folder, the newest first.
-    pub fn list(folder: &Path) -> Vec<Result<Self, Error>> {
-        let paths = NAMES.iter().map(|name| folder.join(name));
-        let read = paths.map(|path| match read_bytes(&path) {
-            Ok(bytes) => {
-                Some(Self::from_bytes(&bytes).map_err(|reason| Error::Unreadable { path, reason }))
+    /// The existing checkpoints of a folder with the places of their solutions, the newest first.
+    pub fn list(folder: &Path) -> Vec<Result<(Self, StoredSolution), Error>> {
+        let read = NAMES.iter().enumerate().map(|(file, name)| {
+            let path = folder.join(name);
+            let opened = open_regular(&path).and_then(|it| Ok((it.metadata()?.len(), it)));
+            match opened {
+                Ok((length, opened)) => Some(match Self::parse(opened, length) {
+                    Ok((checkpoint, bytes)) => Ok((checkpoint, StoredSolution { file, bytes })),
+                    Err(reason) => Err(Error::Unreadable { path, reason }),
+                }),
+                Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+                Err(error) => Some(Err(Error::system("read", &path)(error))),
             }
-            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            Err(error) => Some(Err(Error::system("read", &path)(error))),
         });
         read.flatten().collect()
     }
@@ -101,40 +140,116 @@ impl Checkpoint {
         names.try_for_each(|name| remove_file(&folder.join(name)))
     }
 
-    /// Parses a checkpoint; as the error the reason why the bytes are none.
+    /// Reads a checkpoint of a number of bytes, and returns it with the first byte and the length of its solution; as the error the reason why
+    /// it is none.
     ///
     /// # Errors
     ///
     /// If the bytes are no checkpoint, of another format, or damaged.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        let Some(mut rest) = bytes.strip_prefix(BEGINNING) else {
+    pub fn parse(from: impl Read, n_bytes: u64) -> Result<(Self, [u64; 2]), String> {
+        let mut from = BufReader::with_capacity(AT_ONCE, from);
+        let mut beginning = [0; BEGINNING.len()];
+        if from.read_exact(&mut beginning).is_err() || beginning != *BEGINNING {
             return Err("it is no checkpoint of a run".to_owned());
-        };
+        }
         let damaged = |_| "it is damaged".to_owned();
-        let format = u32::read(&mut rest).map_err(damaged)?;
+        let format = u32::read(&mut from).map_err(damaged)?;
         if format != FORMAT {
             return Err(format!(
                 "it is of format {format}, which another version of the program writes; this one reads format {FORMAT}"
             ));
         }
-        let length = usize::read(&mut rest).map_err(damaged)?;
-        let digested = HEADER
-            .checked_add(length)
-            .and_then(|end| bytes.split_at_checked(end));
-        let Some((digested, mut digest)) = digested else {
-            return Err(format!("it ends after {} bytes, too early", bytes.len()));
-        };
-        if u64::read(&mut digest) != Ok(XxHash64::oneshot(0, digested)) || !digest.is_empty() {
+        let length = u64::read(&mut from).map_err(damaged)?;
+        let in_file = n_bytes.saturating_sub(HEADER + DIGEST);
+        if in_file < length {
+            return Err(format!("it ends after {n_bytes} bytes, too early"));
+        }
+        let mut content = Digested::new((&mut from).take(length));
+        let checkpoint = Self::read(&mut content).map_err(damaged)?;
+        let before = length - content.from.limit();
+        let rest = io::copy(&mut content, &mut io::sink());
+        let digest = content.digest.finish();
+        if rest.is_err() || in_file != length || u64::read(&mut from) != Ok(digest) {
             return Err("it is damaged: its digest is another one".to_owned());
         }
-        let mut content = &digested[HEADER..];
-        let checkpoint = Self::read(&mut content).map_err(damaged)?;
-        Ok(checkpoint)
+        Ok((checkpoint, [HEADER + before, length - before]))
+    }
+}
+
+/// Content of a checkpoint on the way into its file.
+struct Content<'a> {
+    file: &'a mut File,
+    /// Bytes that are not yet in the file.
+    waiting: Vec<u8>,
+    digest: XxHash64,
+    /// Number of bytes in the file.
+    length: u64,
+    /// First error of the file, after which no more bytes are written.
+    result: io::Result<()>,
+}
+
+impl<'a> Content<'a> {
+    fn new(file: &'a mut File) -> Self {
+        Self {
+            file,
+            waiting: Vec::new(),
+            digest: XxHash64::with_seed(0),
+            length: 0,
+            result: Ok(()),
+        }
+    }
+
+    fn pass_on(&mut self) {
+        self.digest.write(&self.waiting);
+        self.length += self.waiting.len() as u64;
+        if self.result.is_ok() {
+            self.result = self.file.write_all(&self.waiting);
+        }
+        self.waiting.clear();
+    }
+
+    /// Length and digest of the content, which is then in the file.
+    fn end(mut self) -> io::Result<(u64, u64)> {
+        self.pass_on();
+        self.result?;
+        Ok((self.length, self.digest.finish()))
+    }
+}
+
+impl Sink for Content<'_> {
+    fn put(&mut self, bytes: &[u8]) {
+        self.waiting.extend_from_slice(bytes);
+        if self.waiting.len() >= AT_ONCE {
+            self.pass_on();
+        }
+    }
+}
+
+/// A stream with the digest of the bytes read so far.
+struct Digested<R> {
+    from: R,
+    digest: XxHash64,
+}
+
+impl<R> Digested<R> {
+    fn new(from: R) -> Self {
+        Self {
+            from,
+            digest: XxHash64::with_seed(0),
+        }
+    }
+}
+
+impl<R: Read> Read for Digested<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.from.read(buffer)?;
+        self.digest.write(&buffer[..count]);
+        Ok(count)
     }
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
+#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use std::fs;
 
@@ -144,17 +259,35 @@ mod tests {
         Checkpoint {
             version: "1.2.3".to_owned(),
             inputs: "title = \"a case\"".to_owned(),
-            solution: vec![number; 300],
             results: vec![number; 20],
             notices: vec!["step 3: a notice".to_owned()],
         }
     }
 
-    fn read(folder: &Path) -> Vec<Option<Checkpoint>> {
-        Checkpoint::list(folder)
-            .into_iter()
-            .map(Result::ok)
-            .collect()
+    /// A solution of a number, longer than what is written at a time.
+    fn solution(number: u8) -> Vec<u8> {
+        vec![number; 3 * AT_ONCE + 100]
+    }
+
+    fn written(folder: &Path, number: u8, solution: &[u8]) {
+        let in_pieces = |out: &mut dyn Sink| solution.chunks(1000).for_each(|it| out.put(it));
+        checkpoint(number).write(folder, in_pieces).unwrap();
+    }
+
+    fn read(folder: &Path) -> Vec<Option<(Checkpoint, Vec<u8>)>> {
+        let with_solution = |(checkpoint, stored): (Checkpoint, StoredSolution)| {
+            let mut solution = Vec::new();
+            (stored.open(folder).unwrap())
+                .read_to_end(&mut solution)
+                .unwrap();
+            (checkpoint, solution)
+        };
+        let listed = Checkpoint::list(folder).into_iter();
+        listed.map(|it| it.ok().map(with_solution)).collect()
+    }
+
+    fn parsed(bytes: &[u8]) -> Result<(Checkpoint, [u64; 2]), String> {
+        Checkpoint::parse(bytes, bytes.len() as u64)
     }
 
     #[test]
@@ -162,9 +295,10 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         assert_eq!(read(folder.path()), []);
         for number in 0..4 {
-            checkpoint(number).write(folder.path()).unwrap();
-            let expected = (number.saturating_sub(1)..=number).rev().map(checkpoint);
-            assert_eq!(read(folder.path()), expected.map(Some).collect::<Vec<_>>());
+            written(folder.path(), number, &solution(number));
+            let expected = (number.saturating_sub(1)..=number).rev();
+            let expected = expected.map(|it| Some((checkpoint(it), solution(it))));
+            assert_eq!(read(folder.path()), expected.collect::<Vec<_>>());
         }
         Checkpoint::remove(folder.path()).unwrap();
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
@@ -174,39 +308,40 @@ mod tests {
     #[test]
     fn a_damaged_one_is_refused() {
         let folder = tempfile::tempdir().unwrap();
-        checkpoint(1).write(folder.path()).unwrap();
-        checkpoint(2).write(folder.path()).unwrap();
+        for number in [1, 2] {
+            written(folder.path(), number, &[number; 300]);
+        }
         let path = folder.path().join(NAMES[0]);
         let whole = fs::read(&path).unwrap();
         for end in 0..whole.len() {
-            assert!(
-                Checkpoint::from_bytes(&whole[..end]).is_err(),
-                "{end} bytes"
-            );
+            assert!(parsed(&whole[..end]).is_err(), "{end} bytes");
         }
         for place in 0..whole.len() {
             let mut changed = whole.clone();
             changed[place] ^= 1 << (place % 8);
-            assert!(Checkpoint::from_bytes(&changed).is_err(), "byte {place}");
+            assert!(parsed(&changed).is_err(), "byte {place}");
         }
         let longer = [whole.as_slice(), b"more"].concat();
-        assert!(Checkpoint::from_bytes(&longer).is_err());
+        assert!(parsed(&longer).is_err());
         fs::write(&path, &whole[..100]).unwrap();
-        assert_eq!(read(folder.path()), [None, Some(checkpoint(1))]);
+        assert_eq!(
+            read(folder.path()),
+            [None, Some((checkpoint(1), vec![1; 300]))]
+        );
     }
 
     #[test]
     fn another_format_is_named() {
         let folder = tempfile::tempdir().unwrap();
-        checkpoint(1).write(folder.path()).unwrap();
+        written(folder.path(), 1, &[]);
         let mut bytes = fs::read(folder.path().join(NAMES[0])).unwrap();
         bytes[BEGINNING.len()] += 1;
-        let reason = Checkpoint::from_bytes(&bytes).unwrap_err();
+        let reason = parsed(&bytes).unwrap_err();
         assert!(
-            reason.contains("format 8") && reason.contains("format 7"),
+            reason.contains("format 9") && reason.contains("format 8"),
             "{reason}"
         );
-        let reason = Checkpoint::from_bytes(b"step,load_factor").unwrap_err();
+        let reason = parsed(b"step,load_factor").unwrap_err();
         assert_eq!(reason, "it is no checkpoint of a run");
     }
 }

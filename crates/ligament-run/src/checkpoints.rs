@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use ligament_analysis::Termination;
-use ligament_analysis::serial::Serial;
+use ligament_analysis::serial::{Serial, Sink};
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::OutputState;
@@ -79,11 +79,11 @@ impl<'a> Checkpoints<'a> {
         self.is_due
     }
 
-    /// Writes a checkpoint; `begun` is the start of the work on it.
+    /// Writes a checkpoint, with a function that writes the solution; `begun` is the start of the work on it.
     pub(crate) fn write(
         &mut self,
         begun: Instant,
-        solution: Vec<u8>,
+        solution: &dyn Fn(&mut dyn Sink),
         results: &OutputState,
         notices: &[String],
     ) -> Result<(), ligament_output::Error> {
@@ -92,11 +92,10 @@ impl<'a> Checkpoints<'a> {
         let checkpoint = Checkpoint {
             version: VERSION.to_owned(),
             inputs: self.inputs.clone(),
-            solution,
             results: of_results,
             notices: notices.to_vec(),
         };
-        checkpoint.write(self.folder.path())?;
+        checkpoint.write(self.folder.path(), solution)?;
         self.last = Instant::now();
         self.cost = self.last - begun;
         Ok(())

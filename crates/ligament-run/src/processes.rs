@@ -7,6 +7,7 @@ use ligament::{Loading, Model};
 use ligament_analysis::distributed_matrix::Communicator;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::{CaseFile, StressField};
+use ligament_output::checkpoint::StoredSolution;
 
 use crate::checkpoints::IsStopped;
 use crate::memory;
@@ -59,20 +60,17 @@ pub(crate) fn broadcast_path(
     })
 }
 
-/// The solution of a checkpoint found by rank 0, if any. Collective.
+/// The place of the solution of a checkpoint that rank 0 found, if any. Collective.
 ///
 /// # Errors
 ///
 /// If the received bytes are damaged.
 pub(crate) fn broadcast_solution(
     communicator: &dyn Communicator,
-    solution: Option<Vec<u8>>,
-) -> anyhow::Result<Option<Vec<u8>>> {
-    if communicator.size() == 1 {
-        return Ok(solution);
-    }
+    stored: Option<StoredSolution>,
+) -> anyhow::Result<Option<StoredSolution>> {
     let mut bytes = Vec::new();
-    solution.write(&mut bytes);
+    stored.write(&mut bytes);
     communicator.broadcast(&mut bytes);
     Ok(Serial::read(&mut bytes.as_slice())?)
 }

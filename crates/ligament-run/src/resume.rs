@@ -1,5 +1,6 @@
 //! Resuming a stopped or killed run in its result folder.
 
+use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -10,7 +11,7 @@ use ligament_analysis::distributed_matrix::MatrixCommunicator;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::serial::Serial;
 use ligament_case::case::CaseFile;
-use ligament_output::checkpoint::Checkpoint;
+use ligament_output::checkpoint::{Checkpoint, StoredSolution};
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::quantity::quantity;
 use ligament_output::results::OutputState;
@@ -60,7 +61,9 @@ impl Request<'_> {
         let mut case = CaseFile::load(&path.join(RESOLVED_CASE), self.settings)?;
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
-        on_threads(case.threads(), || self.resume_here(&case, folder, mode))?
+        on_threads(case.threads(), || {
+            self.resume_here((&case, &path), folder, mode)
+        })?
     }
 
     /// Opens and locks the folder with the results of a run.
@@ -72,10 +75,10 @@ impl Request<'_> {
         Ok(folder)
     }
 
-    /// Resumes the run of a case on the caller's threads; only rank 0 has the folder.
+    /// Resumes the run of a case in a folder of results on the caller's threads; only rank 0 has locked the folder.
     fn resume_here(
         &self,
-        case: &CaseFile,
+        (case, path): (&CaseFile, &Path),
         folder: Option<ResultFolder>,
         mode: ProgressMode,
     ) -> anyhow::Result<Report> {
@@ -88,7 +91,7 @@ impl Request<'_> {
             ensure_unfinished(folder)?;
             progress.stage("the run has no checkpoint yet, so it starts from the beginning");
         }
-        match self.go_on(case, folder, found, progress) {
+        match self.go_on((case, path), folder, found, progress) {
             Ok(report) => Ok(report),
             Err(error) => {
                 let request = run::Request {
@@ -104,9 +107,9 @@ impl Request<'_> {
     /// Builds the model of a case and continues from the checkpoint that was found, if any.
     fn go_on(
         &self,
-        case: &CaseFile,
+        (case, path): (&CaseFile, &Path),
         folder: Option<ResultFolder>,
-        mut found: Option<(Checkpoint, OutputState)>,
+        found: Option<(Checkpoint, OutputState, StoredSolution)>,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
         let mut stages = Stages::default();
@@ -114,10 +117,11 @@ impl Request<'_> {
         let loading = loading(case, &model)?;
         let problem = loading.problem(&model);
         let communicator = &*self.communicator;
-        let solution =
-            (found.as_mut()).map(|(checkpoint, _)| std::mem::take(&mut checkpoint.solution));
-        let solution = broadcast_solution(communicator, solution)?;
-        let restored = solution.map(|it| restored(&model, &loading, &problem, &it));
+        let (found, stored) = found
+            .map(|(checkpoint, results, stored)| ((checkpoint, results), stored))
+            .unzip();
+        let stored = broadcast_solution(communicator, stored)?;
+        let restored = stored.map(|it| restored((&model, &loading), &problem, it.open(path)?));
         let restored = restored.transpose()?;
         let is_stopped = || any_stopped(communicator, self.is_stopped);
         let body = LoadedBody {
@@ -171,14 +175,13 @@ fn resuming(restored: &Restored, model: &Model) -> String {
 
 /// The run of a checkpoint's solution.
 fn restored(
-    model: &Model,
-    loading: &Loading,
+    (model, loading): (&Model, &Loading),
     problem: &Problem,
-    solution: &[u8],
+    mut solution: impl Read,
 ) -> anyhow::Result<Restored> {
     let motion = loading.motion(problem);
     let posed = Posed::new(problem, motion.as_ref());
-    Ok(restore(posed, &model.setup.analysis, solution)?)
+    Ok(restore(posed, &model.setup.analysis, &mut solution)?)
 }
 
 /// Refuses a setting that would change earlier results.
@@ -198,17 +201,19 @@ fn find_checkpoint(
     folder: &ResultFolder,
     case: &CaseFile,
     progress: &Progress,
-) -> anyhow::Result<Option<(Checkpoint, OutputState)>> {
+) -> anyhow::Result<Option<(Checkpoint, OutputState, StoredSolution)>> {
     let mut reasons = Vec::new();
     for read in Checkpoint::list(folder.path()) {
-        let usable = read.map_err(anyhow::Error::from).and_then(|checkpoint| {
-            check_inputs(&checkpoint, case)?;
-            let results = OutputState::read(&mut checkpoint.results.as_slice())?;
-            match results.obstacle(folder) {
-                None => Ok((checkpoint, results)),
-                Some(obstacle) => bail!("{obstacle}"),
-            }
-        });
+        let usable = read
+            .map_err(anyhow::Error::from)
+            .and_then(|(checkpoint, stored)| {
+                check_inputs(&checkpoint, case)?;
+                let results = OutputState::read(&mut checkpoint.results.as_slice())?;
+                match results.obstacle(folder) {
+                    None => Ok((checkpoint, results, stored)),
+                    Some(obstacle) => bail!("{obstacle}"),
+                }
+            });
         match usable {
             Ok(found) => {
                 for reason in reasons {

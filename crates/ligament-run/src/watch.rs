@@ -136,9 +136,9 @@ impl Observer for Watch<'_> {
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         if self.checkpoints.is_due() {
             let begun = Instant::now();
-            let solution = (moment.checkpoint)();
             let results = self.writer.so_far().map_err(failed)?;
-            let written = (self.checkpoints).write(begun, solution, &results, &self.notices);
+            let (checkpoints, solution) = (&mut self.checkpoints, moment.checkpoint);
+            let written = checkpoints.write(begun, solution, &results, &self.notices);
             written.map_err(failed)?;
         }
         Ok(if self.stops { Onward::Stop } else { Onward::Go })

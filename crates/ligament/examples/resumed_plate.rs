@@ -27,7 +27,7 @@ impl Observer for Pause {
         if self.steps > 0 {
             return Ok(Onward::Go);
         }
-        self.checkpoint = (moment.checkpoint)();
+        self.checkpoint = moment.bytes();
         Ok(Onward::Stop)
     }
 }
@@ -45,7 +45,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let first = follow(&problem, analysis, &mut pause)?;
     println!("{} in {} bytes", first.termination, pause.checkpoint.len());
 
-    let restored = restore(&problem, analysis, &pause.checkpoint)?;
+    let restored = restore(&problem, analysis, &mut pause.checkpoint.as_slice())?;
     let second = resume(analysis, restored, &mut NoObserver)?;
     println!("{}", second.termination);
     let broken = [&first, &second, &whole].map(|it| it.state.broken_bonds());

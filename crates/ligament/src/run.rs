@@ -1,5 +1,6 @@
 //! The method, second page: from the discrete model to a broken body, or to its modes. The first is [`crate::model`].
 
+use std::io::Read;
 use std::sync::Arc;
 
 use ligament_analysis::Observer;
@@ -148,7 +149,7 @@ pub fn follow<'a>(
 pub fn restore<'a>(
     posed: impl Into<Posed<'a>>,
     analysis: &Analysis,
-    checkpoint: &[u8],
+    checkpoint: &mut dyn Read,
 ) -> Result<Restored, Error> {
     let problem = match (posed.into(), analysis) {
         (Posed::Motion(problem), Analysis::Motion(settings)) => {

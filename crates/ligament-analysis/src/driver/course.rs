@@ -1,5 +1,6 @@
 //! Progress of a run: contents of a checkpoint other than the state, and the run restored from one.
 
+use std::io::Read;
 use std::sync::Arc;
 
 use super::recorder::{Energies, StepCounters};
@@ -13,7 +14,7 @@ use crate::history::{LargestOverlap, StepRecord};
 use crate::load_program::LoadCourse;
 use crate::problem::Problem;
 use crate::serial;
-use crate::serial::{Damaged, Serial};
+use crate::serial::{Damaged, Serial, Sink, require_end};
 use crate::state::State;
 
 /// Progress of a run.
@@ -100,7 +101,7 @@ serial!(InLoadStep {
 });
 
 impl Serial for Place {
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         match self {
             Self::Event(place) => {
                 false.write(out);
@@ -113,7 +114,7 @@ impl Serial for Place {
         }
     }
 
-    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
         Ok(if bool::read(from)? {
             Self::LoadStep(Serial::read(from)?)
         } else {
@@ -148,9 +149,8 @@ impl Restored {
     pub(super) fn read(
         problem: &Problem,
         energy_tolerance: f64,
-        mut checkpoint: &[u8],
+        from: &mut dyn Read,
     ) -> Result<Self, SetupError> {
-        let from = &mut checkpoint;
         let damaged = CheckpointError::Damaged;
         let place = Serial::read(from).map_err(damaged)?;
         let numbers = BondNumbers::new(&*problem.system)?;
@@ -172,7 +172,8 @@ impl Restored {
             balanced,
             energies,
         };
-        if !from.is_empty() || !restored.agrees() {
+        require_end(from).map_err(damaged)?;
+        if !restored.agrees() {
             return Err(damaged(Damaged).into());
         }
         let proof_now = CheckValues::new(&restored.problem, &restored.balanced);

@@ -14,6 +14,7 @@ mod passing;
 mod proportional;
 
 use std::cell::OnceCell;
+use std::io::Read;
 use std::mem;
 use std::rc::Rc;
 
@@ -159,7 +160,7 @@ pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
 pub fn restore(
     problem: &Problem,
     settings: &EventSettings,
-    checkpoint: &[u8],
+    checkpoint: &mut dyn Read,
 ) -> Result<Restored, SetupError> {
     let restored = Restored::read(problem, settings.energy_tolerance, checkpoint)?;
     match restored.place {

@@ -3,6 +3,7 @@
 //! A `Path` computes equilibria with their energies, breaks bonds, fixes detached parts, makes records and applies stop rules.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
@@ -27,7 +28,7 @@ use crate::history::{
 };
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::softened::SoftenedOfAll;
 use crate::softening::Softening;
 use crate::state::State;
@@ -217,26 +218,25 @@ impl<'a> Path<'a> {
         } = self;
         let asked = observer.asks(end.as_ref())?;
         let numbers = equilibrium.numbers();
-        let checkpoint = || {
-            let mut out = Vec::new();
-            place().write(&mut out);
-            state.write(numbers, &mut out);
-            course.write(&mut out);
-            equilibrium.write(&mut out);
-            energies.write(&mut out);
-            CheckValues::new(problem, balanced).write(&mut out);
-            out
+        let has_taken_part = Cell::new(false);
+        let checkpoint = |out: &mut dyn Sink| {
+            has_taken_part.set(true);
+            place().write(out);
+            state.write(numbers, out);
+            course.write(out);
+            equilibrium.write(out);
+            energies.write(out);
+            CheckValues::new(problem, balanced).write(out);
         };
-        // On a divided body all processes take part in the checkpoint, and those that need it receive it.
-        let is_divided = !numbers.subdomain().is_whole();
-        let is_made = is_divided && numbers.subdomain().any(asked);
-        let made = is_made.then(checkpoint);
-        let made = || made.clone().unwrap_or_default();
+        let all_take_part = numbers.subdomain().any(asked) && !numbers.subdomain().is_whole();
         let moment = Moment {
             end: end.as_ref(),
-            checkpoint: if is_divided { &made } else { &checkpoint },
+            checkpoint: &checkpoint,
         };
         let onward = observer.moment(&moment)?;
+        if all_take_part && !has_taken_part.get() {
+            checkpoint(&mut ());
+        }
         Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
     }
 

@@ -1,5 +1,7 @@
 //! Energies and records, as all drivers use them.
 
+use std::io::Read;
+
 use ligament_model::deformation::Deformations;
 use ligament_model::element::StiffnessFactors;
 use ligament_model::failure::Criteria;
@@ -16,7 +18,7 @@ use crate::probe;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
 use crate::serial;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 use crate::surfaces::{SurfaceEnergy, SurfaceWork};
 
@@ -67,7 +69,7 @@ serial!(Loaded {
 
 impl Energies {
     /// Appends the data that do not follow from the problem and the state.
-    pub(super) fn write(&self, out: &mut Vec<u8>) {
+    pub(super) fn write(&self, out: &mut dyn Sink) {
         let Self {
             external_work,
             released,
@@ -95,7 +97,7 @@ impl Energies {
         problem: &Problem,
         state: &State,
         balanced: &Balanced,
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Self, CheckpointError> {
         let mut energies = Self {
             external_work: Serial::read(from)?,

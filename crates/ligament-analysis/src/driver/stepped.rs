@@ -3,6 +3,7 @@
 //! A load step solves for equilibrium, orders the bonds beyond their critical stretch, breaks the first of them and solves again,
 //! until no bond is left to break.
 
+use std::io::Read;
 use std::time::Instant;
 
 use super::course::{InLoadStep, Place, Restored};
@@ -119,7 +120,7 @@ fn planned<'a>(
 pub fn restore(
     problem: &Problem,
     settings: &SteppedSettings,
-    checkpoint: &[u8],
+    checkpoint: &mut dyn Read,
 ) -> Result<Restored, SetupError> {
     let restored = Restored::read(problem, settings.energy_tolerance, checkpoint)?;
     let Place::LoadStep(InLoadStep {

@@ -1,7 +1,10 @@
 //! Limited-memory BFGS: approximates the stiffness along the last steps of an iteration (Nocedal 1980; Nocedal and Wright 2006,
 //! algorithm 7.4).
 
-use crate::serial;
+use std::io::Read;
+
+use crate::checkpoint::CheckpointError;
+use crate::serial::{Serial, Sink};
 use crate::unbalanced::Unbalanced;
 
 /// Largest number of recorded steps.
@@ -21,9 +24,6 @@ struct Pair {
 pub(super) struct Curvature {
     pairs: Vec<Pair>,
 }
-
-serial!(Pair { step, change, work });
-serial!(Curvature { pairs });
 
 impl Curvature {
     /// Correction H r for a residual force r, both of shape (n_unknowns).
@@ -61,22 +61,35 @@ impl Curvature {
         }
     }
 
-    /// Whether all recorded steps have this number of unknowns.
-    pub(super) fn fits(&self, n_unknowns: usize) -> bool {
-        let mut pairs = self.pairs.iter();
-        pairs.all(|it| [it.step.len(), it.change.len()] == [n_unknowns; 2])
+    /// Appends the recorded steps, with a function that appends values at the unknowns.
+    pub(super) fn write(&self, values: impl Fn(&[f64], &mut dyn Sink), out: &mut dyn Sink) {
+        self.pairs.len().write(out);
+        for Pair { step, change, work } in &self.pairs {
+            values(step, out);
+            values(change, out);
+            work.write(out);
+        }
     }
 
-    /// Maps the arrays of all recorded steps to another numbering of unknowns.
-    pub(super) fn mapped(&self, map: impl Fn(&[f64]) -> Vec<f64>) -> Self {
-        let pair = |it: &Pair| Pair {
-            step: map(&it.step),
-            change: map(&it.change),
-            work: it.work,
+    /// Reads recorded steps, with a function that reads values at the unknowns.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or belong to another body.
+    pub(super) fn read(
+        values: impl Fn(&mut dyn Read) -> Result<Vec<f64>, CheckpointError>,
+        from: &mut dyn Read,
+    ) -> Result<Self, CheckpointError> {
+        let count = usize::read(from)?;
+        let mut pair = || {
+            Ok(Pair {
+                step: values(from)?,
+                change: values(from)?,
+                work: Serial::read(from)?,
+            })
         };
-        Self {
-            pairs: self.pairs.iter().map(pair).collect(),
-        }
+        let pairs: Result<Vec<Pair>, CheckpointError> = (0..count).map(|_| pair()).collect();
+        Ok(Self { pairs: pairs? })
     }
 
     /// Removes all recorded steps.

@@ -1,10 +1,13 @@
 //! Earlier equilibria of softening bonds, from which the next one is extrapolated.
 
+use std::io::Read;
+
 use super::curvature::Curvature;
 use super::target::Target;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial::Serial;
+use crate::lists_of_all::{read_by_index, write_by_index};
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 use crate::unknowns::Unknowns;
 use ligament_model::prefix_sums::sums_before;
@@ -67,14 +70,17 @@ impl EarlierEquilibria {
     ///
     /// If the bytes are damaged or belong to another model.
     pub(super) fn restored(
-        from: &mut &[u8],
+        from: &mut dyn Read,
         (numbers, unknowns): (&BondNumbers, &Unknowns),
     ) -> Result<Self, CheckpointError> {
         let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
-        let curvature: Curvature = Serial::read(from)?;
-        if !curvature.fits(own.n_all) {
-            return Err(CheckpointError::OtherModel);
-        }
+        let values = |from: &mut dyn Read| match usize::read(from)? {
+            count if count == own.n_all => {
+                Ok(read_by_index(count, own.places.iter().copied(), from)?)
+            }
+            _ => Err(CheckpointError::OtherModel),
+        };
+        let curvature = Curvature::read(values, from)?;
         let count = usize::read(from)?;
         let n_components = unknowns.layout().components.len();
         let mut precedent = || {
@@ -86,7 +92,7 @@ impl EarlierEquilibria {
         let equilibria: Result<Vec<Precedent>, CheckpointError> =
             (0..count).map(|_| precedent()).collect();
         let earlier = Self {
-            curvature: curvature.mapped(|all| own.places.iter().map(|&it| all[it]).collect()),
+            curvature,
             equilibria: equilibria?,
         };
         let n = unknowns.layout().n_degrees_of_freedom();
@@ -98,19 +104,13 @@ impl EarlierEquilibria {
     }
 
     /// Appends the earlier at the unknowns and points of all processes, valid on rank 0 alone; collective.
-    pub(super) fn write_all(&self, numbers: &BondNumbers, unknowns: &Unknowns, out: &mut Vec<u8>) {
+    pub(super) fn write_all(&self, numbers: &BondNumbers, unknowns: &Unknowns, out: &mut dyn Sink) {
         let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
-        let of_all = |values: &[f64]| {
-            let rows = own.places.iter().zip(values);
-            let rows = rows.flat_map(|(&place, &value)| [place as f64, value]);
-            let rows = numbers.subdomain().gather_list(rows.collect());
-            let mut all = vec![0.0; own.n_all];
-            for [place, value] in rows.as_chunks().0 {
-                all[*place as usize] = *value;
-            }
-            all
+        let values = |values: &[f64], out: &mut dyn Sink| {
+            let numbered = own.places.iter().copied().zip(values.iter().copied());
+            write_by_index(numbers.subdomain(), own.n_all, numbered, 0.0, out);
         };
-        self.curvature.mapped(of_all).write(out);
+        self.curvature.write(values, out);
         self.equilibria.len().write(out);
         let n_components = unknowns.layout().components.len();
         for Precedent {

@@ -1,5 +1,6 @@
 //! Equations of a problem, as all iterations to equilibrium use them.
 
+use std::io::Read;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -26,7 +27,7 @@ use crate::halo::HaloExchange;
 use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::stiffness::Stiffness;
@@ -112,7 +113,7 @@ impl Equations {
     }
 
     /// Appends the data that do not follow from the problem.
-    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut dyn Sink) {
         let Self {
             accuracy,
             costs,
@@ -139,16 +140,18 @@ impl Equations {
         &mut self,
         state: &State,
         numbers: &BondNumbers,
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Balanced, CheckpointError> {
         self.accuracy.largest_extents = Serial::read(from)?;
         let costs = Serial::read(from)?;
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
-        if !is_shared && distributed::was_written(from) {
+        let first = u64::read(from)?;
+        if !is_shared && first == distributed::MARK {
             // A run on one process continues from the state alone.
             distributed::skip_checkpoint((numbers, self.layout()), from)?;
         } else {
-            self.solver.restore(from)?;
+            let first = first.to_le_bytes();
+            self.solver.restore(&mut first.chain(&mut *from))?;
         }
         if self.problem.criteria.soften() {
             self.earlier = EarlierEquilibria::restored(from, (numbers, &self.unknowns))?;

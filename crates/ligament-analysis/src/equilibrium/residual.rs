@@ -4,13 +4,15 @@
 //! times the largest deformation. Relative to the stiffest point alone, two nearly coincident points would hide the residuals of
 //! all others.
 
+use std::io::Read;
+
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
 use ligament_model::subdomain::Subdomain;
 
 use crate::restraints::Restraints;
 use crate::serial;
-use crate::serial::{Damaged, Serial};
+use crate::serial::{Damaged, Serial, Sink};
 use crate::unknowns::Layout;
 
 /// Residual, relative to the forces that may act at a point, below which a state is in equilibrium.
@@ -54,11 +56,11 @@ pub(super) struct Extents([Extent; 2]);
 serial!(Extent { force, deformation });
 
 impl Serial for Extents {
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         self.0.write(out);
     }
 
-    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
         Serial::read(from).map(Self)
     }
 }

@@ -1,5 +1,6 @@
 //! Direct solution with a symmetric factor, L L^T or L D L^T, that is updated in place or computed anew.
 
+use std::io::Read;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -16,7 +17,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::resisting::{self, Resisting};
-use crate::serial::Serial;
+use crate::serial::{Damaged, Serial, Sink};
 use crate::solver::{DirectChoice, Update};
 use crate::state::State;
 use crate::stiffness::Stiffness;
@@ -375,7 +376,7 @@ impl TangentSolver for DirectSolver {
         self.factor.as_ref().map(|factor| factor.inertia())
     }
 
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         self.n_changed.write(out);
         self.coupled_by_contact.write(out);
         let factor = self.factor.as_ref().map(|factor| factor.digest());
@@ -387,11 +388,12 @@ impl TangentSolver for DirectSolver {
         }
     }
 
-    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
-        if iterative::was_written(from) {
+    fn restore(&mut self, from: &mut dyn Read) -> Result<(), CheckpointError> {
+        let first = u64::read(from)?;
+        if first == iterative::MARK {
             return Err(CheckpointError::OtherMethod);
         }
-        self.n_changed = Serial::read(from)?;
+        self.n_changed = first.try_into().map_err(|_| Damaged)?;
         self.coupled_by_contact = Serial::read(from)?;
         let mut points = self.coupled_by_contact.iter().flatten();
         if points.any(|it| *it as usize >= self.stiffness.system().n_points()) {

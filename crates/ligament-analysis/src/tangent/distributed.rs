@@ -9,6 +9,7 @@ mod preconditioner_state;
 mod rows;
 
 use std::collections::BTreeSet;
+use std::io::Read;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -30,7 +31,7 @@ use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::distributed_matrix::{DistributedMatrix, MatrixCommunicator, Pivots, Solved, Tolerated};
 use crate::resisting::Resisting;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 use crate::unknowns::{Layout, Unknowns};
 use crate::vectors::dot_of_chunks;
@@ -39,7 +40,7 @@ use crate::vectors::dot_of_chunks;
 const RENEWAL: f64 = 40.0;
 
 /// First bytes of the checkpoint of this solver, unlike those of any other solver.
-const MARK: u64 = 0x736b_6e61_7220_669c;
+pub(crate) const MARK: u64 = 0x736b_6e61_7220_669c;
 
 /// A solver for symmetric stiffnesses that runs on several ranks.
 pub(crate) struct DistributedSolver {
@@ -413,17 +414,16 @@ impl TangentSolver for DistributedSolver {
         })
     }
 
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         MARK.write(out);
         self.matrix.is_some().write(out);
         self.kept.write(&self.numbers, out);
     }
 
-    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
-        if !was_written(from) {
+    fn restore(&mut self, from: &mut dyn Read) -> Result<(), CheckpointError> {
+        if u64::read(from)? != MARK {
             return Err(CheckpointError::OfOneProcess);
         }
-        let _ = u64::read(from)?;
         let has_matrix = bool::read(from)?;
         let n_components = self.unknowns.layout().components.len();
         self.kept = PreconditionerState::read((&self.numbers, n_components), from)?;
@@ -466,21 +466,15 @@ fn mixed(values: impl Iterator<Item = u64>) -> u64 {
     })
 }
 
-/// Whether the bytes begin with a checkpoint of this solver.
-pub(crate) fn was_written(from: &[u8]) -> bool {
-    from.starts_with(&MARK.to_le_bytes())
-}
-
-/// Skips the checkpoint of this solver, for another solver that begins with the present state.
+/// Skips the checkpoint of this solver behind its [`MARK`], for another solver that begins with the present state.
 ///
 /// # Errors
 ///
 /// If the bytes are damaged.
 pub(crate) fn skip_checkpoint(
     (numbers, layout): (&BondNumbers, Layout),
-    from: &mut &[u8],
+    from: &mut dyn Read,
 ) -> Result<(), CheckpointError> {
-    let _ = u64::read(from)?;
     let _ = bool::read(from)?;
     let _ = PreconditionerState::read((numbers, layout.components.len()), from)?;
     Ok(())

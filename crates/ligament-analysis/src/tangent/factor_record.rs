@@ -4,6 +4,7 @@
 //! its factor is computed from the recorded bonds and updated by the recorded terms. The record takes a few kilobytes, the values
 //! of the factor most of the memory of the run.
 
+use std::io::Read;
 use std::sync::Arc;
 
 use ligament_linalg::{Factorisation, RankOne, SymmetricMatrix};
@@ -13,7 +14,7 @@ use ligament_model::{Bonds, UnbrokenBonds};
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::serial;
-use crate::serial::{Damaged, Serial};
+use crate::serial::{Damaged, Serial, Sink};
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
@@ -62,7 +63,7 @@ impl FactorRecord {
     }
 
     /// Appends the record with all bonds of the body, see [`BondNumbers::write`].
-    pub(super) fn write_all(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+    pub(super) fn write_all(&self, numbers: &BondNumbers, out: &mut dyn Sink) {
         numbers.write(&self.intact, true, out);
         numbers.write(&self.remaining, StiffnessFactors::WHOLE, out);
         let n_components = self.held.len() / numbers.subdomain().n_points().max(1);
@@ -78,7 +79,7 @@ impl FactorRecord {
     /// If the bytes are damaged or belong to another body.
     pub(super) fn read_local(
         (numbers, n_components): (&BondNumbers, usize),
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Self, CheckpointError> {
         Ok(Self {
             intact: numbers.read(true, from)?,
@@ -125,12 +126,12 @@ impl FactorRecord {
 }
 
 impl Serial for RankOne {
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         self.weight.write(out);
         self.entries.write(out);
     }
 
-    fn read(from: &mut &[u8]) -> Result<Self, Damaged> {
+    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
         Ok(Self {
             weight: Serial::read(from)?,
             entries: Serial::read(from)?,

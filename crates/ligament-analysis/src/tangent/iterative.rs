@@ -18,6 +18,7 @@ mod resistance;
 mod unresisted;
 
 use std::collections::BTreeSet;
+use std::io::Read;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -37,7 +38,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::resisting::{self, Resisting};
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::solver::IterativeChoice;
 use crate::state::State;
 use crate::unknowns::Unknowns;
@@ -52,7 +53,7 @@ const MOST_IN_PLACE: usize = 100;
 const RENEWAL: f64 = 40.0;
 
 /// First bytes of the checkpoint of this solver, unlike those of any other solver.
-const MARK: u64 = 0x6576_6974_6172_6574;
+pub(super) const MARK: u64 = 0x6576_6974_6172_6574;
 
 /// An iterative solver for symmetric, definite stiffnesses of linear bonds.
 pub(crate) struct IterativeSolver {
@@ -402,7 +403,7 @@ impl TangentSolver for IterativeSolver {
         None
     }
 
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         MARK.write(out);
         self.levels.is_some().write(out);
         self.is_due.write(out);
@@ -417,11 +418,10 @@ impl TangentSolver for IterativeSolver {
         }
     }
 
-    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
-        if !was_written(from) {
+    fn restore(&mut self, from: &mut dyn Read) -> Result<(), CheckpointError> {
+        if u64::read(from)? != MARK {
             return Err(CheckpointError::OtherMethod);
         }
-        let _ = u64::read(from)?;
         let has_levels = bool::read(from)?;
         self.is_due = Serial::read(from)?;
         self.pace = Serial::read(from)?;
@@ -459,11 +459,6 @@ impl TangentSolver for IterativeSolver {
         self.levels = Some(levels);
         Ok(())
     }
-}
-
-/// Whether the bytes begin with a checkpoint of this solver.
-pub(super) fn was_written(from: &[u8]) -> bool {
-    from.starts_with(&MARK.to_le_bytes())
 }
 
 /// Renumbers terms from unknowns to degrees of freedom.

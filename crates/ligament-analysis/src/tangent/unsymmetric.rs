@@ -1,5 +1,6 @@
 //! Direct solution with an unsymmetric factor, L U, for forces without an energy.
 
+use std::io::Read;
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -11,7 +12,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::resisting::Resisting;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use ligament_model::thermal::ThermalStrain;
@@ -127,11 +128,11 @@ impl TangentSolver for UnsymmetricSolver {
         None
     }
 
-    fn write(&self, out: &mut Vec<u8>) {
+    fn write(&self, out: &mut dyn Sink) {
         (self.factor.is_some().then(|| self.making.clone())).write(out);
     }
 
-    fn restore(&mut self, from: &mut &[u8]) -> Result<(), CheckpointError> {
+    fn restore(&mut self, from: &mut dyn Read) -> Result<(), CheckpointError> {
         let Some(making) = Option::<FactorRecord>::read(from)? else {
             return Ok(());
         };

@@ -1,6 +1,7 @@
 //! Names and links that would lead out of a folder of results, and files that are none of what they are given for.
 
 use super::*;
+use std::io::Read;
 use std::os::unix::fs::symlink;
 
 use ligament_analysis::serial::Serial;
@@ -152,12 +153,22 @@ fn links_in_studies_lead_nowhere() {
     }
 }
 
+/// The newest checkpoint of a folder with its solution.
+fn newest(folder: &Path) -> (Checkpoint, Vec<u8>) {
+    let (checkpoint, stored) = Checkpoint::list(folder).remove(0).unwrap();
+    let mut solution = Vec::new();
+    (stored.open(folder).unwrap())
+        .read_to_end(&mut solution)
+        .unwrap();
+    (checkpoint, solution)
+}
+
 /// A checkpoint and a collection that name files elsewhere: the first is refused, the second is not asked.
 #[test]
 fn names_in_results_lead_nowhere() {
     let place = stopped();
     let out = place.path("out");
-    let mut checkpoint = Checkpoint::list(&out).remove(0).unwrap();
+    let (mut checkpoint, solution) = newest(&out);
     let name = b"fields_0000.vtu";
     for other in [
         b"../../evil0.vtu",
@@ -170,7 +181,7 @@ fn names_in_results_lead_nowhere() {
         assert!(OutputState::read(&mut bytes.as_slice()).is_ok());
         let _ = fs::remove_file(out.join("checkpoint.older.bin"));
         let _ = fs::remove_file(out.join("checkpoint.bin"));
-        checkpoint.write(&out).unwrap();
+        (checkpoint.write(&out, |it| it.put(&solution))).unwrap();
         let output = place.ligament(["resume", "out", "--set", "fracture.stop.bonds=2"]);
         assert_refused(&output, &["is no name of a file of a run"]);
         let bytes = &mut checkpoint.results;
@@ -307,14 +318,18 @@ fn escape_sequences_in_results_are_not_sent() {
     shown(&place, &resume);
     // A checkpoint with notices and inputs of somebody else.
     let place = stopped();
-    let mut checkpoint = Checkpoint::list(&place.path("out")).remove(0).unwrap();
+    let (mut checkpoint, solution) = newest(&place.path("out"));
     checkpoint.notices = vec![format!("step 1: {escape}")];
-    checkpoint.write(&place.path("out")).unwrap();
+    let write = |checkpoint: &Checkpoint, place: &Place| {
+        let written = checkpoint.write(&place.path("out"), |it| it.put(&solution));
+        written.unwrap();
+    };
+    write(&checkpoint, &place);
     shown(&place, &resume);
     let place = stopped();
     checkpoint.version = escape.to_owned();
     for _ in 0..2 {
-        checkpoint.write(&place.path("out")).unwrap();
+        write(&checkpoint, &place);
     }
     shown(&place, &resume);
     // Reasons of the end, names of criteria.

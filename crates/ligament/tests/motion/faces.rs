@@ -69,7 +69,8 @@ fn halves_of_a_bar_collide_and_rub() {
                     false => assert!(taken.abs() < 0.01),
                 }
                 let checkpoint = &states.checkpoints[5];
-                let restored = motion::restore(&problem, &settings, checkpoint).unwrap();
+                let restored =
+                    motion::restore(&problem, &settings, &mut checkpoint.as_slice()).unwrap();
                 let again = motion::resume(&settings, restored, &mut NoObserver).unwrap();
                 assert_eq!(again.history, outcome.history);
             }

@@ -158,7 +158,7 @@ impl Observer for States {
     }
 
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
-        self.checkpoints.push((moment.checkpoint)());
+        self.checkpoints.push(moment.bytes());
         Ok(Onward::Go)
     }
 }
@@ -270,7 +270,8 @@ fn a_breaking_bar_balances_and_repeats_its_bits() {
             let two = on_threads(Some(2), || followed(&problem, &settings)).unwrap();
             assert_eq!(two.0.history, outcome.history);
             for checkpoint in [0, 3, 7].map(|row| &states.checkpoints[row]) {
-                let restored = motion::restore(&problem, &settings, checkpoint).unwrap();
+                let restored =
+                    motion::restore(&problem, &settings, &mut checkpoint.as_slice()).unwrap();
                 let again = motion::resume(&settings, restored, &mut NoObserver).unwrap();
                 assert_eq!(again.history, outcome.history);
                 assert_eq!(again.state, outcome.state);

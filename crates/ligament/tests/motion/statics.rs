@@ -183,7 +183,7 @@ fn a_motion_with_equilibria_goes_on_with_its_bits() {
     let two = on_threads(Some(2), || followed(&problem, &settings)).unwrap();
     assert_eq!(two.0.history, outcome.history);
     for checkpoint in [1, 8, 12, 39].map(|row| &states.checkpoints[row]) {
-        let restored = motion::restore(&problem, &settings, checkpoint).unwrap();
+        let restored = motion::restore(&problem, &settings, &mut checkpoint.as_slice()).unwrap();
         let again = motion::resume(&settings, restored, &mut NoObserver).unwrap();
         assert_eq!(again.history, outcome.history);
         assert_eq!(again.state, outcome.state);

@@ -118,7 +118,7 @@ impl Observer for Recorder {
 
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         if self.keeps_all {
-            self.moments.push((self.lines.len(), (moment.checkpoint)()));
+            self.moments.push((self.lines.len(), moment.bytes()));
         }
         Ok(Onward::Go)
     }
@@ -149,7 +149,7 @@ fn goes_on_from_every_moment(setup: Setup, analysis: &Analysis) -> usize {
     let mut whole = recorder();
     let outcome = follow(&problem, analysis, &mut whole).unwrap();
     for (from, checkpoint) in &whole.moments {
-        let restored = restore(&problem, analysis, checkpoint).unwrap();
+        let restored = restore(&problem, analysis, &mut checkpoint.as_slice()).unwrap();
         let mut rest = recorder();
         let again = resume(analysis, restored, &mut rest).unwrap();
         assert!(rest.lines == whole.lines[*from..], "moment {from}");

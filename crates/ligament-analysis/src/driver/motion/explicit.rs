@@ -27,6 +27,7 @@ use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::motion::contact::ContactForces;
 use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
+use crate::serial::Sink;
 use crate::solver::{ExplicitChoice, SolverChoice};
 use crate::vectors::{CHUNK, sum_of_chunks};
 
@@ -278,10 +279,11 @@ impl<'a> Explicit<'a> {
         };
         let stop = (&self.settings.stop, self.started);
         let end = now.record(progress, stop, *observer)?;
-        let checkpoint = || {
-            progress.bytes(energies, EXPLICIT, &|out| {
+        let checkpoint = |out: &mut dyn Sink| {
+            let state = |out: &mut dyn Sink| {
                 ExplicitKept::write(body, velocities, contacts.as_ref(), out);
-            })
+            };
+            progress.write_all(energies, EXPLICIT, &state, out);
         };
         Ok(record::offer(*observer, end, &checkpoint)?)
     }

@@ -1,5 +1,7 @@
 //! Checkpoint of an explicit motion.
 
+use std::io::Read;
+
 use super::body::Body;
 use super::face_friction::FaceFriction;
 use super::inertia::Velocities;
@@ -10,7 +12,7 @@ use crate::error::SetupError;
 use crate::friction::Anchored;
 use crate::motion::MotionProblem;
 use crate::motion::contact::{ContactForces, ContactState};
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 
 /// Motion in explicit steps as a checkpoint has it.
@@ -26,7 +28,7 @@ impl ExplicitKept {
         body: &Body,
         velocities: &Velocities,
         contacts: Option<&ContactForces>,
-        out: &mut Vec<u8>,
+        out: &mut dyn Sink,
     ) {
         body.state.write(&body.numbers, out);
         velocities.write(out);
@@ -39,7 +41,10 @@ impl ExplicitKept {
     }
 
     /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
-    pub(super) fn read(problem: &mut MotionProblem, from: &mut &[u8]) -> Result<Self, SetupError> {
+    pub(super) fn read(
+        problem: &mut MotionProblem,
+        from: &mut dyn Read,
+    ) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
         let n_components = problem.problem.system.layout().components.len();

@@ -24,6 +24,7 @@ use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Notice, Observer, Termination};
 use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
+use crate::serial::Sink;
 use crate::softening::Softening;
 use crate::state::State;
 
@@ -464,10 +465,11 @@ impl Implicit<'_> {
         let stop = (&self.settings.stop, self.started);
         let end = now.record(progress, stop, *observer)?;
         let pace = self.pace;
-        let checkpoint = || {
-            progress.bytes(energies, IMPLICIT, &|out| {
+        let checkpoint = |out: &mut dyn Sink| {
+            let state = |out: &mut dyn Sink| {
                 ImplicitKept::write(&problem.problem, here, (stepping, pace), out);
-            })
+            };
+            progress.write_all(energies, IMPLICIT, &state, out);
         };
         Ok(record::offer(*observer, end, &checkpoint)?)
     }

@@ -1,5 +1,7 @@
 //! Checkpoint of an implicit motion.
 
+use std::io::Read;
+
 use super::clock::Clock;
 use super::here::{Here, Motion, free_masses};
 use super::stepping::{Pace, Stepping, of_step, scheme};
@@ -11,7 +13,7 @@ use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
 use crate::problem::Problem;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 
 /// Motion in implicit steps as a checkpoint has it.
@@ -27,7 +29,7 @@ impl ImplicitKept {
         problem: &Problem,
         here: &Here,
         (stepping, pace): (&Stepping, Pace),
-        out: &mut Vec<u8>,
+        out: &mut dyn Sink,
     ) {
         here.state.write(stepping.equilibrium.numbers(), out);
         here.motion.write(out);
@@ -42,7 +44,7 @@ impl ImplicitKept {
         problem: &mut MotionProblem,
         settings: &MotionSettings,
         (implicit, clock): (ImplicitSettings, &Clock),
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;

@@ -19,6 +19,8 @@ mod rigid_step;
 mod stepping;
 mod taken;
 
+use std::io::Read;
+
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::Observer;
@@ -73,7 +75,7 @@ pub fn time_step(
 pub fn restore(
     problem: &MotionProblem,
     settings: &MotionSettings,
-    checkpoint: &[u8],
+    checkpoint: &mut dyn Read,
 ) -> Result<Restored, SetupError> {
     Restored::read(problem, settings, checkpoint)
 }

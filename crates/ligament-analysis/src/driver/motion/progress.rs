@@ -5,7 +5,7 @@ use crate::driver::recorder::Energies;
 use crate::history::{InMotion, LargestOverlap, StepRecord};
 use crate::motion::MotionProblem;
 use crate::serial;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 
 /// First byte of the checkpoint of an explicit motion; those of statics begin with 0 or 1.
 pub(super) const EXPLICIT: u8 = 2;
@@ -53,19 +53,18 @@ impl Progress {
         }
     }
 
-    /// Bytes of a motion under a scheme, from which it continues with the same bits; `write` appends its state.
-    pub(super) fn bytes(
+    /// Appends the bytes of a motion under a scheme, from which it continues with the same bits; `write` appends its state.
+    pub(super) fn write_all(
         &self,
         energies: &Energies,
         scheme: u8,
-        write: &dyn Fn(&mut Vec<u8>),
-    ) -> Vec<u8> {
-        let mut out = Vec::new();
-        scheme.write(&mut out);
-        self.write(&mut out);
-        write(&mut out);
-        energies.write(&mut out);
-        out
+        write: &dyn Fn(&mut dyn Sink),
+        out: &mut dyn Sink,
+    ) {
+        scheme.write(out);
+        self.write(out);
+        write(out);
+        energies.write(out);
     }
 }
 

@@ -18,6 +18,7 @@ use crate::motion::MotionStop;
 use crate::motion::contact::{ContactForces, RigidMotion};
 use crate::problem::Problem;
 use crate::result_fields::Solution;
+use crate::serial::Sink;
 use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
 use crate::state::State;
@@ -163,7 +164,7 @@ impl Now<'_> {
 pub(super) fn offer(
     observer: &mut dyn Observer,
     end: Option<Termination>,
-    checkpoint: &dyn Fn() -> Vec<u8>,
+    checkpoint: &dyn Fn(&mut dyn Sink),
 ) -> Result<Option<Termination>, ObserverError> {
     observer.asks(end.as_ref())?;
     let moment = Moment {

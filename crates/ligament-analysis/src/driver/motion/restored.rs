@@ -1,5 +1,7 @@
 //! A motion restored from a checkpoint.
 
+use std::io::Read;
+
 use super::explicit_kept::ExplicitKept;
 use super::implicit_kept::ImplicitKept;
 use super::progress::{EXPLICIT, IMPLICIT, Progress};
@@ -7,7 +9,7 @@ use crate::checkpoint::CheckpointError;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::motion::{MotionProblem, MotionSettings, Scheme};
-use crate::serial::{Damaged, Serial};
+use crate::serial::{Serial, require_end};
 
 /// Motion restored from a checkpoint, at a row of its history.
 pub struct Restored {
@@ -44,9 +46,8 @@ impl Restored {
     pub(super) fn read(
         problem: &MotionProblem,
         settings: &MotionSettings,
-        mut checkpoint: &[u8],
+        from: &mut dyn Read,
     ) -> Result<Self, SetupError> {
-        let from = &mut checkpoint;
         let damaged = CheckpointError::Damaged;
         let scheme = u8::read(from).map_err(damaged)?;
         if !matches!(scheme, EXPLICIT | IMPLICIT) {
@@ -70,9 +71,7 @@ impl Restored {
             Kept::Implicit(it) => (&it.here.state, &it.here.balanced),
         };
         let energies = Energies::read(&problem.problem, state, balanced, from)?;
-        if !from.is_empty() {
-            return Err(damaged(Damaged).into());
-        }
+        require_end(from).map_err(damaged)?;
         Ok(Self {
             problem,
             energies,

@@ -1,10 +1,11 @@
 //! State of a distributed matrix and its preconditioner, apart from their values.
 
 use std::collections::BTreeSet;
+use std::io::Read;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial::Serial;
+use crate::serial::{Serial, Sink};
 use crate::tangent::factor_record::FactorRecord;
 
 /// Origin and performance of a preconditioner, equal on all ranks.
@@ -43,7 +44,7 @@ impl PreconditionerState {
     /// If the bytes are damaged or belong to another body.
     pub(super) fn read(
         (numbers, n_components): (&BondNumbers, usize),
-        from: &mut &[u8],
+        from: &mut dyn Read,
     ) -> Result<Self, CheckpointError> {
         let mut making = || FactorRecord::read_local((numbers, n_components), from);
         let (preconditioner_of, matrix_of) = (making()?, making()?);
@@ -62,7 +63,7 @@ impl PreconditionerState {
     }
 
     /// Appends the state with all bonds of the body, see [`BondNumbers::write`].
-    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut Vec<u8>) {
+    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut dyn Sink) {
         self.preconditioner_of.write_all(numbers, out);
         self.matrix_of.write_all(numbers, out);
         let subdomain = numbers.subdomain();
