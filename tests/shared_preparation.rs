@@ -2,6 +2,8 @@
 //! and limits, and what is counted of them. The ranks are threads.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use std::sync::Arc;
+
 use ligament::Model;
 use ligament::SetupError;
 use ligament::body::SolidMeshBody;
@@ -9,9 +11,9 @@ use ligament::prelude::*;
 use ligament::system::AnySystem;
 use ligament_case::case::CaseFile;
 use ligament_mesh::{SolidCell, SolidMesh};
-use ligament_model::ConstantFields;
 use ligament_model::correction::CorrectionReport;
 use ligament_model::subdomain::Subdomain;
+use ligament_model::{ConstantFields, Tags};
 use ligament_run::memory::foresee_model;
 use verification::bench::case;
 use verification::problems::{BAR, TWO};
@@ -288,6 +290,32 @@ fn faults_are_those_of_the_whole_body() {
     });
     println!("{alone:?}");
     assert!(told.iter().all(|it| *it == alone));
+}
+
+/// Each rank describes all points as one process does; a mesh lists their tags once for messages and tables.
+#[test]
+fn all_points_have_their_names_on_each_rank() {
+    for case in [named("split-block", &[]), named("lattice-sphere", &[])] {
+        let setup = case.setup(&mut ()).unwrap();
+        let places = |model: &Model| {
+            let points = 0..model.names.n_points() as u32;
+            points.map(|it| model.names.place(it)).collect()
+        };
+        let alone: Vec<String> = places(&Model::build(setup.clone(), &mut ()).unwrap());
+        let of_ranks = on_ranks(2, |together| {
+            let mut setup = setup.clone();
+            setup.solver.communicator = together;
+            let model = Model::build(setup, &mut ()).unwrap();
+            assert!(!model.system.subdomain().is_whole());
+            let once = match [model.names.point_tags(), model.names.point_tags()].map(|it| it.tags)
+            {
+                [Tags::Listed(one), Tags::Listed(other)] => Arc::ptr_eq(&one, &other),
+                _ => true,
+            };
+            (places(&model), once)
+        });
+        assert!(of_ranks.iter().all(|it| *it == (alone.clone(), true)));
+    }
 }
 
 /// What one process has of a body is what must fit into its memory: half of 22 MB of bonds.

@@ -48,7 +48,7 @@ impl Order {
         let tags: Vec<u64> = (0..model.plane().cloud.len() as u32)
             .map(|point| model.body().tag(point))
             .collect();
-        let in_file = mesh.map_or_else(|| tags.clone(), |it| meshes::read(it).node_tags);
+        let in_file = mesh.map_or_else(|| tags.clone(), |it| meshes::read(it).node_tags.to_vec());
         let place = |tags: &[u64], tag: &u64| tags.iter().position(|it| it == tag).unwrap() as u32;
         let nodes: Vec<u32> = tags.iter().map(|tag| place(&in_file, tag)).collect();
         let ordered = |pairs: Vec<[u32; 2]>| {

@@ -294,7 +294,7 @@ impl<'a> Recorder<'a> {
     fn write_bonds(&mut self, file: &str, view: &View<'_>) {
         let (system, deformations) = (&**self.model.plane(), &view.balanced.deformations);
         let positions = self.model.setup.body.geometry().positions();
-        self.expected.lines(file, positions, system.bonds.len());
+        self.expected.lines(file, &positions, system.bonds.len());
         let point = Place {
             file,
             part: "point",

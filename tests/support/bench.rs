@@ -1,7 +1,7 @@
 //! A bench: a case, its model, its supports and loads, and what happens when it is run.
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use ligament::Loading;
 use ligament::loading::contact_problem;
@@ -33,6 +33,7 @@ pub struct Bench {
     /// Its supports and loads.
     pub boundary: ProportionalLoading,
     probes: Arc<[Probe]>,
+    positions: OnceLock<Vec<[f64; 2]>>,
     _folder: Option<TempDir>,
 }
 
@@ -132,6 +133,7 @@ impl Bench {
             model,
             boundary: Arc::unwrap_or_clone(boundary),
             probes,
+            positions: OnceLock::new(),
             _folder: folder,
         }
     }
@@ -212,7 +214,8 @@ impl Bench {
 
     /// Positions of the nodes of the mesh, or of the centres of the cells, in the order of the points.
     pub fn positions(&self) -> &[[f64; 2]] {
-        self.model.setup.body.geometry().positions()
+        let body = self.model.setup.body.geometry();
+        self.positions.get_or_init(|| body.positions().into_owned())
     }
 
     /// Points of a group.

@@ -103,7 +103,7 @@ impl Impact {
             let points = 0..layout.n_points as u32;
             let of_point = |it: u32| places.clone().map(move |place| (it, place));
             let all = points.flat_map(of_point);
-            all.map(|(point, place)| value(model.body().position(point), place))
+            all.map(|(point, place)| value(&model.body().position(point), place))
                 .collect()
         };
         let (motions, velocity) = (over(&motion), over(&velocity));
@@ -253,7 +253,7 @@ impl Impact {
 
     fn sum(&self, axis: usize, of: impl Fn(&[f64]) -> bool, values: &[f64]) -> f64 {
         let points = 0..self.layout().n_points as u32;
-        let own = points.filter(|&it| of(self.model.body().position(it)));
+        let own = points.filter(|&it| of(&self.model.body().position(it)));
         let dofs = own.map(|it| self.layout().range(it).start + axis);
         dofs.map(|dof| self.mass[dof] * values[dof]).sum()
     }

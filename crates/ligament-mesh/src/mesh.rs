@@ -1,6 +1,7 @@
 //! Meshes: nodes, cells and named groups.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::cell::{Cell, MeshCell};
 use crate::field::NodeField;
@@ -14,7 +15,7 @@ use crate::solid::SolidCell;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh<const D: usize = 2, C = Cell> {
     /// Tag of each node in the mesh file, shape (n_nodes).
-    pub node_tags: Vec<u64>,
+    pub node_tags: Arc<[u64]>,
     /// Position of each node, shape (n_nodes), m.
     pub positions: Vec<[f64; D]>,
     /// Cells, shape (n_cells): corners counter-clockwise, in space of positive volume.
@@ -33,7 +34,7 @@ pub type SolidMesh = Mesh<3, SolidCell>;
 impl<const D: usize, C> Default for Mesh<D, C> {
     fn default() -> Self {
         Self {
-            node_tags: Vec::new(),
+            node_tags: Arc::default(),
             positions: Vec::new(),
             cells: Vec::new(),
             groups: Vec::new(),

@@ -191,7 +191,7 @@ impl<const D: usize, C: MeshCell<D>> Mesh<D, C> {
         let mut cells = self.cells;
         numbering.renumber_cells(&mut cells);
         let mesh = Self {
-            node_tags: numbering.from_file(self.node_tags),
+            node_tags: numbering.from_file(self.node_tags.to_vec()).into(),
             positions: numbering.from_file(self.positions),
             cells,
             groups: numbering.groups(self.groups),
@@ -209,7 +209,7 @@ mod tests {
     /// Four nodes of two triangles, of which the curve meets the first, third, fourth and second: (0, 0), (0, 1), (1, 1), (1, 0).
     fn square() -> Mesh {
         Mesh {
-            node_tags: vec![10, 20, 30, 40],
+            node_tags: [10, 20, 30, 40].into(),
             positions: vec![[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]],
             cells: vec![Cell::Triangle([0, 1, 2]), Cell::Triangle([1, 3, 2])],
             groups: vec![Group {
@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn a_mesh_goes_along_the_curve_with_all_that_it_has() {
         let (mesh, numbering) = square().along_curve();
-        assert_eq!(mesh.node_tags, [10, 30, 40, 20]);
+        assert_eq!(*mesh.node_tags, [10, 30, 40, 20]);
         assert_eq!(
             mesh.positions,
             [[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]

@@ -243,7 +243,7 @@ proptest! {
             let bytes = model.write(version, encoding);
             let mesh = gmsh::parse(&bytes).map_err(|error| TestCaseError::fail(error.to_string()))?;
             let (tags, positions): (Vec<_>, Vec<_>) = model.nodes.iter().copied().unzip();
-            prop_assert_eq!(&mesh.node_tags, &tags, "{:?} {:?}", version, encoding);
+            prop_assert_eq!(&*mesh.node_tags, &tags, "{:?} {:?}", version, encoding);
             prop_assert_eq!(&mesh.positions, &positions);
             let cells: Vec<_> = model.cells.iter().map(|(corners, ..)| expected_cell(corners)).collect();
             prop_assert_eq!(&mesh.cells, &cells);

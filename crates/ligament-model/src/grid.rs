@@ -1,5 +1,7 @@
 //! Geometry of a body for the output of its fields.
 
+use std::sync::Arc;
+
 use ligament_mesh::{Cell, Numbering, SolidCell};
 
 /// A body with its points, their tags and the cells or boxes of its fields.
@@ -26,8 +28,28 @@ pub struct BodyGrid {
 pub struct PointTags {
     /// Numbering of the points, internal and in the file.
     pub numbering: Numbering,
-    /// Tags, shape (n_points).
-    pub tags: Vec<i64>,
+    /// Tags of the points.
+    pub tags: Tags,
+}
+
+/// Tags of points.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Tags {
+    /// A tag for each point, shape (n_points).
+    Listed(Arc<[u64]>),
+    /// The number in the file, counted from this first tag.
+    Counted(u64),
+}
+
+impl PointTags {
+    /// Tags of the ends of a bond, that of the smaller number in the file first.
+    fn of_ends(&self, ends: [u32; 2]) -> [i64; 2] {
+        let tag = |point: u32| match &self.tags {
+            Tags::Listed(tags) => tags[point as usize],
+            Tags::Counted(first) => first + u64::from(self.numbering.in_file(point)),
+        };
+        self.numbering.ordered(ends).map(|end| tag(end) as i64)
+    }
 }
 
 /// Cells or boxes for the fields of the points.
@@ -68,10 +90,13 @@ impl BodyGrid {
 
     /// Tags of the ends of a bond, given by their numbers in the body, that of the smaller number in the file first.
     pub fn tags_of(&self, ends: [u32; 2]) -> [i64; 2] {
-        let of_body = self.of_body.as_ref();
-        let numbering = of_body.map_or(&self.numbering, |it| &it.numbering);
-        let tags = of_body.map_or(&self.tags, |it| &it.tags);
-        numbering.ordered(ends).map(|end| tags[end as usize])
+        match &self.of_body {
+            Some(tags) => tags.of_ends(ends),
+            None => {
+                let ends = self.numbering.ordered(ends);
+                ends.map(|end| self.tags[end as usize])
+            }
+        }
     }
 
     /// Positions of the points along x and y, shape (n_points), m.

@@ -66,7 +66,7 @@ pub use correction::Correction;
 pub use deformation::{Deformations, SpaceDeformation};
 pub use element::ElementKind;
 pub use fixed::{Absence, AbsentBond, ConstantFields, EnergyRatio};
-pub use grid::{BodyGrid, Canvas, PointTags, box_corners, raised};
+pub use grid::{BodyGrid, Canvas, PointTags, Tags, box_corners, raised};
 pub use horizon::Horizons;
 pub use interface::{BondContact, BondKinetics, BondReadings, BondTopology, Bonds};
 pub use law::BondStiffness;

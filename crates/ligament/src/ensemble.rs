@@ -243,7 +243,7 @@ fn criteria<const D: usize>(
 ) -> Result<Criteria, SetupError> {
     let body = model.setup.body.geometry::<D>();
     let fixed = ConstantFields {
-        scatter: scatter::factors(scatter, body.positions(), &body.numbering()),
+        scatter: scatter::factors(scatter, &body.positions(), &body.numbering()),
         ..model.fixed.clone()
     };
     formulation::criteria(&model.setup, system, &fixed)

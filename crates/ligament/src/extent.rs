@@ -13,10 +13,11 @@ pub(crate) struct Extent {
 
 impl Extent {
     /// The box around some positions, m, which reaches beyond them.
-    pub(crate) fn around<'a>(positions: impl Iterator<Item = &'a [f64]>, beyond: f64) -> Self {
+    pub(crate) fn around(positions: impl Iterator<Item = impl AsRef<[f64]>>, beyond: f64) -> Self {
         let start = [f64::INFINITY, f64::NEG_INFINITY];
         let mut bounds: Vec<[f64; 2]> = Vec::new();
         for position in positions {
+            let position = position.as_ref();
             bounds.resize(position.len(), start);
             for ([lower, upper], value) in bounds.iter_mut().zip(position) {
                 (*lower, *upper) = (lower.min(value - beyond), upper.max(value + beyond));

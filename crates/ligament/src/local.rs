@@ -56,14 +56,14 @@ impl<const D: usize> Discrete<D> {
     }
 }
 
-/// All points of the body with their owners, and the outline of a mesh, which bonds must not cross; `material_of_cell` (n_cells) has the index
+/// All points of the body with their owners, not yet [completed](Geometry::completed), and the outline of a mesh, which bonds must not cross; `material_of_cell` (n_cells) has the index
 /// of each cell's material.
 pub(crate) fn points<'a, const D: usize>(
     setup: &Setup,
     body: &'a dyn Geometry<D>,
     material_of_cell: &[u32],
 ) -> Result<(PointCloud<D>, Bounds<'a, D>), SetupError> {
-    let cloud = body.cloud(setup.thickness(), material_of_cell, setup.materials.len());
+    let cloud = body.undivided(setup.thickness(), material_of_cell, setup.materials.len());
     require_distinct(body, &cloud)?;
     let outline = body.outline(&cloud);
     if let Some(outline) = &outline {
@@ -123,13 +123,12 @@ impl<const D: usize> LocalBody<D> {
         let points = (0..cloud.len() as u32).filter(|&it| is_here[it as usize]);
         let points: Vec<u32> = points.collect();
         let Restricted { body, cells } = body.restricted(&points);
+        let materials = cells.iter().map(|&cell| material_of_cell[cell as usize]);
+        let material_of_cell: Vec<u32> = materials.collect();
         Ok(Self {
+            cloud: body.completed(cloud.part(&points), &material_of_cell),
             body: AnyBody::shared(body),
-            cloud: cloud.part(&points),
-            material_of_cell: cells
-                .iter()
-                .map(|&cell| material_of_cell[cell as usize])
-                .collect(),
+            material_of_cell,
             points,
         })
     }

@@ -85,6 +85,10 @@ impl Model {
             material_of_cell,
         };
         if discrete.cloud.subdomain.is_whole() {
+            let discrete = Discrete {
+                cloud: whole.completed(discrete.cloud, &discrete.material_of_cell),
+                ..discrete
+            };
             return Self::of_points(discrete, outline, watcher);
         }
         drop(outline);
@@ -133,7 +137,7 @@ impl Model {
             Some(near) => Bonded::of_near_field(near, &*body, &material_of_cell, watcher)?,
         };
         fixed.no_fail = no_fail;
-        fixed.scatter = scatter::factors(&setup.scatter, body.positions(), &body.numbering());
+        fixed.scatter = scatter::factors(&setup.scatter, &body.positions(), &body.numbering());
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
         let report = correction.report.as_ref();
@@ -176,7 +180,7 @@ impl Model {
             let cloud = &system.cloud;
             let relative = |number: u32| match cloud.subdomain.point(number) {
                 Some(point) => cloud.positions[point as usize],
-                None => cloud.local(in_dimensions(self.names.position(number))),
+                None => cloud.local(in_dimensions(&self.names.position(number))),
             };
             let [a, b] = ends.map(relative);
             let along = a.iter().zip(b).zip(cloud.origin);
@@ -201,7 +205,7 @@ impl Model {
     /// Distance of a point from a position, m; zero within rounding errors.
     pub fn distance_to(&self, point: u32, position: Position) -> f64 {
         let slack = over_dimension!(&self.system, system => system.cloud.slack(point));
-        let place = self.body().position(point).iter();
+        let place = self.body().position(point).into_iter();
         let squares = place.zip(position).map(|(p, q)| (p - q).powi(2));
         let distance = squares.sum::<f64>().sqrt();
         if distance <= slack { 0.0 } else { distance }

@@ -40,7 +40,7 @@ pub(crate) fn cracks<const D: usize>(
             }
             CrackShape::Group(group) => {
                 let triangles = triangles_of_group(field, body, group)?;
-                SolidPreCrack::triangles(&ligament_model::raised(body.positions()), &triangles)
+                SolidPreCrack::triangles(&ligament_model::raised(&body.positions()), &triangles)
             }
         };
         let surface = surface.map_err(|unfit| {

@@ -35,9 +35,12 @@ pub(crate) fn require_distinct<const D: usize>(
     body: &dyn Body,
     cloud: &PointCloud<D>,
 ) -> Result<(), SetupError> {
-    let size = |point: usize| match D {
-        2 => (cloud.volumes[point] / cloud.thickness).sqrt(),
-        _ => cloud.volumes[point].cbrt(),
+    let size = |point: usize| {
+        let size = match cloud.lattice_cell {
+            Some(sides) => sides.iter().product(),
+            None => cloud.volumes[point] / cloud.thickness,
+        };
+        if D == 2 { size.sqrt() } else { size.cbrt() }
     };
     let is_near = |&point: &usize| cloud.spacing[point] < DISTINCT * size(point);
     let mut in_file = (0..cloud.len() as u32).map(|it| cloud.numbering.point(it) as usize);

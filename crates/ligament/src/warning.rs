@@ -411,7 +411,7 @@ fn not_met(
         left,
         largest: value,
         worst: body.label(point),
-        position: body.position(point).to_vec(),
+        position: body.position(point),
         factor,
     }
 }
@@ -430,7 +430,7 @@ fn not_converged(
         n_points: subdomain.n_all(),
         error: value,
         worst: body.label(point),
-        position: body.position(point).to_vec(),
+        position: body.position(point),
     }
 }
 

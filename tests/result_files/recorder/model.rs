@@ -12,7 +12,7 @@ impl Recorder<'_> {
         let absent = &fixed.absent;
         let n_lines = system.bonds.len() + absent.len();
         let expected = &mut self.expected;
-        expected.lines(file, self.model.setup.body.geometry().positions(), n_lines);
+        expected.lines(file, &self.model.setup.body.geometry().positions(), n_lines);
         fn point(name: &str) -> Place<'_> {
             let (file, part) = ("model.vtu", "point");
             Place { file, part, name }

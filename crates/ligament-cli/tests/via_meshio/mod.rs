@@ -250,7 +250,7 @@ fn groups_of_other_programs_are_kept() {
         assert_eq!(mesh.positions, original.positions, "{file}");
         assert_eq!(sorted_cells(&mesh), sorted_cells(&original), "{file}");
         let numbers: Vec<u64> = (0..mesh.positions.len() as u64).map(tags).collect();
-        assert_eq!(mesh.node_tags, numbers, "{file}");
+        assert_eq!(*mesh.node_tags, numbers, "{file}");
         for &(name, dimension, group) in groups {
             let found = content(&mesh, name, dimension);
             assert!(

@@ -61,7 +61,7 @@ fn tags_far_apart_are_read_and_refused_alike() {
     let far = |text: &str| text.replace("4 0 1 0", "2000000000 0 1 0");
     let apart = far(SQUARE).replace("3 2 2 2 1 1 3 4", "3 2 2 2 1 1 3 2000000000");
     let mesh = parse(apart.as_bytes()).expect("a square");
-    assert_eq!(mesh.node_tags, [1, 2, 3, 2_000_000_000]);
+    assert_eq!(*mesh.node_tags, [1, 2, 3, 2_000_000_000]);
     let usual = parse(SQUARE.as_bytes()).expect("a square");
     assert_eq!((mesh.positions, mesh.cells), (usual.positions, usual.cells));
     assert_eq!(

@@ -102,6 +102,12 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         })
     }
 
+    /// Centre of the cell of a point, m.
+    pub fn position(&self, point: u32) -> [f64; D] {
+        let (middle, offset) = (self.middle(), self.offset(self.cells[point as usize]));
+        std::array::from_fn(|axis| middle[axis] + offset[axis])
+    }
+
     /// Centre of a cell relative to the middle of the box, m: a whole number of half cells, so that opposite cells have opposite positions
     /// to the last bit and distances are rounded only once.
     pub fn offset(&self, cell: [u32; D]) -> [f64; D] {
@@ -280,32 +286,55 @@ fn beside<const D: usize>(cell: [u32; D], normal: [i8; D]) -> [i64; D] {
 impl<const D: usize> PointCloud<D> {
     /// A point at the centre of each cell of a lattice, with the volume of the cell times the thickness (1 in space).
     ///
-    /// The nearest distance is the shortest side for every point, also where a hole removed its neighbours: horizons based on it are
-    /// unified. `material_of_cell` (n_points) has the index of each cell's material.
+    /// `material_of_cell` (n_points) has the index of each cell's material.
     pub fn from_lattice<S: Region<D>>(
         lattice: &Lattice<D, S>,
         thickness: f64,
         material_of_cell: &[u32],
         n_materials: usize,
     ) -> Self {
+        Self::centres(lattice, thickness, n_materials).with_cells(material_of_cell)
+    }
+
+    /// A point at the centre of each cell of a lattice, not yet with volumes, materials and their order along a curve, which
+    /// [`PointCloud::with_cells`] adds to all points or to those of a part.
+    ///
+    /// The nearest distance is the shortest side for every point, also where a hole removed its neighbours: horizons based on it are
+    /// unified.
+    pub fn centres<S: Region<D>>(
+        lattice: &Lattice<D, S>,
+        thickness: f64,
+        n_materials: usize,
+    ) -> Self {
         let positions: Vec<[f64; D]> = (lattice.cells.iter())
             .map(|&cell| lattice.offset(cell))
             .collect();
         let n_points = positions.len();
-        let volume = lattice.spacing.iter().product::<f64>() * thickness;
         Self {
-            curve: along_hilbert_curve(&positions),
+            curve: Vec::new(),
             positions,
             precision: 0.0,
             origin: lattice.middle(),
             thickness,
-            volumes: vec![volume; n_points],
+            volumes: Vec::new(),
             spacing: vec![lattice.shortest_side(); n_points],
             lattice_cell: Some(lattice.spacing),
             n_materials,
-            material_shares: whole_shares(material_of_cell, n_materials),
+            material_shares: Vec::new(),
             numbering: Numbering::default(),
             subdomain: Subdomain::whole(n_points),
+        }
+    }
+
+    /// Points of a lattice with the volumes of their cells, the index of each cell's material (n_points) and their order along a curve.
+    pub fn with_cells(self, material_of_cell: &[u32]) -> Self {
+        let sides = self.lattice_cell.unwrap_or([0.0; D]);
+        let volume = sides.iter().product::<f64>() * self.thickness;
+        Self {
+            curve: along_hilbert_curve(&self.positions),
+            volumes: vec![volume; self.len()],
+            material_shares: whole_shares(material_of_cell, self.n_materials),
+            ..self
         }
     }
 }

@@ -249,7 +249,7 @@ impl<const D: usize> PointCloud<D> {
         (0..self.len()).map(is_near).collect()
     }
 
-    /// Some of the points (ascending), among them all owned ones.
+    /// Some of the points (ascending), among them all owned ones, with what the cloud has of them.
     pub fn part(&self, points: &[u32]) -> Self {
         let n = self.n_materials;
         let indices = || points.iter().map(|&it| it as usize);
@@ -257,10 +257,14 @@ impl<const D: usize> PointCloud<D> {
         let curve = along_curve.filter_map(|it| points.binary_search(it).ok());
         Self {
             positions: indices().map(|it| self.positions[it]).collect(),
-            volumes: indices().map(|it| self.volumes[it]).collect(),
+            volumes: indices()
+                .filter_map(|it| self.volumes.get(it).copied())
+                .collect(),
             spacing: indices().map(|it| self.spacing[it]).collect(),
             material_shares: indices()
-                .flat_map(|it| self.material_shares[n * it..n * (it + 1)].iter().copied())
+                .filter_map(|it| self.material_shares.get(n * it..n * (it + 1)))
+                .flatten()
+                .copied()
                 .collect(),
             curve: curve.map(|point| point as u32).collect(),
             numbering: self.numbering.part(points),

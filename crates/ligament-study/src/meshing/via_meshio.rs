@@ -159,7 +159,7 @@ fn plane<'a>(nodes: &[&str], mut lines: impl Iterator<Item = &'a str>) -> Option
     let cells = cells(&mut lines, positions.len(), face)?;
     let groups = groups(&mut lines, 2, positions.len(), cells.len())?;
     Some(Mesh {
-        node_tags,
+        node_tags: node_tags.into(),
         positions,
         cells,
         groups,
@@ -173,7 +173,7 @@ fn solid<'a>(nodes: &[&str], mut lines: impl Iterator<Item = &'a str>) -> Option
     let cells = cells(&mut lines, positions.len(), solid_cell)?;
     let groups = groups(&mut lines, 3, positions.len(), cells.len())?;
     Some(SolidMesh {
-        node_tags,
+        node_tags: node_tags.into(),
         positions,
         cells,
         groups,
@@ -316,7 +316,7 @@ mod tests {
             panic!("{mesh:?}")
         };
         assert_eq!(remarks, ["2 nodes were dropped"]);
-        assert_eq!(mesh.node_tags, [7, 8, 9, 4]);
+        assert_eq!(*mesh.node_tags, [7, 8, 9, 4]);
         assert_eq!(mesh.positions[2], [1.0, 0.1 + 0.2]);
         let groups: Vec<(&str, u8, i32)> = (mesh.groups.iter())
             .map(|it| (it.name.as_str(), it.dimension, it.number))

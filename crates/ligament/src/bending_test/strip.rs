@@ -207,8 +207,9 @@ impl<const D: usize> Strip<D> {
 
     /// Positions of the points relative to the middle of the strip, shape (n_points), m.
     fn places(&self) -> Vec<[f64; D]> {
-        let positions = self.setup.body.geometry().positions().iter();
-        positions.map(|it| minus(*it, self.middle)).collect()
+        let positions = self.setup.body.geometry().positions();
+        let relative = positions.iter().map(|it| minus(*it, self.middle));
+        relative.collect()
     }
 
     /// Norm of the largest strain at the outline under a stress.

@@ -95,7 +95,7 @@ enum Faces<const D: usize> {
     AtHoles(Vec<bool>),
 }
 
-/// A lattice with its holes, and the positions of the points, one in each remaining cell, shape (n_points), m.
+/// A lattice with its holes.
 ///
 /// # Errors
 ///
@@ -105,20 +105,14 @@ pub(super) fn lattice<const D: usize, S: Region<D>>(
     spacing: [f64; D],
     corner: [f64; D],
     holes: &[Hole<S>],
-) -> Result<(Lattice<D, S>, Vec<[f64; D]>), LatticeError> {
+) -> Result<Lattice<D, S>, LatticeError> {
     let shapes = holes.iter().map(|it| it.shape.clone()).collect();
     let lattice = Lattice::new(size, spacing, corner, shapes);
     if lattice.cells.is_empty() {
         let cells = lattice.n_whole();
         return Err(LatticeError::NothingLeft { cells });
     }
-    let middle = lattice.middle();
-    let positions = lattice.cells.iter().map(|&cell| {
-        let offset = lattice.offset(cell);
-        std::array::from_fn(|axis| middle[axis] + offset[axis])
-    });
-    let positions = positions.collect();
-    Ok((lattice, positions))
+    Ok(lattice)
 }
 
 impl<const D: usize> CellSets<D> {

@@ -1,5 +1,6 @@
 //! Interface between a computation and its body.
 
+use std::borrow::Cow;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -72,7 +73,7 @@ pub trait Body: Debug + Send + Sync {
     fn n_points(&self) -> usize;
 
     /// Coordinates of a point, as many as the body has dimensions, m.
-    fn position(&self, point: u32) -> &[f64];
+    fn position(&self, point: u32) -> Vec<f64>;
 
     /// Numbering of the points, here and in the file or the arrays of their origin.
     fn numbering(&self) -> Numbering {
@@ -142,13 +143,7 @@ pub trait Body: Debug + Send + Sync {
     }
 
     /// Numbering and tags of the points.
-    fn point_tags(&self) -> PointTags {
-        let points = 0..self.n_points() as u32;
-        PointTags {
-            numbering: self.numbering(),
-            tags: points.map(|point| self.tag(point) as i64).collect(),
-        }
-    }
+    fn point_tags(&self) -> PointTags;
 
     /// Grid of the body for result files.
     fn grid(&self) -> BodyGrid;
@@ -163,7 +158,7 @@ pub trait Body: Debug + Send + Sync {
 
     /// Description of a point for messages, with its position.
     fn place(&self, point: u32) -> String {
-        let position = coordinates(self.position(point));
+        let position = coordinates(&self.position(point));
         format!("{} at ({position})", self.label(point))
     }
 }
@@ -179,10 +174,25 @@ pub struct Restricted<const D: usize> {
 /// The geometry of a body in D dimensions.
 pub trait Geometry<const D: usize>: Body {
     /// Positions of the points, shape (n_points), m.
-    fn positions(&self) -> &[[f64; D]];
+    fn positions(&self) -> Cow<'_, [[f64; D]]>;
 
     /// The material points; `material_of_cell` (n_cells) has the index of each cell's material.
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
+
+    /// The material points with all that their owners follow from; [`Geometry::completed`] adds the rest to them or to a part of them.
+    fn undivided(
+        &self,
+        thickness: f64,
+        material_of_cell: &[u32],
+        n_materials: usize,
+    ) -> PointCloud<D> {
+        self.cloud(thickness, material_of_cell, n_materials)
+    }
+
+    /// The material points of this body from those of [`Geometry::undivided`].
+    fn completed(&self, cloud: PointCloud<D>, _material_of_cell: &[u32]) -> PointCloud<D> {
+        cloud
+    }
 
     /// The body with some of its points (ascending); groups keep their names where they lose all points.
     fn restricted(&self, points: &[u32]) -> Restricted<D>;

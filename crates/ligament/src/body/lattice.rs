@@ -1,5 +1,6 @@
 //! A body on a lattice: points at the centres of the cells, named sets.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -10,7 +11,7 @@ use ligament_model::correction::patch::{self, CellForces};
 use ligament_model::material::Stiffness;
 use ligament_model::shape::{Shape, SolidShape};
 use ligament_model::surface::{CellFaces, Facet};
-use ligament_model::{BodyGrid, BondSet, Numbering, PointCloud, raised};
+use ligament_model::{BodyGrid, BondSet, Numbering, PointCloud, PointTags, Tags, raised};
 
 use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
 use super::interface::{Body, Geometry, OffOutline, Origin, Restricted};
@@ -19,9 +20,8 @@ use super::lattice_cells::LatticeShape;
 /// A body with a point at the centre of each cell of a lattice, and named sets of its cells.
 #[derive(Debug)]
 pub struct BodyOnLattice<const D: usize, S> {
-    lattice: Lattice<D, S>,
-    /// Positions of the points, shape (n_points), m; the points of a divided body keep those of the whole.
-    positions: Arc<[[f64; D]]>,
+    /// Cells of the points; names of a divided body share them.
+    lattice: Arc<Lattice<D, S>>,
     numbering: Numbering,
     sets: CellSets<D>,
 }
@@ -45,13 +45,12 @@ impl<const D: usize, S: LatticeShape<D>> BodyOnLattice<D, S> {
         holes: &[Hole<S>],
         named: &BTreeMap<String, Cells<D, S>>,
     ) -> Result<Self, LatticeError> {
-        let (lattice, positions) = cells::lattice(size, spacing, corner, holes)?;
+        let lattice = cells::lattice(size, spacing, corner, holes)?;
         let named = named.iter().map(|(name, set)| (name.clone(), set.clone()));
         Ok(Self {
             sets: CellSets::new(&lattice, holes, named)?,
-            positions: positions.into(),
             numbering: Numbering::default(),
-            lattice,
+            lattice: Arc::new(lattice),
         })
     }
 }
@@ -62,11 +61,11 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
     }
 
     fn n_points(&self) -> usize {
-        self.positions().len()
+        self.lattice.cells.len()
     }
 
-    fn position(&self, point: u32) -> &[f64] {
-        &self.positions()[point as usize]
+    fn position(&self, point: u32) -> Vec<f64> {
+        self.lattice.position(point).to_vec()
     }
 
     fn numbering(&self) -> Numbering {
@@ -119,10 +118,16 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         }
     }
 
+    fn point_tags(&self) -> PointTags {
+        PointTags {
+            numbering: self.numbering(),
+            tags: Tags::Counted(1),
+        }
+    }
+
     fn names(&self) -> Arc<dyn Body> {
         Arc::new(Self {
-            lattice: self.lattice.part(&[]),
-            positions: self.positions.clone(),
+            lattice: self.lattice.clone(),
             numbering: self.numbering.clone(),
             sets: self.sets.part(&[]),
         })
@@ -133,35 +138,43 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
     }
 
     fn grid(&self) -> BodyGrid {
+        let positions = self.positions();
         BodyGrid {
             numbering: self.numbering(),
-            positions: raised(&self.positions),
-            tags: (0..self.positions.len() as u32)
+            positions: raised(&positions),
+            tags: (0..positions.len() as u32)
                 .map(|point| i64::from(self.numbering.in_file(point)) + 1)
                 .collect(),
             cell_numbers: Vec::new(),
             of_body: None,
             tagged: self.tagged(),
-            canvas: S::canvas(&self.positions, self.lattice.spacing.map(|side| 0.5 * side)),
+            canvas: S::canvas(&positions, self.lattice.spacing.map(|side| 0.5 * side)),
         }
     }
 }
 
 impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
-    fn positions(&self) -> &[[f64; D]] {
-        &self.positions
+    fn positions(&self) -> Cow<'_, [[f64; D]]> {
+        let points = 0..self.lattice.cells.len() as u32;
+        points.map(|point| self.lattice.position(point)).collect()
     }
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {
         PointCloud::from_lattice(&self.lattice, thickness, material_of_cell, n_materials)
     }
 
+    fn undivided(&self, thickness: f64, _: &[u32], n_materials: usize) -> PointCloud<D> {
+        PointCloud::centres(&self.lattice, thickness, n_materials)
+    }
+
+    fn completed(&self, cloud: PointCloud<D>, material_of_cell: &[u32]) -> PointCloud<D> {
+        cloud.with_cells(material_of_cell)
+    }
+
     fn restricted(&self, points: &[u32]) -> Restricted<D> {
-        let positions = points.iter().map(|&point| self.positions[point as usize]);
         Restricted {
             body: Arc::new(Self {
-                lattice: self.lattice.part(points),
-                positions: positions.collect(),
+                lattice: Arc::new(self.lattice.part(points)),
                 numbering: self.numbering.part(points),
                 sets: self.sets.part(points),
             }),

@@ -1,5 +1,6 @@
 //! A meshed body: points at the nodes, physical groups.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use ligament_mesh::{Cell, Group, Mesh, MeshCell, NodeField, Numbering, SolidCell};
@@ -8,7 +9,7 @@ use ligament_model::correction::patch::CellForces;
 use ligament_model::far_field::Simplex;
 use ligament_model::material::Stiffness;
 use ligament_model::surface::{CellFaces, InnerFace};
-use ligament_model::{BodyGrid, BondSet, BondSystem, PointCloud, raised};
+use ligament_model::{BodyGrid, BondSet, BondSystem, PointCloud, PointTags, Tags, raised};
 
 use super::cells::among;
 use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin, Restricted};
@@ -111,11 +112,11 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
     }
 
     fn n_points(&self) -> usize {
-        self.positions().len()
+        self.mesh.positions.len()
     }
 
-    fn position(&self, point: u32) -> &[f64] {
-        &self.positions()[point as usize]
+    fn position(&self, point: u32) -> Vec<f64> {
+        self.mesh.positions[point as usize].to_vec()
     }
 
     fn numbering(&self) -> Numbering {
@@ -198,6 +199,13 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
         remarks.map(|remark| format!("mesh: {remark}")).collect()
     }
 
+    fn point_tags(&self) -> PointTags {
+        PointTags {
+            numbering: self.numbering(),
+            tags: Tags::Listed(self.mesh.node_tags.clone()),
+        }
+    }
+
     fn names(&self) -> Arc<dyn Body> {
         Arc::new(Self {
             mesh: Mesh {
@@ -224,8 +232,8 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
 }
 
 impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
-    fn positions(&self) -> &[[f64; D]] {
-        &self.mesh.positions
+    fn positions(&self) -> Cow<'_, [[f64; D]]> {
+        Cow::Borrowed(&self.mesh.positions)
     }
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {

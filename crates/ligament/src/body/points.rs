@@ -1,11 +1,12 @@
 //! A body from arrays: positions, volumes and named groups of points.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
-use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud, raised};
+use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud, PointTags, Tags, raised};
 use thiserror::Error;
 
 use super::cells::among;
@@ -139,11 +140,11 @@ impl<const D: usize> Body for Points<D> {
     }
 
     fn n_points(&self) -> usize {
-        self.positions().len()
+        self.positions.len()
     }
 
-    fn position(&self, point: u32) -> &[f64] {
-        &self.positions()[point as usize]
+    fn position(&self, point: u32) -> Vec<f64> {
+        self.positions[point as usize].to_vec()
     }
 
     fn numbering(&self) -> Numbering {
@@ -183,10 +184,19 @@ impl<const D: usize> Body for Points<D> {
         Vec::new()
     }
 
+    fn point_tags(&self) -> PointTags {
+        PointTags {
+            numbering: self.numbering(),
+            tags: Tags::Counted(0),
+        }
+    }
+
     fn names(&self) -> Arc<dyn Body> {
         Arc::new(Self {
+            numbering: self.numbering(),
+            positions: self.positions.clone(),
+            sizes: Vec::new(),
             groups: BTreeMap::new(),
-            ..self.clone()
         })
     }
 
@@ -251,8 +261,8 @@ impl<const D: usize> Geometry<D> for Points<D> {
         }
     }
 
-    fn positions(&self) -> &[[f64; D]] {
-        &self.positions
+    fn positions(&self) -> Cow<'_, [[f64; D]]> {
+        Cow::Borrowed(&self.positions)
     }
 
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D> {

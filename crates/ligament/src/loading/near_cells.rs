@@ -72,7 +72,7 @@ fn beginning<const D: usize>(setup: &Setup, cloud: &PointCloud<D>) -> Vec<[Posit
     let is_given = (setup.far_field.as_ref()).is_some_and(|it| !it.near.is_empty());
     if boxes.is_empty() && !is_given {
         let first = setup.body.corners()[0].iter();
-        let corners: Vec<Vec<f64>> = first.map(|&it| setup.body.position(it).to_vec()).collect();
+        let corners: Vec<Vec<f64>> = first.map(|&it| setup.body.position(it)).collect();
         boxes.push(around(&corners));
     }
     boxes

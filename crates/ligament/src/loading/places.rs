@@ -2,7 +2,7 @@
 
 use ligament_model::PointCloud;
 
-use crate::coordinates::narrowed;
+use crate::coordinates::{in_dimensions, narrowed};
 use crate::error::{Fault, Field, SetupError};
 use crate::setup::{CrackShape, Place, Reading, Setup};
 
@@ -66,10 +66,11 @@ impl<const D: usize> Places<'_, D> {
         nearest: u32,
     ) -> Result<(), SetupError> {
         let body = self.setup.body.geometry::<D>();
-        let place = body.positions()[nearest as usize];
+        let position_of = |point: u32| in_dimensions(&body.position(point));
+        let place: [f64; D] = position_of(nearest);
         let around = body.around(nearest).into_iter();
         let reach = around
-            .map(|corner| distance(body.positions()[corner as usize], place))
+            .map(|corner| distance(position_of(corner), place))
             .fold(
                 (D as f64).sqrt() * self.cloud.spacing[nearest as usize],
                 f64::max,

@@ -6,7 +6,7 @@ use ligament_model::dimension::cast_ref;
 use ligament_model::tensor::{dot, minus};
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud, System};
 
-use crate::coordinates::narrowed;
+use crate::coordinates::{in_dimensions, narrowed};
 use crate::precracks::cracks;
 use crate::setup::{Position, Probe, Reading, Setup};
 
@@ -60,7 +60,7 @@ fn shares<const D: usize>(
     }
     let corners = shares
         .iter()
-        .map(|(point, _)| body.positions()[*point as usize]);
+        .map(|(point, _)| in_dimensions(&body.position(*point)));
     // The position precedes its points.
     let places: Vec<[f64; D]> = std::iter::once(position).chain(corners).collect();
     let n = places.len();

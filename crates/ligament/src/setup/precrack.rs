@@ -62,10 +62,7 @@ impl PreCrack {
             }
             CrackShape::Group(group) => {
                 let points = body.points_of(group).unwrap_or_default();
-                points
-                    .iter()
-                    .map(|it| body.position(*it).to_vec())
-                    .collect()
+                points.iter().map(|it| body.position(*it)).collect()
             }
         }
     }
