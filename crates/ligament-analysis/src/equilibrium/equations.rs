@@ -145,14 +145,8 @@ impl Equations {
         self.accuracy.largest_extents = Serial::read(from)?;
         let costs = Serial::read(from)?;
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
-        let first = u64::read(from)?;
-        if !is_shared && first == distributed::MARK {
-            // A run on one process continues from the state alone.
-            distributed::skip_checkpoint((numbers, self.layout()), from)?;
-        } else {
-            let first = first.to_le_bytes();
-            self.solver.restore(&mut first.chain(&mut *from))?;
-        }
+        let layout = self.unknowns.layout();
+        distributed::restore((&mut *self.solver, is_shared), (numbers, layout), from)?;
         if self.problem.criteria.soften() {
             self.earlier = EarlierEquilibria::restored(from, (numbers, &self.unknowns))?;
         }

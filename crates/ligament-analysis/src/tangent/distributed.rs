@@ -40,7 +40,7 @@ use crate::vectors::dot_of_chunks;
 const RENEWAL: f64 = 40.0;
 
 /// First bytes of the checkpoint of this solver, unlike those of any other solver.
-pub(crate) const MARK: u64 = 0x736b_6e61_7220_669c;
+const MARK: u64 = 0x736b_6e61_7220_669c;
 
 /// A solver for symmetric stiffnesses that runs on several ranks.
 pub(crate) struct DistributedSolver {
@@ -466,15 +466,21 @@ fn mixed(values: impl Iterator<Item = u64>) -> u64 {
     })
 }
 
-/// Skips the checkpoint of this solver behind its [`MARK`], for another solver that begins with the present state.
+/// Restores a solver, which is shared between processes or not, from the bytes of [`TangentSolver::write`]; one process continues from the state
+/// alone where several wrote them.
 ///
 /// # Errors
 ///
-/// If the bytes are damaged.
-pub(crate) fn skip_checkpoint(
+/// If the bytes are damaged or belong to another model, or if the factor differs in any bit.
+pub(crate) fn restore(
+    (solver, is_shared): (&mut dyn TangentSolver, bool),
     (numbers, layout): (&BondNumbers, Layout),
     from: &mut dyn Read,
 ) -> Result<(), CheckpointError> {
+    let first = u64::read(from)?;
+    if is_shared || first != MARK {
+        return solver.restore(&mut first.to_le_bytes().chain(from));
+    }
     let _ = bool::read(from)?;
     let _ = PreconditionerState::read((numbers, layout.components.len()), from)?;
     Ok(())
