@@ -338,59 +338,60 @@ fn shear_modulus(poisson: f64) -> f64 {
     0.5 / (1.0 + poisson)
 }
 
-/// Layers of one to four cells that are sheared, where the points of the halves do not turn with the layer: within 5 %, of one cell under
-/// `mppd` within 8 %; measured 7.3 % there. Where bonds do not know what holds their ends it is twice as stiff at nu = 0 and 1e-4.
+/// Layers of one to four cells that are pulled and sheared, where the points of the halves do not turn with the layer: within 3 %; measured
+/// 2.3 % at most. Bonds with the exchange of bonds in all directions make a sheared layer of one cell under `mppd` 7 % too stiff at nu = 0.2,
+/// and 11 % at nu = 0; without an exchange it is twice as stiff.
 #[test]
-fn sheared_layers_between_halves_of_a_mesh() {
-    let mppd = Law::MPPD;
-    for (law, poisson) in [(Law::NHPD, 0.2), (Law::NHPD, 0.0), (mppd, 0.2)] {
-        let limit = if law == mppd { 0.08 } else { 0.05 };
+fn layers_between_halves_of_a_mesh_that_do_not_turn() {
+    let (nhpd, mppd) = (Law::NHPD, Law::MPPD);
+    for (law, poisson) in [(nhpd, 0.2), (nhpd, 0.0), (mppd, 0.2), (mppd, 0.0)] {
         for ratio in [1e-4, 0.01, 0.1, 10.0] {
             for thick in [1, 2, 4] {
                 let materials = [1.0, ratio].map(|young| Material::isotropic(young, poisson));
                 let body = MeshBody::from(layered_strip(thick));
-                let mut setup = with_layer(body, law, materials, &[]);
-                setup.correction.surface = Surface::Patch(Settings::default());
-                let found = reaction(sheared(setup, &[Component::X]));
-                let modulus = shear_modulus(poisson);
-                let found = found / force_through(f64::from(CELLS[1]), modulus, thick, ratio);
+                let setup = with_layer(body, law, materials, &[Component::Y]);
+                let force =
+                    |modulus: f64| force_through(f64::from(CELLS[1]), modulus, thick, ratio);
+                let pulled = reaction(setup.clone()) / force(modulus(poisson));
+                let sheared = reaction(sheared(setup, &[Component::X]));
+                let found = [pulled, sheared / force(shear_modulus(poisson))];
                 assert!(
-                    (found - 1.0).abs() < limit,
-                    "{law:?}, {poisson}, ratio {ratio}, {thick} cells: {found}"
+                    found.iter().all(|it| (it - 1.0).abs() < 0.03),
+                    "{law:?}, {poisson}, ratio {ratio}, {thick} cells: {found:?}"
                 );
             }
         }
     }
 }
 
-/// Layers in space, pulled and sheared, within 5 %: 4.8 % measured at 1e-4 and one cell in shear, where the equations of the correction are met
-/// worst. Where bonds do not know what holds their ends, a sheared one of one cell is 28 % too
-/// stiff at a hundredth, and where they are those of their ends a pulled one 1.6 times.
+/// Layers in space, pulled and sheared, within 3 %. With the exchange of bonds in all directions a sheared layer of one cell is 5 % too stiff
+/// at nu = 0; without an exchange twice as stiff, and a pulled one, of bonds that are those of their ends, 1.6 times.
 #[test]
 fn layers_between_halves_of_a_solid() {
     let found = |setup: Setup| {
         let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
         history.last().unwrap().reaction.abs()
     };
-    for ratio in [1e-4, 0.01, 10.0] {
+    for (poisson, ratio) in [(0.2, 1e-4), (0.0, 1e-4), (0.0, 0.01), (0.2, 10.0)] {
         for thick in [1, 2] {
-            let materials = [1.0, ratio].map(|young| Material::isotropic(young, 0.2));
+            let materials = [1.0, ratio].map(|young| Material::isotropic(young, poisson));
             let body = SolidMeshBody::from(layered_block(thick));
             let across = [Component::Y, Component::Z];
             let mut setup = with_layer(body, Law::NHPD, materials, &across);
             setup.correction.surface = Surface::Patch(Settings::default());
             let area = f64::from(CELLS[1] * CELLS[2]);
-            // E (1 - nu)/((1 + nu)(1 - 2 nu)) of E = 1 and nu = 0.2.
-            let pulled = force_through(area, 0.8 / (1.2 * 0.6), thick, ratio);
-            let in_shear = force_through(area, shear_modulus(0.2), thick, ratio);
+            // E (1 - nu)/((1 + nu)(1 - 2 nu)) of E = 1.
+            let modulus = (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson));
+            let pulled = force_through(area, modulus, thick, ratio);
+            let in_shear = force_through(area, shear_modulus(poisson), thick, ratio);
             let others = [Component::X, Component::Z];
             let found = [
                 found(setup.clone()) / pulled,
                 found(sheared(setup, &others)) / in_shear,
             ];
             assert!(
-                found.iter().all(|it| (it - 1.0).abs() < 0.05),
-                "ratio {ratio}, {thick} cells: {found:?}"
+                found.iter().all(|it| (it - 1.0).abs() < 0.03),
+                "{poisson}, ratio {ratio}, {thick} cells: {found:?}"
             );
         }
     }

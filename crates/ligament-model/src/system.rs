@@ -65,7 +65,7 @@ impl<const D: usize> BondSystem<D> {
     ) -> Self {
         // The arrays of densities become those of rigidities: at this point of a run memory is scarce.
         let mut weight = length_factor;
-        let (stiffness, beyond_correction) = stiffness.joined::<D>(element == ElementKind::Beam);
+        let (stiffness, beyond_correction) = stiffness.joined();
         let BondStiffness {
             mut axial,
             mut shear,

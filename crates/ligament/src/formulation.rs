@@ -124,6 +124,22 @@ impl<'a, const D: usize> Formulation<'a, D> {
         between.corrected(bonds, &stiffness, alpha)
     }
 
+    /// The corrected densities with the exchanges of bonds whose ends a stiffer material restrains; without rotations there are none.
+    pub fn exchanged(
+        &self,
+        stiffness: BondStiffness,
+        bonds: &BondSet<D>,
+        correction: &Correction,
+    ) -> BondStiffness {
+        match self.setup.law.element() {
+            ElementKind::Beam => {
+                let factors = [&correction.length_factor, &correction.domain_factor];
+                stiffness.exchanged(bonds, self.cloud, factors.map(Vec::as_slice))
+            }
+            _ => stiffness,
+        }
+    }
+
     /// Energies of the points in uniform strains over the energies of the continuum, for bonds with corrected stiffness.
     pub(crate) fn energy_ratios(
         &self,

@@ -417,10 +417,11 @@ fn of_bonds<const D: usize>(formulation: &Formulation<'_, D>, bonds: BondSet<D>)
     let stiffness = formulation.stiffness(&bonds, &alpha);
     let correction = formulation.correction(&bonds, &stiffness, alpha);
     let stiffness = stiffness.with_shear(&correction.shear_ratio);
+    let energy_ratios = formulation.energy_ratios(&bonds, &stiffness, &correction);
     Corrected {
-        energy_ratios: formulation.energy_ratios(&bonds, &stiffness, &correction),
+        energy_ratios,
+        stiffness: formulation.exchanged(stiffness, &bonds, &correction),
         bonds,
-        stiffness,
         correction,
         faces: Faces::default(),
     }

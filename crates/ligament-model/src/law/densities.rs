@@ -4,6 +4,7 @@ use nalgebra::Matrix3;
 use rayon::prelude::*;
 
 use super::materials;
+use super::restrained::{Exchange, Restraint};
 use crate::bonds::BondSet;
 use crate::bonds::retained::retained;
 use crate::cloud::PointCloud;
@@ -27,8 +28,10 @@ pub struct BondStiffness {
     pub strain: Vec<StrainStiffness>,
     /// Factors of bonds across an interface ([`BondStiffness::in_series`]), shape (n_bonds); empty where there is none.
     pub series: Vec<f64>,
-    /// Restraint beta of the rotations of the ends by a stiffer material, shape (n_bonds); empty where all are 0.
-    pub held: Vec<f64>,
+    /// Restraints of the rotations of the ends by stiffer materials, shape (n_bonds); empty where there is none.
+    pub held: Vec<Restraint>,
+    /// Exchanges of restrained bonds ([`BondStiffness::exchanged`]), shape (n_bonds); empty where there is none.
+    pub exchange: Vec<Exchange>,
 }
 
 /// Densities of one bond.
@@ -107,7 +110,8 @@ impl BondStiffness {
             rotational,
             strain: Vec::new(),
             series: some_other_than(1.0, series),
-            held: some_other_than(0.0, held),
+            held: some_other_than(Restraint::NONE, held),
+            exchange: Vec::new(),
         }
     }
 
@@ -125,30 +129,11 @@ impl BondStiffness {
         self
     }
 
-    /// The densities after the correction: of bonds [in series](Self::in_series) and, between points with rotations, of bonds whose ends a
-    /// stiffer material restrains; and the part of each to which the correction does not apply, shape (n_bonds), empty in a body of one
-    /// material.
-    ///
-    /// A point rotates with the stiffest of its materials. In a layer sheared by gamma between stiff parts the ends of bonds do not rotate
-    /// with the layer, which rotates by gamma/2, and a bond straight across has the shear gamma instead of gamma/2. In D dimensions a layer
-    /// of bonds evenly spread over the directions, none of whose ends rotates with it, stores the energy of its material in tension and in
-    /// shear with
-    /// when it is sheared with
-    ///
-    /// k_t' = k_t/4, k_n' = k_n + (D - 1)/3 (k_t - k_t').
-    ///
-    /// Where the ends of a bond are partly restrained, by beta in the mean, k_t' = k_t/(1 + 3 beta), and k_theta alike. (If all other ends
-    /// rotated with the layer it would be 1 + 3 beta^2, but the bonds to restrained ends restrain them too.) Where k_t is negative, k_n' is
-    /// at least k_n/2. The effect of strains along the layer on its faces is then that of bonds without k_t; stiff parts beside it keep such
-    /// strains small. The equations are this project's own.
-    pub(crate) fn joined<const D: usize>(
-        mut self,
-        do_points_turn: bool,
-    ) -> (Self, Vec<StiffnessFactors>) {
-        if !do_points_turn {
-            self.held.clear();
-        }
-        if self.series.is_empty() && self.held.is_empty() {
+    /// The densities after the correction, of bonds [in series](Self::in_series) and with the [exchanges](Self::exchanged) of restrained
+    /// bonds; and the part of each to which the correction does not apply, shape (n_bonds), empty in a body of one material. Where k_t is
+    /// negative, k_n keeps at least half of its value.
+    pub(crate) fn joined(mut self) -> (Self, Vec<StiffnessFactors>) {
+        if self.series.is_empty() && self.exchange.is_empty() {
             return (self, Vec::new());
         }
         let corrected = (
@@ -156,14 +141,11 @@ impl BondStiffness {
             self.shear.clone(),
             self.rotational.clone(),
         );
-        let gained = (D as f64 - 1.0) / 3.0;
-        for (bond, held) in self.held.iter().enumerate() {
-            let shear = self.shear[bond];
-            let left = 1.0 / (1.0 + 3.0 * held);
-            self.shear[bond] *= left;
-            self.rotational[bond] *= left;
-            let change = gained * (shear - self.shear[bond]);
-            self.axial[bond] += change.max(-0.5 * self.axial[bond]);
+        for (bond, exchange) in self.exchange.iter().enumerate() {
+            let gained = exchange.gained * self.shear[bond];
+            self.shear[bond] *= 1.0 - exchange.lost;
+            self.rotational[bond] *= 1.0 - exchange.lost;
+            self.axial[bond] += gained.max(-0.5 * self.axial[bond]);
         }
         let joined = self.in_series();
         let part = |before: f64, after: f64| {
@@ -201,13 +183,14 @@ impl BondStiffness {
             strain: some_retained(self.strain, keep),
             series: some_retained(self.series, keep),
             held: some_retained(self.held, keep),
+            exchange: some_retained(self.exchange, keep),
         }
     }
 }
 
 /// The values, or an empty array if all have a common value.
-fn some_other_than(common: f64, values: Vec<f64>) -> Vec<f64> {
-    match values.iter().all(|&value| value == common) {
+fn some_other_than<T: PartialEq>(common: T, values: Vec<T>) -> Vec<T> {
+    match values.iter().all(|value| *value == common) {
         true => Vec::new(),
         false => values,
     }
@@ -226,88 +209,4 @@ fn some_retained<T>(values: Vec<T>, keep: &[bool]) -> Vec<T> {
 /// of two materials has the smaller one.
 pub(crate) fn bulk_stiffness(plane: &Matrix3<f64>) -> f64 {
     plane[(0, 0)] + plane[(1, 1)] + 2.0 * plane[(0, 1)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Energies of a layer across x, of bonds with unit k_n and k_t/2 along the unit vectors, pulled and sheared by one: with ends that
-    /// turn with it and the densities of the law, and with ends that do not turn and those that are joined.
-    fn energies<const D: usize>(directions: &[[f64; D]]) -> [[f64; 2]; 2] {
-        let of_law = BondStiffness {
-            axial: vec![1.0; directions.len()],
-            shear: vec![0.5; directions.len()],
-            rotational: vec![0.0; directions.len()],
-            strain: Vec::new(),
-            series: Vec::new(),
-            held: vec![1.0; directions.len()],
-        };
-        let energy = |stiffness: &BondStiffness, slope: fn(f64, f64) -> [f64; 2]| {
-            let of_bond = |(bond, n): (usize, &[f64; D])| {
-                let [x, y] = slope(n[0], n[1]);
-                let stretch = n[0] * x + n[1] * y;
-                let shear = x * x + y * y - stretch * stretch;
-                stiffness.axial[bond] * stretch * stretch + stiffness.shear[bond] * shear
-            };
-            directions.iter().enumerate().map(of_bond).sum()
-        };
-        let (joined, _) = of_law.clone().joined::<D>(true);
-        [
-            [
-                energy(&of_law, |x, _| [x, 0.0]),
-                energy(&of_law, |x, y| [0.5 * y, 0.5 * x]),
-            ],
-            [
-                energy(&joined, |x, _| [x, 0.0]),
-                energy(&joined, |x, _| [0.0, x]),
-            ],
-        ]
-    }
-
-    fn assert_equal([turning, held]: [[f64; 2]; 2]) {
-        for (turning, held) in turning.into_iter().zip(held) {
-            assert!((held / turning - 1.0).abs() < 1e-12, "{held} {turning}");
-        }
-    }
-
-    /// A layer between parts that do not turn has the energy of its material, by twelve directions around the circle and the corners of
-    /// an icosahedron, whose means of fourth powers are those of all directions.
-    #[test]
-    fn a_layer_whose_points_are_held_is_as_stiff_as_its_material() {
-        let circle = (0..12).map(|k| f64::from(k) * std::f64::consts::PI / 6.0);
-        let circle: Vec<[f64; 2]> = circle.map(|it| [it.cos(), it.sin()]).collect();
-        assert_equal(energies(&circle));
-        let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
-        let size = golden.hypot(1.0);
-        let corners = [
-            [1.0, golden],
-            [1.0, -golden],
-            [-1.0, golden],
-            [-1.0, -golden],
-        ];
-        let corners = corners.map(|pair| pair.map(|it| it / size));
-        let corners = corners
-            .into_iter()
-            .flat_map(|[a, b]| [[0.0, a, b], [a, b, 0.0], [b, 0.0, a]]);
-        assert_equal(energies(&corners.collect::<Vec<[f64; 3]>>()));
-    }
-
-    /// Points that do not turn are held by nothing.
-    #[test]
-    fn bonds_between_points_that_do_not_turn_stay_as_they_are() {
-        let stiffness = BondStiffness {
-            axial: vec![1.0],
-            shear: vec![0.5],
-            rotational: vec![0.0],
-            strain: Vec::new(),
-            series: Vec::new(),
-            held: vec![1.0],
-        };
-        let (joined, beyond) = stiffness.joined::<2>(false);
-        assert_eq!(
-            (joined.axial[0], joined.shear[0], beyond.len()),
-            (1.0, 0.5, 0)
-        );
-    }
 }

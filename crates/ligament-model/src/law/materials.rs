@@ -6,6 +6,7 @@
 
 use rayon::prelude::*;
 
+use super::restrained::Restraint;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 
@@ -94,9 +95,9 @@ pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f
     (softest, 1.0 / compliance)
 }
 
-/// Restraint beta of the rotations of the ends of bonds by stiffer materials, the mean over both ends of
+/// Restraints of the rotations of the ends of bonds by stiffer materials: at each end
 ///
-/// 1 - k_t/(sum of phi_i k_ti), at least 0,
+/// beta = 1 - k_t/(sum of phi_i k_ti), at least 0,
 ///
 /// with the fractions phi_i of the materials of the end, from the shear densities of the bonds (n_bonds) and the density of a bond in one
 /// material, `of_material`; shape (n_bonds), empty in a body of one material.
@@ -108,7 +109,7 @@ pub(super) fn held<const D: usize>(
     cloud: &PointCloud<D>,
     shear: &[f64],
     of_material: impl Fn(usize, usize) -> f64 + Sync,
-) -> Vec<f64> {
+) -> Vec<Restraint> {
     if cloud.n_materials == 1 {
         return Vec::new();
     }
@@ -116,11 +117,18 @@ pub(super) fn held<const D: usize>(
         let materials = 0..cloud.n_materials;
         let of_materials: Vec<f64> = materials.map(|it| of_material(it, bond).abs()).collect();
         let own = shear[bond].abs();
-        let [first, second] = bonds.ends[bond].map(|end| {
+        let ends = bonds.ends[bond].map(|end| {
             let mean = cloud.mean_property(end as usize, &of_materials);
             if mean > own { 1.0 - own / mean } else { 0.0 }
         });
-        0.5 * (first + second)
+        if ends == [0.0; 2] {
+            return Restraint::NONE;
+        }
+        let stiffest = of_materials.into_iter().fold(own, f64::max);
+        Restraint {
+            ends,
+            softness: own / stiffest,
+        }
     };
     (0..bonds.len()).into_par_iter().map(of_bond).collect()
 }
@@ -162,9 +170,15 @@ mod tests {
         assert_eq!(bonds.ends, [[0, 1], [0, 2], [1, 2]]);
         let of_material = |material: usize, _| [1.0, 9.0][material];
         let found = held(&bonds, &cloud, &[1.0, 1.0, 9.0], of_material);
-        assert_eq!(
-            found,
-            [0.5 * (1.0 - 1.0 / 7.0), 0.5 * (1.0 - 1.0 / 9.0), 0.0]
-        );
+        let soft = |ends| Restraint {
+            ends,
+            softness: 1.0 / 9.0,
+        };
+        let expected = [
+            soft([0.0, 1.0 - 1.0 / 7.0]),
+            soft([0.0, 1.0 - 1.0 / 9.0]),
+            Restraint::NONE,
+        ];
+        assert_eq!(found, expected);
     }
 }

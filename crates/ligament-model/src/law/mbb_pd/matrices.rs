@@ -23,6 +23,7 @@ pub(super) fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> 
         strain: matrices.iter().map(strain).collect(),
         series: Vec::new(),
         held: Vec::new(),
+        exchange: Vec::new(),
     }
 }
 
