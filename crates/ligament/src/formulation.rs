@@ -133,8 +133,10 @@ impl<'a, const D: usize> Formulation<'a, D> {
     ) -> BondStiffness {
         match self.setup.law.element() {
             ElementKind::Beam => {
+                let is_balanced = matches!(self.setup.correction.surface, Surface::Patch(_));
                 let factors = [&correction.length_factor, &correction.domain_factor];
-                stiffness.exchanged(bonds, self.cloud, factors.map(Vec::as_slice))
+                let balanced = is_balanced.then_some(factors.map(Vec::as_slice));
+                stiffness.exchanged(bonds, self.cloud, balanced)
             }
             _ => stiffness,
         }

@@ -126,24 +126,45 @@ impl Sums {
 }
 
 impl BondStiffness {
-    /// The densities with the exchanges of the restrained bonds between points with rotations, from the factors alpha and Omega of the
-    /// correction (n_bonds).
+    /// The densities with the exchanges of the restrained bonds between points with rotations. The directions of the bonds determine x and
+    /// eta where a uniform strain is an equilibrium with the factors alpha and Omega (n_bonds) of the correction, `balanced`; without such
+    /// a correction they are those of bonds in all directions, since the sums take its uniform strains for right.
     pub fn exchanged<const D: usize>(
         mut self,
         bonds: &BondSet<D>,
         cloud: &PointCloud<D>,
-        correction: [&[f64]; 2],
+        balanced: Option<[&[f64]; 2]>,
     ) -> Self {
         if self.held.is_empty() {
             return self;
         }
-        let layers = Layers {
-            stiffness: &self,
-            correction,
-            bonds,
-            cloud,
+        let factors = match balanced {
+            Some(correction) => Layers {
+                stiffness: &self,
+                correction,
+                bonds,
+                cloud,
+            }
+            .factors(),
+            None => vec![[1.0, (D as f64 - 1.0) / 3.0]; cloud.len()],
         };
-        self.exchange = layers.exchanges();
+        let of_bond = |(restraint, ends): (&Restraint, &[u32; 2])| {
+            if restraint.ends == [0.0; 2] {
+                return Exchange {
+                    lost: 0.0,
+                    gained: 0.0,
+                };
+            }
+            let [lost, gained] = [0, 1].map(|k| {
+                let of_end = |end: usize| restraint.share(end) * factors[ends[end] as usize][k];
+                restraint.usual_loss() * (of_end(0) + of_end(1))
+            });
+            Exchange { lost, gained }
+        };
+        self.exchange = (&self.held, &bonds.ends)
+            .into_par_iter()
+            .map(of_bond)
+            .collect();
         self
     }
 }
@@ -158,8 +179,8 @@ struct Layers<'a, const D: usize> {
 }
 
 impl<const D: usize> Layers<'_, D> {
-    /// Exchanges of the bonds, shape (n_bonds).
-    fn exchanges(&self) -> Vec<Exchange> {
+    /// Factors x of the loss and x eta of the gain at the points, shape (n_points).
+    fn factors(&self) -> Vec<[f64; 2]> {
         let of_points = self.cloud.over_families(|point| {
             let Sums {
                 along,
@@ -178,26 +199,11 @@ impl<const D: usize> Layers<'_, D> {
                 missing,
             }
         };
-        let factors = self.cloud.over_families(|point| {
+        self.cloud.over_families(|point| {
             let family = self.bonds.incidence.at(point).iter();
             let others = family.map(|&bond| sums(self.bonds.neighbour(bond, point)));
             others.fold(sums(point), Sums::plus).balance::<D>()
-        });
-        let of_bond = |(restraint, ends): (&Restraint, &[u32; 2])| {
-            if restraint.ends == [0.0; 2] {
-                return Exchange {
-                    lost: 0.0,
-                    gained: 0.0,
-                };
-            }
-            let [lost, gained] = [0, 1].map(|k| {
-                let of_end = |end: usize| restraint.share(end) * factors[ends[end] as usize][k];
-                restraint.usual_loss() * (of_end(0) + of_end(1))
-            });
-            Exchange { lost, gained }
-        };
-        let bonds = (&self.stiffness.held, &self.bonds.ends).into_par_iter();
-        bonds.map(of_bond).collect()
+        })
     }
 
     /// Place of a point among the ends of a bond.
