@@ -132,7 +132,9 @@ def end_of(program, folder, name, launcher, method):
     environment = {**ENVIRONMENT, "RAYON_NUM_THREADS": "1"}
     done = subprocess.run([*launcher, str(program), *arguments], cwd=folder, env=environment, capture_output=True, text=True, timeout=300)
     if not (out / "summary.json").exists():
-        return {"exit": done.returncode, "end": done.stderr.strip()[-300:], "peak": None, "bonds": []}
+        # `mpirun` says more about a program that refused its input than the program itself.
+        said = next((line for line in done.stderr.splitlines() if line.startswith("error")), done.stderr.strip()[-300:])
+        return {"exit": done.returncode, "end": said, "peak": None, "bonds": []}
     summary = json.loads((out / "summary.json").read_text())
     bonds = (out / "breaks.csv").read_text().splitlines()[1:] if (out / "breaks.csv").exists() else []
     ends = [line.split(",")[0:1] + [it for it in line.split(",") if it.isdigit()] for line in bonds]
