@@ -131,15 +131,13 @@ impl<'a, const D: usize> Formulation<'a, D> {
         bonds: &BondSet<D>,
         correction: &Correction,
     ) -> BondStiffness {
-        match self.setup.law.element() {
-            ElementKind::Beam => {
-                let is_balanced = matches!(self.setup.correction.surface, Surface::Patch(_));
-                let factors = [&correction.length_factor, &correction.domain_factor];
-                let balanced = is_balanced.then_some(factors.map(Vec::as_slice));
-                stiffness.exchanged(bonds, self.cloud, balanced)
-            }
-            _ => stiffness,
+        if self.setup.law.element() != ElementKind::Beam {
+            return stiffness;
         }
+        let is_balanced = matches!(self.setup.correction.surface, Surface::Patch(_));
+        let factors = [&correction.length_factor, &correction.domain_factor];
+        let balanced = is_balanced.then_some(factors.map(Vec::as_slice));
+        stiffness.exchanged(bonds, self.cloud, balanced)
     }
 
     /// Energies of the points in uniform strains over the energies of the continuum, for bonds with corrected stiffness.

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 use rayon::prelude::*;
 
 use super::materials;
-use super::restrained::{Exchange, Restraint};
+use super::restraint::{Exchange, Restraint};
 use crate::bonds::BondSet;
 use crate::bonds::retained::retained;
 use crate::cloud::PointCloud;

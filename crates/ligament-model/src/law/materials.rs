@@ -6,7 +6,7 @@
 
 use rayon::prelude::*;
 
-use super::restrained::Restraint;
+use super::restraint::Restraint;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 

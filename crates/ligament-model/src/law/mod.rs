@@ -25,6 +25,7 @@ mod options;
 pub mod orthotropic;
 pub mod pds;
 mod restrained;
+mod restraint;
 pub mod rotational;
 mod row;
 pub mod stability;
@@ -32,7 +33,7 @@ pub mod stability;
 pub use densities::BondStiffness;
 pub(crate) use densities::{CENTRAL_FORCE_TOLERANCE, Densities, bulk_stiffness};
 pub use options::{Calibration, Form, Options, Strains};
-pub use restrained::{Exchange, Restraint};
+pub use restraint::{Exchange, Restraint};
 pub use row::{BondLaw, Law, LawInput, MakeDensities, Materials, PaperCorrection, ShearForm};
 
 /// All laws. A law is one row: its own file and its entry here.

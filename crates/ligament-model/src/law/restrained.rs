@@ -22,56 +22,15 @@ use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
 use super::BondStiffness;
+use super::restraint::{Exchange, Restraint};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
-
-/// Restraint of the rotations of the ends of a bond by stiffer materials.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Restraint {
-    /// Share beta of the rotation of its material that each end misses.
-    pub ends: [f64; 2],
-    /// Shear density k_t of the bond over that of a bond in the stiffest material of the body, kappa.
-    pub softness: f64,
-}
-
-/// What a restrained bond loses and gains.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Exchange {
-    /// Share d of k_t and k_theta that it loses.
-    pub lost: f64,
-    /// Part g of k_t that k_n gains.
-    pub gained: f64,
-}
 
 /// Largest x: a restrained bond keeps 0.025 of its k_t.
 const LARGEST_LOSS: f64 = 1.3;
 
 /// Part of the trace of the spread of a family that is added to it, so that families along a line have a normal.
 const SPREAD: f64 = 0.02;
-
-impl Restraint {
-    /// No restraint.
-    pub const NONE: Self = Self {
-        ends: [0.0; 2],
-        softness: 1.0,
-    };
-
-    /// Mean beta over both ends.
-    fn mean(&self) -> f64 {
-        0.5 * (self.ends[0] + self.ends[1])
-    }
-
-    /// Loss d of a bond in all directions, 3 beta/(1 + 3 beta).
-    fn usual_loss(&self) -> f64 {
-        let tripled = 3.0 * self.mean();
-        tripled / (1.0 + tripled)
-    }
-
-    /// Share of an end in both restraints.
-    fn share(&self, end: usize) -> f64 {
-        0.5 * self.ends[end] / self.mean()
-    }
-}
 
 /// Sums over bonds, with d for x = 1.
 #[derive(Debug, Clone, Copy, Default)]

@@ -312,7 +312,7 @@ mod tests {
 
     /// Clusters of ten aggregates each, which move together.
     fn clusters() -> Clusters {
-        let mut unit = vec![0.0; MOTIONS * MOTIONS];
+        let mut unit = [0.0; MOTIONS * MOTIONS];
         (0..MOTIONS).for_each(|motion| unit[motion * (MOTIONS + 1)] = 1.0);
         let of_aggregate: Vec<u32> = (0..AGGREGATES as u32).map(|it| it / 10).collect();
         let aggregates = (0..AGGREGATES as u32).collect::<Vec<u32>>();
