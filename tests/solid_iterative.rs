@@ -39,29 +39,30 @@ fn a_cylinder_breaks_as_with_the_factor() {
     assert_eq!(iterative.equilibrium.costs().factorisations, 1);
 }
 
-/// Nothing depends on the number of threads.
+/// Nothing depends on the number of threads, with two levels and with three.
 #[test]
 fn threads_change_no_bit() {
     let system = cylinder(14);
-    let [one, other] = [1, 2].map(|threads| {
-        let pool = ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
-        pool.install(|| {
-            let mut torn = Torn::cracked(&pulled(&system, Method::Iterative), &system, 0.0);
-            let balanced = torn.balance();
-            torn.break_longest(&balanced);
-            torn.balance();
-            torn.state.displacement
-        })
-    });
-    assert!(one.iter().any(|value| *value > 1e-4));
-    assert!(
-        one.iter()
-            .zip(&other)
-            .all(|(a, b)| a.to_bits() == b.to_bits())
-    );
+    let mut problem = pulled(&system, Method::Iterative);
+    for clusters_from in [usize::MAX, 0] {
+        problem.solver.clusters_from = clusters_from;
+        let [one, other] = [1, 2].map(|threads| {
+            let pool = ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
+            pool.install(|| {
+                let mut torn = Torn::cracked(&problem, &system, 0.0);
+                let balanced = torn.balance();
+                torn.break_longest(&balanced);
+                torn.balance();
+                torn.state.displacement
+            })
+        });
+        assert!(one.iter().any(|value| *value > 1e-4));
+        let mut pairs = one.iter().zip(&other);
+        assert!(pairs.all(|(a, b)| a.to_bits() == b.to_bits()));
+    }
 }
 
 /// Every law with shear has bonds with a negative stiffness above a Poisson's ratio of 1/4, and none below: they are refused by name.
