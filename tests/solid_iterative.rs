@@ -152,7 +152,7 @@ fn iterations_stay_few_while_bonds_break() {
     assert!(last < 1.5 * first, "{first} {last}");
 }
 
-/// With a third level the iterations are hardly more, and the same bonds break.
+/// With a third level the iterations are hardly more (as many, measured), and the same bonds break.
 #[test]
 fn a_third_level_takes_as_many_iterations() {
     let [two, three] = [usize::MAX, 0].map(|from| breakages(30, from));

@@ -56,8 +56,8 @@ impl<const D: usize> Discrete<D> {
     }
 }
 
-/// All points of the body with their owners, not yet [completed](Geometry::completed), and the outline of a mesh, which bonds must not cross; `material_of_cell` (n_cells) has the index
-/// of each cell's material.
+/// All points of the body with their owners, not yet [completed](Geometry::completed), and the outline of a mesh, which bonds must not cross;
+/// `material_of_cell` (n_cells) has the index of each cell's material.
 pub(crate) fn points<'a, const D: usize>(
     setup: &Setup,
     body: &'a dyn Geometry<D>,

@@ -2,7 +2,8 @@
 //!
 //! The stiffness is always that of the present bonds; only the preconditioner is stored. The blocks of points are recomputed where
 //! bonds broke, and the share of these bonds is subtracted from the coarse stiffness. The coarse space is rebuilt where a part
-//! became detached, and where the iterations in excess of its initial rate have cost as much as a rebuild.
+//! became detached, and where the iterations in excess of its initial rate have cost as much as a rebuild. Its equations have a factor, and in
+//! large bodies in space an iteration with a coarser space, a third level.
 
 mod aggregates;
 mod clusters;

@@ -1,7 +1,8 @@
 //! Coarse equations solved by conjugate gradients, with the blocks of the aggregates and a coarser space as preconditioner.
 //!
-//! The factor of E takes the time of n^2 and the memory of n^(4/3) for n aggregates in space, more than all else from some thousands on;
-//! the coarser space has so few unknowns that its factor costs nothing.
+//! The factor of E takes the time of n^2 and the memory of n^(4/3) for n aggregates in space (George 1973), more than all else from some
+//! thousands on. The preconditioner of the works w is B^-1 w + S (S^T E S)^-1 S^T w, with the blocks B of the aggregates on the diagonal of E
+//! and the rigid motions S of clusters (a coarse space, Nicolaides 1987), which are so few that their factor costs nothing.
 
 use ligament_linalg::{FactorError, RankOne};
 use rayon::prelude::*;
@@ -140,7 +141,6 @@ impl CoarseIteration {
                 let range = self.starts[aggregate]..self.starts[aggregate + 1];
                 for (&column, block) in self.columns[range.clone()].iter().zip(&blocks[range]) {
                     let amounts = &amounts[column as usize];
-                    // E is symmetric: its blocks are read by columns, which the vector instructions take at once.
                     for (row, work) in works.iter_mut().enumerate() {
                         for (value, amount) in block[row].iter().zip(amounts) {
                             *work += f64::from(*value) * amount;
