@@ -410,11 +410,24 @@ impl Equilibrium {
         Some(finished)
     }
 
-    /// Reason why a state with balanced forces is no equilibrium: a body with broken or softened bonds moves farther than its own
+    /// Degree of freedom (of the body) that moves farthest, where a body with broken or softened bonds moves farther than its own
     /// size.
-    pub(crate) fn beyond_size(&self, state: &State) -> Option<Unbalanced> {
-        let Equations { problem, .. } = &self.equations;
-        self.equations.motions().beyond_size(&*problem.loads, state)
+    pub(crate) fn beyond_size(&self, state: &State) -> Option<usize> {
+        self.equations.motions().beyond_size(state)
+    }
+
+    /// Adds supports to a state at degrees of freedom (of the body) for motions without stiffness.
+    pub(crate) fn hold(&mut self, state: &mut State, dofs: &[usize]) {
+        let Equations {
+            problem, solver, ..
+        } = &mut self.equations;
+        let (subdomain, layout) = (problem.system.subdomain(), problem.system.layout());
+        for &dof in dofs {
+            if let Some(here) = subdomain.local_index(dof, layout.components.len()) {
+                state.held[here] = true;
+            }
+        }
+        solver.discard();
     }
 
     /// Factor of the stiffness; None where there is none at present.

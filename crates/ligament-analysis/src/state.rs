@@ -39,7 +39,48 @@ pub struct State {
     pub rigid: Vec<Vector>,
 }
 
+/// Fields of a state that a solution for equilibrium changes, beside its added supports.
+#[derive(Debug, Clone)]
+pub(crate) struct Solution {
+    load_factor: f64,
+    displacement: Vec<f64>,
+    softening: Softening,
+    friction: Friction,
+    surfaces: LastTouching,
+    rigid: Vec<Vector>,
+}
+
 impl State {
+    /// The present solution.
+    pub(crate) fn solution(&self) -> Solution {
+        Solution {
+            load_factor: self.load_factor,
+            displacement: self.displacement.clone(),
+            softening: self.softening.clone(),
+            friction: self.friction.clone(),
+            surfaces: self.surfaces.clone(),
+            rigid: self.rigid.clone(),
+        }
+    }
+
+    /// Returns to an earlier solution.
+    pub(crate) fn return_to(&mut self, solution: Solution) {
+        let Solution {
+            load_factor,
+            displacement,
+            softening,
+            friction,
+            surfaces,
+            rigid,
+        } = solution;
+        self.load_factor = load_factor;
+        self.displacement = displacement;
+        self.softening = softening;
+        self.friction = friction;
+        self.surfaces = surfaces;
+        self.rigid = rigid;
+    }
+
     /// Whether all arrays have the shapes for a body with this number of bonds and these criteria.
     pub(crate) fn fits(&self, system: &dyn Bonds, n_bonds: usize, criteria: &Criteria) -> bool {
         let n = system.layout().n_degrees_of_freedom();

@@ -31,7 +31,7 @@ use crate::problem::Problem;
 use crate::serial::{Serial, Sink};
 use crate::softened::SoftenedOfAll;
 use crate::softening::Softening;
-use crate::state::State;
+use crate::state::{Solution, State};
 use crate::unbalanced::Unbalanced;
 
 /// State of a run.
@@ -158,11 +158,8 @@ impl<'a> Path<'a> {
         step: usize,
         breakage: &Breakage,
     ) -> Result<Attempt, SetupError> {
-        let displacement = self.state.displacement.clone();
-        let softening = self.state.softening.clone();
-        let contact = (self.state.friction.clone(), self.state.surfaces.clone());
-        let load_factor = self.state.load_factor;
-        let mut attempt = (self.equilibrium).balance(&mut self.state, breakage, self.observer)?;
+        let before = self.state.solution();
+        let mut attempt = self.held_balance(breakage, &before)?;
         let mut is_negative = false;
         if let Attempt::Balanced(Balanced {
             negative_energy: Some(energy),
@@ -174,16 +171,8 @@ impl<'a> Path<'a> {
                 attempt = Attempt::Unbalanced(Unbalanced::NegativeEnergy { energy });
             }
         }
-        if let (Attempt::Balanced(_), false) = (&attempt, self.is_whole())
-            && let Some(unbalanced) = self.equilibrium.beyond_size(&self.state)
-        {
-            attempt = Attempt::Unbalanced(unbalanced);
-        }
         if let Attempt::Unbalanced(_) = attempt {
-            self.state.displacement = displacement;
-            self.state.softening = softening;
-            (self.state.friction, self.state.surfaces) = contact;
-            self.state.load_factor = load_factor;
+            self.state.return_to(before);
             return Ok(attempt);
         }
         if is_negative && !std::mem::replace(&mut self.course.energy_was_negative, true) {
@@ -192,6 +181,39 @@ impl<'a> Path<'a> {
         self.course.solves[0] = self.equilibrium.costs().solves;
         self.course.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
         Ok(attempt)
+    }
+
+    /// Equilibrium of the state after the last breakage. Where a body with broken bonds moves beyond its size, supports that were added
+    /// for vanishing pivots may be where the motion without stiffness is small: it gets its support where it is largest, before
+    /// others are added, and the reaction there decides whether the body bears its load.
+    fn held_balance(
+        &mut self,
+        breakage: &Breakage,
+        before: &Solution,
+    ) -> Result<Attempt, SetupError> {
+        let held = self.state.held.clone();
+        let mut farthest = Vec::new();
+        loop {
+            let attempt = (self.equilibrium).balance(&mut self.state, breakage, self.observer)?;
+            let Attempt::Balanced(mut balanced) = attempt else {
+                return Ok(attempt);
+            };
+            let beyond = if self.is_whole() {
+                None
+            } else {
+                self.equilibrium.beyond_size(&self.state)
+            };
+            let Some(beyond) = beyond else {
+                let layout = self.problem.system.layout();
+                let points = farthest.into_iter().map(|dof| layout.point(dof));
+                balanced.mechanisms.extend(points);
+                return Ok(Attempt::Balanced(balanced));
+            };
+            farthest.push(beyond);
+            self.state.return_to(before.clone());
+            self.state.held.clone_from(&held);
+            self.equilibrium.hold(&mut self.state, &farthest);
+        }
     }
 
     /// Whether no bond has broken or softened in this run.

@@ -6,7 +6,6 @@
 use ligament_model::subdomain::Subdomain;
 
 use super::accuracy::Accuracy;
-use crate::load_program::LoadProgram;
 use crate::state::State;
 use crate::tangent::UNRESISTED;
 use crate::unbalanced::{Place, Unbalanced};
@@ -48,24 +47,10 @@ impl Measure<'_> {
         }
         let is_known = self.dot(motion, motion) > 0.0;
         let motion = if is_known { motion } else { force };
-        let stiffness = &self.accuracy.local_stiffness;
-        let dofs = self.unknowns.degrees_of_freedom().iter();
-        let n_components = self.unknowns.layout().components.len();
-        let farthest = dofs.zip(motion).fold([0.0; 3], |most, (&dof, value)| {
-            let size = -stiffness.at(dof as usize) * value * value;
-            if size < most[0] {
-                let in_body = self.subdomain.index_in_body(dof as usize, n_components);
-                [size, in_body as f64, *value]
-            } else {
-                most
-            }
-        });
-        let of_all = self.subdomain.all_reduce_min(Some(farthest));
-        let [size, dof, moved] = of_all.unwrap_or(farthest);
-        if size == 0.0 {
+        let Some((dof, moved)) = self.farthest(motion, |_| true) else {
             return Unbalanced::NegativeCurvature;
-        }
-        let (layout, dof) = (self.unknowns.layout(), dof as usize);
+        };
+        let layout = self.unknowns.layout();
         Unbalanced::LoadOnAddedSupport {
             place: Place {
                 point: layout.point(dof),
@@ -75,10 +60,32 @@ impl Measure<'_> {
         }
     }
 
-    /// Mechanism of a body with broken or softened bonds whose largest displacement exceeds both its size and the prescribed
-    /// displacements: the remaining stiffness is next to nothing, as in a hinge that is stiff by rounding alone. The reported force
-    /// is the work of the loads on the motion over that motion, as at a support.
-    pub(super) fn beyond_size(self, loads: &dyn LoadProgram, state: &State) -> Option<Unbalanced> {
+    /// Degree of freedom (of the body) that a motion (n_unknowns) moves farthest, by stiffness times its square, among the unknowns
+    /// that may be taken, and how far; None for no motion.
+    fn farthest(self, motion: &[f64], may_take: impl Fn(usize) -> bool) -> Option<(usize, f64)> {
+        let stiffness = &self.accuracy.local_stiffness;
+        let dofs = self.unknowns.degrees_of_freedom().iter();
+        let n_components = self.unknowns.layout().components.len();
+        let moved = dofs.map(|&dof| dof as usize).zip(motion);
+        let may_be_taken = moved.filter(|(dof, _)| may_take(*dof));
+        let farthest = may_be_taken.fold([0.0; 3], |most, (dof, value)| {
+            let size = -stiffness.at(dof) * value * value;
+            if size < most[0] {
+                let in_body = self.subdomain.index_in_body(dof, n_components);
+                [size, in_body as f64, *value]
+            } else {
+                most
+            }
+        });
+        let of_all = self.subdomain.all_reduce_min(Some(farthest));
+        let [size, dof, moved] = of_all.unwrap_or(farthest);
+        (size != 0.0).then_some((dof as usize, moved))
+    }
+
+    /// Degree of freedom (of the body) that moves farthest in a body with broken or softened bonds whose largest displacement exceeds
+    /// both its size and the prescribed displacements: the stiffness left is next to nothing, or supports that were added for a motion
+    /// without stiffness are where it is small. None where only added supports are that far.
+    pub(super) fn beyond_size(self, state: &State) -> Option<usize> {
         let accuracy = self.accuracy;
         let largest = accuracy.largest_displacement(self.unknowns.layout(), state);
         let limit = accuracy.size.max(accuracy.largest_prescribed(state));
@@ -90,7 +97,7 @@ impl Measure<'_> {
         let motion: Vec<f64> = (dofs.iter())
             .map(|&dof| state.displacement[dof as usize])
             .collect();
-        let force = loads.forces(state.load_factor, dofs);
-        Some(self.unresisted(&motion, &force))
+        let farthest = self.farthest(&motion, |dof| !state.held[dof]);
+        farthest.map(|(dof, _)| dof)
     }
 }

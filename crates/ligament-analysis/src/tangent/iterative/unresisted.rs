@@ -3,7 +3,6 @@
 //! Conjugate gradients fail in a body that has become a mechanism: forces along a motion without stiffness have no solution, and
 //! the nearly singular coarse stiffness is dominated by rounding. Conjugate residuals minimise the residual force; where a residual
 //! r cannot be reduced, M^-1 r is the motion.
-//! is, and of forces r that no motion balances, M^-1 r is the motion.
 
 use super::conjugate::ITERATION_LIMIT;
 use super::operator::Operator;
