@@ -236,6 +236,11 @@ impl Equilibrium {
         self.connectivity.fragments()
     }
 
+    /// Relative residual to which an iterative solver solves; none for a direct one.
+    pub(crate) fn tolerance(&self) -> Option<f64> {
+        self.equations.solver.tolerance()
+    }
+
     /// Accumulated costs of the equations.
     pub fn costs(&self) -> &Costs {
         &self.equations.costs

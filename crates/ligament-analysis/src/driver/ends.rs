@@ -9,7 +9,17 @@ use crate::unbalanced::Unbalanced;
 /// Fraction of the peak load below which a body carries no load, only rounding.
 pub(super) const NO_LOAD: f64 = 1e-9;
 
+/// Error of a utilisation over the tolerance of an iterative solver: a body that hangs together by little has a condition of a thousand
+/// between its forces and its strains.
+const CONDITION: f64 = 1e3;
+
 impl Path<'_> {
+    /// Utilisation up to which a bond is not stretched but for rounding, or for what an iterative solver leaves.
+    pub(super) fn no_utilisation(&self) -> f64 {
+        let left = self.equilibrium.tolerance().unwrap_or_default();
+        NO_LOAD.max(CONDITION * left)
+    }
+
     /// Whether the load of an equilibrium is rounding relative to the largest load so far.
     pub(super) fn carries_nothing(&self, balanced: &Balanced) -> bool {
         if let Some(loads) = self.problem.loads.course() {

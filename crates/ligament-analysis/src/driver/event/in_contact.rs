@@ -11,7 +11,6 @@ use std::time::Instant;
 use super::affine::{held, slopes, up_to_displacement};
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
-use crate::driver::ends::NO_LOAD;
 use crate::driver::path::Path;
 use crate::driver::recorder::largest_ratio;
 use crate::equilibrium::Heading;
@@ -76,7 +75,7 @@ impl EquilibriumLine for InContact {
             Some([_, upper]) if rises && upper == reach => {
                 let first = at(path, upper);
                 let is_full = reach == left;
-                let full = match first.ratio > NO_LOAD {
+                let full = match first.ratio > path.no_utilisation() {
                     true => Termination::FullLoad,
                     false => Termination::NothingBreaks,
                 };

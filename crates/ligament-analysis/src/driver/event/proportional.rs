@@ -7,7 +7,6 @@ use std::time::Instant;
 
 use super::equilibrium_line::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
-use crate::driver::ends::NO_LOAD;
 use crate::driver::path::Path;
 use crate::history::Termination;
 use crate::load_program::LoadProgram;
@@ -44,7 +43,7 @@ impl EquilibriumLine for Proportional {
         };
         if goal.load_factor > 1.0 {
             // Detached parts have stretches of rounding size, which do not count.
-            let is_stretched = ratio > NO_LOAD * now;
+            let is_stretched = ratio > path.no_utilisation() * now;
             let end = if is_stretched {
                 Termination::FullLoad
             } else {
