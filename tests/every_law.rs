@@ -55,8 +55,8 @@ fn drivers() -> [(&'static str, Analysis); 2] {
 }
 
 /// How a bar of a law ended that is held at one end along x and pulled at the other to a multiple of what its bonds bear, or why it is refused.
-fn pulled<const D: usize>(
-    body: impl Geometry<D> + 'static,
+fn pulled(
+    body: impl Into<AnyBody>,
     law: Law,
     surface: Surface,
     analysis: Analysis,
@@ -69,7 +69,7 @@ fn pulled<const D: usize>(
     setup.correction.surface = surface;
     setup.supports = vec![Support::new(
         "first",
-        &[Component::X, Component::Y, Component::Z][..D],
+        &[Component::X, Component::Y, Component::Z][..setup.body.dimensions()],
     )];
     setup.loads = vec![Load::new(
         "last",

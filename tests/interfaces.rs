@@ -21,7 +21,7 @@ const PULLED: f64 = 1e-5;
 const RATIOS: [f64; 4] = [1.0, 100.0, 1e3, 1e6];
 
 /// A body of halves "left-half" and "right-half" with sides "left" and "right".
-fn halved(body: impl Geometry<2> + 'static, law: Law, poisson: f64, ratio: f64) -> Setup {
+fn halved(body: impl Into<AnyBody>, law: Law, poisson: f64, ratio: f64) -> Setup {
     let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
     let half = |group: &str, young: f64| MaterialRegion {
         group: Some(group.to_owned()),
@@ -269,8 +269,8 @@ fn layered_block(thick: u32) -> SolidMesh {
 }
 
 /// A body of a layer between halves, its ends pulled apart, all points held across.
-fn with_layer<const D: usize>(
-    body: impl Geometry<D> + 'static,
+fn with_layer(
+    body: impl Into<AnyBody>,
     law: Law,
     [half, layer]: [Material; 2],
     across: &[Component],

@@ -16,7 +16,7 @@ use ligament_model::thermal::ThermalStrain;
 use nalgebra::{Matrix3, Matrix3x6, SVector};
 use verification::meshes;
 
-fn patched(body: impl Geometry<2> + 'static, poisson: f64, law: Law) -> Setup {
+fn patched(body: impl Into<AnyBody>, poisson: f64, law: Law) -> Setup {
     let mut setup = Setup::new(body, Material::isotropic(1.0, poisson), law);
     setup.correction.surface = Surface::Patch(Settings::default());
     setup

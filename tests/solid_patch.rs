@@ -50,7 +50,7 @@ fn prisms(cell: SolidCell) -> Vec<SolidCell> {
         .to_vec()
 }
 
-fn patched(body: impl Geometry<3> + 'static, factor: f64) -> Setup {
+fn patched(body: impl Into<AnyBody>, factor: f64) -> Setup {
     let Isotropic { young, poisson } = MATERIAL;
     let mut setup = Setup::new(body, Material::isotropic(young, poisson), Law::NHPD);
     setup.horizon = Horizon::Factor(factor);

@@ -15,7 +15,7 @@ use ligament_analysis::motion::{MotionProblem, critical_step};
 const WORK: usize = 400_000_000;
 
 /// A free lattice of beams whose bonds may break, set in motion at one end.
-fn setup<const D: usize>(body: impl Geometry<D> + 'static, law: Law) -> Setup {
+fn setup(body: impl Into<AnyBody>, law: Law) -> Setup {
     let mut material = Material::isotropic(30e9, 0.2);
     material.tensile_strength = Some(3e6);
     material.density = Some(2400.0);

@@ -97,8 +97,8 @@ pub(crate) fn body(path: &Path) -> Result<AnyBody, String> {
     let table = Table::read(path, expected)?;
     let is_solid = table.names.iter().any(|it| it == AXES[2]);
     match is_solid {
-        true => table.body::<3>().map(AnyBody::new),
-        false => table.body::<2>().map(AnyBody::new),
+        true => table.body::<3>().map(AnyBody::from),
+        false => table.body::<2>().map(AnyBody::from),
     }
 }
 

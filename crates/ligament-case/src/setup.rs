@@ -1,6 +1,6 @@
 //! The setup of a computation from a case file and the files that it names.
 
-use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
+use ligament::body::AnyBody;
 use ligament::setup::{Profile, Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_analysis::SetupError;
@@ -52,23 +52,23 @@ impl CaseFile {
             }
             (Some(section), _, _) if section.is_solid => {
                 let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
-                let AnyMesh::Solid(mesh) = mesh else {
+                let AnyMesh::Solid(_) = mesh else {
                     let reason = "the geometry has volumes, and the mesh has no solid cells: mesh the volumes too (`gmsh -3`)";
                     return Err(self.error("mesh.file", reason).into());
                 };
-                Ok(AnyBody::new(SolidMeshBody::from(mesh)))
+                Ok(mesh.into())
             }
             (Some(section), _, _) => {
                 let mesh = stage(watcher, "read mesh", || read_mesh(&section.file))?;
-                Ok(AnyBody::new(MeshBody::from(mesh)))
+                Ok(AnyMesh::Plane(mesh).into())
             }
             (None, Some(section), _) => {
                 let body = stage(watcher, "lattice", || lattice_keys::body(section));
-                Ok(AnyBody::new(body.map_err(|it| self.source.error(it))?))
+                Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, Some(section)) => {
                 let body = stage(watcher, "lattice", || lattice_keys::body(section));
-                Ok(AnyBody::new(body.map_err(|it| self.source.error(it))?))
+                Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, None) => anyhow::bail!("the case has no body"),
         }

@@ -24,7 +24,7 @@ fn with(keys: &str, overrides: &[&str]) -> Result<CaseFile, String> {
 
 fn crack(keys: &str, overrides: &[&str]) -> PreCrack {
     let body = Points::new(vec![[0.0; 2]], vec![1.0]).unwrap();
-    let setup = with(keys, overrides).unwrap().setup_on(AnyBody::new(body));
+    let setup = with(keys, overrides).unwrap().setup_on(AnyBody::from(body));
     setup.unwrap().precracks.remove(0)
 }
 

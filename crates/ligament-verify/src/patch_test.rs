@@ -2,9 +2,8 @@
 
 use anyhow::Context;
 use ligament::Model;
-use ligament::body::{AnyBody, MeshBody};
 use ligament::patch_test::{PatchTest, patch_test};
-use ligament_mesh::gmsh;
+use ligament_mesh::{AnyMesh, gmsh};
 
 use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
@@ -157,7 +156,7 @@ fn turned(labels: Labels<'_>) -> anyhow::Result<f64> {
         *place = [cos * x - sin * y, sin * x + cos * y];
     }
     let straight = trial.model()?;
-    let turned = trial.model_with(|setup| setup.body = AnyBody::new(MeshBody::from(mesh)))?;
+    let turned = trial.model_with(|setup| setup.body = AnyMesh::Plane(mesh).into())?;
     let (mut sum, mut count) = (0.0, 0.0);
     for (turned, straight) in factors(turned).into_iter().zip(factors(straight)) {
         sum += (turned / straight - 1.0_f64).powi(2);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use anyhow::Context;
-use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
+use ligament::body::AnyBody;
 use ligament::run::{NoObserver, Solution};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
@@ -65,10 +65,12 @@ pub(super) struct Trial {
 
 impl StoredMesh {
     fn body(&self) -> anyhow::Result<(BodyKind, AnyBody)> {
-        Ok(match gmsh::parse_any(self.bytes)? {
-            AnyMesh::Plane(mesh) => (BodyKind::Plane, AnyBody::new(MeshBody::from(mesh))),
-            AnyMesh::Solid(mesh) => (BodyKind::Solid, AnyBody::new(SolidMeshBody::from(mesh))),
-        })
+        let mesh = gmsh::parse_any(self.bytes)?;
+        let kind = match mesh {
+            AnyMesh::Plane(_) => BodyKind::Plane,
+            AnyMesh::Solid(_) => BodyKind::Solid,
+        };
+        Ok((kind, mesh.into()))
     }
 }
 

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use ligament::body::{AnyBody, MeshBody, SolidMeshBody};
+use ligament::body::AnyBody;
 use ligament::implausible::Implausible;
 use ligament::near_growth::Growth;
 use ligament::setup::{self, Section, Setup};
-use ligament_mesh::{Mesh, SolidMesh};
+use ligament_mesh::{AnyMesh, Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -417,10 +417,10 @@ impl Case {
     /// A substitute for the body before it is built, of the same kind, with at most one point.
     pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
         Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
-            (true, _, Some(lattice)) => AnyBody::new(lattice_keys::stand_in(lattice)?),
-            (false, Some(lattice), _) => AnyBody::new(lattice_keys::stand_in(lattice)?),
-            (true, _, None) => AnyBody::new(SolidMeshBody::from(SolidMesh::default())),
-            (false, None, _) => AnyBody::new(MeshBody::from(Mesh::default())),
+            (true, _, Some(lattice)) => AnyBody::from(lattice_keys::stand_in(lattice)?),
+            (false, Some(lattice), _) => AnyBody::from(lattice_keys::stand_in(lattice)?),
+            (true, _, None) => AnyMesh::Solid(SolidMesh::default()).into(),
+            (false, None, _) => AnyMesh::Plane(Mesh::default()).into(),
         })
     }
 

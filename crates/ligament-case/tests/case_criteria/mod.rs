@@ -55,7 +55,7 @@ fn criteria_of(text: String, overrides: &[&str]) -> Vec<Choice> {
 /// The criteria of a case as its setup has them, on a body of one point.
 fn criteria(case: &CaseFile) -> Vec<Choice> {
     let body = Points::new(vec![[0.0; 2]], vec![1.0]).unwrap();
-    case.setup_on(AnyBody::new(body)).unwrap().criteria
+    case.setup_on(AnyBody::from(body)).unwrap().criteria
 }
 
 /// A criterion with a limit of its own, by which bonds break at once.

@@ -4,9 +4,13 @@ use std::any::Any;
 use std::ops::Deref;
 use std::sync::Arc;
 
+use ligament_mesh::AnyMesh;
 use ligament_model::dimension::cast;
 
 use super::interface::{Body, Geometry};
+use super::lattice::{LatticeBody, SolidLatticeBody};
+use super::mesh::{MeshBody, SolidMeshBody};
+use super::points::Points;
 
 /// A body in the plane or in space.
 #[derive(Debug, Clone)]
@@ -18,11 +22,6 @@ pub enum AnyBody {
 }
 
 impl AnyBody {
-    /// A body of D dimensions.
-    pub fn new<const D: usize>(body: impl Geometry<D> + 'static) -> Self {
-        Self::shared::<D>(Arc::new(body))
-    }
-
     /// A body of D dimensions behind a shared pointer.
     ///
     /// # Panics
@@ -62,6 +61,32 @@ impl AnyBody {
         };
         body.downcast_ref()
             .expect("code over D is called for bodies of D dimensions")
+    }
+}
+
+/// Conversions of each kind of body, compiled in this crate alone: all functions of a body's geometry come with it.
+macro_rules! from_bodies {
+    ($($variant:ident: $($body:ty),*;)*) => {$($(
+        impl From<$body> for AnyBody {
+            #[inline(never)]
+            fn from(body: $body) -> Self {
+                Self::$variant(Arc::new(body))
+            }
+        }
+    )*)*};
+}
+
+from_bodies! {
+    Plane: MeshBody, LatticeBody, Points<2>;
+    Solid: SolidMeshBody, SolidLatticeBody, Points<3>;
+}
+
+impl From<AnyMesh> for AnyBody {
+    fn from(mesh: AnyMesh) -> Self {
+        match mesh {
+            AnyMesh::Plane(mesh) => MeshBody::from(mesh).into(),
+            AnyMesh::Solid(mesh) => SolidMeshBody::from(mesh).into(),
+        }
     }
 }
 

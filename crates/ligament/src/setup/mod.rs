@@ -31,7 +31,7 @@ use ligament_model::law::rotational::RotationalScale;
 use ligament_model::material::Space;
 use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointCloud, Scatter};
 
-use crate::body::{AnyBody, Geometry};
+use crate::body::AnyBody;
 use crate::implausible::Implausible;
 
 pub use analysis::{
@@ -142,14 +142,11 @@ pub enum Horizon {
 impl Setup {
     /// The elastic analysis of a body of one material, with horizon factor 3 and the correction of the law's paper, without supports and
     /// loads. A body in the plane is in plane stress and 1 m thick.
-    pub fn new<const D: usize>(
-        body: impl Geometry<D> + 'static,
-        material: Material,
-        law: Law,
-    ) -> Self {
+    pub fn new(body: impl Into<AnyBody>, material: Material, law: Law) -> Self {
+        let body = body.into();
         Self {
-            body: AnyBody::new(body),
-            section: Section::usual::<D>(),
+            section: Section::usual(body.dimensions()),
+            body,
             materials: vec![MaterialRegion {
                 group: None,
                 material,

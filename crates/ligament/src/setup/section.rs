@@ -18,9 +18,9 @@ pub enum Section {
 }
 
 impl Section {
-    /// The default section of bodies in D dimensions: plane stress and 1 m thick, or a solid.
-    pub fn usual<const D: usize>() -> Self {
-        match D {
+    /// The default section of bodies of two or three dimensions: plane stress and 1 m thick, or a solid.
+    pub fn usual(dimensions: usize) -> Self {
+        match dimensions {
             2 => Self::Plane {
                 state: Plane::Stress,
                 thickness: 1.0,

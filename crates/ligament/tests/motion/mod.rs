@@ -41,7 +41,7 @@ fn ends<const D: usize, S>() -> BTreeMap<String, Cells<D, S>> {
     [end("first", -1), end("last", 1)].into()
 }
 
-fn setup_of<const D: usize>(body: impl Geometry<D> + 'static, law: Law) -> Setup {
+fn setup_of(body: impl Into<AnyBody>, law: Law) -> Setup {
     let mut material = Material::isotropic(YOUNG, 0.2);
     material.tensile_strength = Some(STRETCH * YOUNG);
     material.fracture_energy = Some(STRETCH * STRETCH * YOUNG * SPACING);
