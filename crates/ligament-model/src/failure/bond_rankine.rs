@@ -15,7 +15,7 @@ const BRITTLE: &str =
     "its measure is a stress, of which a bond does not tell how much energy it has taken";
 
 /// Tensile stress across the bond.
-pub const BOND_RANKINE: Kind = Kind {
+pub static BOND_RANKINE: Kind = Kind {
     takes: &[TENSILE_STRENGTH],
     brittle_because: Some(BRITTLE),
     ..Kind::new(

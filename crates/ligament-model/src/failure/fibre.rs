@@ -18,7 +18,7 @@ use super::stretch;
 use super::unfit::{NoLimit, Unfit};
 
 /// Stretch of the outermost fibre, from the tensile strength.
-pub const FIBRE: Kind = Kind {
+pub static FIBRE: Kind = Kind {
     source: "MPPD eq. 28; OMPPD eq. 13",
     takes: &[TENSILE_STRENGTH],
     keys: &["limit", "fibre_distance"],

@@ -9,7 +9,7 @@ use crate::material::{Isotropic, Space};
 use crate::system::BondSystem;
 
 /// Stretch, from the fracture energy.
-pub const CRITICAL_STRETCH: Kind = Kind {
+pub static CRITICAL_STRETCH: Kind = Kind {
     source: "Silling and Askari 2005",
     takes: &[FRACTURE_ENERGY],
     ..Kind::new(
@@ -21,7 +21,7 @@ pub const CRITICAL_STRETCH: Kind = Kind {
 };
 
 /// Energy of stretch and sliding, from the fracture energy; from the tensile strength where bonds soften by the fracture energy.
-pub const BOND_ENERGY: Kind = Kind {
+pub static BOND_ENERGY: Kind = Kind {
     source: "Silling and Askari 2005",
     takes: &[FRACTURE_ENERGY],
     keys: &["limit"],

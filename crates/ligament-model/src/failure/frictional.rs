@@ -13,7 +13,7 @@ use crate::material::{Isotropic, Material, Space};
 pub use super::kind::Calibration;
 
 /// Sliding that compression makes harder.
-pub const FRICTIONAL: Kind = Kind {
+pub static FRICTIONAL: Kind = Kind {
     source: "MPPD eqs 52 to 58",
     takes: &[TENSILE_STRENGTH, COMPRESSIVE_STRENGTH],
     keys: &["limit", "friction_angle", "calibration"],

@@ -9,7 +9,7 @@ use crate::element::imaginary::BondClass;
 use crate::material::Material;
 
 /// Opening and shear, from the fracture energies.
-pub const MIXED_MODE: Kind = Kind {
+pub static MIXED_MODE: Kind = Kind {
     source: "MBB-PD eqs 21, C.1, C.4; Benzeggagh and Kenane 1996",
     takes: &[FRACTURE_ENERGY],
     keys: &["critical_stretch", "critical_angle"],

@@ -60,7 +60,7 @@ pub use unfit::{NoLimit, Unfit};
 pub use weakened::Weakened;
 
 /// All kinds of criteria.
-pub const KINDS: [&Kind; 15] = [
+pub static KINDS: [&Kind; 15] = [
     &strength::STRENGTH,
     &bond_rankine::BOND_RANKINE,
     &rankine::RANKINE,

@@ -27,7 +27,7 @@ use super::unfit::{NoLimit, Unfit};
 use crate::material::Material;
 
 /// Tensile stress across the bond, and shear stress with friction.
-pub const MOHR_COULOMB: Kind = Kind {
+pub static MOHR_COULOMB: Kind = Kind {
     takes: &[TENSILE_STRENGTH, COMPRESSIVE_STRENGTH],
     keys: &["cohesion", "friction_angle"],
     check,

@@ -22,7 +22,7 @@ use super::mixed_mode;
 use super::surroundings::Surroundings;
 
 /// Opening (mode I).
-pub const OPENING: Kind = Kind {
+pub static OPENING: Kind = Kind {
     source: "MBB-PD eqs C.3, C.4",
     takes: &[FRACTURE_ENERGY],
     brittle_because: mixed_mode::MIXED_MODE.brittle_because,
@@ -35,7 +35,7 @@ pub const OPENING: Kind = Kind {
 };
 
 /// Sliding (mode II).
-pub const SLIDING: Kind = Kind {
+pub static SLIDING: Kind = Kind {
     source: "MBB-PD eqs C.6, C.7",
     takes: &[FRACTURE_ENERGY],
     brittle_because: mixed_mode::MIXED_MODE.brittle_because,
@@ -48,7 +48,7 @@ pub const SLIDING: Kind = Kind {
 };
 
 /// Opening and sliding together.
-pub const MIXED: Kind = Kind {
+pub static MIXED: Kind = Kind {
     source: "MBB-PD eqs 21 to 24, C.9, C.10",
     takes: &[FRACTURE_ENERGY],
     brittle_because: mixed_mode::MIXED_MODE.brittle_because,

@@ -26,7 +26,7 @@ use crate::material::Space;
 use crate::scatter::Scattered;
 
 /// Principal stress around the bond, which then softens by the fracture energy.
-pub const RANKINE: Kind = Kind {
+pub static RANKINE: Kind = Kind {
     takes: &[TENSILE_STRENGTH, FRACTURE_ENERGY],
     check,
     softens_because: Some(

@@ -8,7 +8,7 @@ use super::unfit::NoLimit;
 use crate::material::{Isotropic, Space};
 
 /// Sliding, from the tensile strength.
-pub const SLIDING: Kind = Kind {
+pub static SLIDING: Kind = Kind {
     source: "MPPD eqs 49, 50",
     takes: &[TENSILE_STRENGTH],
     keys: &["limit"],

@@ -8,7 +8,7 @@ use crate::material::{Isotropic, Plane, Space};
 use crate::system::BondSystem;
 
 /// Stretch, from the energy at the tensile strength.
-pub const STRENGTH: Kind = Kind {
+pub static STRENGTH: Kind = Kind {
     source: "NHPD eqs 14 to 16",
     takes: &[TENSILE_STRENGTH],
     ..Kind::new(

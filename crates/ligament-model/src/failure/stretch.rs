@@ -7,7 +7,7 @@ use super::unfit::NoLimit;
 use crate::material::{Isotropic, Space};
 
 /// Stretch, from the tensile strength.
-pub const TENSION: Kind = Kind {
+pub static TENSION: Kind = Kind {
     source: "MPPD eq. 44",
     takes: &[TENSILE_STRENGTH],
     keys: &["limit"],
@@ -20,7 +20,7 @@ pub const TENSION: Kind = Kind {
 };
 
 /// Shortening, from the compressive strength.
-pub const COMPRESSION: Kind = Kind {
+pub static COMPRESSION: Kind = Kind {
     source: "MPPD eq. 44",
     takes: &[COMPRESSIVE_STRENGTH],
     keys: &["limit"],

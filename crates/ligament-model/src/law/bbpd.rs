@@ -3,7 +3,7 @@
 use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
 
 /// Bond-based law with a constant micromodulus.
-pub const LAW: BondLaw = BondLaw {
+pub static LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
         ..Options::NONE

@@ -5,7 +5,7 @@ use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Optio
 use crate::material::Isotropic;
 
 /// Bond-based law with a conical micromodulus.
-pub const LAW: BondLaw = BondLaw {
+pub static LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
         ..Options::NONE

@@ -9,7 +9,7 @@ use crate::element::ElementKind;
 use crate::material::Space;
 
 /// Law of NHPD.
-pub const NHPD: BondLaw = BondLaw {
+pub static NHPD: BondLaw = BondLaw {
     shear_form: Some(nhpd_form),
     correction: PaperCorrection::LengthAndDomain,
     element: |_| ElementKind::Beam,
@@ -23,7 +23,7 @@ pub const NHPD: BondLaw = BondLaw {
 };
 
 /// Beam form of MPPD, whose integrals leave the constants 7.5 % off at nu = 0 with a horizon factor of 3.
-pub const MPPD_BEAM: BondLaw = BondLaw {
+pub static MPPD_BEAM: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Discrete),
         ..Options::NONE

@@ -27,7 +27,7 @@ use crate::failure::mixed_mode;
 use matrices::{of_matrices, plane_stiffnesses};
 
 /// Law of MBB-PD.
-pub const LAW: BondLaw = BondLaw {
+pub static LAW: BondLaw = BondLaw {
     options: Options {
         form: Some(Form::Full),
         strains: Some(Strains::Small),

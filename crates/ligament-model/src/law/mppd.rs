@@ -7,7 +7,7 @@ use super::{BondLaw, BondStiffness, Calibration, Law, LawInput, Options, ShearFo
 use crate::element::ElementKind;
 
 /// Micropolar law with a constant shear stiffness.
-pub const LAW: BondLaw = BondLaw {
+pub static LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
         rotational_stiffness: Some(RotationalStiffness::Decaying),

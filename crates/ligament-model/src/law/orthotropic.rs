@@ -12,7 +12,7 @@ use crate::element::ElementKind;
 use crate::material::{Elasticity, Plane};
 
 /// The law.
-pub const LAW: BondLaw = BondLaw {
+pub static LAW: BondLaw = BondLaw {
     options: Options {
         rotational_stiffness: Some(RotationalStiffness::Decaying),
         ..Options::NONE

@@ -3,7 +3,7 @@
 use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
 
 /// Law with stretch and constant shear stiffness, without rotations.
-pub const LAW: BondLaw = BondLaw {
+pub static LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
         ..Options::NONE
