@@ -55,6 +55,10 @@ impl<C: AsRef<dyn Communicator> + Debug + Send + Sync> Communicator for Recordin
     fn broadcast(&self, bytes: &mut Vec<u8>) {
         self.inner.as_ref().broadcast(bytes);
     }
+
+    fn transfer(&self, from: usize, to: usize, bytes: &mut Vec<u8>) {
+        self.inner.as_ref().transfer(from, to, bytes);
+    }
 }
 
 /// The subdomain of a rank; owners alternate in blocks of a few points, so that each slice has values of all.

@@ -19,6 +19,7 @@ mod left_behind;
 mod loads;
 mod mbb_pd;
 mod mbb_pd_variants;
+mod mesh_in_parts;
 mod modal;
 mod neighbours;
 mod patch;

@@ -142,6 +142,10 @@ impl Communicator for Counting {
         self.ranks.broadcast(bytes);
     }
 
+    fn transfer(&self, from: usize, to: usize, bytes: &mut Vec<u8>) {
+        self.ranks.transfer(from, to, bytes);
+    }
+
     fn poison(&self) -> f64 {
         self.ranks.poison()
     }

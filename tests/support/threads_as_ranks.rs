@@ -1,7 +1,8 @@
 //! Threads in the place of processes: ranks that share their rows through memory and solve with a dense factor.
 
+use std::collections::{BTreeMap, VecDeque};
 use std::fmt::{self, Debug, Formatter};
-use std::sync::{Arc, Barrier, Mutex};
+use std::sync::{Arc, Barrier, Condvar, Mutex};
 
 use ligament_analysis::distributed_matrix::{
     Communicator, DistributedMatrix, MatrixCommunicator, Pivots, Rows, Solved, Tolerated,
@@ -13,6 +14,9 @@ use nalgebra::{DMatrix, DVector};
 struct Table {
     barrier: Barrier,
     slots: Mutex<Vec<Vec<f64>>>,
+    /// Bytes on their way between two threads.
+    letters: Mutex<BTreeMap<[usize; 2], VecDeque<Vec<u8>>>>,
+    arrived: Condvar,
 }
 
 /// One of several threads.
@@ -41,6 +45,8 @@ pub fn on_ranks<T: Send>(
     let table = Arc::new(Table {
         barrier: Barrier::new(n_ranks),
         slots: Mutex::new(vec![Vec::new(); n_ranks]),
+        letters: Mutex::default(),
+        arrived: Condvar::new(),
     });
     std::thread::scope(|scope| {
         let start = |rank| {
@@ -136,6 +142,24 @@ impl Communicator for Thread {
     fn broadcast(&self, bytes: &mut Vec<u8>) {
         let own: Vec<f64> = bytes.iter().map(|&it| f64::from(it)).collect();
         *bytes = self.exchange(&own)[0].iter().map(|&it| it as u8).collect();
+    }
+
+    fn transfer(&self, from: usize, to: usize, bytes: &mut Vec<u8>) {
+        let mut letters = self.table.letters.lock().unwrap();
+        if self.rank == from {
+            let queue = letters.entry([from, to]).or_default();
+            queue.push_back(bytes.clone());
+            self.table.arrived.notify_all();
+        }
+        if self.rank == to {
+            *bytes = loop {
+                let queue = letters.entry([from, to]).or_default();
+                match queue.pop_front() {
+                    Some(letter) => break letter,
+                    None => letters = self.table.arrived.wait(letters).unwrap(),
+                }
+            };
+        }
     }
 }
 

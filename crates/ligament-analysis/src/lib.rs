@@ -33,6 +33,7 @@ pub mod internal;
 mod lagging;
 pub mod lists_of_all;
 pub mod load_program;
+pub mod messages;
 pub mod modal;
 pub mod motion;
 pub mod probe;

@@ -155,7 +155,7 @@ macro_rules! serial_numbers {
     )*};
 }
 
-serial_numbers!(u32, u64, f32);
+serial_numbers!(i32, u32, u64, f32);
 serial!(StiffnessFactors {
     axial,
     shear,
@@ -327,7 +327,7 @@ impl<T: Serial> Serial for Option<T> {
 }
 
 /// Appends the bytes of a list, equal to those of a vector.
-pub(crate) fn write_list<T: Serial>(list: &[T], out: &mut dyn Sink) {
+pub fn write_list<T: Serial>(list: &[T], out: &mut dyn Sink) {
     list.len().write(out);
     T::write_list(list, out);
 }

@@ -28,6 +28,9 @@ pub enum MeshFileError {
         /// The reader's reason.
         source: GmshError,
     },
+    /// The first of several processes, which alone reads the mesh, could not use it.
+    #[error("the first process could not use the mesh, and its message says why")]
+    OfFirstProcess,
 }
 
 /// Reads a mesh file.

@@ -1,13 +1,17 @@
 //! The setup of a computation from a case file and the files that it names.
 
+use std::sync::Arc;
+
 use ligament::body::AnyBody;
+use ligament::processes::partition_communicator;
 use ligament::setup::{Profile, Setup, TemperatureChange};
 use ligament::stage::{StageWatcher, stage};
 use ligament_analysis::SetupError;
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_mesh::AnyMesh;
 
 use crate::case::{CaseError, CaseFile, lattice_keys};
-use crate::mesh_file::{read_any_mesh, read_mesh};
+use crate::mesh_file::{MeshFileError, read_any_mesh, read_mesh};
 use crate::point_table;
 
 impl CaseFile {
@@ -17,8 +21,48 @@ impl CaseFile {
     ///
     /// If a file cannot be read, the mesh has no cells of the kind of the body, or no cell remains of a lattice or of one of its sets.
     pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
-        let body = self.read_body(watcher)?;
-        Ok(self.setup_on(body)?)
+        self.setup_on_processes(Arc::new(Solo), watcher)
+    }
+
+    /// The setup of the case on each of several processes. The first one alone reads a mesh; the others have its nodes, and its cells only where
+    /// the body is not divided between processes. Collective.
+    ///
+    /// # Errors
+    ///
+    /// As for [`setup`](Self::setup); other processes refuse a mesh that the first one cannot read.
+    pub fn setup_on_processes(
+        &self,
+        communicator: Arc<dyn MatrixCommunicator>,
+        watcher: &mut dyn StageWatcher,
+    ) -> anyhow::Result<Setup> {
+        let body = self.read_body_on_first(&*communicator, watcher)?;
+        let mut setup = self.setup_on(body)?;
+        setup.solver.communicator = communicator;
+        if setup.body.n_cells() == 0 && partition_communicator(&setup).size() == 1 {
+            setup.body = self.read_body(watcher)?;
+        }
+        Ok(setup)
+    }
+
+    /// The body of the case, of a mesh the nodes alone on other processes than the first.
+    fn read_body_on_first(
+        &self,
+        communicator: &dyn MatrixCommunicator,
+        watcher: &mut dyn StageWatcher,
+    ) -> anyhow::Result<AnyBody> {
+        let mesh = self.case.mesh.as_ref();
+        let is_mesh = mesh.is_some_and(|it| !point_table::is_table(&it.file));
+        if !is_mesh || communicator.size() == 1 {
+            return self.read_body(watcher);
+        }
+        let (read, error) = match communicator.is_root().then(|| self.read_body(watcher)) {
+            Some(Ok(body)) => (Some(body), None),
+            Some(Err(error)) => (None, Some(error)),
+            None => (None, None),
+        };
+        let body = AnyBody::of_first(communicator, read)?;
+        let refused = || error.unwrap_or_else(|| MeshFileError::OfFirstProcess.into());
+        body.ok_or_else(refused)
     }
 
     /// Refuses a case whose body is a solid.

@@ -2,6 +2,9 @@
 
 /// Interface of a cell in D dimensions.
 pub trait MeshCell<const D: usize>: Copy + Sync {
+    /// The cell with given corner nodes, in their order; `None` where no kind of cell has so many.
+    fn from_corners(corners: &[u32]) -> Option<Self>;
+
     /// The corner nodes of the cell.
     fn corners(&self) -> &[u32];
 
@@ -98,6 +101,11 @@ impl Cell {
 }
 
 impl MeshCell<2> for Cell {
+    fn from_corners(corners: &[u32]) -> Option<Self> {
+        let triangle = corners.try_into().ok().map(Self::Triangle);
+        triangle.or_else(|| Some(Self::Quadrangle(corners.try_into().ok()?)))
+    }
+
     fn corners(&self) -> &[u32] {
         self.corners()
     }

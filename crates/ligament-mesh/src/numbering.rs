@@ -57,7 +57,11 @@ impl Numbering {
 
     /// Numbering of some points (ascending) of a body, which keep their numbers in the file.
     pub fn part(&self, points: &[u32]) -> Self {
-        let in_file: Vec<u32> = points.iter().map(|&it| self.in_file(it)).collect();
+        Self::of_numbers(points.iter().map(|&it| self.in_file(it)).collect())
+    }
+
+    /// Numbering of points with given numbers in the file (n_points), no two of them the same.
+    pub fn of_numbers(in_file: Vec<u32>) -> Self {
         let mut order: Vec<u32> = (0..in_file.len() as u32).collect();
         order.sort_unstable_by_key(|&point| in_file[point as usize]);
         Self(Some(Arc::new(Orders {

@@ -5,8 +5,8 @@ use std::fmt::Debug;
 /// Numbers, of all processes together, that are summed at a time.
 const PIECE: usize = 1 << 18;
 
-/// The processes of a run. Every function but [`rank`](Self::rank), [`size`](Self::size) and [`poison`](Self::poison) is collective: all
-/// processes call it in the same order, from one thread each. The results of a reduction, an all-gather or a broadcast are the same to the
+/// The processes of a run. Every function but [`rank`](Self::rank), [`size`](Self::size), [`poison`](Self::poison) and
+/// [`transfer`](Self::transfer) is collective: all processes call it in the same order, from one thread each. The results of a reduction, an all-gather or a broadcast are the same to the
 /// bit on all processes. A failure on one process ends all.
 pub trait Communicator: Debug + Send + Sync {
     /// Rank of this process, from 0.
@@ -27,6 +27,9 @@ pub trait Communicator: Debug + Send + Sync {
 
     /// Replaces the bytes on every process by those of rank 0.
     fn broadcast(&self, bytes: &mut Vec<u8>);
+
+    /// Moves bytes from one process to another, where they replace those that it has. These two processes alone call it.
+    fn transfer(&self, from: usize, to: usize, bytes: &mut Vec<u8>);
 
     /// Value at points without a known value on a process; NaN in tests, so that a read of one shows.
     fn poison(&self) -> f64 {
@@ -160,6 +163,8 @@ impl Communicator for Solo {
     }
 
     fn broadcast(&self, _: &mut Vec<u8>) {}
+
+    fn transfer(&self, _: usize, _: usize, _: &mut Vec<u8>) {}
 
     fn all_reduce_sum(&self, _: &mut [f64]) {}
 }

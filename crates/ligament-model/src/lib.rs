@@ -18,6 +18,7 @@
 
 pub mod advice;
 pub mod bonds;
+pub mod boxes;
 pub mod change;
 pub mod cloud;
 pub mod communicator;

@@ -20,6 +20,7 @@ unsafe extern "C" {
     fn ligament_all_gather(own: *const f64, counts: *const i64, all: *mut f64);
     fn ligament_all_to_all(own: *const f64, to: *const i64, from: *const i64, received: *mut f64);
     fn ligament_broadcast(bytes: *mut c_uchar, n: i64);
+    fn ligament_transfer(bytes: *mut c_uchar, n: i64, from: c_int, to: c_int);
     fn ligament_matrix_new(
         block_size: i64,
         n_own: i64,
@@ -136,6 +137,15 @@ pub(crate) fn broadcast(bytes: &mut [u8]) {
     let _alone = alone();
     // SAFETY: as many bytes are read or written as there are.
     unsafe { ligament_broadcast(bytes.as_mut_ptr(), bytes.len() as i64) }
+}
+
+/// Sends bytes of a rank to another one; this one is either of them.
+pub(crate) fn transfer(from: usize, to: usize, bytes: &mut [u8]) {
+    assert_ne!([from, to].map(|it| it == rank()), [false; 2], "an end");
+    let [from, to] = [from, to].map(|it| it as c_int);
+    let _alone = alone();
+    // SAFETY: as many bytes are read or written as there are.
+    unsafe { ligament_transfer(bytes.as_mut_ptr(), bytes.len() as i64, from, to) }
 }
 
 /// A matrix of PETSc, of this rank its rows.

@@ -173,6 +173,13 @@ void ligament_broadcast(unsigned char *bytes, int64_t n)
   CHECK(MPI_Bcast(bytes, count_of(n), MPI_BYTE, 0, MPI_COMM_WORLD));
 }
 
+/* Bytes of a rank to another; these two call it. */
+void ligament_transfer(unsigned char *bytes, int64_t n, int from, int to)
+{
+  if (world_rank == from) CHECK(MPI_Send(bytes, count_of(n), MPI_BYTE, to, 0, MPI_COMM_WORLD));
+  else CHECK(MPI_Recv(bytes, count_of(n), MPI_BYTE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE));
+}
+
 /* A matrix of `n_own` points of this rank and `n_all` of all, in blocks; `own_blocks` and `other_blocks` count the blocks in the rows of
    each own point by whose columns they are. */
 void *ligament_matrix_new(int64_t block_size, int64_t n_own, int64_t n_all, const int64_t *own_blocks, const int64_t *other_blocks)

@@ -95,6 +95,16 @@ impl Communicator for Processes {
         bytes.resize(u64::from_le_bytes(length) as usize, 0);
         native::broadcast(bytes);
     }
+
+    fn transfer(&self, from: usize, to: usize, bytes: &mut Vec<u8>) {
+        if from == to {
+            return;
+        }
+        let mut length = (bytes.len() as u64).to_le_bytes();
+        native::transfer(from, to, &mut length);
+        bytes.resize(u64::from_le_bytes(length) as usize, 0);
+        native::transfer(from, to, bytes);
+    }
 }
 
 impl MatrixCommunicator for Processes {

@@ -97,8 +97,7 @@ pub fn build_model_on(
     }
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
-    let mut setup = case.setup(&mut preparation)?;
-    setup.solver.communicator = communicator;
+    let setup = case.setup_on_processes(communicator, &mut preparation)?;
     memory::foresee_model(case, &setup)?;
     let tasks = tasks_before.min(tasks_of_others());
     let model = on_free_processors(tasks, || Model::build(setup, &mut preparation))?;

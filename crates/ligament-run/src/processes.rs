@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::ensure;
 use ligament::{Loading, Model};
 use ligament_analysis::distributed_matrix::Communicator;
-use ligament_analysis::serial::Serial;
+use ligament_analysis::messages::of_first;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_output::checkpoint::StoredSolution;
 
@@ -69,8 +69,5 @@ pub(crate) fn broadcast_solution(
     communicator: &dyn Communicator,
     stored: Option<StoredSolution>,
 ) -> anyhow::Result<Option<StoredSolution>> {
-    let mut bytes = Vec::new();
-    stored.write(&mut bytes);
-    communicator.broadcast(&mut bytes);
-    Ok(Serial::read(&mut bytes.as_slice())?)
+    Ok(of_first(communicator, stored)?)
 }

@@ -352,6 +352,9 @@ pub enum Fault {
         /// The requested analysis.
         wanted: &'static str,
     },
+    /// What the first of several processes, which alone has the cells of a mesh, refuses, in its words.
+    #[error("the first process refuses it: {0}")]
+    OfFirstProcess(String),
     /// Settings that contradict each other.
     #[error("{0}")]
     Contradiction(Advice<Setting>),

@@ -16,6 +16,7 @@ use crate::body::{AnyBody, Body, Geometry};
 use crate::coordinates::in_dimensions;
 use crate::counts::{self, BondCounts};
 use crate::described::Described;
+use crate::division::divided;
 use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
@@ -24,6 +25,7 @@ use crate::local::{Bounds, Discrete, bounds, points};
 use crate::near_field::NearField;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
+use crate::processes::partition_communicator;
 use crate::setup::{CorrectionDomain, Position, Setup};
 use crate::soundness::{require_connected, require_factors, require_finite_rigidities};
 use crate::stage::{Finding, StageWatcher, stage};
@@ -72,30 +74,26 @@ impl Model {
         watcher: &mut dyn StageWatcher,
     ) -> Result<Self, SetupError> {
         setup.check()?;
+        let communicator = partition_communicator(&setup);
+        if communicator.size() > 1 {
+            let divided = || divided(setup, &communicator);
+            let discrete: Discrete<D> = stage(watcher, "points", divided)?;
+            let body = discrete.setup.body.geometry::<D>().clone();
+            let outline = bounds(&discrete.setup, &*body, &discrete.cloud);
+            return Self::of_points(discrete, outline, watcher);
+        }
         let material_of_cell = loading::material_of_cell(&setup)?;
-        let whole = setup.body.geometry::<D>().clone();
+        let body = setup.body.geometry::<D>().clone();
         let (cloud, outline) = stage(watcher, "points", || {
-            points(&setup, &*whole, &material_of_cell)
+            points(&setup, &*body, &material_of_cell)
         })?;
         let discrete = Discrete {
             no_fail: loading::no_fail(&setup, &cloud)?,
             names: setup.body.as_body(),
             setup,
-            cloud,
+            cloud: body.completed(cloud, &material_of_cell),
             material_of_cell,
         };
-        if discrete.cloud.subdomain.is_whole() {
-            let discrete = Discrete {
-                cloud: whole.completed(discrete.cloud, &discrete.material_of_cell),
-                ..discrete
-            };
-            return Self::of_points(discrete, outline, watcher);
-        }
-        drop(outline);
-        drop(whole);
-        let discrete = discrete.on_this_process()?;
-        let body = discrete.setup.body.geometry::<D>().clone();
-        let outline = bounds(&discrete.setup, &*body, &discrete.cloud);
         Self::of_points(discrete, outline, watcher)
     }
 

@@ -168,6 +168,16 @@ impl SolidCell {
 }
 
 impl MeshCell<3> for SolidCell {
+    fn from_corners(corners: &[u32]) -> Option<Self> {
+        Some(match corners.len() {
+            4 => Self::Tetrahedron(corners.try_into().ok()?),
+            5 => Self::Pyramid(corners.try_into().ok()?),
+            6 => Self::Prism(corners.try_into().ok()?),
+            8 => Self::Hexahedron(corners.try_into().ok()?),
+            _ => return None,
+        })
+    }
+
     fn corners(&self) -> &[u32] {
         self.corners()
     }

@@ -251,26 +251,29 @@ impl<const D: usize> PointCloud<D> {
 
     /// Some of the points (ascending), among them all owned ones, with what the cloud has of them.
     pub fn part(&self, points: &[u32]) -> Self {
-        let n = self.n_materials;
         let indices = || points.iter().map(|&it| it as usize);
         let along_curve = self.curve.iter();
         let curve = along_curve.filter_map(|it| points.binary_search(it).ok());
+        let [volumes, material_shares] = self.volumes_at(points);
         Self {
             positions: indices().map(|it| self.positions[it]).collect(),
-            volumes: indices()
-                .filter_map(|it| self.volumes.get(it).copied())
-                .collect(),
+            volumes,
             spacing: indices().map(|it| self.spacing[it]).collect(),
-            material_shares: indices()
-                .filter_map(|it| self.material_shares.get(n * it..n * (it + 1)))
-                .flatten()
-                .copied()
-                .collect(),
+            material_shares,
             curve: curve.map(|point| point as u32).collect(),
             numbering: self.numbering.part(points),
             subdomain: self.subdomain.part(points),
             ..*self
         }
+    }
+
+    /// Volumes of some points, m^3, and fractions of the materials in them; empty where the cloud does not have them yet.
+    pub fn volumes_at(&self, points: &[u32]) -> [Vec<f64>; 2] {
+        let n = self.n_materials;
+        let indices = || points.iter().map(|&it| it as usize);
+        let volumes = indices().filter_map(|it| self.volumes.get(it).copied());
+        let shares = indices().filter_map(|it| self.material_shares.get(n * it..n * (it + 1)));
+        [volumes.collect(), shares.flatten().copied().collect()]
     }
 
     /// Displacements u_i = x_j, u_j = x_i for each pair of axes i <= j, of points with `n_components` components of motion, each of shape

@@ -36,7 +36,7 @@ impl<const D: usize> PointCloud<D> {
     }
 
     /// Points at `positions` (n_points, m) of the case, not yet with volumes, materials and spacing.
-    pub(super) fn at(positions: &[[f64; D]], thickness: f64, n_materials: usize) -> Self {
+    pub fn at(positions: &[[f64; D]], thickness: f64, n_materials: usize) -> Self {
         let [lower, upper] = bounding_box(positions.iter().copied());
         let origin = std::array::from_fn(|axis| match lower[axis] <= upper[axis] {
             true => 0.5 * (lower[axis] + upper[axis]),

@@ -4,7 +4,10 @@ use std::any::Any;
 use std::ops::Deref;
 use std::sync::Arc;
 
+use ligament_analysis::messages::{Way, receive, send};
+use ligament_analysis::serial::{Damaged, Serial, Sink};
 use ligament_mesh::AnyMesh;
+use ligament_model::communicator::Communicator;
 use ligament_model::dimension::cast;
 
 use super::interface::{Body, Geometry};
@@ -47,6 +50,38 @@ impl AnyBody {
             Self::Plane(body) => body.clone(),
             Self::Solid(body) => body.clone(),
         }
+    }
+
+    /// The meshed body of the first of several processes, on the others with its nodes alone; `None` on these where the first one has no such
+    /// body. Collective.
+    ///
+    /// # Errors
+    ///
+    /// If received bytes encode no body.
+    pub fn of_first(
+        communicator: &dyn Communicator,
+        own: Option<Self>,
+    ) -> Result<Option<Self>, Damaged> {
+        if communicator.is_root() {
+            let dimensions = own.as_ref().map(|it| it.dimensions() as u8);
+            send(communicator, Way::ToAll, |out| {
+                dimensions.write(out);
+                match &own {
+                    Some(Self::Plane(body)) => write_nodes(&**body, out),
+                    Some(Self::Solid(body)) => write_nodes(&**body, out),
+                    None => {}
+                }
+            });
+            return Ok(own);
+        }
+        receive(communicator, Way::ToAll, |from| {
+            let body = match Option::<u8>::read(from)? {
+                Some(2) => MeshBody::read(from)?.into(),
+                Some(_) => SolidMeshBody::read(from)?.into(),
+                None => return Ok(None),
+            };
+            Ok(Some(body))
+        })
     }
 
     /// The geometry of a body of D dimensions.
@@ -98,5 +133,12 @@ impl Deref for AnyBody {
             Self::Plane(body) => &**body,
             Self::Solid(body) => &**body,
         }
+    }
+}
+
+/// Appends the bytes of the nodes of a meshed body.
+fn write_nodes<const D: usize>(body: &dyn Geometry<D>, out: &mut dyn Sink) {
+    if let Some(meshed) = body.meshed() {
+        meshed.write_nodes(out);
     }
 }

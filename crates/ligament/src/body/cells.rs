@@ -238,8 +238,13 @@ impl<const D: usize> Set<D> {
     }
 }
 
-/// Indices, among other points (ascending), of those of some points (ascending) that are there.
+/// Indices, among other points (ascending), of those of some points (ascending) that are there: the fewer are searched for among the more.
 pub(super) fn among(points: &[u32], others: &[u32]) -> Vec<u32> {
+    if others.len() < points.len() {
+        let is_there = |(_, point): &(u32, &u32)| points.binary_search(point).is_ok();
+        let numbered = (0..).zip(others).filter(is_there);
+        return numbered.map(|(place, _)| place).collect();
+    }
     let place = |point: &u32| others.binary_search(point).ok();
     let places = points.iter().filter_map(place);
     places.map(|place| place as u32).collect()

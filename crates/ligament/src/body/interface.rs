@@ -2,8 +2,10 @@
 
 use std::borrow::Cow;
 use std::fmt::Debug;
+use std::io::Read;
 use std::sync::Arc;
 
+use ligament_analysis::serial::{Damaged, Sink};
 use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
 use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
@@ -149,7 +151,7 @@ pub trait Body: Debug + Send + Sync {
     fn grid(&self) -> BodyGrid;
 
     /// The points of the body without cells and groups, for their descriptions.
-    fn names(&self) -> Arc<dyn Body>;
+    fn names(self: Arc<Self>) -> Arc<dyn Body>;
 
     /// Description of a point for messages: "node 12".
     fn label(&self, point: u32) -> String {
@@ -161,6 +163,28 @@ pub trait Body: Debug + Send + Sync {
         let position = coordinates(&self.position(point));
         format!("{} at ({position})", self.label(point))
     }
+}
+
+/// A meshed body, of which the first of several processes alone has all cells.
+pub trait MeshedBody<const D: usize> {
+    /// Corners of a cell.
+    fn corners_of(&self, cell: u32) -> &[u32];
+
+    /// The material points without volumes, materials and nearest distances, which follow from the cells.
+    fn nodes(&self, thickness: f64, n_materials: usize) -> PointCloud<D>;
+
+    /// Appends the bytes of the nodes without cells and groups.
+    fn write_nodes(&self, out: &mut dyn Sink);
+
+    /// Appends the bytes of the body.
+    fn write(&self, out: &mut dyn Sink);
+
+    /// Reads a body of the same kind of cells.
+    ///
+    /// # Errors
+    ///
+    /// If the bytes encode no such body.
+    fn read(&self, from: &mut dyn Read) -> Result<Arc<dyn Geometry<D>>, Damaged>;
 }
 
 /// A body with some of its points.
@@ -194,8 +218,15 @@ pub trait Geometry<const D: usize>: Body {
         cloud
     }
 
-    /// The body with some of its points (ascending); groups keep their names where they lose all points.
-    fn restricted(&self, points: &[u32]) -> Restricted<D>;
+    /// The body with some of its points (ascending), and those of some `cells` (ascending) that have no other corners; groups keep their names
+    /// where they lose all points. A body without cells between points has the cells of the points.
+    fn restricted(&self, points: &[u32], cells: &[u32]) -> Restricted<D>;
+
+    /// A body with cells between points as one whose cells the first of several processes sends to the others; `None` for other bodies, which
+    /// each process makes by itself.
+    fn meshed(&self) -> Option<&dyn MeshedBody<D>> {
+        None
+    }
 
     /// Points of the cell around a position (m) and their interpolation weights, which sum to one; `None` outside of all cells and for
     /// bodies without cells.

@@ -125,7 +125,7 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
         }
     }
 
-    fn names(&self) -> Arc<dyn Body> {
+    fn names(self: Arc<Self>) -> Arc<dyn Body> {
         Arc::new(Self {
             lattice: self.lattice.clone(),
             numbering: self.numbering.clone(),
@@ -171,7 +171,7 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
         cloud.with_cells(material_of_cell)
     }
 
-    fn restricted(&self, points: &[u32]) -> Restricted<D> {
+    fn restricted(&self, points: &[u32], _: &[u32]) -> Restricted<D> {
         Restricted {
             body: Arc::new(Self {
                 lattice: Arc::new(self.lattice.part(points)),

@@ -1,8 +1,10 @@
 //! A meshed body: points at the nodes, physical groups.
 
 use std::borrow::Cow;
+use std::io::Read;
 use std::sync::Arc;
 
+use ligament_analysis::serial::{Damaged, Serial, Sink};
 use ligament_mesh::{Cell, Group, Mesh, MeshCell, NodeField, Numbering, SolidCell};
 use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
@@ -12,17 +14,19 @@ use ligament_model::surface::{CellFaces, InnerFace};
 use ligament_model::{BodyGrid, BondSet, BondSystem, PointCloud, PointTags, Tags, raised};
 
 use super::cells::among;
-use super::interface::{Body, BodyOutline, Geometry, OffOutline, Origin, Restricted};
+use super::interface::{Body, BodyOutline, Geometry, MeshedBody, OffOutline, Origin, Restricted};
 use super::mesh_cells::BodyCell;
 
 /// A body with a point at each node of a mesh; its groups are the physical groups.
 #[derive(Debug)]
 pub struct BodyOnMesh<const D: usize, C> {
     /// The mesh with its nodes numbered along a space-filling curve.
-    mesh: Mesh<D, C>,
-    numbering: Numbering,
+    pub(super) mesh: Mesh<D, C>,
+    /// Remarks on the file of the mesh.
+    pub(super) remarks: Arc<[String]>,
+    pub(super) numbering: Numbering,
     /// Number of each cell in the file, of a part of a mesh, shape (n_cells); empty for a whole mesh.
-    cell_numbers: Vec<u32>,
+    pub(super) cell_numbers: Vec<u32>,
 }
 
 /// A body meshed with triangles and quadrangles in the plane.
@@ -34,7 +38,9 @@ pub type SolidMeshBody = BodyOnMesh<3, SolidCell>;
 impl<const D: usize, C: BodyCell<D>> From<Mesh<D, C>> for BodyOnMesh<D, C> {
     fn from(mesh: Mesh<D, C>) -> Self {
         let (mesh, numbering) = mesh.along_curve();
+        let remarks = mesh.remarks.iter();
         Self {
+            remarks: remarks.map(ToString::to_string).collect(),
             mesh,
             numbering,
             cell_numbers: Vec::new(),
@@ -54,8 +60,22 @@ impl<const D: usize, C: BodyCell<D>> BodyOnMesh<D, C> {
         Some(all)
     }
 
+    /// The nodes, without cells and groups.
+    fn without_cells(&self) -> Self {
+        Self {
+            mesh: Mesh {
+                node_tags: self.mesh.node_tags.clone(),
+                positions: self.mesh.positions.clone(),
+                ..Mesh::default()
+            },
+            remarks: Arc::default(),
+            numbering: self.numbering.clone(),
+            cell_numbers: Vec::new(),
+        }
+    }
+
     /// Some nodes (ascending), without cells.
-    fn nodes(&self, nodes: &[u32]) -> Mesh<D, C> {
+    fn some_nodes(&self, nodes: &[u32]) -> Mesh<D, C> {
         let of_nodes = nodes.iter().map(|&node| node as usize);
         Mesh {
             node_tags: of_nodes.clone().map(|it| self.mesh.node_tags[it]).collect(),
@@ -65,9 +85,9 @@ impl<const D: usize, C: BodyCell<D>> BodyOnMesh<D, C> {
     }
 
     /// Some cells between some nodes (ascending), numbered among these.
-    fn cells_between(&self, cells: &[usize], nodes: &[u32]) -> Vec<C> {
+    fn cells_between(&self, cells: impl Iterator<Item = usize>, nodes: &[u32]) -> Vec<C> {
         let node = |node: u32| nodes.partition_point(|it| *it < node) as u32;
-        let cells = cells.iter().map(|&cell| self.mesh.cells[cell]);
+        let cells = cells.map(|cell| self.mesh.cells[cell]);
         cells.map(|cell| renumbered(cell, node)).collect()
     }
 
@@ -195,7 +215,7 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
     }
 
     fn remarks(&self) -> Vec<String> {
-        let remarks = self.mesh.remarks.iter();
+        let remarks = self.remarks.iter();
         remarks.map(|remark| format!("mesh: {remark}")).collect()
     }
 
@@ -206,16 +226,11 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
         }
     }
 
-    fn names(&self) -> Arc<dyn Body> {
-        Arc::new(Self {
-            mesh: Mesh {
-                node_tags: self.mesh.node_tags.clone(),
-                positions: self.mesh.positions.clone(),
-                ..Mesh::default()
-            },
-            numbering: self.numbering.clone(),
-            cell_numbers: Vec::new(),
-        })
+    fn names(self: Arc<Self>) -> Arc<dyn Body> {
+        match self.mesh.cells.is_empty() {
+            true => self,
+            false => Arc::new(self.without_cells()),
+        }
     }
 
     fn grid(&self) -> BodyGrid {
@@ -285,22 +300,23 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         nodes.dedup();
         Some(Arc::new(Self {
             mesh: Mesh {
-                cells: self.cells_between(cells, &nodes),
-                ..self.nodes(&nodes)
+                cells: self.cells_between(cells.iter().copied(), &nodes),
+                ..self.some_nodes(&nodes)
             },
+            remarks: Arc::default(),
             numbering: Numbering::default(),
             cell_numbers: Vec::new(),
         }))
     }
 
-    fn restricted(&self, points: &[u32]) -> Restricted<D> {
-        let mut is_here = vec![false; self.mesh.positions.len()];
-        points.iter().for_each(|&it| is_here[it as usize] = true);
-        let is_inside = |corners: &[u32]| corners.iter().all(|&it| is_here[it as usize]);
-        let numbered = (0..).zip(&self.mesh.cells);
-        let inside = numbered.filter(|(_, cell)| is_inside(cell.corners()));
-        let cells: Vec<u32> = inside.map(|(number, _)| number).collect();
-        let numbers: Vec<usize> = cells.iter().map(|&cell| cell as usize).collect();
+    fn restricted(&self, points: &[u32], cells: &[u32]) -> Restricted<D> {
+        let is_inside = |corners: &[u32]| {
+            let mut corners = corners.iter();
+            corners.all(|it| points.binary_search(it).is_ok())
+        };
+        let cells = cells.iter().copied();
+        let cells = cells.filter(|&it| is_inside(self.corners_of(it)));
+        let cells: Vec<u32> = cells.collect();
         let node = |node: u32| points.partition_point(|it| *it < node) as u32;
         let group = |group: &Group| Group {
             name: group.name.clone(),
@@ -317,27 +333,33 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
             ..*group
         };
         let field = |field: &NodeField| {
-            let values = field.values.iter();
-            let values = values.filter(|(it, _)| is_here[*it as usize]);
+            let value = |(place, node): (u32, &u32)| {
+                let found = field.values.binary_search_by_key(node, |(it, _)| *it);
+                Some((place, field.values[found.ok()?].1))
+            };
             NodeField {
                 name: field.name.clone(),
-                values: values.map(|&(it, value)| (node(it), value)).collect(),
+                values: (0..).zip(points).filter_map(value).collect(),
                 ..*field
             }
         };
         let mesh = Mesh {
-            cells: self.cells_between(&numbers, points),
+            cells: self.cells_between(cells.iter().map(|&it| it as usize), points),
             groups: self.mesh.groups.iter().map(group).collect(),
             fields: self.mesh.fields.iter().map(field).collect(),
-            remarks: self.mesh.remarks.clone(),
-            ..self.nodes(points)
+            ..self.some_nodes(points)
         };
         let body = Arc::new(Self {
             mesh,
+            remarks: self.remarks.clone(),
             numbering: self.numbering.part(points),
             cell_numbers: cells.clone(),
         });
         Restricted { body, cells }
+    }
+
+    fn meshed(&self) -> Option<&dyn MeshedBody<D>> {
+        Some(self)
     }
 
     fn outline(&self, cloud: &PointCloud<D>) -> Option<Box<dyn BodyOutline<D> + '_>> {
@@ -369,5 +391,30 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
             &self.mesh,
             &self.mesh.groups_named(group).collect::<Vec<_>>(),
         )
+    }
+}
+
+impl<const D: usize, C: BodyCell<D>> MeshedBody<D> for BodyOnMesh<D, C> {
+    fn corners_of(&self, cell: u32) -> &[u32] {
+        self.mesh.cells[cell as usize].corners()
+    }
+
+    fn nodes(&self, thickness: f64, n_materials: usize) -> PointCloud<D> {
+        PointCloud {
+            numbering: self.numbering(),
+            ..PointCloud::at(&self.mesh.positions, thickness, n_materials)
+        }
+    }
+
+    fn write_nodes(&self, out: &mut dyn Sink) {
+        Serial::write(&self.without_cells(), out);
+    }
+
+    fn write(&self, out: &mut dyn Sink) {
+        Serial::write(self, out);
+    }
+
+    fn read(&self, from: &mut dyn Read) -> Result<Arc<dyn Geometry<D>>, Damaged> {
+        Ok(Arc::new(<Self as Serial>::read(from)?))
     }
 }

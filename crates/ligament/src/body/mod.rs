@@ -7,13 +7,14 @@ mod lattice;
 mod lattice_cells;
 mod mesh;
 mod mesh_cells;
+mod mesh_messages;
 mod points;
 
 use ligament_model::shape::{Shape, SolidShape};
 
 pub use any::AnyBody;
 pub use cells::{Cells, Hole, LatticeError};
-pub use interface::{Body, BodyOutline, Geometry, OffOutline, Origin, Restricted};
+pub use interface::{Body, BodyOutline, Geometry, MeshedBody, OffOutline, Origin, Restricted};
 pub use lattice::{BodyOnLattice, LatticeBody, SolidLatticeBody};
 pub use lattice_cells::LatticeShape;
 pub use mesh::{BodyOnMesh, MeshBody, SolidMeshBody};

@@ -191,7 +191,7 @@ impl<const D: usize> Body for Points<D> {
         }
     }
 
-    fn names(&self) -> Arc<dyn Body> {
+    fn names(self: Arc<Self>) -> Arc<dyn Body> {
         Arc::new(Self {
             numbering: self.numbering(),
             positions: self.positions.clone(),
@@ -254,7 +254,7 @@ impl<const D: usize> Points<D> {
 }
 
 impl<const D: usize> Geometry<D> for Points<D> {
-    fn restricted(&self, points: &[u32]) -> Restricted<D> {
+    fn restricted(&self, points: &[u32], _: &[u32]) -> Restricted<D> {
         Restricted {
             body: Arc::new(self.part(points)),
             cells: points.to_vec(),
