@@ -1,6 +1,6 @@
 //! Input files of the user.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io;
 use std::path::Path;
 
@@ -10,12 +10,28 @@ use std::path::Path;
 ///
 /// If the file cannot be read, or is a pipe or a device, which may never end.
 pub fn read(path: &Path) -> io::Result<Vec<u8>> {
+    require_end(path)?;
+    fs::read(path)
+}
+
+/// Opens a file.
+///
+/// # Errors
+///
+/// As for [`read`].
+pub(crate) fn open(path: &Path) -> io::Result<File> {
+    require_end(path)?;
+    File::open(path)
+}
+
+/// Refuses a pipe or a device, which may never end.
+fn require_end(path: &Path) -> io::Result<()> {
     let kind = fs::metadata(path)?.file_type();
     if !kind.is_file() && !kind.is_dir() {
         let reason = "it is a pipe or a device, which may never end: save what it gives to a file";
         return Err(io::Error::new(io::ErrorKind::InvalidInput, reason));
     }
-    fs::read(path)
+    Ok(())
 }
 
 /// Reads the text of a file.

@@ -1,6 +1,6 @@
 //! Reader of mesh files for cases and commands.
 
-use std::io;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use ligament_mesh::gmsh::{self, GmshError};
@@ -63,17 +63,32 @@ fn read<T>(path: &Path, parse: fn(&[u8]) -> Result<T, GmshError>) -> Result<T, M
     })
 }
 
-/// Whether a file has a mesh of solid cells, or points of a solid.
+/// Number of bytes from which on the kind of most files is known.
+const BEGINNING: usize = 1 << 16;
+
+/// Whether a file has a mesh of solid cells, or points of a solid. No more of the file is in memory than twice of what this takes.
 ///
 /// # Errors
 ///
 /// If the file cannot be read.
 pub(crate) fn holds_solid(path: &Path) -> io::Result<bool> {
-    let bytes = input_file::read(path)?;
-    Ok(match point_table::is_table(path) {
-        true => point_table::holds_solid(&bytes),
-        false => gmsh::holds_solid(&bytes),
-    })
+    let mut file = input_file::open(path)?;
+    let mut bytes = Vec::new();
+    loop {
+        let more = bytes.len().max(BEGINNING);
+        let read = file.by_ref().take(more as u64).read_to_end(&mut bytes)?;
+        if read < more {
+            // The last line may lack its end.
+            bytes.push(b'\n');
+        }
+        let is_solid = match point_table::is_table(path) {
+            true => point_table::holds_solid(&bytes),
+            false => gmsh::holds_solid(&bytes),
+        };
+        if is_solid.is_some() || read < more {
+            return Ok(is_solid.unwrap_or(false));
+        }
+    }
 }
 
 /// The lowest and the highest corner of the box around positions, m.

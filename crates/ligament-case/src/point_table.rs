@@ -23,11 +23,11 @@ pub(crate) fn is_table(path: &Path) -> bool {
         .is_some_and(|it| it.eq_ignore_ascii_case(ENDING))
 }
 
-/// Whether the points of a table are those of a solid, by its header.
-pub(crate) fn holds_solid(bytes: &[u8]) -> bool {
-    let header = bytes.split(|it| *it == b'\n').next().unwrap_or_default();
-    let header = String::from_utf8_lossy(header);
-    header.split(',').map(name_of).any(|it| it == AXES[2])
+/// Whether the points of a table that begins with these bytes are those of a solid, by its header; `None` where the bytes end before.
+pub(crate) fn holds_solid(bytes: &[u8]) -> Option<bool> {
+    let end = bytes.iter().position(|it| *it == b'\n')?;
+    let header = String::from_utf8_lossy(&bytes[..end]);
+    Some(header.split(',').map(name_of).any(|it| it == AXES[2]))
 }
 
 /// Reads the values of a column at their positions; as the error a description of the fault.
@@ -296,7 +296,9 @@ mod tests {
         assert_eq!(body.group_names(), ["all", "left"]);
         assert!(text_of_points(&positions, &[1.0; 2], &[("x".to_owned(), vec![0])]).is_err());
         assert!(text_of_points(&positions, &[1.0; 2], &[("a,b".to_owned(), vec![0])]).is_err());
-        assert!(!holds_solid(text.as_bytes()) && holds_solid(b"x, y,\"z\",volume\n"));
+        assert_eq!(holds_solid(text.as_bytes()), Some(false));
+        assert_eq!(holds_solid(b"x, y,\"z\",volume\n"), Some(true));
+        assert_eq!(holds_solid(b"x, y,\"z\""), None);
     }
 
     #[test]

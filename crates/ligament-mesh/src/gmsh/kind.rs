@@ -6,13 +6,13 @@ use super::records::Records;
 use super::sections::{Version, read_format};
 use super::{v2, v4};
 
-/// Whether a Gmsh mesh file has a solid mesh: whether it has volumes, in files of 4.1 by their entities. False for a file that cannot be
-/// read.
-pub fn holds_solid(bytes: &[u8]) -> bool {
-    of_sections(&mut Cursor::new(bytes)).unwrap_or(false)
+/// Whether a Gmsh mesh file that begins with these bytes has a solid mesh: whether it has volumes, in files of 4.1 by their entities. `None`
+/// where the bytes end before, or cannot be read.
+pub fn holds_solid(bytes: &[u8]) -> Option<bool> {
+    of_sections(&mut Cursor::new(bytes)).ok().flatten()
 }
 
-fn of_sections(cursor: &mut Cursor<'_>) -> Result<bool, GmshError> {
+fn of_sections(cursor: &mut Cursor<'_>) -> Result<Option<bool>, GmshError> {
     let version = read_format(cursor)?;
     let mut records = Records::default();
     while let Some(name) = cursor.begin_section()? {
@@ -21,7 +21,7 @@ fn of_sections(cursor: &mut Cursor<'_>) -> Result<bool, GmshError> {
                 cursor.begin_row();
                 let mut count = || cursor.size("a number of entities");
                 let [_, _, _, volumes] = [count()?, count()?, count()?, count()?];
-                return Ok(volumes > 0);
+                return Ok(Some(volumes > 0));
             }
             ("Elements", Version::V2) => v2::read_elements(cursor, &mut records)?,
             ("Elements", Version::V4) => v4::read_elements(cursor, &mut records)?,
@@ -30,7 +30,7 @@ fn of_sections(cursor: &mut Cursor<'_>) -> Result<bool, GmshError> {
                 continue;
             }
         }
-        return Ok(records.first_solid.is_some());
+        return Ok(Some(records.first_solid.is_some()));
     }
-    Ok(false)
+    Ok(None)
 }
