@@ -56,7 +56,8 @@ pub struct Model {
 }
 
 impl Model {
-    /// Builds the model of a setup on the caller's threads; where its solver has several processes, the bonds are divided between them.
+    /// Builds the model of a setup on the caller's threads; where its solver has several processes, the bonds are divided between them,
+    /// and of a meshed body the cells of rank 0 count.
     ///
     /// # Errors
     ///
