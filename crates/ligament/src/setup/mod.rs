@@ -145,7 +145,7 @@ impl Setup {
     pub fn new(body: impl Into<AnyBody>, material: Material, law: Law) -> Self {
         let body = body.into();
         Self {
-            section: Section::usual(body.dimensions()),
+            section: Section::usual(&body),
             body,
             materials: vec![MaterialRegion {
                 group: None,

@@ -3,6 +3,8 @@
 use ligament_model::Plane;
 use ligament_model::material::Space;
 
+use crate::body::AnyBody;
+
 /// Section of the body: its extent across the dimensions of its points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Section {
@@ -18,14 +20,14 @@ pub enum Section {
 }
 
 impl Section {
-    /// The default section of bodies of two or three dimensions: plane stress and 1 m thick, or a solid.
-    pub fn usual(dimensions: usize) -> Self {
-        match dimensions {
-            2 => Self::Plane {
+    /// The default section of a body: plane stress and 1 m thick, or a solid.
+    pub fn usual(body: &AnyBody) -> Self {
+        match body {
+            AnyBody::Plane(_) => Self::Plane {
                 state: Plane::Stress,
                 thickness: 1.0,
             },
-            _ => Self::Solid,
+            AnyBody::Solid(_) => Self::Solid,
         }
     }
 
