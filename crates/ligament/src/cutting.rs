@@ -186,9 +186,7 @@ impl<const D: usize> Cutter<D> {
             points,
         }
     }
-}
 
-impl<const D: usize> Cutter<D> {
     /// All points of the body.
     pub(crate) fn into_cloud(self) -> PointCloud<D> {
         self.whole.cloud

@@ -15,7 +15,7 @@ const CONDITION: f64 = 1e3;
 
 impl Path<'_> {
     /// Utilisation up to which a bond is not stretched but for rounding, or for what an iterative solver leaves.
-    pub(super) fn no_utilisation(&self) -> f64 {
+    pub(super) fn negligible_utilisation(&self) -> f64 {
         let left = self.equilibrium.tolerance().unwrap_or_default();
         NO_LOAD.max(CONDITION * left)
     }

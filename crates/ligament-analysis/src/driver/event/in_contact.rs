@@ -75,7 +75,7 @@ impl EquilibriumLine for InContact {
             Some([_, upper]) if rises && upper == reach => {
                 let first = at(path, upper);
                 let is_full = reach == left;
-                let full = match first.ratio > path.no_utilisation() {
+                let full = match first.ratio > path.negligible_utilisation() {
                     true => Termination::FullLoad,
                     false => Termination::NothingBreaks,
                 };

@@ -43,7 +43,7 @@ impl EquilibriumLine for Proportional {
         };
         if goal.load_factor > 1.0 {
             // Detached parts have stretches of rounding size, which do not count.
-            let is_stretched = ratio > path.no_utilisation() * now;
+            let is_stretched = ratio > path.negligible_utilisation() * now;
             let end = if is_stretched {
                 Termination::FullLoad
             } else {
