@@ -1,60 +1,80 @@
 //! Cells that overlap without a common edge or face, such as a coarse mesh over a fine one.
 
 use rayon::prelude::*;
-use rstar::primitives::GeomWithData;
+use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
+use crate::cell::MeshCell;
+use crate::curve::along_hilbert_curve;
 use crate::interpolation::barycentric;
 
 /// Depth within a triangle or tetrahedron, over its height from each of its sides, beyond which a position lies inside. Rounded coordinates
 /// or bent faces do not bring valid cells that only touch to this depth.
 const DEPTH: f64 = 0.01;
 
+/// Number of places that the search tree has in one box: a box costs it as much memory as three places.
+const RUN: usize = 8;
+
 /// First pair of a cell and another cell with a node, or the middle, inside the first one, whose corner the node is not.
 ///
-/// `corners` has the nodes of each cell, `simplices` returns its triangles, in space its tetrahedra. A middle is not the centroid: its
-/// weights are uneven, since centroids of regular meshes lie on edges of others.
-pub(crate) fn first_covering<const D: usize, const N: usize, S: Iterator<Item = [u32; N]>>(
+/// `simplices` returns the triangles of a cell, in space its tetrahedra. A middle is not the centroid: its weights are uneven, since
+/// centroids of regular meshes lie on edges of others.
+pub(crate) fn first_covering<const D: usize, const N: usize, C, S>(
     positions: &[[f64; D]],
-    corners: &[&[u32]],
-    simplices: impl Fn(usize) -> S + Sync,
-) -> Option<[u32; 2]> {
+    cells: &[C],
+    simplices: impl Fn(&C) -> S + Sync,
+) -> Option<[u32; 2]>
+where
+    C: MeshCell<D>,
+    S: Iterator<Item = [u32; N]>,
+{
     let at = |node: u32| positions[node as usize];
-    let tree = RTree::bulk_load(places(positions, corners));
-    (0..corners.len()).into_par_iter().find_map_first(|cell| {
-        let own = corners[cell].iter().map(|&node| at(node));
-        let (low, high) = own.fold(
-            ([f64::INFINITY; D], [f64::NEG_INFINITY; D]),
-            |(low, high), p| {
-                let low = std::array::from_fn(|axis| p[axis].min(low[axis]));
-                (low, std::array::from_fn(|axis| p[axis].max(high[axis])))
-            },
-        );
-        let near = tree.locate_in_envelope(AABB::from_corners(low, high));
-        let covered = near
-            .filter(|place| place.data != cell as u32)
-            .filter(|place| {
-                simplices(cell).any(|simplex| is_inside(simplex.map(at), *place.geom()))
-            });
-        let other = covered.map(|place| place.data).min()?;
+    let places = places(positions, cells);
+    let runs = places.chunks(RUN).map(|run| {
+        let [low, high] = box_around(run.iter().map(|(place, _)| *place));
+        GeomWithData::new(Rectangle::from_corners(low, high), run)
+    });
+    let tree = RTree::bulk_load(runs.collect());
+    cells.par_iter().enumerate().find_map_first(|(cell, it)| {
+        let corners = it.corners();
+        let [low, high] = box_around(corners.iter().map(|&node| at(node)));
+        let near = tree.locate_in_envelope_intersecting(AABB::from_corners(low, high));
+        let others = near
+            .flat_map(|run| run.data)
+            .filter(|(_, other)| *other != cell as u32);
+        let covered = others.filter(|(place, _)| {
+            let within = (0..D).all(|axis| low[axis] <= place[axis] && place[axis] <= high[axis]);
+            within && simplices(it).any(|simplex| is_inside(simplex.map(at), *place))
+        });
+        let other = covered.map(|(_, other)| *other).min()?;
         Some([cell as u32, other])
     })
 }
 
-/// Nodes, each with its first cell, and the middles of the cells.
-fn places<const D: usize>(
+/// Lowest and highest corner of the box around positions.
+fn box_around<const D: usize>(positions: impl Iterator<Item = [f64; D]>) -> [[f64; D]; 2] {
+    let empty = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
+    positions.fold(empty, |[low, high], p| {
+        [
+            std::array::from_fn(|axis| p[axis].min(low[axis])),
+            std::array::from_fn(|axis| p[axis].max(high[axis])),
+        ]
+    })
+}
+
+/// Nodes, each with its first cell, and the middles of the cells, along a curve: neighbours are near each other.
+fn places<const D: usize, C: MeshCell<D>>(
     positions: &[[f64; D]],
-    corners: &[&[u32]],
-) -> Vec<GeomWithData<[f64; D], u32>> {
+    cells: &[C],
+) -> Vec<([f64; D], u32)> {
     let mut first = vec![None; positions.len()];
-    for (cell, corners) in (0..).zip(corners) {
-        for &node in *corners {
-            first[node as usize].get_or_insert(cell);
+    for (number, cell) in (0..).zip(cells) {
+        for &node in cell.corners() {
+            first[node as usize].get_or_insert(number);
         }
     }
-    let nodes = positions.iter().zip(first);
-    let nodes = nodes.filter_map(|(&p, cell)| Some(GeomWithData::new(p, cell?)));
-    let middle = |corners: &[u32]| {
+    let middle = |cell: &C| {
+        let corners = cell.corners();
         let weights = (3..).map(f64::from).take(corners.len());
         let sum: f64 = weights.clone().sum();
         let weighted = weights.zip(corners);
@@ -63,9 +83,16 @@ fn places<const D: usize>(
             std::array::from_fn(|axis| middle[axis] + weight / sum * p[axis])
         })
     };
-    let middles = (0..).zip(corners);
-    let middles = middles.map(|(cell, corners)| GeomWithData::new(middle(corners), cell));
-    nodes.chain(middles).collect()
+    // Places are made twice, so that the unordered ones need not be kept beside the others.
+    let middles = cells.iter().map(middle);
+    let order = along_hilbert_curve(&Vec::from_iter(positions.iter().copied().chain(middles)));
+    let place = |index: u32| match (index as usize).checked_sub(positions.len()) {
+        None => Some((positions[index as usize], first[index as usize]?)),
+        Some(cell) => Some((middle(&cells[cell]), cell as u32)),
+    };
+    let mut places = Vec::with_capacity(order.len());
+    places.extend(order.into_iter().filter_map(place));
+    places
 }
 
 /// Whether a position lies in a triangle or tetrahedron, at least the depth from each side; a flat one has no interior.
@@ -77,11 +104,11 @@ fn is_inside<const D: usize, const N: usize>(corners: [[f64; D]; N], place: [f64
 #[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
-    use crate::SolidCell;
+    use crate::{Cell, SolidCell};
 
     fn covering(positions: &[[f64; 2]], triangles: &[[u32; 3]]) -> Option<[u32; 2]> {
-        let corners: Vec<&[u32]> = triangles.iter().map(|it| it.as_slice()).collect();
-        first_covering(positions, &corners, |cell| std::iter::once(triangles[cell]))
+        let cells: Vec<Cell> = triangles.iter().map(|&it| Cell::Triangle(it)).collect();
+        first_covering(positions, &cells, Cell::triangles)
     }
 
     /// A fan of six triangles around a node, and one triangle more between nodes halfway between those of the fan.
@@ -129,8 +156,7 @@ mod tests {
         let found = |last: [u32; 4]| {
             let cells = cubes.map(SolidCell::Hexahedron);
             let cells = [cells[0], cells[1], SolidCell::Tetrahedron(last)];
-            let corners: Vec<&[u32]> = cells.iter().map(SolidCell::corners).collect();
-            first_covering(&positions, &corners, |cell| cells[cell].tetrahedra())
+            first_covering(&positions, &cells, SolidCell::tetrahedra)
         };
         assert_eq!(found([0, 8, 9, 12]), Some([1, 2]));
         assert_eq!(found([3, 11, 10, 12]), None);

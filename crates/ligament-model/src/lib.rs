@@ -58,6 +58,7 @@ pub mod system;
 pub mod tensor;
 pub mod thermal;
 pub mod uniform_strain;
+mod vector_registers;
 
 pub use advice::Advice;
 pub use bonds::{BondSet, Incidence};

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use crate::bonds::Incidence;
 use crate::subdomain::Share;
+use crate::vector_registers::clear_upper_halves;
 
 /// Number of groups of bonds.
 pub(crate) const GROUPS: usize = 4;
@@ -97,7 +98,10 @@ impl Reach<'_> {
             left = others;
             tasks.push((points, sums));
         }
-        let run = |(points, sums)| self.task(share, forces, points, sums);
+        let run = |(points, sums)| {
+            clear_upper_halves();
+            self.task(share, forces, points, sums)
+        };
         tasks.into_par_iter().map(run).collect()
     }
 
@@ -116,6 +120,31 @@ impl Reach<'_> {
         self.ends.partition_point(|[first, _]| *first < point)
     }
 
+    /// Bonds that begin before a task and after it, ascending, but reach its points of a share; `own` are those that begin in the task.
+    fn of_others(
+        &self,
+        share: impl Share,
+        points: &Range<u32>,
+        own: &Range<usize>,
+    ) -> [Vec<u32>; 2] {
+        let [mut before, mut after] = [Vec::new(), Vec::new()];
+        for point in points.clone().filter(|it| share.row(*it).is_some()) {
+            // Most points have bonds of their task alone: the first and the last one of a point show that.
+            let bonds = self.bonds.at(point);
+            if bonds.first().is_some_and(|it| (*it as usize) < own.start) {
+                before.extend(within(bonds, &(0..own.start)));
+            }
+            if bonds.last().is_some_and(|it| *it as usize >= own.end) {
+                after.extend(within(bonds, &(own.end..self.ends.len())));
+            }
+        }
+        [before, after].map(|mut bonds| {
+            bonds.sort_unstable();
+            bonds.dedup();
+            bonds
+        })
+    }
+
     /// Sums the forces at points; `sums` has a row for each point of the share.
     fn task<const M: usize, S: PointSum<M>, F: BondForces<M>>(
         self,
@@ -125,6 +154,7 @@ impl Reach<'_> {
         sums: &mut [S],
     ) -> F::Found {
         let own = self.bonds_before(points.start)..self.bonds_before(points.end);
+        let [before, after] = self.of_others(share, &points, &own);
         let first_row = share.rows_before(points.start);
         let mut found = F::Found::default();
         let mut of_group = Vec::new();
@@ -140,34 +170,24 @@ impl Reach<'_> {
                     &mut *of_group
                 }
             };
-            let add_others = |bonds: Range<usize>, sums: &mut [S]| {
-                if bonds.is_empty() {
-                    return;
-                }
-                for point in points.clone() {
-                    let Some(row) = share.row(point) else {
-                        continue;
-                    };
-                    for bond in within(self.bonds.at(point), &bonds) {
-                        forces.add(*bond as usize, None, |reached, force| {
-                            if reached == point {
-                                sums[row - first_row].add(force);
-                            }
-                        });
-                    }
-                }
-            };
-            add_others(group.start..group.end.min(own.start), sums_of_group);
-            for bond in group.start.max(own.start)..group.end.min(own.end) {
-                forces.add(bond, Some(&mut found), |point, force| {
+            let mut add = |bond: usize, found: Option<&mut F::Found>| {
+                forces.add(bond, found, |point, force| {
                     if points.contains(&point)
                         && let Some(row) = share.row(point)
                     {
                         sums_of_group[row - first_row].add(force);
                     }
                 });
+            };
+            for bond in within(&before, &group) {
+                add(*bond as usize, None);
             }
-            add_others(group.start.max(own.end)..group.end, sums_of_group);
+            for bond in group.start.max(own.start)..group.end.min(own.end) {
+                add(bond, Some(&mut found));
+            }
+            for bond in within(&after, &group) {
+                add(*bond as usize, None);
+            }
             if number > 0 {
                 for (sum, of_group) in sums.iter_mut().zip(&of_group) {
                     *sum = sum.plus(*of_group);

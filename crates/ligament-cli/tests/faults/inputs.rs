@@ -225,7 +225,7 @@ fn empty_sections_of_a_mesh_take_no_memory() {
 
 /// A mesh that does not fit into the memory that there is is an error with its size, and not the end of the program by a signal.
 ///
-/// The limits lie between the memory of the program itself (30 MB) and that of a mesh of 400,000 cells (180 MB).
+/// The limits lie between the memory of the program itself (30 MB) and that of a mesh of 400,000 cells (140 MB).
 #[test]
 fn a_mesh_without_memory_is_refused() {
     let place = Place::new();

@@ -71,9 +71,9 @@ pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<A
         });
     }
     if elements.iter().any(|it| it.dimension == 3) {
-        solid::assemble(&cursor, &records).map(AnyMesh::Solid)
+        solid::assemble(&cursor, records).map(AnyMesh::Solid)
     } else {
-        plane::assemble(&cursor, &records).map(AnyMesh::Plane)
+        plane::assemble(&cursor, records).map(AnyMesh::Plane)
     }
 }
 

@@ -31,15 +31,16 @@ pub(super) struct Assembly {
 }
 
 impl Assembly {
-    /// Keeps the nodes that are corners of cells of a given dimension.
+    /// Keeps the nodes that are corners of cells of a given dimension, and takes the corners of the elements from the records.
     pub(super) fn new(
         cursor: &Cursor<'_>,
-        records: &Records,
+        records: &mut Records,
         dimension: u8,
     ) -> Result<Self, GmshError> {
         records.require_memory()?;
         let by_tag = NodeIndices::new(cursor, &records.nodes)?;
-        let mut corners = resolve_corners(cursor, records, &by_tag)?;
+        let tags = std::mem::take(&mut records.corners);
+        let mut corners = resolve_corners(cursor, records, tags, &by_tag)?;
         let uses = node_uses(cursor, records, &corners, &by_tag, dimension)?;
         let (nodes, numbers) = number_nodes(&records.nodes, &uses);
         for index in &mut corners {
@@ -87,11 +88,12 @@ fn missing_node(cursor: &Cursor<'_>, element: &Element, node: u64) -> GmshError 
 fn resolve_corners(
     cursor: &Cursor<'_>,
     records: &Records,
+    tags: Vec<u64>,
     by_tag: &NodeIndices,
 ) -> Result<Vec<u32>, GmshError> {
-    let mut corners = Vec::with_capacity(records.corners.len());
+    let mut corners = Vec::with_capacity(tags.len());
     for element in &records.elements {
-        for tag in &records.corners[element.corners()] {
+        for tag in &tags[element.corners()] {
             let index = by_tag.get(*tag);
             corners.push(index.ok_or_else(|| missing_node(cursor, element, *tag))?);
         }

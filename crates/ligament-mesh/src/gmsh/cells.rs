@@ -1,5 +1,6 @@
 //! Cells of a mesh from the elements of a file, with checks for repeated and overlapping cells.
 
+use super::assembly::Assembly;
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
@@ -10,29 +11,25 @@ use crate::overlap::first_covering;
 /// Cells and the indices of their elements.
 pub(super) struct Cells<C> {
     pub(super) cells: Vec<C>,
-    pub(super) elements: Vec<usize>,
+    pub(super) elements: Vec<u32>,
 }
 
 impl<C> Cells<C> {
-    fn with_capacity(n_cells: usize) -> Self {
-        Self {
-            cells: Vec::with_capacity(n_cells),
-            elements: Vec::with_capacity(n_cells),
-        }
-    }
-
     /// Cells made by `cell` from the shapes of elements and their corners (numbers of nodes), and oriented by `oriented`.
     pub(super) fn of_elements(
         cursor: &Cursor<'_>,
         records: &Records,
-        corners: &[u32],
+        assembly: &Assembly,
         cell: impl Fn(Shape, &[u32]) -> Option<C>,
         oriented: impl Fn(&Element, C) -> Result<C, GmshError>,
     ) -> Result<Self, GmshError> {
-        let mut found = Self::with_capacity(records.elements.len());
-        for (index, element) in records.elements.iter().enumerate() {
-            if let Some(cell) = cell(element.shape, &corners[element.corners()]) {
-                check_corners(cursor, records, element)?;
+        let mut found = Self {
+            cells: Vec::with_capacity(records.elements.len()),
+            elements: Vec::with_capacity(records.elements.len()),
+        };
+        for (index, element) in (0..).zip(&records.elements) {
+            if let Some(cell) = cell(element.shape, &assembly.corners[element.corners()]) {
+                check_corners(cursor, assembly, element)?;
                 found.cells.push(oriented(element, cell)?);
                 found.elements.push(index);
             }
@@ -43,32 +40,32 @@ impl<C> Cells<C> {
     /// Number of cells made from elements of higher order.
     pub(super) fn of_higher_order(&self, records: &Records) -> usize {
         let elements = self.elements.iter();
-        let higher = elements.filter(|element| records.elements[**element].higher_order);
+        let higher = elements.filter(|element| records.elements[**element as usize].higher_order);
         higher.count()
     }
 
-    /// Elements of two cells.
-    pub(super) fn elements_of<'a>(
+    /// Elements of cells.
+    pub(super) fn elements_of<'a, const N: usize>(
         &self,
         records: &'a Records,
-        cells: [u32; 2],
-    ) -> [&'a Element; 2] {
-        cells.map(|cell| &records.elements[self.elements[cell as usize]])
+        cells: [u32; N],
+    ) -> [&'a Element; N] {
+        cells.map(|cell| &records.elements[self.elements[cell as usize] as usize])
     }
 }
 
 fn check_corners(
     cursor: &Cursor<'_>,
-    records: &Records,
+    assembly: &Assembly,
     element: &Element,
 ) -> Result<(), GmshError> {
-    let corners = &records.corners[element.corners()];
+    let corners = &assembly.corners[element.corners()];
     let repeated = (1..corners.len()).find(|index| corners[..*index].contains(&corners[*index]));
     match repeated {
         Some(index) => Err(GmshError::RepeatedCorner {
             place: cursor.place(element.offset),
             element: element.tag,
-            node: corners[index],
+            node: assembly.nodes[corners[index] as usize].tag,
         }),
         None => Ok(()),
     }
@@ -80,25 +77,29 @@ fn check_corners(
 pub(super) fn merge_repeated<const D: usize, C: MeshCell<D>>(
     cursor: &Cursor<'_>,
     records: &Records,
-    all: Cells<C>,
+    mut all: Cells<C>,
     n_nodes: usize,
 ) -> Result<(Cells<C>, Vec<Option<u32>>), GmshError> {
     let first = first_alike(cursor, records, &all, n_nodes)?;
-    let mut once = Cells::with_capacity(all.cells.len());
-    let mut numbers: Vec<u32> = Vec::with_capacity(all.cells.len());
-    let mut cell_of_element = vec![None; records.elements.len()];
-    for (index, (cell, element)) in all.cells.into_iter().zip(all.elements).enumerate() {
-        let number = if first[index] == index {
-            once.cells.push(cell);
-            once.elements.push(element);
-            u32::try_from(once.cells.len() - 1).map_err(|_| GmshError::TooLarge)?
+    let is_first = || (0..).zip(&first).map(|(cell, first)| cell == *first);
+    let mut numbers: Vec<u32> = Vec::with_capacity(first.len());
+    let mut n_once = 0;
+    for (is_first, &first) in is_first().zip(&first) {
+        numbers.push(if is_first {
+            n_once
         } else {
-            numbers[first[index]]
-        };
-        numbers.push(number);
-        cell_of_element[element] = Some(number);
+            numbers[first as usize]
+        });
+        n_once += u32::from(is_first);
     }
-    Ok((once, cell_of_element))
+    let mut cell_of_element = vec![None; records.elements.len()];
+    for (&element, &number) in all.elements.iter().zip(&numbers) {
+        cell_of_element[element as usize] = Some(number);
+    }
+    let (mut of_cells, mut of_elements) = (is_first(), is_first());
+    all.cells.retain(|_| of_cells.next() == Some(true));
+    all.elements.retain(|_| of_elements.next() == Some(true));
+    Ok((all, cell_of_element))
 }
 
 /// Refuses cells that overlap without a common edge or face, by the triangles or tetrahedra of each cell.
@@ -113,13 +114,10 @@ where
     C: MeshCell<D>,
     S: Iterator<Item = [u32; N]>,
 {
-    let corners: Vec<&[u32]> = all.cells.iter().map(C::corners).collect();
-    let of_cell = |cell: usize| simplices(&all.cells[cell]);
-    let Some([one, other]) = first_covering(positions, &corners, of_cell) else {
+    let Some([one, other]) = first_covering(positions, &all.cells, simplices) else {
         return Ok(());
     };
-    let [one, other] = [one, other].map(|cell| all.elements[cell as usize]);
-    let [first, second] = [one.min(other), one.max(other)].map(|it| &records.elements[it]);
+    let [first, second] = all.elements_of(records, [one.min(other), one.max(other)]);
     Err(GmshError::CoveringCells {
         place: cursor.place(second.offset),
         element: second.tag,
@@ -128,29 +126,30 @@ where
     })
 }
 
-/// First cell with the same corners, for each cell.
+/// First cell with the corners of each cell, shape (n_cells).
 fn first_alike<const D: usize, C: MeshCell<D>>(
     cursor: &Cursor<'_>,
     records: &Records,
     all: &Cells<C>,
     n_nodes: usize,
-) -> Result<Vec<usize>, GmshError> {
+) -> Result<Vec<u32>, GmshError> {
+    let n_cells = u32::try_from(all.cells.len()).map_err(|_| GmshError::TooLarge)?;
     // Where cells are repeated, duplicates are only those of one owner.
-    let owner = |cell: usize| match records.repeats_cells {
-        true => records.elements[all.elements[cell]].owner,
+    let owner = |cell: u32| match records.repeats_cells {
+        true => all.elements_of(records, [cell])[0].owner,
         false => 0,
     };
-    let mut first: Vec<usize> = (0..all.cells.len()).collect();
-    let mut alike: Vec<([u32; 8], i32, usize)> = Vec::new();
+    let mut first: Vec<u32> = (0..n_cells).collect();
+    let mut alike: Vec<([u32; 8], i32, u32)> = Vec::new();
     let (offsets, by_lowest) = by_lowest_corner(&all.cells, n_nodes);
     for range in offsets.windows(2) {
         alike.clear();
         let at_node = by_lowest[range[0]..range[1]].iter();
-        alike.extend(at_node.map(|&cell| (key(&all.cells[cell]), owner(cell), cell)));
+        alike.extend(at_node.map(|&cell| (key(&all.cells[cell as usize]), owner(cell), cell)));
         alike.sort_unstable();
         let mut pairs = alike.windows(2);
         if let Some(pair) = pairs.find(|pair| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1)) {
-            let [one, other] = all.elements_of(records, [0, 1].map(|k| pair[k].2 as u32));
+            let [one, other] = all.elements_of(records, [0, 1].map(|k| pair[k].2));
             return Err(GmshError::DuplicateCell {
                 place: cursor.place(other.offset),
                 element: other.tag,
@@ -160,7 +159,7 @@ fn first_alike<const D: usize, C: MeshCell<D>>(
         for run in alike.chunk_by(|a, b| a.0 == b.0) {
             let least = run.iter().map(|entry| entry.2).min();
             for entry in run {
-                first[entry.2] = least.unwrap_or(entry.2);
+                first[entry.2 as usize] = least.unwrap_or(entry.2);
             }
         }
     }
@@ -171,7 +170,7 @@ fn first_alike<const D: usize, C: MeshCell<D>>(
 fn by_lowest_corner<const D: usize, C: MeshCell<D>>(
     cells: &[C],
     n_nodes: usize,
-) -> (Vec<usize>, Vec<usize>) {
+) -> (Vec<usize>, Vec<u32>) {
     let lowest = |cell: &C| cell.corners().iter().copied().min().unwrap_or_default();
     let mut offsets = vec![0; n_nodes + 1];
     for cell in cells {
@@ -182,7 +181,7 @@ fn by_lowest_corner<const D: usize, C: MeshCell<D>>(
     }
     let mut next = offsets.clone();
     let mut ordered = vec![0; cells.len()];
-    for (number, cell) in cells.iter().enumerate() {
+    for (number, cell) in (0..).zip(cells) {
         let free = &mut next[lowest(cell) as usize];
         ordered[*free] = number;
         *free += 1;

@@ -48,7 +48,7 @@ use crate::mesh::Mesh;
 pub fn parse(bytes: &[u8]) -> Result<Mesh, GmshError> {
     let mut cursor = cursor::Cursor::new(bytes);
     let records = sections::read(&mut cursor)?;
-    plane::assemble(&cursor, &records)
+    plane::assemble(&cursor, records)
 }
 
 /// Reads the bytes of a Gmsh mesh file: a solid mesh if it has a solid cell, else a planar one.
@@ -59,8 +59,8 @@ pub fn parse_any(bytes: &[u8]) -> Result<AnyMesh, GmshError> {
     let mut cursor = cursor::Cursor::new(bytes);
     let records = sections::read(&mut cursor)?;
     if records.first_solid.is_some() {
-        solid::assemble(&cursor, &records).map(AnyMesh::Solid)
+        solid::assemble(&cursor, records).map(AnyMesh::Solid)
     } else {
-        plane::assemble(&cursor, &records).map(AnyMesh::Plane)
+        plane::assemble(&cursor, records).map(AnyMesh::Plane)
     }
 }

@@ -67,19 +67,19 @@ pub(super) fn check_common_edges(
     records: &Records,
     planar: &Cells<Cell>,
 ) -> Result<(), GmshError> {
-    let sides = |(cell, element): (&Cell, &usize)| {
+    let sides = |(cell, element): (&Cell, &u32)| {
         let (corners, element) = (cell.corners().to_vec(), *element);
         let n = corners.len();
         (0..n).map(move |k| (corners[k], corners[(k + 1) % n], element))
     };
     let of_cells = planar.cells.iter().zip(&planar.elements);
-    let mut sides: Vec<(u32, u32, usize)> = of_cells.flat_map(sides).collect();
+    let mut sides: Vec<(u32, u32, u32)> = of_cells.flat_map(sides).collect();
     sides.sort_unstable();
     // Cells are counter-clockwise, so that neighbours run along their common edge in opposite directions.
-    let same = |pair: &&[(u32, u32, usize)]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);
+    let same = |pair: &&[(u32, u32, u32)]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);
     match sides.windows(2).find(same) {
         Some(pair) => {
-            let [first, second] = [0, 1].map(|k| &records.elements[pair[k].2]);
+            let [first, second] = [0, 1].map(|k| &records.elements[pair[k].2 as usize]);
             Err(GmshError::OverlappingCells {
                 place: cursor.place(second.offset),
                 element: second.tag,

@@ -12,7 +12,7 @@ use crate::cell::Cell;
 use crate::mesh::Mesh;
 
 /// Makes the planar mesh of the records, or refuses them.
-pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, GmshError> {
+pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<Mesh, GmshError> {
     if let Some(record) = records.first_solid {
         return Err(GmshError::VolumeElement {
             place: cursor.place(record.offset),
@@ -23,7 +23,8 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
     if !elements.any(|element| element.shape.dimension() == 2) {
         return Err(GmshError::NoCells);
     }
-    let assembly = Assembly::new(cursor, records, 2)?;
+    let assembly = Assembly::new(cursor, &mut records, 2)?;
+    let records = &records;
     let size = nodes::size(&assembly.nodes);
     nodes::check_plane(cursor, &assembly.nodes, size)?;
     if let Some([first, second]) = nodes::coincident(&assembly.nodes, size, 2) {
@@ -39,7 +40,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<Mesh, G
         .map(|node| [node.position[0], node.position[1]])
         .collect();
     let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions, size);
-    let planar = Cells::of_elements(cursor, records, &assembly.corners, cells::cell, oriented)?;
+    let planar = Cells::of_elements(cursor, records, &assembly, cells::cell, oriented)?;
     let (planar, cell_of_element) = merge_repeated(cursor, records, planar, positions.len())?;
     cells::check_common_edges(cursor, records, &planar)?;
     check_covering(cursor, records, &planar, &positions, Cell::triangles)?;

@@ -13,8 +13,9 @@ use crate::mesh::SolidMesh;
 use crate::solid::{Faces, SolidCell};
 
 /// Makes the solid mesh of the records, or refuses them.
-pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMesh, GmshError> {
-    let assembly = Assembly::new(cursor, records, 3)?;
+pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<SolidMesh, GmshError> {
+    let assembly = Assembly::new(cursor, &mut records, 3)?;
+    let records = &records;
     let size = nodes::size(&assembly.nodes);
     if let Some([first, second]) = nodes::coincident(&assembly.nodes, size, 3) {
         return Err(GmshError::CoincidentNodesInSpace {
@@ -26,14 +27,17 @@ pub(super) fn assemble(cursor: &Cursor<'_>, records: &Records) -> Result<SolidMe
     }
     let positions: Vec<_> = assembly.nodes.iter().map(|node| node.position).collect();
     let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions);
-    let solid = Cells::of_elements(cursor, records, &assembly.corners, cells::cell, oriented)?;
+    let solid = Cells::of_elements(cursor, records, &assembly, cells::cell, oriented)?;
     let (solid, cell_of_element) = merge_repeated(cursor, records, solid, positions.len())?;
     let mut remarks = assembly.remarks(solid.of_higher_order(records));
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
+    drop(cell_of_element);
     let faces = Faces::new(&solid.cells, positions.len());
     check_overlap(cursor, records, &solid, &faces)?;
-    check_covering(cursor, records, &solid, &positions, SolidCell::tetrahedra)?;
     check_faces(cursor, records, &assembly, &faces, &groups)?;
+    // The search needs the most memory, and comes after what others need.
+    drop(faces);
+    check_covering(cursor, records, &solid, &positions, SolidCell::tetrahedra)?;
     let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
     Ok(SolidMesh {
         node_tags: assembly.nodes.iter().map(|node| node.tag).collect(),
