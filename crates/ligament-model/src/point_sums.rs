@@ -210,11 +210,14 @@ mod tests {
     use super::*;
     use crate::communicator::Solo;
     use crate::subdomain::{Partition, Subdomain, Whole};
+    use std::collections::BTreeSet;
     use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     /// Forces of one component that rounding tells apart, at up to six points of each bond.
     struct Forces {
         points: Vec<Vec<u32>>,
+        evaluations: AtomicUsize,
     }
 
     impl BondForces<1> for Forces {
@@ -226,6 +229,7 @@ mod tests {
             found: Option<&mut Vec<usize>>,
             mut add: impl FnMut(u32, [f64; 1]),
         ) {
+            self.evaluations.fetch_add(1, Ordering::Relaxed);
             if let Some(found) = found {
                 found.push(bond);
             }
@@ -245,7 +249,14 @@ mod tests {
             _ => vec![*b, *a, (a + 40) % n_points, a / 2],
         };
         let points = ends.iter().enumerate().map(reached).collect();
-        (ends, Forces { points })
+        let evaluations = AtomicUsize::new(0);
+        (
+            ends,
+            Forces {
+                points,
+                evaluations,
+            },
+        )
     }
 
     fn reaching(forces: &Forces, n_points: usize) -> Incidence {
@@ -288,6 +299,27 @@ mod tests {
                 (0..ends.len()).collect::<Vec<_>>(),
                 "{n_tasks} tasks"
             );
+        }
+    }
+
+    #[test]
+    fn a_task_evaluates_each_bond_that_reaches_it_once() {
+        let n_points = 97;
+        let (ends, forces) = bonds(n_points as u32);
+        let bonds = reaching(&forces, n_points);
+        let reach = Reach {
+            ends: &ends,
+            bonds: &bonds,
+        };
+        for n_tasks in [1, 2, 7] {
+            let borders = reach.borders(n_tasks);
+            let task = |point: &u32| borders.partition_point(|border| border <= point);
+            let of_bond = |points: &Vec<u32>| points.iter().map(task).collect::<BTreeSet<_>>();
+            let expected: usize = forces.points.iter().map(|it| of_bond(it).len()).sum();
+            forces.evaluations.store(0, Ordering::Relaxed);
+            reach.sum_in(n_tasks, Whole, &forces, &mut vec![[0.0]; n_points]);
+            let evaluations = forces.evaluations.load(Ordering::Relaxed);
+            assert_eq!(evaluations, expected, "{n_tasks} tasks");
         }
     }
 

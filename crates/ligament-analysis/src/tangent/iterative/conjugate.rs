@@ -76,8 +76,9 @@ pub(super) fn solve(
     let mut iteration = Iteration::begun(operator, levels, force);
     let norm = dot_of_chunks(&iteration.force, &iteration.force);
     iteration.go_to_coarse_solution();
-    let mut way = vec![0.0; iteration.force.len()];
-    let mut pushed = vec![0.0; iteration.force.len()];
+    // Long arrays are allocated once: the system clears the memory of new ones.
+    let array = || vec![0.0; iteration.force.len()];
+    let (mut conditioned, mut way, mut pushed) = (array(), array(), array());
     let (mut iterations, mut is_definite) = (0, true);
     let mut last: Option<Last> = None;
     let rounding = Limit::Norm(ROUNDING * norm.sqrt());
@@ -85,11 +86,11 @@ pub(super) fn solve(
         && !iteration.is_within(limit)
         && !iteration.is_within(&rounding)
     {
-        let mut conditioned = iteration.conditioned();
+        iteration.condition(&mut conditioned);
         let mut work = dot_of_chunks(&conditioned, &iteration.force);
         // An outdated coarse stiffness may be indefinite for the present bonds.
         if work <= 0.0 {
-            conditioned = iteration.levels.blocks.conditioned(&iteration.force);
+            (iteration.levels.blocks).condition(&iteration.force, &mut conditioned);
             work = dot_of_chunks(&conditioned, &iteration.force);
             last = None;
         }
@@ -165,13 +166,12 @@ impl<'a> Iteration<'a> {
         }
     }
 
-    /// Preconditioned force M^-1 r + Q (r - K M^-1 r).
-    fn conditioned(&mut self) -> Vec<f64> {
-        let mut motions = self.levels.blocks.conditioned(&self.force);
+    /// Overwrites motions with the preconditioned force M^-1 r + Q (r - K M^-1 r).
+    fn condition(&mut self, motions: &mut [f64]) {
+        self.levels.blocks.condition(&self.force, motions);
         let coarse = &mut self.levels.coarse;
-        let amounts = coarse.amounts_after(self.operator, &self.force, &motions);
-        self.add_coarse(&amounts, &mut motions);
-        motions
+        let amounts = coarse.amounts_after(self.operator, &self.force, motions);
+        self.add_coarse(&amounts, motions);
     }
 
     /// Adds Z a to the motions of free degrees of freedom.

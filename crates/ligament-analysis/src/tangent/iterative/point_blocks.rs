@@ -74,6 +74,12 @@ impl PointBlocks {
     /// Product M^-1 f of the inverses with forces f, both of shape (n_degrees_of_freedom).
     pub(super) fn conditioned(&self, force: &[f64]) -> Vec<f64> {
         let mut motions = vec![0.0; force.len()];
+        self.condition(force, &mut motions);
+        motions
+    }
+
+    /// Overwrites motions with the product M^-1 f of the inverses with forces f, both of shape (n_degrees_of_freedom).
+    pub(super) fn condition(&self, force: &[f64], motions: &mut [f64]) {
         // Number of degrees of freedom of the points of a chunk.
         let chunk = CHUNK / self.n_components * self.n_components;
         (motions.par_chunks_mut(chunk))
@@ -82,7 +88,6 @@ impl PointBlocks {
             .for_each(|(place, (motions, force))| {
                 self.apply(place * chunk / self.n_components, force, motions);
             });
-        motions
     }
 
     /// Product of the inverses with the forces of consecutive points from `first` on, both of shape (n, n_components).
