@@ -2,11 +2,24 @@
 
 use std::fs;
 use std::thread;
+use std::time::Duration;
 
-/// Number of tasks of all programs that run or wait for a processor, without the calling one; 0 where unknown.
+/// Number of looks at the tasks of other programs, a millisecond apart, because some, such as tasks of the system that write files, run for a
+/// moment only.
+const LOOKS: usize = 5;
+
+/// Least number of tasks of all programs that run or wait for a processor in some milliseconds, without the calling one; 0 where unknown.
 pub(crate) fn tasks_of_others() -> usize {
-    let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
-    runnable(&load).unwrap_or(1).saturating_sub(1)
+    let mut least = usize::MAX;
+    for _ in 0..LOOKS {
+        let load = fs::read_to_string("/proc/loadavg").unwrap_or_default();
+        least = least.min(runnable(&load).unwrap_or(1).saturating_sub(1));
+        if least == 0 {
+            break;
+        }
+        thread::sleep(Duration::from_millis(1));
+    }
+    least
 }
 
 /// Number of `threads` with a processor of their own beside `tasks` of other programs, at least one.
