@@ -121,6 +121,15 @@ serial!(InMotion {
 });
 
 impl InMotion {
+    /// Energies that are positive or zero, whatever happens, by their names, J.
+    pub fn taken(&self) -> [(&'static str, f64); 3] {
+        [
+            ("damping", self.damping_energy),
+            ("contact", self.contact_energy),
+            ("friction", self.friction_energy),
+        ]
+    }
+
     /// Energy at work beside the stored and released energies of the bonds, less the energy at time zero, J.
     fn beside_bonds(&self) -> f64 {
         let now =
@@ -315,6 +324,21 @@ pub enum Notice {
          them", .0.step, .0.depth, .0.ends[0], .0.ends[1]
     )]
     Overlap(LargestOverlap),
+    /// A part of a body has turned so far that forces linear in the motions are in error.
+    #[error(
+        "step {step}: a part of {points} points (around point {first}) has turned by {angle:.2} rad; forces are linear in the motions, so that turning \
+         strains it by {:.1e} and costs energy", .angle * .angle / 2.0
+    )]
+    Turned {
+        /// Load step, or row of a motion.
+        step: usize,
+        /// Number of points.
+        points: usize,
+        /// First point.
+        first: u32,
+        /// Angle, rad.
+        angle: f64,
+    },
     /// The body breaks in the first load step.
     #[error(transparent)]
     AtOnce(AtOnce),

@@ -63,6 +63,19 @@ pub enum Termination {
         /// Energy imbalance, relative to the work.
         error: f64,
     },
+    /// An entry of the ledger of a motion that takes energy has given it.
+    #[error(
+        "at {time:.4e} s the energy of {entry} is {share:.1e} of the energy that the motion was given, and should be positive: it comes from \
+         nothing, as with too large a time step"
+    )]
+    EnergyFromNothing {
+        /// Time, s.
+        time: f64,
+        /// Entry of the ledger.
+        entry: &'static str,
+        /// Energy of the entry, relative to the larger of the energy at time zero and the work.
+        share: f64,
+    },
     /// The observer stopped the run.
     #[error("the run was stopped")]
     Stopped,
@@ -129,6 +142,7 @@ impl Termination {
             Self::FullLoad
             | Self::TimeReached { .. }
             | Self::EnergyGrew { .. }
+            | Self::EnergyFromNothing { .. }
             | Self::EnergyDissipated { .. }
             | Self::NothingBreaks
             | Self::FellApart
@@ -150,7 +164,7 @@ impl Termination {
             Self::BondsBroken { .. } => "bonds-broken",
             Self::WallTime { .. } => "wall-time",
             Self::TimeReached { .. } => "time-reached",
-            Self::EnergyGrew { .. } => "energy-grew",
+            Self::EnergyGrew { .. } | Self::EnergyFromNothing { .. } => "energy-grew",
             Self::Stopped => "stopped",
             Self::FellApart => "fell-apart",
             Self::Collapsed | Self::LostStiffness { .. } => "collapsed",

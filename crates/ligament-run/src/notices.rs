@@ -1,17 +1,20 @@
 //! Messages for the notices of a run, with the tags of the body.
 
 use ligament::Body;
+use ligament::setup::{Analysis, Setup};
 use ligament_analysis::history::{LargestOverlap, Notice};
+use ligament_model::ElementKind;
+use ligament_model::law::{BondLaw, listed, suited};
 
 use crate::gauges;
 
 /// Largest number of points listed in a notice.
 const SHOWN: usize = 5;
 
-/// Message for a notice, with points by their tags; `closing`: whether faces of cracks carry pressure where they close.
-pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
+/// Message for a notice of a run of a setup, with points by their tags.
+pub fn words(notice: &Notice, body: &dyn Body, setup: &Setup) -> String {
     match notice {
-        Notice::FreeBody(free) => gauges::words(free, body, closing),
+        Notice::FreeBody(free) => gauges::words(free, body, setup.closing),
         Notice::PartsDetached {
             step,
             points,
@@ -36,10 +39,21 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
             let ends = body.numbering().ordered(*ends);
             let [a, b] = ends.map(|end| body.label(end));
             format!(
-                "step {step}: the faces of a crack overlap by {depth:.2e} m between {a} and {b}, because they carry no pressure; `closing \
-                 = true` in [model] lets them"
+                "step {step}: the faces of a crack overlap by {depth:.2e} m between {a} and {b}, because they carry no pressure; {}",
+                remedy_of_overlap(setup)
             )
         }
+        Notice::Turned {
+            step,
+            points,
+            first,
+            angle,
+        } => format!(
+            "step {step}: a part of {points} points (around {}) has turned by {angle:.2} rad; forces are linear in the motions, so that turning \
+             strains it by {:.1e} (half of the square of the angle) and costs energy: what it does from here on is not valid",
+            body.label(*first),
+            0.5 * angle * angle
+        ),
         Notice::PastPeak { .. } => format!("{notice} (fracture.control = \"event\")"),
         Notice::Undeformed => format!("{notice} ([[support]])"),
         Notice::Unstable { .. }
@@ -49,5 +63,21 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
         | Notice::NegativeEnergy { .. }
         | Notice::EnergyUnbalanced { .. }
         | Notice::DissipatedBeyondWork { .. } => notice.to_string(),
+    }
+}
+
+/// What lets faces of cracks carry pressure in a setup.
+fn remedy_of_overlap(setup: &Setup) -> String {
+    let turns = setup.law.element() == ElementKind::Beam;
+    match &setup.analysis {
+        Analysis::Motion(it) if it.is_explicit() => {
+            "[[contact]] with `cracks = true` lets them".to_owned()
+        }
+        _ if turns => "`closing = true` in [model] lets them".to_owned(),
+        _ => {
+            let laws = suited(|it| it.shear_form.is_some());
+            let laws = listed(&laws, BondLaw::quoted);
+            format!("`closing = true` in [model] lets them with laws whose points turn ({laws})")
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use ligament::setup::Setup;
 use ligament::{Body, Model};
 use ligament_analysis::Termination;
 use ligament_analysis::first_bonds::FirstBonds;
@@ -29,8 +30,7 @@ pub(crate) struct Watch<'a> {
     last: StepLine,
     /// The points of the whole body.
     names: &'a dyn Body,
-    /// Whether faces of cracks carry pressure where they close.
-    closing: bool,
+    setup: &'a Setup,
 }
 
 impl<'a> Watch<'a> {
@@ -65,7 +65,7 @@ impl<'a> Watch<'a> {
             notices,
             last,
             names: &*model.names,
-            closing: setup.closing,
+            setup,
         }
     }
 
@@ -118,7 +118,7 @@ impl Observer for Watch<'_> {
     }
 
     fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        let words = words(notice, self.names, self.closing);
+        let words = words(notice, self.names, self.setup);
         if self.notices.len() < SHOWN {
             self.progress.stage(&words);
         }

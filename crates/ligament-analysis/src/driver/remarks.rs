@@ -1,6 +1,8 @@
 //! Notices to the user about records, each once a run.
 
 use ligament_model::contact::Overlap;
+use ligament_model::layout::Layout;
+use nalgebra::{Matrix3, Vector3};
 
 use crate::connectivity::Fragments;
 use crate::history::{LargestOverlap, Notice, StepRecord};
@@ -23,6 +25,72 @@ const LARGEST: f64 = 0.1;
 
 /// Overlap over the point spacing that is rounding, in a body that is unloaded again.
 const ROUNDING: f64 = 1e-12;
+
+/// Angle from which on a fragment counts as turned, rad: linear motions make it longer by half of its square, .5 %.
+const TURNED: f64 = 0.1;
+
+/// Notice for the first fragment of a motion that has turned so far that forces linear in the motions are in error.
+pub(super) fn turned(
+    problem: &Problem,
+    state: &State,
+    fragments: &Fragments,
+    step: usize,
+) -> Option<Notice> {
+    let system = &*problem.system;
+    let motions = system.motions_about_centre(system.volumes()).motions;
+    let angles = fragments.points.iter().map(|points| match points.len() {
+        1 => 0.0,
+        _ => angle(system.layout(), &motions, points, &state.displacement),
+    });
+    let most = |most: (usize, f64), it: (usize, f64)| if it.1 > most.1 { it } else { most };
+    let (fragment, angle) = angles.enumerate().fold((0, TURNED), most);
+    (angle > TURNED).then(|| Notice::Turned {
+        step,
+        points: fragments.extents[fragment].n_points,
+        first: fragments.extents[fragment].first,
+        angle,
+    })
+}
+
+/// Angle by which points have turned, rad: the least-squares fit of unit rotations, which are among rigid motions of all points (n_motions,
+/// n_degrees_of_freedom), to displacements of all points (n_degrees_of_freedom), both without their means.
+fn angle(layout: Layout, motions: &[Vec<f64>], points: &[u32], displacement: &[f64]) -> f64 {
+    let n_axes = layout
+        .components
+        .iter()
+        .filter(|it| !it.is_rotation())
+        .count();
+    let without_mean = |motion: &[f64]| {
+        let of_points = points.iter().flat_map(|&point| {
+            let own = &motion[layout.range(point)];
+            own[..n_axes].iter().copied()
+        });
+        let mut values: Vec<f64> = of_points.collect();
+        for axis in 0..n_axes {
+            let own = values.iter().skip(axis).step_by(n_axes);
+            let mean = own.sum::<f64>() / points.len() as f64;
+            for value in values.iter_mut().skip(axis).step_by(n_axes) {
+                *value -= mean;
+            }
+        }
+        values
+    };
+    let turns: Vec<Vec<f64>> = motions[n_axes..]
+        .iter()
+        .map(|it| without_mean(it))
+        .collect();
+    let moved = without_mean(displacement);
+    let product = |one: &[f64], other: &[f64]| -> f64 {
+        one.iter().zip(other).map(|(one, other)| one * other).sum()
+    };
+    let matrix = Matrix3::from_fn(|row, column| match (turns.get(row), turns.get(column)) {
+        (Some(row), Some(column)) => product(row, column),
+        _ => f64::from(u8::from(row == column)),
+    });
+    let sums = Vector3::from_fn(|row, _| turns.get(row).map_or(0.0, |it| product(it, &moved)));
+    // Points on a line turn about it by any angle.
+    matrix.try_inverse().map_or(0.0, |it| (it * sums).norm())
+}
 
 /// Notice for the first record whose energies do not balance, given the record before it; None for forces without an energy.
 pub(super) fn energies(
@@ -82,8 +150,12 @@ pub(super) fn overlap(
 
 /// Largest overlap of faces in a state, if it exceeds the limits.
 ///
-/// A part without any supports stays where it was detached, so that its overlap is not counted.
+/// A part without any supports stays where it was detached, so that its overlap is not counted; nor are faces that meet as surfaces.
 fn largest(problem: &Problem, state: &State, fragments: &Fragments) -> Option<Overlap> {
+    let mut contacts = problem.contact.contacts.iter();
+    if contacts.any(|it| it.rigid_body.is_none() && it.surfaces.has_faces_of_cracks()) {
+        return None;
+    }
     let system = &*problem.system;
     let layout = system.layout();
     let displacements = layout.displacements(&state.displacement);

@@ -10,6 +10,7 @@ use ligament_model::layout::Layout;
 use ligament_model::surface::{Bonded, Search, Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::cross;
 
+use super::energy_bound::{Drag, PairContacts};
 use super::rigid::{RigidWork, add};
 use crate::serial;
 
@@ -126,7 +127,7 @@ impl ContactReading {
 /// State of contacts for a checkpoint; everything else follows from the motions.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactState {
-    touches: Vec<Vec<Touch>>,
+    pairs: Vec<PairContacts>,
     rigid_bodies: Vec<RigidState>,
     energies: ContactEnergies,
 }
@@ -165,10 +166,14 @@ impl ContactReading {
 impl ContactState {
     /// Whether the state can be that of a problem.
     pub fn fits(&self, problem: &ContactProblem) -> bool {
-        self.touches.len() == problem.contacts.len()
+        let fits = |(contact, it): (&SurfaceContact, &PairContacts)| {
+            let mut of_drags = it.drags.iter().map(|it| &it.touch);
+            let can_have = |touches: &[Touch]| contact.surfaces.can_have(touches);
+            can_have(&it.touches) && of_drags.all(|touch| can_have(std::slice::from_ref(touch)))
+        };
+        self.pairs.len() == problem.contacts.len()
             && self.rigid_bodies.len() == problem.rigid_bodies.len()
-            && (problem.contacts.iter().zip(&self.touches))
-                .all(|(contact, touches)| contact.surfaces.can_have(touches))
+            && problem.contacts.iter().zip(&self.pairs).all(fits)
     }
 }
 
@@ -181,7 +186,7 @@ impl ContactForces {
             ..RigidState::default()
         });
         let state = ContactState {
-            touches: vec![Vec::new(); problem.contacts.len()],
+            pairs: vec![PairContacts::default(); problem.contacts.len()],
             rigid_bodies: rigid.collect(),
             energies: ContactEnergies::default(),
         };
@@ -248,7 +253,7 @@ impl ContactForces {
             self.motions[dof] = motions[dof];
         }
         let work = self.load_rigid_bodies(&rigid, step);
-        let touches = self.state.touches.iter().flatten();
+        let touches = self.state.pairs.iter().flat_map(|it| &it.touches);
         let stored = touches.map(Touch::energy).fold(0.0, |sum, it| sum + it);
         let kinetic = self.kinetic_energy(step);
         let energies = &mut self.state.energies;
@@ -283,8 +288,8 @@ impl ContactForces {
 
     /// Resultants of each contact.
     pub fn readings(&self) -> Vec<ContactReading> {
-        let touches = self.state.touches.iter();
-        touches.map(|it| ContactReading::new(it)).collect()
+        let pairs = self.state.pairs.iter();
+        pairs.map(|it| ContactReading::new(&it.touches)).collect()
     }
 
     /// Finds the contacts at new motions, given the rigid bodies before the step.
@@ -300,10 +305,10 @@ impl ContactForces {
                 rigid: [place(before), place(&self.state.rigid_bodies)],
                 bonds,
             };
-            let touches = &mut self.state.touches[index];
-            *touches = contact
-                .surfaces
-                .touches(&mut self.searches[index], step, touches);
+            let pair = &mut self.state.pairs[index];
+            let surfaces = &*contact.surfaces;
+            let touches = surfaces.touches(&mut self.searches[index], step, &pair.touches);
+            *pair = pair.after(surfaces, step, touches);
         }
     }
 
@@ -312,8 +317,11 @@ impl ContactForces {
         for &dof in &self.degrees_of_freedom {
             self.forces[dof as usize] = 0.0;
         }
-        for (contact, touches) in self.problem.contacts.iter().zip(&self.state.touches) {
-            contact.surfaces.add_forces(touches, &mut self.forces);
+        for (contact, it) in self.problem.contacts.iter().zip(&self.state.pairs) {
+            contact.surfaces.add_forces(&it.touches, &mut self.forces);
+            for Drag { touch, force } in &it.drags {
+                contact.surfaces.add_force(touch, *force, &mut self.forces);
+            }
         }
     }
 
@@ -335,11 +343,15 @@ impl ContactForces {
         for (index, body) in self.problem.rigid_bodies.iter().enumerate() {
             let state = &mut self.state.rigid_bodies[index];
             (state.force, state.moment) = Default::default();
-            let contacts = self.problem.contacts.iter().zip(&self.state.touches);
+            let contacts = self.problem.contacts.iter().zip(&self.state.pairs);
             let own = contacts.filter(|(contact, _)| contact.rigid_body == Some(index));
-            for touch in own.flat_map(|(_, touches)| touches) {
-                add(&mut state.force, -1.0, touch.force());
-                add(&mut state.moment, -1.0, cross(touch.arm, touch.force()));
+            let forces = own.flat_map(|(_, it)| {
+                let touches = it.touches.iter().map(|it| (it, it.force()));
+                touches.chain(it.drags.iter().map(|it| (&it.touch, it.force)))
+            });
+            for (touch, force) in forces {
+                add(&mut state.force, -1.0, force);
+                add(&mut state.moment, -1.0, cross(touch.arm, force));
             }
             let work = body.motion.accelerate(step, &before[index], state);
             sum.on_driven += work.on_driven;
@@ -386,7 +398,7 @@ serial!(ContactEnergies {
     kinetic
 });
 serial!(ContactState {
-    touches,
+    pairs,
     rigid_bodies,
     energies
 });

@@ -59,8 +59,8 @@ pub(super) fn write(
         .0
         .iter()
         .filter(|it| !matches!(it, Notice::FreeBody(_)));
-    let closing = model.setup.closing;
-    Ok(told.map(|it| words(it, model.body(), closing)).collect())
+    let words = |it| words(it, model.body(), &model.setup);
+    Ok(told.map(words).collect())
 }
 
 /// Reason why the prediction is not made by default, if it is too costly.

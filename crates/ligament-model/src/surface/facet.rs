@@ -6,11 +6,14 @@ use crate::cloud::PointCloud;
 use crate::layout::Layout;
 use crate::tensor::{dot, minus, norm};
 
-/// A corner of a facet, which moves with a point: x = X + u + phi x (X - X_point), linear in the rotation phi of the point.
+/// A corner of a facet, which moves with a point: x = X + u + phi x (X - X_point), linear in the rotation phi of the point; or the middle of four
+/// points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner<const D: usize> {
     /// The point.
     pub point: u32,
+    /// Further corners of a quadrangular side, whose middle this corner is: it moves by the mean of the displacements of all four points.
+    pub others: Option<[u32; 3]>,
     /// Position X without motion, m.
     pub position: [f64; D],
     /// Arm X - X_point, m.
@@ -39,12 +42,34 @@ pub struct Surface<const D: usize> {
     pub(super) cracks: Option<CrackFaces<D>>,
 }
 
+impl<const D: usize> Corner<D> {
+    /// Points with which the corner moves, each with its share in the motion.
+    fn shares(&self) -> impl Iterator<Item = (u32, f64)> {
+        let share = if self.others.is_some() { 0.25 } else { 1.0 };
+        let points = std::iter::once(self.point).chain(self.others.into_iter().flatten());
+        points.map(move |point| (point, share))
+    }
+
+    /// Displacement for the motions of all points (n_degrees_of_freedom), m.
+    fn displacement(&self, layout: Layout, motions: &[f64]) -> [f64; D] {
+        let motion = |point: u32| &motions[layout.range(point)];
+        if self.others.is_some() {
+            let sum = |axis: usize| self.shares().map(|it| motion(it.0)[axis]).sum::<f64>();
+            return std::array::from_fn(|axis| 0.25 * sum(axis));
+        }
+        let motion = motion(self.point);
+        let turned = turned(&motion[D..], self.arm);
+        std::array::from_fn(|axis| motion[axis] + turned[axis])
+    }
+}
+
 impl<const D: usize> Facet<D> {
     /// A facet between corners, each a point and a position in the coordinates of the cloud.
     pub fn new(cloud: &PointCloud<D>, corners: [(u32, [f64; D]); D]) -> Self {
         let positions = corners.map(|(_, position)| position);
         let corner = |(point, position): (u32, [f64; D])| Corner {
             point,
+            others: None,
             position,
             arm: minus(position, cloud.positions[point as usize]),
         };
@@ -54,6 +79,27 @@ impl<const D: usize> Facet<D> {
         }
     }
 
+    /// Facets of a side of the outline between points in their order from outside: one of a side of D points, of a quadrangle four triangles that
+    /// meet in its middle, so that none of its diagonals is preferred.
+    pub fn of_side(cloud: &PointCloud<D>, side: &[u32]) -> Vec<Self> {
+        let corner = |point: u32| (point, cloud.positions[point as usize]);
+        let &[a, b, c, d] = side else {
+            let corners = std::array::from_fn(|place| corner(side[place]));
+            return vec![Self::new(cloud, corners)];
+        };
+        let sum = |axis: usize| side.iter().map(|&it| corner(it).1[axis]).sum::<f64>();
+        let middle: [f64; D] = std::array::from_fn(|axis| 0.25 * sum(axis));
+        let edges = [[a, b, c, d], [b, c, d, a], [c, d, a, b], [d, a, b, c]];
+        let triangle = |[from, to, third, fourth]: [u32; 4]| {
+            let place = |place: usize| [corner(from), corner(to), (from, middle)][place];
+            let mut facet = Self::new(cloud, std::array::from_fn(place));
+            facet.corners[D - 1].others = Some([to, third, fourth]);
+            facet.corners[D - 1].arm = [0.0; D];
+            facet
+        };
+        edges.map(triangle).to_vec()
+    }
+
     /// A side of a face between points by its number: two for each face, of its first and of its second point, with which it moves.
     fn at_face(boundaries: &Boundaries<D>, number: usize) -> Self {
         let (corners, point, centre) = boundaries.side(number / 2, number % 2);
@@ -61,15 +107,17 @@ impl<const D: usize> Facet<D> {
             area: norm(area_vector(&corners)) * boundaries.thickness(),
             corners: corners.map(|position| Corner {
                 point,
+                others: None,
                 position,
                 arm: minus(position, centre),
             }),
         }
     }
 
-    /// The points with which its corners move.
-    pub fn points(&self) -> [u32; D] {
-        self.corners.map(|it| it.point)
+    /// The points with which its corners move, corner by corner.
+    pub fn points(&self) -> impl Iterator<Item = u32> {
+        let corners = self.corners.into_iter();
+        corners.flat_map(|it| it.shares().map(|it| it.0).collect::<Vec<_>>())
     }
 
     /// Distance of its plane from its first point, m: positive where the point is behind it.
@@ -88,10 +136,15 @@ impl<const D: usize> Facet<D> {
     /// Present positions of the corners for the motions of all points (n_degrees_of_freedom), m.
     pub(super) fn moved(&self, layout: Layout, motions: &[f64]) -> Corners<D> {
         self.corners.map(|corner| {
-            let motion = &motions[layout.range(corner.point)];
-            let turned = turned(&motion[D..], corner.arm);
-            std::array::from_fn(|axis| corner.position[axis] + motion[axis] + turned[axis])
+            let moved = corner.displacement(layout, motions);
+            std::array::from_fn(|axis| corner.position[axis] + moved[axis])
         })
+    }
+
+    /// Displacement of a place of the facet for the motions of all points (n_degrees_of_freedom), m.
+    pub(super) fn motion(&self, layout: Layout, weights: &[f64], motions: &[f64]) -> [f64; D] {
+        let moved = self.corners.map(|it| it.displacement(layout, motions));
+        weighted(&moved, weights)
     }
 
     /// Adds a force (N) on a place of the facet to the forces and moments on its points, shape (n_degrees_of_freedom).
@@ -102,8 +155,13 @@ impl<const D: usize> Facet<D> {
         force: [f64; D],
         forces: &mut [f64],
     ) {
-        for (corner, weight) in self.corners.iter().zip(weights) {
-            let own = &mut forces[layout.range(corner.point)];
+        let corners = self.corners.iter().zip(weights);
+        let shares = corners.flat_map(|(corner, weight)| {
+            let shares = corner.shares();
+            shares.map(move |(point, share)| (corner, point, share * weight))
+        });
+        for (corner, point, weight) in shares {
+            let own = &mut forces[layout.range(point)];
             let part = force.map(|it| weight * it);
             for (sum, value) in own.iter_mut().zip(part) {
                 *sum += value;
@@ -124,23 +182,17 @@ impl<const D: usize> Facet<D> {
         weights: &[f64],
         direction: [f64; D],
     ) -> Vec<(usize, f64)> {
-        let of_corner = |(corner, weight): (&Corner<D>, &f64)| {
-            let part = direction.map(|it| weight * it);
-            let moment = moment(corner.arm, part);
-            let moments = if D == 2 {
-                moment[2..].to_vec()
-            } else {
-                moment.to_vec()
-            };
-            let values = part.into_iter().chain(moments);
-            let row: Vec<(usize, f64)> = layout.range(corner.point).zip(values).collect();
-            row
-        };
-        self.corners
-            .iter()
-            .zip(weights)
-            .flat_map(of_corner)
-            .collect()
+        let mut row = Vec::new();
+        for (corner, weight) in self.corners.iter().zip(weights) {
+            for (point, share) in corner.shares() {
+                let part = direction.map(|it| share * weight * it);
+                let moment = moment(corner.arm, part);
+                let moments = if D == 2 { &moment[2..] } else { &moment[..] };
+                let values = part.iter().chain(moments).copied();
+                row.extend(layout.range(point).zip(values));
+            }
+        }
+        row
     }
 }
 
@@ -263,7 +315,8 @@ impl<const D: usize> Surface<D> {
 
     /// Degrees of freedom of the points of the facets, ascending.
     pub(super) fn degrees_of_freedom(&self) -> Vec<u32> {
-        let mut points: Vec<u32> = self.all().flat_map(|it| it.1.points()).collect();
+        let points = self.all().flat_map(|it| it.1.points().collect::<Vec<_>>());
+        let mut points: Vec<u32> = points.collect();
         points.sort_unstable();
         points.dedup();
         let of_point = |point: u32| self.layout.range(point).map(|it| it as u32);
@@ -281,14 +334,19 @@ impl<const D: usize> Surface<D> {
         sums: &mut [f64],
     ) {
         let Facet { corners, .. } = facet;
-        let moves_as_one = corners.iter().all(|it| it.point == corners[0].point);
+        let is_one = |it: &Corner<D>| it.point == corners[0].point && it.others.is_none();
+        let moves_as_one = corners.iter().all(is_one);
         let mean = weighted(&corners.map(|it| it.arm), weights);
-        for (corner, weight) in corners.iter().zip(weights) {
-            let own = &mut sums[self.layout.range(corner.point)];
+        let weighted = corners.iter().zip(weights);
+        let shares = weighted.flat_map(|(corner, weight)| {
+            let shares = corner.shares();
+            shares.map(move |(point, share)| (corner, point, share * weight * stiffness))
+        });
+        for (corner, point, share) in shares {
+            let own = &mut sums[self.layout.range(point)];
             let has_rotations = own.len() > D;
             let (moves, turns) = own.split_at_mut(D);
             let arm = if moves_as_one { mean } else { corner.arm };
-            let share = weight * stiffness;
             for (sum, along) in moves.iter_mut().zip(along) {
                 *sum += along * if has_rotations { 3.0 * share } else { share };
             }

@@ -10,7 +10,7 @@ use super::rigid::{RigidShape, in_space, turned};
 use super::search::{Search, Sought};
 use super::touch::{Touch, Vector, held_slip};
 use super::{Corners, normal, tangential, weighted};
-use crate::tensor::{dot, minus, norm};
+use crate::tensor::{cross, dot, minus, norm};
 
 /// Cosine between the outward normals of two surfaces above which they do not face each other.
 const FACING: f64 = -0.1;
@@ -168,8 +168,8 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// The facet that an integration point of the facet at a place meets, among some places: the nearest one within reach that faces its own,
-    /// with less than the largest gap.
+    /// The facet that an integration point of the facet at a place meets, among some places: the nearest one within reach that faces its own, if
+    /// the gap to it is less than the largest one. A facet behind it is not met, however deep the overlap.
     fn facet_met(
         &self,
         (at, place): (usize, Place),
@@ -194,7 +194,7 @@ impl<const D: usize> FacetPair<D> {
             let way = minus(position, weighted(corners, &weights));
             let distance = norm(way);
             let gap = dot(way, normal);
-            if distance >= nearest || gap >= present.within {
+            if distance >= nearest {
                 continue;
             }
             let beside = norm(tangential(way, normal));
@@ -209,7 +209,7 @@ impl<const D: usize> FacetPair<D> {
                 met = Some((other, weights, normal, -gap));
             }
         }
-        let (other, weights, normal, overlap) = met?;
+        let (other, weights, normal, overlap) = met.filter(|it| it.3 > -present.within)?;
         let [before, now] = [&present.before, &present.now];
         let [before, now] = [before, now].map(|it| weighted(&it[other], &weights));
         Some(Meeting {
@@ -388,20 +388,38 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         self.met(search, step, before, 0.0)
     }
 
-    fn add_forces(&self, touches: &[Touch], forces: &mut [f64]) {
+    fn add_force(&self, touch: &Touch, force: Vector, forces: &mut [f64]) {
         let (layout, surface) = (self.surface.layout, &self.surface);
-        for touch in touches.iter().filter(|it| it.depth() > 0.0) {
-            let force = touch.force();
-            let force: [f64; D] = std::array::from_fn(|axis| force[axis]);
-            let place = Self::place(touch.place);
-            let facet = surface.facet(place.facet);
-            facet.add_force(layout, &place.weights, force, forces);
-            if let Some(onto) = touch.onto {
-                let opposite = force.map(|it| -it);
-                let onto = surface.facet(onto as usize);
-                onto.add_force(layout, &touch.weights, opposite, forces);
-            }
+        let force: [f64; D] = std::array::from_fn(|axis| force[axis]);
+        let place = Self::place(touch.place);
+        let facet = surface.facet(place.facet);
+        facet.add_force(layout, &place.weights, force, forces);
+        if let Some(onto) = touch.onto {
+            let opposite = force.map(|it| -it);
+            let onto = surface.facet(onto as usize);
+            onto.add_force(layout, &touch.weights, opposite, forces);
         }
+    }
+
+    fn way(&self, touch: &Touch, step: Step<'_>) -> Vector {
+        let layout = self.surface.layout;
+        let of_facet = |number: usize, weights: &Vector| {
+            let facet = self.surface.facet(number);
+            let [before, now] = [step.before, step.now].map(|it| facet.motion(layout, weights, it));
+            minus(now, before)
+        };
+        let place = Self::place(touch.place);
+        let own = in_space(of_facet(place.facet, &place.weights));
+        let met = match touch.onto {
+            Some(onto) => in_space(of_facet(onto as usize, &touch.weights)),
+            None => {
+                let [before, now] = step.rigid;
+                let turned = cross(minus(now.rotation, before.rotation), touch.arm);
+                let moved = minus(now.displacement, before.displacement);
+                std::array::from_fn(|axis| moved[axis] + turned[axis])
+            }
+        };
+        minus(own, met)
     }
 
     fn row(&self, touch: &Touch, direction: Vector) -> Vec<(usize, f64)> {
@@ -425,6 +443,10 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         });
         row.retain(|(_, factor)| *factor != 0.0);
         row
+    }
+
+    fn has_faces_of_cracks(&self) -> bool {
+        self.surface.cracks.is_some()
     }
 
     fn friction(&self) -> f64 {
@@ -475,8 +497,8 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
             .fold(0.0, f64::max);
         let mut seen = vec![false; self.surface.layout.n_points];
         for (_, facet) in self.surface.all() {
-            for (corner, point) in facet.points().into_iter().enumerate() {
-                if !std::mem::replace(&mut seen[point as usize], true) {
+            for (corner, it) in facet.corners.iter().enumerate() {
+                if !std::mem::replace(&mut seen[it.point as usize], true) {
                     let weights: Vector =
                         std::array::from_fn(|it| f64::from(u8::from(it == corner)));
                     self.surface

@@ -37,7 +37,7 @@ impl<const D: usize> CellFaces<D> {
     }
 }
 
-/// Corners (m) of the facets of a side of a cell with a given spacing around a centre (m): one in the plane, two in space.
+/// Corners (m) of the facets of a side of a cell with a given spacing around a centre (m): one in the plane, in space four that meet in its middle.
 fn side_of_cell<const D: usize>(
     spacing: [f64; D],
     centre: [f64; D],
@@ -65,11 +65,12 @@ fn side_of_cell<const D: usize>(
     };
     let around = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let corners = around.map(|(along, across)| corner(along, across));
-    let starts = if D == 2 { 1..2 } else { 1..3 };
-    starts.map(move |second| {
+    let middle = corner(0.0, 0.0);
+    let starts = if D == 2 { 0..1 } else { 0..4 };
+    starts.map(move |start| {
         std::array::from_fn(|place| match place {
-            0 => corners[0],
-            _ => corners[second + place - 1],
+            2 => middle,
+            _ => corners[(start + place) % 4],
         })
     })
 }

@@ -38,7 +38,18 @@ pub trait SurfacePair: Debug + Send + Sync {
 
     /// Adds the forces and moments of contacts on the points of the body, shape (n_degrees_of_freedom), N and N m; in the order of the
     /// contacts.
-    fn add_forces(&self, touches: &[Touch], forces: &mut [f64]);
+    fn add_forces(&self, touches: &[Touch], forces: &mut [f64]) {
+        for touch in touches.iter().filter(|it| it.depth() > 0.0) {
+            self.add_force(touch, touch.force(), forces);
+        }
+    }
+
+    /// Adds a force (N) on the integration point of a contact, and its opposite on what the point meets, to the forces and moments on the points
+    /// of the body, shape (n_degrees_of_freedom), N and N m.
+    fn add_force(&self, touch: &Touch, force: Vector, forces: &mut [f64]);
+
+    /// Motion over a step of the integration point of a contact against the place that it met, m.
+    fn way(&self, touch: &Touch, step: Step<'_>) -> Vector;
 
     /// Degrees of freedom and coefficients c of a motion of a contact along a direction d: d . (u - u_met) = c . u with the motions u and u_met of
     /// the two surfaces there; by degree of freedom, ascending.
@@ -46,6 +57,11 @@ pub trait SurfacePair: Debug + Send + Sync {
 
     /// Whether gaps are linear in the motions, and the contacts of a step contain all integration points that may ever touch.
     fn is_linear(&self) -> bool {
+        false
+    }
+
+    /// Whether faces of cracks belong to the surfaces.
+    fn has_faces_of_cracks(&self) -> bool {
         false
     }
 

@@ -80,8 +80,12 @@ impl<const D: usize> SurfacePair for UndeformedPair<D> {
         self.facing.iter().zip(&self.rows).map(moved).collect()
     }
 
-    fn add_forces(&self, touches: &[Touch], forces: &mut [f64]) {
-        self.pair.add_forces(touches, forces);
+    fn add_force(&self, touch: &Touch, force: Vector, forces: &mut [f64]) {
+        self.pair.add_force(touch, force, forces);
+    }
+
+    fn way(&self, touch: &Touch, step: Step<'_>) -> Vector {
+        self.pair.way(touch, step)
     }
 
     fn row(&self, touch: &Touch, direction: Vector) -> Vec<(usize, f64)> {

@@ -249,10 +249,8 @@ pub trait Geometry<const D: usize>: Body {
     }
 
     /// Facets of the outline between the points of a cloud; empty for bodies without cells.
-    fn facets(&self, cloud: &PointCloud<D>) -> Vec<Facet<D>> {
-        let sides = self.outer_sides().into_iter();
-        let corner = |node: u32| (node, cloud.positions[node as usize]);
-        sides.map(|it| Facet::new(cloud, it.map(corner))).collect()
+    fn facets(&self, _cloud: &PointCloud<D>) -> Vec<Facet<D>> {
+        Vec::new()
     }
 
     /// The cells around the points of a cloud by their faces, which cracks open; none for bodies without cells.

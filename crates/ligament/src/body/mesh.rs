@@ -10,7 +10,7 @@ use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
 use ligament_model::far_field::Simplex;
 use ligament_model::material::Stiffness;
-use ligament_model::surface::{CellFaces, InnerFace};
+use ligament_model::surface::{CellFaces, Facet, InnerFace};
 use ligament_model::{BodyGrid, BondSet, BondSystem, PointCloud, PointTags, Tags, raised};
 
 use super::cells::among;
@@ -262,13 +262,20 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         C::outer_sides(&self.mesh.cells, self.mesh.positions.len())
     }
 
+    fn facets(&self, cloud: &PointCloud<D>) -> Vec<Facet<D>> {
+        let faces = C::outer_faces(&self.mesh.cells, self.mesh.positions.len());
+        let facets = faces.iter().flat_map(|it| Facet::of_side(cloud, it));
+        facets.collect()
+    }
+
     /// Cells around the nodes: the corners of the cells of the mesh, cut off by lines between the middles of their edges, faces and cells.
     fn cell_faces(&self, cloud: &PointCloud<D>) -> Option<CellFaces<D>> {
         let at = |node: u32| cloud.positions[node as usize];
+        let outer = C::outer_faces(&self.mesh.cells, self.mesh.positions.len());
         let cells = self.mesh.cells.iter();
         let faces = cells.flat_map(|cell| cell.faces_between_corners(&at));
         Some(CellFaces {
-            outline: CellFaces::outline(cloud, &self.outer_sides()),
+            outline: CellFaces::outline(cloud, &outer),
             inner: faces
                 .map(|(points, corners)| InnerFace::new(cloud, points, corners))
                 .collect(),

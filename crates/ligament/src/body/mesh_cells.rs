@@ -47,6 +47,12 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
     /// outside.
     fn outer_sides(cells: &[Self], n_points: usize) -> Vec<[u32; D]>;
 
+    /// Corners of the sides that only one cell has, ordered in the same way: edges, or whole faces of three or four corners.
+    fn outer_faces(cells: &[Self], n_points: usize) -> Vec<Vec<u32>> {
+        let sides = Self::outer_sides(cells, n_points).into_iter();
+        sides.map(|it| it.to_vec()).collect()
+    }
+
     /// Faces between the parts of a cell that belong to its corners: two corners each, and the corners of the face (m) in any order. `at` has
     /// the positions of nodes, m.
     fn faces_between_corners(&self, at: &dyn Fn(u32) -> [f64; D])
@@ -202,6 +208,12 @@ impl BodyCell<3> for SolidCell {
     fn outer_sides(cells: &[Self], n_points: usize) -> Vec<[u32; 3]> {
         let outer = Faces::new(cells, n_points).outer();
         outer.iter().flat_map(|it| it.face.triangles()).collect()
+    }
+
+    fn outer_faces(cells: &[Self], n_points: usize) -> Vec<Vec<u32>> {
+        let outer = Faces::new(cells, n_points).outer();
+        let corners = outer.iter().map(|it| it.face.corners().to_vec());
+        corners.collect()
     }
 
     /// From the middle of the cell over those of its faces to those of their edges.

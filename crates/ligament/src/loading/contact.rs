@@ -170,7 +170,8 @@ impl<'a, const D: usize> Outline<'a, D> {
         let of_point = |point: u32| self.stiffness[point as usize];
         let numbered = self.facets.iter().zip(&sides.of_facets);
         let facets = numbered.filter_map(|(facet, side)| {
-            let mean = facet.points().map(of_point).iter().sum::<f64>() / D as f64;
+            let count = facet.points().count() as f64;
+            let mean = facet.points().map(of_point).sum::<f64>() / count;
             Some((*facet, (*side)?, law.stiffness * mean))
         });
         let mut surface = Surface::new(self.system.layout(), facets.collect());
@@ -201,7 +202,7 @@ impl<'a, const D: usize> Outline<'a, D> {
     /// Whether each facet belongs to the outline of a group: all its points do.
     fn is_of_group(&self, field: Field, group: &str) -> Result<Vec<bool>, SetupError> {
         let marked = self.is_in_group(field, group)?;
-        let is_in = |it: &Facet<D>| it.points().iter().all(|&point| marked[point as usize]);
+        let is_in = |it: &Facet<D>| it.points().all(|point| marked[point as usize]);
         let of_group: Vec<bool> = self.facets.iter().map(is_in).collect();
         match of_group.contains(&true) {
             true => Ok(of_group),
@@ -272,7 +273,7 @@ impl<'a, const D: usize> Outline<'a, D> {
     /// The number of the part of each facet, in the order of the first points of the parts.
     fn sides_of_parts(&self, field: Field) -> Result<Sides, SetupError> {
         let parts = Parts::of_bonds(&self.system.cloud, &self.system.bonds);
-        let part = |it: &Facet<D>| parts.part(it.points()[0]);
+        let part = |it: &Facet<D>| parts.part(it.corners[0].point);
         let mut numbers: BTreeMap<u32, u32> = self.facets.iter().map(|it| (part(it), 0)).collect();
         if numbers.len() < 2 {
             let reason = "bonds connect the whole body, so that there are no two parts with an outline that could meet: separate them by a gap or a \

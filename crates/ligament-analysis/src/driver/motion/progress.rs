@@ -28,6 +28,8 @@ pub(super) struct Progress {
     pub(super) history: Vec<StepRecord>,
     /// Largest overlap of crack faces so far.
     pub(super) overlap: Option<LargestOverlap>,
+    /// Whether a part has turned beyond small angles.
+    pub(super) has_turned: bool,
 }
 
 serial!(Progress {
@@ -38,6 +40,7 @@ serial!(Progress {
     moving_since,
     history,
     overlap,
+    has_turned,
 });
 
 impl Progress {
@@ -50,6 +53,7 @@ impl Progress {
             moving_since: (0.0, 0),
             history: Vec::new(),
             overlap: None,
+            has_turned: false,
         }
     }
 

@@ -64,6 +64,12 @@ impl Now<'_> {
         if let Some(notice) = remarks::overlap(problem, state, self.fragments, row, overlap) {
             observer.notice(&notice)?;
         }
+        if !progress.has_turned
+            && let Some(notice) = remarks::turned(problem, state, self.fragments, row)
+        {
+            progress.has_turned = true;
+            observer.notice(&notice)?;
+        }
         if let Some(notice) = remarks::energies(problem, &record, progress.history.last()) {
             observer.notice(&notice)?;
         }
@@ -139,6 +145,14 @@ impl Now<'_> {
         (stop, started): (&MotionStop, Instant),
     ) -> Option<Termination> {
         let motion = record.motion.unwrap_or_default();
+        let time = record.load_factor;
+        let given = record.external_work.abs().max(motion.initial_energy);
+        let given = given.max(record.energy_floor);
+        let negative = (motion.taken().into_iter()).find(|(_, energy)| *energy < -GROWN * given);
+        if let Some((entry, energy)) = negative {
+            let share = energy / given;
+            return Some(Termination::EnergyFromNothing { time, entry, share });
+        }
         let scale = record.external_work.abs() + motion.initial_energy;
         let scale = scale.max(record.energy_floor);
         let is_heated = self.problem.loads.temperature_factor(record.load_factor) != 0.0;
@@ -148,7 +162,6 @@ impl Now<'_> {
         let has_energy = self.problem.system.has_energy();
         let balances = error.is_finite() && (error.abs() <= GROWN || !has_energy);
         if !(balances && is_stored && is_moving) {
-            let time = record.load_factor;
             return Some(Termination::EnergyGrew { time, error });
         }
         let bonds = stop.bonds.filter(|&most| self.broken >= most);

@@ -1,0 +1,149 @@
+//! Contacts of explicit steps that never give energy.
+//!
+//! An integration point with the stored energy U and the force F before a step, U' and F' after it, whose surfaces move by s against each other in
+//! the step, takes the energy
+//!
+//! D = U - U' - 1/2 (F . s + F' . s')
+//!
+//! by the trapezoidal rule, with which central differences conserve energy; s' is the motion at the place that it meets after the step. D is zero
+//! while a contact goes on along a facet. It would be negative where the point comes to another facet, where facets turn, and in the step in
+//! which a contact ends, because its force acts until the end of that step. So
+//!
+//! 1. the depth d of the contact is at most the larger root of k d^2 - k d a = 2 U_n - F_n . s, with the approach a = -n' . s' and the parts U_n
+//!    and F_n along the normal before the step, which is a for a new contact and d + a for one that goes on; the elastic part of the sliding is
+//!    bounded in the same way;
+//! 2. what is still missing is taken by a drag 2 D s/|s|^2 against the motion, which acts for one step. Where a contact ends, it leaves the work of
+//!    a force that ends when the surfaces part, and is smaller than the force before.
+//!
+//! Contacts take energy in a step, or leave it as it was.
+
+use ligament_model::surface::{Step, SurfacePair, Touch, Vector};
+use ligament_model::tensor::{dot, norm};
+
+use crate::serial;
+
+/// Depth over the length of the longest edge of a facet that is rounding of positions.
+const ROUNDING: f64 = 1e-13;
+
+/// Force on surfaces that were in contact, against their motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Drag {
+    /// Contact before the step.
+    pub(super) touch: Touch,
+    /// Force on its integration point, N.
+    pub(super) force: Vector,
+}
+
+/// Contacts of a pair of surfaces.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct PairContacts {
+    /// Integration points in contact, ascending.
+    pub(super) touches: Vec<Touch>,
+    pub(super) drags: Vec<Drag>,
+}
+
+impl PairContacts {
+    /// Contacts after a step, given what integration points met there, ascending.
+    pub(super) fn after(
+        &self,
+        surfaces: &dyn SurfacePair,
+        step: Step<'_>,
+        mut touches: Vec<Touch>,
+    ) -> Self {
+        let mut drags = Vec::new();
+        let rounding = ROUNDING * surfaces.reach();
+        let mut taking = |missing: f64, touch: &Touch, way: Vector| {
+            let square = dot(way, way);
+            if missing > 0.0 && square > 0.0 {
+                let force = way.map(|it| -2.0 * missing * it / square);
+                drags.push(Drag {
+                    touch: *touch,
+                    force,
+                });
+            }
+        };
+        for before in &self.drags {
+            let way = surfaces.way(&before.touch, step);
+            taking(0.5 * dot(before.force, way), &before.touch, way);
+        }
+        let mut ended = self.touches.iter().peekable();
+        for touch in &mut touches {
+            while let Some(before) = ended.next_if(|it| it.place < touch.place) {
+                let way = surfaces.way(before, step);
+                taking(-left(before, way).total(), before, way);
+            }
+            let moved = surfaces.way(touch, step);
+            match ended.next_if(|it| it.place == touch.place) {
+                None => bound(touch, moved, Left::default(), rounding),
+                Some(before) => {
+                    let way = surfaces.way(before, step);
+                    let left = left(before, way);
+                    bound(touch, moved, left, rounding);
+                    let needed = touch.energy() + 0.5 * dot(touch.force(), moved);
+                    let small = touch.stiffness * touch.depth().max(before.depth()) * rounding;
+                    taking(needed - left.total() - small, before, way);
+                }
+            }
+        }
+        for before in ended {
+            let way = surfaces.way(before, step);
+            taking(-left(before, way).total(), before, way);
+        }
+        Self { touches, drags }
+    }
+}
+
+/// Energy of a contact that its force leaves over a step, J.
+#[derive(Debug, Clone, Copy, Default)]
+struct Left {
+    along_normal: f64,
+    of_sliding: f64,
+}
+
+impl Left {
+    fn total(self) -> f64 {
+        self.along_normal + self.of_sliding
+    }
+}
+
+/// Energy that a contact before a step leaves with the motion of its surfaces in the step (m).
+fn left(before: &Touch, way: Vector) -> Left {
+    let Touch {
+        stiffness, slip, ..
+    } = *before;
+    let of_sliding = 0.5 * stiffness * dot(slip, slip);
+    Left {
+        along_normal: before.energy() - of_sliding - 0.5 * dot(before.normal_force(), way),
+        of_sliding: of_sliding - 0.5 * dot(before.friction_force(), way),
+    }
+}
+
+/// Bounds the depth and the elastic sliding of a contact after a step, with the motion of its surfaces in the step (m) and the energy that is
+/// left of it; overlaps up to `rounding` (m) are none.
+fn bound(touch: &mut Touch, way: Vector, left: Left, rounding: f64) {
+    let largest = |along: f64, left: f64| {
+        0.5 * along + (0.25 * along * along + 2.0 * left.max(0.0) / touch.stiffness).sqrt()
+    };
+    let (depth, slid) = (touch.depth(), norm(touch.slip));
+    let deepest = largest(-dot(touch.normal, way), left.along_normal);
+    let mut factor = 1.0_f64;
+    if slid > 0.0 {
+        let farthest = largest(dot(touch.slip, way) / slid, left.of_sliding);
+        factor = if farthest < slid - rounding {
+            farthest / slid
+        } else {
+            1.0
+        };
+    }
+    if deepest < depth - rounding {
+        touch.offset = touch.overlap - deepest;
+        // Friction keeps within its share of the pressure.
+        factor = factor.min(deepest / depth);
+    }
+    if factor < 1.0 {
+        touch.slip = touch.slip.map(|it| factor * it);
+    }
+}
+
+serial!(Drag { touch, force });
+serial!(PairContacts { touches, drags });
