@@ -1,5 +1,7 @@
 //! Probes: quantities evaluated at every load step.
 
+use ligament_model::stress::carried::StrainReading;
+
 use crate::contact;
 use crate::history::Rates;
 use crate::material_stress::MaterialStress;
@@ -398,8 +400,8 @@ impl Reading {
                     component,
                     ..
                 } => {
-                    let read = |it: StrainReading<'_>| system.stress_by_material(it, point);
-                    let stress = of.with_strains(state, balanced, solution.loads, read);
+                    let of_point = |it: StrainReading<'_>| system.stress_by_material(it, point);
+                    let stress = of.with_strains(state, balanced, solution.loads, of_point);
                     match stress[0].is_nan() {
                         true => f64::NAN,
                         false => read(&stress)[component],
