@@ -277,7 +277,7 @@ limit = 4e-3
 [output]
 fields_every = 3
 bonds = true
-stress = ["material", "virial", "traction"]
+stress = ["material", "effective", "virial", "traction"]
 "#;
 
 /// An elastic plate of triangles that a force pulls, heated, with a material that has axes; it may turn about a corner.

@@ -252,12 +252,13 @@ impl<'a> Recorder<'a> {
             let strains = stresses::free(&of_points);
             fields_of.components("thermal_strain", ["xx", "yy", "xy"], strains);
         }
+        let principal = |&[xx, yy, xy]: &[f64; 3]| {
+            let radius = (0.5 * (xx - yy)).hypot(xy);
+            [0.5 * (xx + yy) + radius, 0.5 * (xx + yy) - radius]
+        };
         if self.stress.contains(&StressField::Material) {
-            let stresses = stresses::by_material(system, state, view.loads);
-            let principal = |&[xx, yy, xy]: &[f64; 3]| {
-                let radius = (0.5 * (xx - yy)).hypot(xy);
-                [0.5 * (xx + yy) + radius, 0.5 * (xx + yy) - radius]
-            };
+            let stresses = view.solution().material_stresses(MaterialStress::Carried);
+            let stresses = stresses.values.as_chunks::<3>().0;
             let direction = |&[xx, yy, xy]: &[f64; 3]| {
                 let (sine, cosine) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
                 [cosine, sine, 0.0].map(|it| if xx.is_nan() { f64::NAN } else { it })
@@ -268,7 +269,13 @@ impl<'a> Recorder<'a> {
             );
             fields_of.components("stress_principal", ["1", "2"], values);
             fields_of.components("stress_direction", ["", "", ""], directions);
-            fields_of.components("stress", ["xx", "yy", "xy"], stresses);
+            fields_of.components("stress", ["xx", "yy", "xy"], stresses.iter().copied());
+        }
+        if self.stress.contains(&StressField::Effective) {
+            let stresses = stresses::by_material(system, state, view.loads);
+            let values = stresses.iter().map(principal);
+            fields_of.components("stress_effective_principal", ["1", "2"], values);
+            fields_of.components("stress_effective", ["xx", "yy", "xy"], stresses);
         }
         if self.stress.contains(&StressField::Virial) {
             let stress = stresses::of_reading::<3>(

@@ -3,6 +3,7 @@
 use ligament_analysis::{LoadProgram, State};
 use ligament_model::deformation::Deformations;
 use ligament_model::interface::StressReading;
+use ligament_model::stress::carried::StrainReading;
 use ligament_model::stress::point_strain::Motion;
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
@@ -19,13 +20,13 @@ pub fn of_reading<const N: usize>(
     stresses.values.as_chunks().0.to_vec()
 }
 
-/// Stresses (xx, yy, xy) of all points by the laws of their materials, in a state under loads, Pa.
+/// Effective stresses (xx, yy, xy) of all points by the laws of their materials, in a state under loads, Pa.
 pub fn by_material(system: &dyn Bonds, state: &State, loads: &dyn LoadProgram) -> Vec<[f64; 3]> {
-    let stresses = system.stresses_by_material(Motion {
+    let stresses = system.stresses_by_material(StrainReading::Effective(Motion {
         intact: &state.softening.sound(&state.intact),
         displacement: &state.displacement,
         expansion: loads.thermal_strain(state.load_factor),
-    });
+    }));
     stresses.values.as_chunks().0.to_vec()
 }
 

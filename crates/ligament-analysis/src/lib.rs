@@ -33,6 +33,7 @@ pub mod internal;
 mod lagging;
 pub mod lists_of_all;
 pub mod load_program;
+pub mod material_stress;
 pub mod messages;
 pub mod modal;
 pub mod motion;

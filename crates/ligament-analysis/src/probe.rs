@@ -1,7 +1,10 @@
 //! Probes: quantities evaluated at every load step.
 
+use ligament_model::stress::carried::StrainReading;
+
 use crate::contact;
 use crate::history::Rates;
+use crate::material_stress::MaterialStress;
 use crate::result_fields::{FIELDS, FieldReading, Solution, unit_of};
 use crate::unknowns::{Component, Layout};
 
@@ -69,6 +72,8 @@ pub enum PointReading {
     Stress(StressComponent),
     /// A component of a function of the stress by the law of the material, Pa.
     MaterialStress {
+        /// The stress.
+        of: MaterialStress,
         /// The function of the components of the stress.
         read: fn(&[f64]) -> Vec<f64>,
         /// The component of its value.
@@ -217,13 +222,14 @@ impl PointField {
                     };
                     place += 1;
                 }
-                FieldReading::MaterialStress(read, parts) => {
+                FieldReading::MaterialStress(of, read, parts) => {
                     let mut part = 0;
                     while part < parts.len() {
                         all[place] = Self {
                             word: parts[part][0],
                             meaning: parts[part][1],
                             reading: PointReading::MaterialStress {
+                                of,
                                 read,
                                 component: part,
                                 in_plane: part < FIELDS[row].components[0].count(),
@@ -268,7 +274,7 @@ const N_OF_TABLE: usize = {
     while row < FIELDS.len() {
         count += match FIELDS[row].reading {
             FieldReading::Probed(..) => 1,
-            FieldReading::MaterialStress(_, parts) => parts.len(),
+            FieldReading::MaterialStress(_, _, parts) => parts.len(),
             _ => 0,
         };
         row += 1;
@@ -389,9 +395,13 @@ impl Reading {
                     rate(point, component, |it| it.acceleration)
                 }
                 PointReading::MaterialStress {
-                    read, component, ..
+                    of,
+                    read,
+                    component,
+                    ..
                 } => {
-                    let stress = solution.with_motion(|it| system.stress_by_material(it, point));
+                    let of_point = |it: StrainReading<'_>| system.stress_by_material(it, point);
+                    let stress = of.with_strains(state, balanced, solution.loads, of_point);
                     match stress[0].is_nan() {
                         true => f64::NAN,
                         false => read(&stress)[component],

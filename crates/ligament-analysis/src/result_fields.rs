@@ -5,7 +5,7 @@
 
 use ligament_model::failure::{Criteria, Weakened};
 use ligament_model::interface::{StressReading, Stresses};
-use ligament_model::stress::point_strain::Motion;
+use ligament_model::stress::carried::StrainReading;
 use ligament_model::stress::principal;
 use ligament_model::tensor::SymTensor;
 use ligament_model::{Bonds, ConstantFields};
@@ -14,11 +14,12 @@ use crate::balanced::Balanced;
 use crate::fields;
 use crate::history::{Rates, View};
 use crate::load_program::LoadProgram;
+use crate::material_stress::MaterialStress::{self, Carried, Effective};
 use crate::state::State;
 use crate::unknowns::{Component, Layout};
 use FieldReading::{
-    CrackSurface, EnergyRatios, MaterialStress, Model, Probed, ScatterFactors, State as InState,
-    Stress,
+    CrackSurface, EnergyRatios, MaterialStress as ByMaterial, Model, Probed, ScatterFactors,
+    State as InState, Stress,
 };
 use Interest::{Low, Main};
 
@@ -73,9 +74,13 @@ pub enum FieldReading {
     ),
     /// Stress from the forces of the bonds, if the user requests it.
     Stress(StressReading),
-    /// Function of the components of the stress of a point by the law of its material, if the user requests it; the components that probes
+    /// Function of the components of a stress of a point by the law of its material, if the user requests it; the components that probes
     /// read, each with a name and a meaning.
-    MaterialStress(fn(&[f64]) -> Vec<f64>, &'static [[&'static str; 2]]),
+    MaterialStress(
+        MaterialStress,
+        fn(&[f64]) -> Vec<f64>,
+        &'static [[&'static str; 2]],
+    ),
     /// Field of the model, which does not change; empty where the model has no such field.
     Model(for<'a> fn(ModelPoints<'a>) -> &'a [f64]),
     /// Family of fields: ratios of the energies of uniform strains.
@@ -208,12 +213,18 @@ result_fields! {
         "Strain that the temperature would make without stress, with engineering shears, where it changes."
         => InState(|view| present(thermal_strain(view)));
     STRESS "stress" ["Pa"] SYMMETRIC Main(2),
-        "Stress of the point by the law of its material, from its strain by least squares over its bonds, if asked for."
-        => MaterialStress(<[f64]>::to_vec, probed!("stress" "Stress by the law of the material": "xx" "yy" "xy" "zz" "xz" "yz"));
+        "Stress that the material of the point carries, by its law and with what its bonds have left, if asked for."
+        => ByMaterial(Carried, <[f64]>::to_vec, probed!("stress" "Stress that the material carries": "xx" "yy" "xy" "zz" "xz" "yz"));
     STRESS_PRINCIPAL "stress_principal" ["Pa"] PRINCIPAL Main(2), "Principal values of `stress`, the largest first."
-        => MaterialStress(principal::values, probed!("stress_principal" "Principal value of that stress": "1" "2" "3"));
+        => ByMaterial(Carried, principal::values, probed!("stress_principal" "Principal value of that stress": "1" "2" "3"));
     STRESS_DIRECTION "stress_direction" ["-"] VECTOR Low, "Unit vector along the largest principal value of `stress`."
-        => MaterialStress(principal::direction_of_largest, &[]);
+        => ByMaterial(Carried, principal::direction_of_largest, &[]);
+    STRESS_EFFECTIVE "stress_effective" ["Pa"] SYMMETRIC Low,
+        "Stress that the strain of the bonds which neither broke nor soften would have in sound material, if asked for."
+        => ByMaterial(Effective, <[f64]>::to_vec, probed!("stress_effective" "Effective stress": "xx" "yy" "xy" "zz" "xz" "yz"));
+    STRESS_EFFECTIVE_PRINCIPAL "stress_effective_principal" ["Pa"] PRINCIPAL Low,
+        "Principal values of `stress_effective`, the largest first."
+        => ByMaterial(Effective, principal::values, probed!("stress_effective_principal" "Principal value of the effective stress": "1" "2" "3"));
     STRESS_VIRIAL "stress_virial" ["Pa"] SYMMETRIC Main(2),
         "Symmetric part of the mean of the force dyads of the point's bonds, if asked for."
         => Stress(StressReading::Virial);
@@ -265,9 +276,9 @@ impl ResultField {
             InState(read) => read(view),
             Probed(read, _) => read(view.solution()).map(FieldValues::Numbers),
             Stress(reading) => numbers(stresses(view, reading)),
-            MaterialStress(read, _) => {
+            ByMaterial(of, read, _) => {
                 let count = self.components(view.system.layout().is_in_space()).count();
-                numbers(material_stresses(view.solution(), read, count))
+                numbers(material_stresses(view.solution(), of, read, count))
             }
             Model(_) | EnergyRatios | ScatterFactors | CrackSurface => None,
         }
@@ -324,18 +335,9 @@ impl<'a> View<'a> {
 
 impl Solution<'_> {
     /// Stresses at all points by the laws of their materials.
-    pub fn material_stresses(self) -> Stresses {
-        self.with_motion(|motion| self.system.stresses_by_material(motion))
-    }
-
-    /// Runs a function on the motion of the bonds that are intact and not softening.
-    pub(crate) fn with_motion<T>(self, run: impl FnOnce(Motion<'_>) -> T) -> T {
-        let state = self.state;
-        run(Motion {
-            intact: &state.softening.sound(&state.intact),
-            displacement: &state.displacement,
-            expansion: self.loads.thermal_strain(state.load_factor),
-        })
+    pub fn material_stresses(self, of: MaterialStress) -> Stresses {
+        let read = |reading: StrainReading<'_>| self.system.stresses_by_material(reading);
+        of.with_strains(self.state, self.balanced, self.loads, read)
     }
 }
 
@@ -352,9 +354,7 @@ impl<'a> ModelPoints<'a> {
                 ScatterFactors => (fixed.scatter.iter())
                     .map(|it| (it.of.field(), &*it.at_points))
                     .collect(),
-                InState(_) | Probed(..) | Stress(_) | MaterialStress(..) | CrackSurface => {
-                    Vec::new()
-                }
+                InState(_) | Probed(..) | Stress(_) | ByMaterial(..) | CrackSurface => Vec::new(),
             }
         };
         let all = FIELDS.iter().flat_map(values);
@@ -482,8 +482,13 @@ fn stresses(view: &View<'_>, reading: StressReading) -> Vec<f64> {
 
 /// Values at all points, `count` at each, of a function of their stresses by the laws of their materials; not a number where a point has
 /// no stress.
-fn material_stresses(it: Solution<'_>, read: fn(&[f64]) -> Vec<f64>, count: usize) -> Vec<f64> {
-    let stresses = it.material_stresses();
+fn material_stresses(
+    it: Solution<'_>,
+    of: MaterialStress,
+    read: fn(&[f64]) -> Vec<f64>,
+    count: usize,
+) -> Vec<f64> {
+    let stresses = it.material_stresses(of);
     let of_points = stresses.values.chunks_exact(stresses.names.len());
     let of_point = |stress: &[f64]| match stress[0].is_nan() {
         true => vec![f64::NAN; count],

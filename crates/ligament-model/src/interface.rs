@@ -18,6 +18,7 @@ use crate::ghosts::Ghosts;
 use crate::layout::{Component, Layout};
 use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
+use crate::stress::carried::StrainReading;
 use crate::stress::point_strain::Motion;
 use crate::stress::stored::StoredMotions;
 use crate::subdomain::Subdomain;
@@ -281,12 +282,12 @@ pub trait BondReadings: BondTopology {
         deformations: &Deformations,
     ) -> Stresses;
 
-    /// Stresses of all points by the stiffnesses of their materials, Pa, in a motion of which some bonds are left; not a number where the
-    /// bonds of a point do not span the space. Collective.
-    fn stresses_by_material(&self, motion: Motion<'_>) -> Stresses;
+    /// Stresses of all points by the stiffnesses of their materials, Pa; not a number where the bonds of a point do not span the space.
+    /// Collective.
+    fn stresses_by_material(&self, reading: StrainReading<'_>) -> Stresses;
 
     /// Components of the stress of one point by the stiffness of its material, Pa; not a number where its bonds do not span the space.
-    fn stress_by_material(&self, motion: Motion<'_>, point: u32) -> Vec<f64>;
+    fn stress_by_material(&self, reading: StrainReading<'_>, point: u32) -> Vec<f64>;
 
     /// Stress on the plane across each bond in a motion with its deformations (n_bonds), from the moduli of a bond by its number, shape
     /// (n_bonds); of a bar where the bonds of neither end span the space.

@@ -169,6 +169,7 @@ pub fn write_rule(case: &CaseFile, analysis: &Analysis) -> WriteRule {
         bonds: output.bonds,
         model: output.model,
         material_stress: output.stress.contains(&StressField::Material),
+        effective_stress: output.stress.contains(&StressField::Effective),
         virial: output.stress.contains(&StressField::Virial),
         traction: output.stress.contains(&StressField::Traction),
         time: match analysis {

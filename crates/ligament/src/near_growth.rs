@@ -3,6 +3,7 @@
 use ligament_analysis::history::{
     BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
 };
+use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::{Observer, Termination};
 use ligament_model::scatter::Scattered;
 use ligament_model::stress::principal;
@@ -172,7 +173,7 @@ impl Model {
 impl StressLimits {
     /// Points at which the stress reaches its limit, ascending.
     fn reached(&self, view: &View<'_>) -> Vec<u32> {
-        let stresses = view.solution().material_stresses();
+        let stresses = view.solution().material_stresses(MaterialStress::Effective);
         let of_points = stresses.values.chunks_exact(stresses.names.len());
         let reaches = |(point, stress): (usize, &[f64])| {
             // A point without enough neighbours to show its strain has no stress.

@@ -35,8 +35,10 @@ pub struct Output {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StressField {
-    /// The law of the material for the strain of the point, with principal values and the direction of the largest.
+    /// What the material carries, by its law, with principal values and the direction of the largest.
     Material,
+    /// The law of the material for the strain of the bonds that neither broke nor soften, with principal values.
+    Effective,
     /// The mean of the force dyads of a point's bonds.
     Virial,
     /// The force through small planes at the point.

@@ -1,9 +1,12 @@
 //! Stresses at the points by the laws of their materials, from the strains that their bonds show.
 //!
-//! With the strain eps of a point by least squares over the bonds that it has left ([`super::point_strain`]), less what the temperature
-//! gives it, and the stiffness C of its material in the space of the body,
+//! With the strain eps of a point by least squares, less what the temperature gives it, and the stiffness C of its material in the space of
+//! the body,
 //!
 //! sigma = C : eps.
+//!
+//! The strain at which sound bonds would carry the forces of the point ([`super::carried`]) gives the stress that the material carries, the
+//! strain of the bonds that it has left ([`super::point_strain`]) the effective stress of damage mechanics; a sound point has one stress.
 //!
 //! That is the stress of an affine motion to rounding, inside a body, at its edges and beside cracks, whatever the corrections of the
 //! bonds; the virial stress ([`super::virial`]) is so inside an uncorrected body alone. A point on the border of materials has the mean
@@ -16,16 +19,16 @@ use crate::material::stress_component;
 use crate::system::BondSystem;
 use crate::tensor::SymTensor;
 
-use super::point_strain::Motion;
+use super::carried::StrainReading;
 
 impl<const D: usize> BondSystem<D> {
     /// Stress of each point in a motion, shape (n_points), Pa; None where the bonds of a point do not span the space.
     pub(crate) fn stresses_by_material(
         &self,
         layout: Layout,
-        motion: Motion<'_>,
+        reading: StrainReading<'_>,
     ) -> Vec<Option<SymTensor<D>>> {
-        let strains = self.point_strains(layout, motion);
+        let strains = self.strains_of_all(|point| self.strain_by(layout, reading, point));
         let numbered = strains.into_par_iter().enumerate();
         numbered
             .map(|(point, strain)| self.stress_of(point as u32, &strain?))

@@ -4,13 +4,14 @@
 //! |---|---|---|
 //! | [`virial`] | the bonds of the point, each with the whole of its length | made so |
 //! | [`traction`] | the bonds that cross a small plane through the point | no: couples on the points are in balance with the difference |
-//! | [`by_material`] | the strain of the point by least squares over the bonds that it has left ([`point_strain`]), and Hooke's law | yes |
+//! | [`by_material`] | Hooke's law for the strain at which sound bonds carry the forces of the point ([`carried`]), or for that of the bonds left ([`point_strain`]) | yes |
 //!
 //! In a uniform strain the first two are the stress of the continuum whose energy the bonds have, inside a body whose bonds nothing
 //! corrects; the third one is the stress of the material everywhere. Tension is positive.
 
 mod across;
 pub mod by_material;
+pub mod carried;
 mod of_elements;
 pub mod point_strain;
 pub mod principal;

@@ -58,14 +58,22 @@ impl<const D: usize> Fit<D> {
     /// its weight over that, V exp(-l/H)/l.
     #[inline]
     pub fn add(&mut self, n: [f64; D], moved: [f64; D], length: f64, weight_per_length: f64) {
+        self.add_slope(n, moved, weight_per_length);
         for column in 0..D {
-            let along = weight_per_length * n[column];
-            let spread = length * along;
-            for (row, moved) in moved.iter().enumerate() {
-                self.slopes[(row, column)] += along * moved;
-            }
+            let spread = length * (weight_per_length * n[column]);
             for (row, n) in n.iter().enumerate().skip(column) {
                 self.spread[(row, column)] += spread * n;
+            }
+        }
+    }
+
+    /// Adds to M alone, for a bond that is in K.
+    #[inline]
+    pub(super) fn add_slope(&mut self, n: [f64; D], moved: [f64; D], weight_per_length: f64) {
+        for column in 0..D {
+            let along = weight_per_length * n[column];
+            for (row, moved) in moved.iter().enumerate() {
+                self.slopes[(row, column)] += along * moved;
             }
         }
     }
@@ -105,6 +113,19 @@ impl<const D: usize> Span<D> {
     }
 }
 
+/// Neighbour of a point by a bond or an element.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Neighbour<const D: usize> {
+    /// Direction away from the point.
+    pub(super) n: [f64; D],
+    /// Displacement against the point, m.
+    pub(super) moved: [f64; D],
+    /// Distance, m.
+    pub(super) length: f64,
+    /// Weight over the distance, m^(D - 1).
+    pub(super) weight_per_length: f64,
+}
+
 /// A motion of the points of a body of which some bonds are left.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<'a> {
@@ -116,6 +137,15 @@ pub struct Motion<'a> {
     pub expansion: ThermalStrain<'a>,
 }
 
+impl Motion<'_> {
+    /// Displacement of a point, m.
+    #[inline]
+    fn place<const D: usize>(&self, layout: Layout, point: u32) -> [f64; D] {
+        let first = layout.range(point).start;
+        std::array::from_fn(|axis| self.displacement[first + axis])
+    }
+}
+
 impl<const D: usize> BondSystem<D> {
     /// Strain of each point less what the temperature gives it, shape (n_points); None where its bonds do not span the space. Where
     /// processes share the body out, the strains of points of other processes are those of their owners.
@@ -124,8 +154,15 @@ impl<const D: usize> BondSystem<D> {
         layout: Layout,
         motion: Motion<'_>,
     ) -> Vec<Option<SymTensor<D>>> {
+        self.strains_of_all(|point| self.point_strain(layout, motion, point))
+    }
+
+    /// Strains of all points, each from its owner.
+    pub(super) fn strains_of_all(
+        &self,
+        of_point: impl Fn(u32) -> Option<SymTensor<D>> + Sync + Send,
+    ) -> Vec<Option<SymTensor<D>>> {
         let cloud = &self.cloud;
-        let of_point = |point: u32| self.point_strain(layout, motion, point);
         let subdomain = &cloud.subdomain;
         if subdomain.is_whole() {
             let points = (0..cloud.len() as u32).into_par_iter();
@@ -170,46 +207,67 @@ impl<const D: usize> BondSystem<D> {
         motion: Motion<'_>,
         point: u32,
     ) -> Option<SymTensor<D>> {
-        let (bonds, volumes) = (&self.bonds, &self.cloud.volumes);
-        let closeness = self.closeness();
-        let place = |point: u32| -> [f64; D] {
-            let first = layout.range(point).start;
-            std::array::from_fn(|axis| motion.displacement[first + axis])
-        };
-        let here = place(point);
         let mut fit = self.fit_of_elements(layout, motion, point);
-        let family = bonds.incidence.at(point).iter();
+        let family = self.bonds.incidence.at(point).iter();
         for &bond in family.filter(|&&bond| motion.intact[bond as usize]) {
-            let other = bonds.neighbour(bond, point);
-            let bond = bond as usize;
-            let weight_per_length = volumes[other as usize] * closeness[bond];
-            // Signs of a bond seen from its other end cancel in the products.
-            let n = match bonds.ends[bond][0] == point {
-                true => bonds.direction[bond],
-                false => bonds.direction[bond].map(|cosine| -cosine),
-            };
-            let moved = minus(place(other), here);
-            fit.add(n, moved, bonds.length[bond], weight_per_length);
+            let it = self.neighbour(layout, motion, point, bond);
+            fit.add(it.n, it.moved, it.length, it.weight_per_length);
         }
         fit.strain()
+    }
+
+    /// Neighbour of a point by a bond.
+    #[inline]
+    pub(super) fn neighbour(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+        point: u32,
+        bond: u32,
+    ) -> Neighbour<D> {
+        let bonds = &self.bonds;
+        let other = bonds.neighbour(bond, point);
+        let bond = bond as usize;
+        Neighbour {
+            // Signs of a bond seen from its other end cancel in the products.
+            n: match bonds.ends[bond][0] == point {
+                true => bonds.direction[bond],
+                false => bonds.direction[bond].map(|cosine| -cosine),
+            },
+            moved: minus(motion.place(layout, other), motion.place(layout, point)),
+            length: bonds.length[bond],
+            weight_per_length: self.cloud.volumes[other as usize] * self.closeness()[bond],
+        }
     }
 
     /// Sums over the points that elements of the far field couple with a point, with w = V_Q.
     pub(super) fn fit_of_elements(&self, layout: Layout, motion: Motion<'_>, point: u32) -> Fit<D> {
         let mut fit = Fit::default();
-        let moved = |point: u32| -> [f64; D] {
-            let first = layout.range(point).start;
-            std::array::from_fn(|axis| motion.displacement[first + axis])
-        };
-        for other in self.far.iter().flat_map(|far| far.neighbours(point)) {
+        for it in self.neighbours_by_elements(layout, motion, point) {
+            fit.add(it.n, it.moved, it.length, it.weight_per_length);
+        }
+        fit
+    }
+
+    /// Points that elements of the far field couple with a point, with w = V_Q.
+    pub(super) fn neighbours_by_elements<'a>(
+        &'a self,
+        layout: Layout,
+        motion: Motion<'a>,
+        point: u32,
+    ) -> impl Iterator<Item = Neighbour<D>> + 'a {
+        let others = self.far.iter().flat_map(move |far| far.neighbours(point));
+        others.map(move |other| {
             let [from, to] = [point, other].map(|it| self.cloud.positions[it as usize]);
             let along = minus(to, from);
             let length = norm(along);
-            let weight_per_length = self.cloud.volumes[other as usize] / length;
-            let by = minus(moved(other), moved(point));
-            fit.add(along.map(|it| it / length), by, length, weight_per_length);
-        }
-        fit
+            Neighbour {
+                n: along.map(|it| it / length),
+                moved: minus(motion.place(layout, other), motion.place(layout, point)),
+                length,
+                weight_per_length: self.cloud.volumes[other as usize] / length,
+            }
+        })
     }
 
     /// Factor exp(-l/H)/l of each bond on the volumes of its ends, shape (n_bonds).

@@ -20,6 +20,7 @@ use crate::interface::{
 use crate::layout::Component;
 use crate::product::NearLimits;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
+use crate::stress::carried::StrainReading;
 use crate::stress::point_strain::Motion;
 use crate::stress::stored::StoredMotions;
 use crate::stress::traction;
@@ -381,16 +382,16 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         }
     }
 
-    fn stresses_by_material(&self, motion: Motion<'_>) -> Stresses {
-        let stresses = self.system.stresses_by_material(self.layout(), motion);
+    fn stresses_by_material(&self, reading: StrainReading<'_>) -> Stresses {
+        let stresses = self.system.stresses_by_material(self.layout(), reading);
         Stresses {
             names: SymTensor::<D>::NAMES,
             values: stresses.iter().flat_map(components_or_nan).collect(),
         }
     }
 
-    fn stress_by_material(&self, motion: Motion<'_>, point: u32) -> Vec<f64> {
-        let strain = self.system.point_strain(self.layout(), motion, point);
+    fn stress_by_material(&self, reading: StrainReading<'_>, point: u32) -> Vec<f64> {
+        let strain = self.system.strain_by(self.layout(), reading, point);
         let stress = strain.and_then(|it| self.system.stress_of(point, &it));
         components_or_nan(&stress)
     }

@@ -3,6 +3,7 @@
 use ligament_analysis::ControlKind;
 use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::interface::StressReading;
+use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::result_fields::FieldReading;
 
 /// Rule for the contents and the frequency of the output.
@@ -14,8 +15,10 @@ pub struct WriteRule {
     pub bonds: bool,
     /// Whether to write the model, by which a bond can be explained later.
     pub model: bool,
-    /// Whether the fields have the stress by the laws of the materials, with its principal values.
+    /// Whether the fields have the stress that the materials carry, with its principal values.
     pub material_stress: bool,
+    /// Whether the fields have the effective stress, with its principal values.
+    pub effective_stress: bool,
     /// Whether the fields have the virial stress.
     pub virial: bool,
     /// Whether the fields have the traction on planes through the points.
@@ -37,7 +40,8 @@ impl WriteRule {
     /// Whether a field with a reading is written.
     pub(super) fn has(&self, reading: &FieldReading) -> bool {
         match reading {
-            FieldReading::MaterialStress(..) => self.material_stress,
+            FieldReading::MaterialStress(MaterialStress::Carried, ..) => self.material_stress,
+            FieldReading::MaterialStress(MaterialStress::Effective, ..) => self.effective_stress,
             FieldReading::Stress(StressReading::Virial) => self.virial,
             FieldReading::Stress(StressReading::Traction) => self.traction,
             _ => true,

@@ -216,7 +216,8 @@ class Result(Stored):
         for the last, or ``"first"`` (breakage or softening), ``"peak"`` or ``"last"``; where fields of a named step were not kept, those of
         the next one are taken. The same array is returned each time.
 
-        ``stress`` is the stress of each point (``output__stress=["material"]``), without a value where its bonds do not span the space.
+        ``stress`` is the stress that the material of each point carries (``output__stress=["material"]``). ``stress_effective``
+        (``"effective"``) is that of sound material at the strain of the bonds left, without a value where these do not span the space.
         ``stress_virial`` at single points of an irregular mesh is off by a tenth to a quarter inside the body and by a third and more
         at its edges; its mean over many points is right.
         """

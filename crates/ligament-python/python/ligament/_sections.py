@@ -784,7 +784,7 @@ class Probe(TypedDict, total=False):
 - `rotation_x`: Rotation about x in a solid, rad, right-handed.
 - `rotation_y`: Rotation about y in a solid, rad, right-handed.
 - `rotation_z`: Rotation about z in a solid, rad, right-handed."""
-    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "velocity_x", "velocity_y", "velocity_z", "acceleration_x", "acceleration_y", "acceleration_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz"]
+    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "stress_effective.xx", "stress_effective.yy", "stress_effective.xy", "stress_effective.zz", "stress_effective.xz", "stress_effective.yz", "stress_effective_principal.1", "stress_effective_principal.2", "stress_effective_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "velocity_x", "velocity_y", "velocity_z", "acceleration_x", "acceleration_y", "acceleration_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz"]
     """The field that is read `at` the position.
 
 - `damage`: Share of the point's bonds that are broken, weighted with volumes, 0 to 1.
@@ -792,15 +792,24 @@ class Probe(TypedDict, total=False):
 - `damage_tension`: Damage by opening of bonds, d_t, 0 to 1.
 - `damage_compression`: Damage by crushing of bonds, d_c.
 - `damage_sliding`: Damage by sliding of bonds, d_gamma.
-- `stress.xx`: Stress by the law of the material xx, Pa.
-- `stress.yy`: Stress by the law of the material yy, Pa.
-- `stress.xy`: Stress by the law of the material xy, Pa.
-- `stress.zz`: Stress by the law of the material zz, Pa.
-- `stress.xz`: Stress by the law of the material xz, Pa.
-- `stress.yz`: Stress by the law of the material yz, Pa.
+- `stress.xx`: Stress that the material carries xx, Pa.
+- `stress.yy`: Stress that the material carries yy, Pa.
+- `stress.xy`: Stress that the material carries xy, Pa.
+- `stress.zz`: Stress that the material carries zz, Pa.
+- `stress.xz`: Stress that the material carries xz, Pa.
+- `stress.yz`: Stress that the material carries yz, Pa.
 - `stress_principal.1`: Principal value of that stress 1, Pa.
 - `stress_principal.2`: Principal value of that stress 2, Pa.
 - `stress_principal.3`: Principal value of that stress 3, Pa.
+- `stress_effective.xx`: Effective stress xx, Pa.
+- `stress_effective.yy`: Effective stress yy, Pa.
+- `stress_effective.xy`: Effective stress xy, Pa.
+- `stress_effective.zz`: Effective stress zz, Pa.
+- `stress_effective.xz`: Effective stress xz, Pa.
+- `stress_effective.yz`: Effective stress yz, Pa.
+- `stress_effective_principal.1`: Principal value of the effective stress 1, Pa.
+- `stress_effective_principal.2`: Principal value of the effective stress 2, Pa.
+- `stress_effective_principal.3`: Principal value of the effective stress 3, Pa.
 - `displacement_x`: Displacement along x, m.
 - `displacement_y`: Displacement along y, m.
 - `rotation`: Rotation in the plane, rad, counter-clockwise.
@@ -1067,7 +1076,7 @@ a fiftieth of the time. 0: only when the run is stopped."""
     picture: bool
     """Whether a picture of the last state, with its damage or displacement, and one of the curve of force over displacement are drawn
 at the end. Default false."""
-    stress: Sequence[Literal["material", "virial", "traction"]]
+    stress: Sequence[Literal["material", "effective", "virial", "traction"]]
     """Stresses at the points in the field files. Default []."""
 
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::layout::Component;
 use crate::material::{Elasticity, Orthotropic, Plane, Space};
 use crate::shape::{Region, Shape, SolidShape};
+use crate::stress::point_strain::Motion;
 use crate::stress::point_strain::tests::{GRADIENT, MATERIAL, affine, springs};
 use crate::thermal::{StressFreeStrains, ThermalStrain};
 
@@ -45,7 +46,10 @@ fn assert_lame<const D: usize, S: Region<D>>(space: Space, components: &'static 
         expansion: ThermalStrain::NONE,
     };
     let layout = layout(&system, components);
-    assert_all_are(&system.stresses_by_material(layout, motion), &expected);
+    assert_all_are(
+        &system.stresses_by_material(layout, StrainReading::Effective(motion)),
+        &expected,
+    );
 }
 
 #[test]
@@ -85,7 +89,10 @@ fn a_material_with_axes_is_pulled_along_its_own() {
     };
     let expected = SymTensor::<2>::from_fn(|i, j| 10.0 * along[i] * along[j]);
     let layout = layout(&system, IN_PLANE);
-    assert_all_are(&system.stresses_by_material(layout, motion), &expected);
+    assert_all_are(
+        &system.stresses_by_material(layout, StrainReading::Effective(motion)),
+        &expected,
+    );
 }
 
 /// A free body that a temperature expands has no stress.
@@ -101,6 +108,6 @@ fn what_the_temperature_gives_is_no_stress() {
         expansion: free.times(0.5),
     };
     let layout = layout(&system, IN_PLANE);
-    let stresses = system.stresses_by_material(layout, motion);
+    let stresses = system.stresses_by_material(layout, StrainReading::Effective(motion));
     assert_all_are(&stresses, &SymTensor::ZERO);
 }

@@ -1,0 +1,121 @@
+use super::*;
+use crate::layout::Component;
+use crate::material::{Plane, Space};
+use crate::shape::{Region, Shape, SolidShape};
+use crate::stress::point_strain::tests::{GRADIENT, affine, springs};
+use crate::thermal::{StressFreeStrains, ThermalStrain};
+
+/// Largest difference of the components of the strains of all points, with the bonds marked in `intact` and what is left of them, from
+/// expected ones.
+fn off<const D: usize>(
+    system: &BondSystem<D>,
+    (gradient, expansion): ([[f64; 3]; 3], ThermalStrain<'_>),
+    (intact, remaining): (&[bool], &[StiffnessFactors]),
+    expected: impl Fn(u32) -> SymTensor<D>,
+) -> f64 {
+    let layout = Layout {
+        n_points: system.cloud.len(),
+        components: &[Component::X, Component::Y, Component::Z][..D],
+    };
+    let carried = Carried {
+        motion: Motion {
+            intact,
+            displacement: &affine(system, gradient),
+            expansion,
+        },
+        remaining,
+        closed: &[],
+    };
+    let of_point = |point: u32| {
+        let found = system.strain_by(layout, StrainReading::Carried(carried), point);
+        let minus = expected(point).scaled(-1.0);
+        let off = found.map(|it| {
+            it.plus(&minus)
+                .components()
+                .fold(0.0, |a, b| f64::max(a, b.abs()))
+        });
+        off.unwrap_or(f64::INFINITY)
+    };
+    (0..system.cloud.len() as u32)
+        .map(of_point)
+        .fold(0.0, f64::max)
+}
+
+/// Bonds of which a third is broken, a third softens by factors of their own and a third is sound.
+fn damaged(n_bonds: usize) -> (Vec<bool>, Vec<StiffnessFactors>) {
+    let of_bond = |bond: usize| StiffnessFactors {
+        axial: if bond % 3 == 1 { 0.6 } else { 1.0 },
+        shear: if bond % 3 == 1 { 0.3 } else { 1.0 },
+        rotational: 1.0,
+    };
+    let intact = (0..n_bonds).map(|bond| bond % 3 != 0).collect();
+    (intact, (0..n_bonds).map(of_bond).collect())
+}
+
+/// A point whose bonds all have the share 1 - D of their stiffness carries the stress (1 - D) C : eps of the strain (Lemaitre and Chaboche
+/// 1990, eq. 7.5), less that of the temperature, one without bonds none; and a rotation of the body adds nothing, whatever is broken.
+fn assert_carried<const D: usize, S: Region<D>>(space: Space) {
+    let system = springs::<D, S>(space);
+    let n_bonds = system.bonds.len();
+    let strain = SymTensor::<D>::from_fn(|i, j| 0.5 * (GRADIENT[i][j] + GRADIENT[j][i]));
+    let free = StressFreeStrains::new(vec![SymTensor::<D>::isotropic(0.02); system.cloud.len()]);
+    let with_free = strain.plus(&SymTensor::isotropic(-0.02));
+    let (all, none) = (vec![true; n_bonds], vec![false; n_bonds]);
+    let left = |it: f64| {
+        let factors = StiffnessFactors {
+            axial: it,
+            shear: it,
+            rotational: it,
+        };
+        vec![factors; n_bonds]
+    };
+    let motion = (GRADIENT, free.times(1.0));
+    for share in [1.0, 0.4, 0.0] {
+        let off = off(&system, motion, (&all, &left(share)), |_| {
+            with_free.scaled(share)
+        });
+        assert!(off < 1e-13, "{share}: {off:e}");
+    }
+    assert_eq!(off(&system, motion, (&none, &[]), |_| SymTensor::ZERO), 0.0);
+    let (intact, remaining) = damaged(n_bonds);
+    let mut turned = GRADIENT;
+    for (i, row) in turned.iter_mut().enumerate().take(D) {
+        for (j, it) in row.iter_mut().enumerate().take(D) {
+            *it += 5.0 * (i as f64 - j as f64);
+        }
+    }
+    let layout = Layout {
+        n_points: system.cloud.len(),
+        components: &[Component::X, Component::Y, Component::Z][..D],
+    };
+    let displacement = affine(&system, GRADIENT);
+    let still = Carried {
+        motion: Motion {
+            intact: &intact,
+            displacement: &displacement,
+            expansion: ThermalStrain::NONE,
+        },
+        remaining: &remaining,
+        closed: &[],
+    };
+    let expected = |point| {
+        system
+            .strain_by(layout, StrainReading::Carried(still), point)
+            .unwrap()
+    };
+    let off = off(
+        &system,
+        (turned, ThermalStrain::NONE),
+        (&intact, &remaining),
+        expected,
+    );
+    assert!(off < 1e-12, "turned: {off:e}");
+    let size = |strain: SymTensor<D>| strain.contracted(&strain).sqrt();
+    assert!((0..system.cloud.len() as u32).all(|it| size(expected(it)) < size(strain)));
+}
+
+#[test]
+fn a_damaged_point_carries_what_its_bonds_have_left() {
+    assert_carried::<2, Shape>(Space::Plane(Plane::Stress));
+    assert_carried::<3, SolidShape>(Space::Solid);
+}
