@@ -131,7 +131,10 @@ impl Case {
             let density = mode.strain_energy_density.iter().copied();
             fields.reals("strain_energy_density", density);
             fields.fixed(&model);
-            let numbers = [("TimeValue", number as f64), ("frequency_hz", mode.frequency())];
+            let numbers = [
+                ("TimeValue", number as f64),
+                ("frequency_hz", mode.frequency()),
+            ];
             expected.field_data(&file, &numbers);
             collection.push([Entry::Real(number as f64), file.as_str().into()]);
         }

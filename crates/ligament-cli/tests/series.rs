@@ -21,7 +21,15 @@ fn run(folder: &Path, case: &str) {
     fs::write(folder.join("case.toml"), case).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
     command.current_dir(folder);
-    command.args(["run", "case.toml", "--out", "out", "--quiet", "--set", "output.fields_every=1"]);
+    command.args([
+        "run",
+        "case.toml",
+        "--out",
+        "out",
+        "--quiet",
+        "--set",
+        "output.fields_every=1",
+    ]);
     let output = command.output().unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert!(output.status.success(), "{said}");
@@ -72,8 +80,16 @@ fn times_are_rows_where_loads_go_back() {
     let cases = [
         ("displacement = { y = 1e-7 }", stages, ""),
         ("force = { y = 1.0 }", stages, ""),
-        ("displacement = { y = 1e-7 }", "", "steps = [0.5, 1.0, 1.0, 0.5, 0.0, 1.0]"),
-        ("displacement = { y = 1e-5 }", "", "control = \"event\", stop = { bonds = 12 }"),
+        (
+            "displacement = { y = 1e-7 }",
+            "",
+            "steps = [0.5, 1.0, 1.0, 0.5, 0.0, 1.0]",
+        ),
+        (
+            "displacement = { y = 1e-5 }",
+            "",
+            "control = \"event\", stop = { bonds = 12 }",
+        ),
     ];
     for (load, stages, fracture) in cases {
         let place = TempDir::new().unwrap();
@@ -96,7 +112,10 @@ fn times_are_times_in_a_motion() {
         let load = "load = [{ group = \"top\", force = { y = 1.0 }, amplitude = { shape = \"half-sine\", duration = 1e-6 } }]\n";
         let motion = format!("motion = {{ duration = 2e-6, rows = 4, {scheme} }}\n");
         let output = "output = { bonds = true }\n";
-        run(place.path(), &format!("analysis = \"motion\"\n{PLATE}{load}{motion}{output}"));
+        run(
+            place.path(),
+            &format!("analysis = \"motion\"\n{PLATE}{load}{motion}{output}"),
+        );
         let out = place.path().join("out");
         let found = times(&out, "fields");
         assert_eq!(times(&out, "bonds"), found);
@@ -108,7 +127,10 @@ fn times_are_times_in_a_motion() {
 #[test]
 fn times_are_numbers_of_modes() {
     let place = TempDir::new().unwrap();
-    run(place.path(), &format!("analysis = \"modal\"\n{PLATE}modal = {{ modes = 3 }}\n"));
+    run(
+        place.path(),
+        &format!("analysis = \"modal\"\n{PLATE}modal = {{ modes = 3 }}\n"),
+    );
     let out = place.path().join("out");
     let sheet = Sheet::read(out.join("modes.csv")).unwrap();
     let rows = sheet.numbers(["mode", "frequency_hz"]).unwrap();

@@ -113,8 +113,7 @@ impl LoadedBody<'_> {
         OfPoints::new(model);
         let (grid, fixed) = (model.body().grid(), &model.fixed);
         let folder = broadcast_path(&*loading.solver.communicator, None)?;
-        let writer =
-            || PieceWriter::new(folder, &grid, fixed, write_rule(case), &problem);
+        let writer = || PieceWriter::new(folder, &grid, fixed, write_rule(case), &problem);
         let is_divided = !model.system.subdomain().is_whole();
         let writer = is_divided.then(writer).transpose()?;
         let mut pieces = Pieces::new(writer, requests.is_stopped);

@@ -33,9 +33,8 @@ pub(crate) fn change(case: &CaseFile, folder: &Path) -> Option<String> {
     // A run that began anew while it was resumed came from the resolved case that it replaces.
     let is_other = path.parent() != Some(folder) && format!("{now})") != then;
     let (path, folder) = (path.display(), folder.display());
-    is_other.then(|| {
-        format!("{path} has changed since; the run goes on with {folder}/{RESOLVED_CASE}")
-    })
+    is_other
+        .then(|| format!("{path} has changed since; the run goes on with {folder}/{RESOLVED_CASE}"))
 }
 
 /// Whether a case is the resolved one of a result folder.

@@ -150,9 +150,8 @@ impl Request<'_> {
             .iter()
             .any(|name| summary.termination == *name);
         let rows = fs::read(folder.join(HISTORY)).unwrap_or_default();
-        let told = |folder: &Path| -> u64 {
-            TOLD.iter().map(|name| length_of(&folder.join(name))).sum()
-        };
+        let told =
+            |folder: &Path| -> u64 { TOLD.iter().map(|name| length_of(&folder.join(name))).sum() };
         let end = told(folder) + without_last_row(&rows);
         let reached = || told(out) + length_of(&out.join(HISTORY));
         let is_at_its_end = || was_cut_short && reached() >= end;

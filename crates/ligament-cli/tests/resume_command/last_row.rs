@@ -76,9 +76,8 @@ struct Place(TempDir);
 impl Place {
     fn new(kind: &str) -> Self {
         let folder = TempDir::new().unwrap();
-        let (keys, tables): (Vec<&str>, Vec<&str>) = kind
-            .lines()
-            .partition(|line| line.starts_with("analysis"));
+        let (keys, tables): (Vec<&str>, Vec<&str>) =
+            kind.lines().partition(|line| line.starts_with("analysis"));
         let case = format!("{}\n{BODY}{}\n", keys.join("\n"), tables.join("\n"));
         fs::write(folder.path().join("case.toml"), case).unwrap();
         Self(folder)
@@ -127,7 +126,10 @@ fn a_run_goes_on_from_each_of_its_states() {
     for (name, kind) in KINDS {
         let place = Place::new(kind);
         let n_asks = place.run("whole", usize::MAX, &[]);
-        assert!(model(&place.out("whole")).contains("largest_utilisation"), "{name}");
+        assert!(
+            model(&place.out("whole")).contains("largest_utilisation"),
+            "{name}"
+        );
         assert!(n_asks > 4, "{name}: {n_asks}");
         // The first is before the first solution.
         let all = [1, 2, n_asks / 2, n_asks - 2, n_asks - 1];
@@ -139,7 +141,10 @@ fn a_run_goes_on_from_each_of_its_states() {
             place.run(&out, asks, &[]);
             let folder = place.out(&out);
             assert_eq!(termination(&folder), "stopped", "{name} {asks}");
-            assert!(model(&folder).contains("largest_utilisation"), "{name} {asks}");
+            assert!(
+                model(&folder).contains("largest_utilisation"),
+                "{name} {asks}"
+            );
             place.resume(&out, &[]);
             println!("{name}: after {asks} of {n_asks}");
             assert_same(&place.out("whole"), &folder);

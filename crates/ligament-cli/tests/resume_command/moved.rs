@@ -43,7 +43,8 @@ fn resume(folder: &Path, more: &[&str]) -> Command {
 /// Tables and fields of a project.
 fn tables(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let all = results(&folder.join("results/out")).into_iter();
-    all.filter(|(name, _)| name != "case.resolved.toml").collect()
+    all.filter(|(name, _)| name != "case.resolved.toml")
+        .collect()
 }
 
 fn renamed(from: &Path, to: PathBuf) -> PathBuf {
@@ -61,7 +62,10 @@ fn results_that_moved_go_on() {
     assert_eq!(termination(&stayed.join("results/out")), "bonds-broken");
 
     let moved = renamed(&first, place.path().join("moved"));
-    let mesh = renamed(&moved.join("meshes/disk.msh"), place.path().join("elsewhere.msh"));
+    let mesh = renamed(
+        &moved.join("meshes/disk.msh"),
+        place.path().join("elsewhere.msh"),
+    );
     let before = results(&moved.join("results/out"));
     let said = refused(resume(&moved, &[]));
     assert!(said.contains("first/meshes/disk.msh"), "{said}");
@@ -85,7 +89,9 @@ fn results_that_moved_go_on() {
     fs::remove_file(&mesh).unwrap();
     let again = renamed(&moved, place.path().join("again"));
     let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
-    command.args(["repeat", "--quiet"]).arg(again.join("results/out"));
+    command
+        .args(["repeat", "--quiet"])
+        .arg(again.join("results/out"));
     succeeded(command);
 }
 

@@ -8,8 +8,8 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use super::{Cell, TIME_VALUE};
 use super::pieces::{CELL_NUMBER, POINT_NUMBER};
+use super::{Cell, TIME_VALUE};
 use crate::{Error, FieldLocation};
 use text::{Entry, Section, Text, sources, strange};
 
