@@ -303,6 +303,7 @@ fn a_run_that_began_anew_is_repeated_and_resumed() {
     assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
     let resume = resume::Request {
         folder: &stopped,
+        mesh: None,
         settings: &[],
         threads: None,
         build: Build::default(),

@@ -9,7 +9,7 @@ use ligament_model::subdomain::Subdomain;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::vtu::{
-    Cell, Field, Held, SharedCells, UnstructuredGrid, write_shared, write_vtu,
+    Cell, Field, Held, SharedCells, TIME_VALUE, UnstructuredGrid, write_shared, write_vtu,
 };
 use verification::threads_as_ranks::on_ranks;
 
@@ -80,6 +80,7 @@ impl Body {
                 Field::integer("node", &self.tags),
             ],
             cell_fields: &[Field::scalar("area", area)],
+            field_data: &[(TIME_VALUE, 3.0), ("load_factor", 0.1 + 0.2)],
         })
     }
 
@@ -120,6 +121,8 @@ fn pieces_read_as_the_whole() {
     let [whole, joined] = [single, shared].map(|it| VtuFile::open(it).unwrap());
     assert_eq!(joined.points().unwrap(), whole.points().unwrap());
     assert_eq!(joined.cells().unwrap(), whole.cells().unwrap());
+    assert_eq!(joined.field_data().unwrap(), whole.field_data().unwrap());
+    assert_eq!(joined.time().unwrap(), Some(3.0));
     let fields =
         |file: &VtuFile, location| file.fields(location).map(str::to_owned).collect::<Vec<_>>();
     for location in [OnPoints, OnCells] {

@@ -186,6 +186,7 @@ fn a_resumed_run_gives_the_same_bits() {
         assert!(broken(&out).len() < 60);
         let request = resume::Request {
             folder: &out,
+            mesh: None,
             settings: &[],
             threads: None,
             build: Build::default(),

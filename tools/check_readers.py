@@ -2,7 +2,8 @@
 """Checks that the files of a result folder mean the same to VTK, PyVista and meshio.
 
 Prints one line per check and exits with status 1 if one failed. What a complete result folder holds must be there
-unless --allow-missing names it. Of a solid the files of `ligament crack` (crack.vtu, opened.vtu, iso.vtu, and those of all
+unless --allow-missing names it. Times of every series must grow, and be those of its files, whose field data are the numbers
+of the history. Of a solid the files of `ligament crack` (crack.vtu, opened.vtu, iso.vtu, and those of all
 steps) are checked where they are, or must be there with --with-surfaces.
 """
 
@@ -14,6 +15,7 @@ import re
 import sys
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import meshio
@@ -34,6 +36,8 @@ SURFACE_FIELDS = {
     "opened": ({"displacement", "damage", "strain_energy_density"}, {"cell_of_mesh"}),
     "iso": ({"displacement", "damage", "volume", "horizon"}, set()),
 }
+# Field data of the states of a run, and their columns in history.csv.
+STATE_NUMBERS = {"load_factor": "load_factor", "load_displacement": "displacement", "load_reaction": "reaction"}
 OPTIONAL_PARTS = ("fields", "bonds", "pvd", "history", "summary")
 
 
@@ -47,6 +51,7 @@ class Grid:
     connectivity: np.ndarray
     point_fields: dict
     cell_fields: dict
+    field_data: dict
 
 
 class Report:
@@ -84,12 +89,13 @@ def read_vtk(path):
         vtk_to_numpy(cells.GetConnectivityArray()),
         fields(grid.GetPointData()),
         fields(grid.GetCellData()),
+        fields(grid.GetFieldData()),
     )
 
 
 def read_pyvista(path):
     grid = pyvista.read(path)
-    fields = dict(grid.point_data), dict(grid.cell_data)
+    fields = dict(grid.point_data), dict(grid.cell_data), dict(grid.field_data)
     return Grid(grid.points, grid.celltypes, grid.cell_offsets, grid.cell_connectivity, *fields)
 
 
@@ -109,6 +115,7 @@ def read_meshio(path):
         np.concatenate([corners_of(block).ravel() for block in mesh.cells]),
         mesh.point_data,
         {name: np.concatenate(blocks) for name, blocks in mesh.cell_data.items()},
+        mesh.field_data,
     )
 
 
@@ -128,7 +135,7 @@ def differences(one, other):
         for part in ("points", "cell_types", "offsets", "connectivity")
         if not same(getattr(one, part), getattr(other, part))
     ]
-    for kind in ("point_fields", "cell_fields"):
+    for kind in ("point_fields", "cell_fields", "field_data"):
         ours, theirs = getattr(one, kind), getattr(other, kind)
         found += [f"{kind} {name}" for name in ours.keys() ^ theirs.keys()]
         found += [f"{kind} {name}" for name in ours.keys() & theirs.keys() if not same(ours[name], theirs[name])]
@@ -249,10 +256,6 @@ def check_surfaces(report, folder, required):
             report.check(f"{folder} has {name}.vtu", False)
         for path in paths:
             check_surface(report, path)
-        for path in folder.glob(f"{name}.pvd"):
-            series = pyvista.get_reader(path)
-            there = all((folder / dataset.path).is_file() for dataset in series.datasets)
-            report.check(f"{path.name} lists files that are there", there, f"{len(series.datasets)} outputs")
     for path in folder.glob("crack.stl"):
         check_stl(report, path)
 
@@ -264,7 +267,7 @@ def is_of_boxes(folder):
 
 
 def step_of(file):
-    match = re.fullmatch(r"fields_(\d+)\.vtu", file)
+    match = re.fullmatch(r"[a-z]+_(\d+)\.p?vtu", file)
     return int(match.group(1)) if match else None
 
 
@@ -274,30 +277,41 @@ def read_history(path):
         return {int(row["step"]): row for row in csv.DictReader(file)}
 
 
+def times_to_vtk(path):
+    """The times that VTK finds in a file."""
+    reader = vtk.vtkXMLPUnstructuredGridReader() if path.suffix == ".pvtu" else vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.UpdateInformation()
+    information, key = reader.GetOutputInformation(0), vtk.vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    return [information.Get(key, place) for place in range(information.Length(key))] if information.Has(key) else []
+
+
 def check_collection(report, path, history):
+    """A series: times that grow, and files of its own with these times and the numbers of the history."""
     root = parse_xml(report, path)
     if root is None:
         return
     datasets = root.findall("Collection/DataSet")
     listed = [(float(dataset.get("timestep")), dataset.get("file")) for dataset in datasets]
     series = pyvista.get_reader(path)
-    same_list = sorted((dataset.time, dataset.path) for dataset in series.datasets) == sorted(listed)
+    same_list = [(dataset.time, dataset.path) for dataset in series.datasets] == listed
     report.check(f"{path.name} is read by pyvista", same_list, f"{len(listed)} outputs")
     times = [time for time, _ in listed]
-    report.check(f"{path.name} has no time twice", len(set(times)) == len(times))
-    present = {file.name for file in path.parent.glob("fields_*.vtu")}
+    report.check(f"{path.name} has times that grow", all(before < after for before, after in pairwise(times)), str(times))
+    present = {file.name for ending in ("vtu", "pvtu") for file in path.parent.glob(f"{path.stem}_????.{ending}")}
     stray = present ^ {file for _, file in listed}
-    report.check(f"{path.name} lists each fields_NNNN.vtu", not stray, ", ".join(sorted(stray)))
-    if history is None:
+    if not report.check(f"{path.name} lists each {path.stem}_NNNN", not stray, ", ".join(sorted(stray))):
         return
-    steps = [step_of(file) for _, file in listed]
-    unknown = [file for step, (_, file) in zip(steps, listed) if step not in history]
-    if not report.check(f"{path.name} lists steps of history.csv", not unknown, ", ".join(unknown)):
-        return
-    columns = [name for name in ("displacement", "reaction", "step") if all(name in history[step] for step in steps)]
-    matching = [name for name in columns if all(float(history[step][name]) == time for step, time in zip(steps, times))]
-    detail = f"column {matching[0]}" if matching else f"compared with {columns or 'no column'}"
-    report.check(f"{path.name} has the times of history.csv", matching, detail)
+    for time, file in listed:
+        found = pyvista.read(path.with_name(file)).field_data
+        expected = {"TimeValue": time}
+        if history is not None:
+            row = history[step_of(file)]
+            expected |= {name: float(row[column]) for name, column in STATE_NUMBERS.items()}
+            expected["TimeValue"] = float(row.get("time", row["step"]))
+        is_same = all(name in found and list(found[name]) == [number] for name, number in expected.items())
+        report.check(f"{file} has the time of {path.name} and the numbers of the history", is_same, f"{dict(found)} for {expected}")
+        report.check(f"{file} has its time to VTK", times_to_vtk(path.with_name(file)) == [time])
 
 
 def read_volume(path):
@@ -328,8 +342,9 @@ def check_folder(report, folder, allowed, with_surfaces):
         check_fields(report, path, volume)
     for path in find("bonds", "bonds_*.vtu"):
         check_grid(report, path)
-    for path in find("pvd", "fields.pvd"):
-        check_collection(report, path, history)
+    find("pvd", "fields.pvd")
+    for path in sorted(folder.glob("*.pvd")):
+        check_collection(report, path, history if path.stem != "modes" else None)
     check_surfaces(report, folder, with_surfaces)
 
 

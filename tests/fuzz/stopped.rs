@@ -95,6 +95,7 @@ impl Target for Stopped {
     fn read(&mut self, input: &[u8]) -> bool {
         let request = resume::Request {
             folder: self.folder.path(),
+            mesh: None,
             settings: &[],
             threads: Some(1),
             build: Build::default(),

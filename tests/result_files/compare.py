@@ -110,7 +110,7 @@ def check_grid(path, expected):
     """Faults of a file of fields."""
     faults = []
     types, offsets, corners = cells_of(expected["cells", ""][0])
-    fields = {key: values for key, (values, _) in expected.items() if key[0] in ("point", "cell")}
+    fields = {key: values for key, (values, _) in expected.items() if key[0] in ("point", "cell", "field")}
     for name, read in READERS.items():
         grid = read(path)
         parts = {
@@ -122,6 +122,7 @@ def check_grid(path, expected):
         faults += [f"{name}: {part}" for part, is_good in parts.items() if not is_good]
         found = {("point", key): values for key, values in grid.point_fields.items()}
         found |= {("cell", key): values for key, values in grid.cell_fields.items()}
+        found |= {("field", key): values for key, values in grid.field_data.items()}
         faults += [f"{name}: no field {part} {key}" for part, key in fields.keys() - found.keys()]
         faults += [f"{name}: field {part} {key} is not expected" for part, key in found.keys() - fields.keys()]
         for part, key in fields.keys() & found.keys():

@@ -1,6 +1,6 @@
 //! What the program has in memory, in a plain form: raw little-endian numbers, and a list of what they are.
 //!
-//! A line of `expected.tsv` has, between tabs, the file, the part (`points`, `cells`, `point`, `cell` or `column`), the name, the
+//! A line of `expected.tsv` has, between tabs, the file, the part (`points`, `cells`, `point`, `cell`, `field` or `column`), the name, the
 //! type (`f8`, `f4`, `i8`, `text`), the names of the components between commas, where the numbers begin in `expected.bin` (bytes)
 //! and how many there are; of a column of text the texts themselves stand at the end instead, between vertical bars.
 //!
@@ -38,7 +38,7 @@ struct Order {
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub(crate) file: &'a str,
-    /// `points`, `cells`, `point`, `cell` or `column`.
+    /// `points`, `cells`, `point`, `cell`, `field` or `column`.
     pub(crate) part: &'a str,
     pub(crate) name: &'a str,
 }
@@ -177,6 +177,18 @@ impl Expected {
     ) {
         let bytes = values.into_iter().flatten().flat_map(f64::to_le_bytes);
         self.push(place, "f8", &names, bytes.collect());
+    }
+
+    /// Numbers of a whole file.
+    pub(crate) fn field_data(&mut self, file: &str, numbers: &[(&str, f64)]) {
+        for (name, number) in numbers {
+            let place = Place {
+                file,
+                part: "field",
+                name,
+            };
+            self.reals(place, [*number]);
+        }
     }
 
     pub(crate) fn texts(&mut self, place: Place<'_>, texts: &[String]) {

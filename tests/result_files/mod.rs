@@ -131,6 +131,11 @@ impl Case {
             let density = mode.strain_energy_density.iter().copied();
             fields.reals("strain_energy_density", density);
             fields.fixed(&model);
+            let numbers = [
+                ("TimeValue", number as f64),
+                ("frequency_hz", mode.frequency()),
+            ];
+            expected.field_data(&file, &numbers);
             collection.push([Entry::Real(number as f64), file.as_str().into()]);
         }
         table.into_expected("modes.csv", &mut expected);

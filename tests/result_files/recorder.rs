@@ -2,12 +2,11 @@
 
 mod model;
 
-use ligament::setup::Analysis;
 use std::path::Path;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use ligament_analysis::{Component, ControlKind, fields};
+use ligament_analysis::{Component, fields};
 use ligament_case::case::StressField;
 use ligament_model::interface::StressReading;
 use ligament_model::thermal::StressFreeStrains;
@@ -35,7 +34,6 @@ pub(crate) struct Recorder<'a> {
     fields_every: usize,
     bonds: bool,
     stress: Vec<StressField>,
-    times_are_steps: bool,
     labels: Vec<String>,
     history: Rows,
     breaks: Rows,
@@ -143,7 +141,6 @@ impl<'a> Recorder<'a> {
             fields_every: case.output.fields_every.unwrap() as usize,
             bonds: case.output.bonds,
             stress: case.output.stress.clone(),
-            times_are_steps: matches!(model.setup.analysis, Analysis::Event(_)),
             labels: labels(&problem),
             problem: problem.clone(),
             history: Rows::new(history.chain(groups).chain(probes)),
@@ -403,19 +400,21 @@ impl Observer for Recorder<'_> {
             every => record.step.is_multiple_of(every),
         };
         if is_due || view.is_last {
-            let time = match view.loads.control().kind {
-                _ if self.times_are_steps => record.step as f64,
-                ControlKind::Force => record.reaction,
-                ControlKind::Displacement
-                | ControlKind::Temperature
-                | ControlKind::RigidBody(_) => record.displacement,
-            };
+            let time = record.step as f64;
+            let numbers = [
+                ("TimeValue", time),
+                ("load_factor", record.load_factor),
+                ("load_displacement", record.displacement),
+                ("load_reaction", record.reaction),
+            ];
             let name = format!("fields_{:04}.vtu", record.step);
             self.write_fields(&name, view);
+            self.expected.field_data(&name, &numbers);
             self.fields.push([time.into(), name.as_str().into()]);
             if self.bonds {
                 let name = format!("bonds_{:04}.vtu", record.step);
                 self.write_bonds(&name, view);
+                self.expected.field_data(&name, &numbers);
                 self.bond_files.push([time.into(), name.as_str().into()]);
             }
         }

@@ -97,6 +97,7 @@ fn write_model(folder: &Path, body: &BodyGrid, bonds: &[[u32; 2]]) {
             Field::scalar("domain_factor", &of_bonds),
             Field::scalar("limit.tension", &limit),
         ],
+        field_data: &[],
     };
     write_vtu(folder.join("model.vtu"), &grid).unwrap();
 }
@@ -232,6 +233,7 @@ fn write_fields(
                 cells: &cells,
                 point_fields: &fields,
                 cell_fields: &[],
+                field_data: &[],
             };
             write_vtu(path, &grid).unwrap();
         }
@@ -249,6 +251,7 @@ fn write_fields(
                 cells: &cells,
                 point_fields: &[Field::vector("displacement", &corners)],
                 cell_fields: &fields,
+                field_data: &[],
             };
             write_vtu(path, &grid).unwrap();
         }

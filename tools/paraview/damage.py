@@ -97,7 +97,7 @@ def show_broken(bonds, view, factor):
 
 
 def show_time(fields, view):
-    """The time of the collection: displacement or force of the first load, or the number of the event of the exact path."""
+    """The time of the collection: the number of the load step or event, in a motion the time in s."""
     title = simple.AnnotateTimeFilter(registrationName="time", Input=fields)
     # The way of writing the format changed with ParaView 5.11.
     version = servermanager.vtkSMProxyManager

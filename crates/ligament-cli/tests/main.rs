@@ -16,6 +16,7 @@ mod plot;
 mod repeat_command;
 mod report_command;
 mod resume_command;
+mod series;
 mod solid_results;
 mod solids;
 mod starter;

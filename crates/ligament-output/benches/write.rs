@@ -38,6 +38,7 @@ fn fields(criterion: &mut Criterion) {
             cells: &cells,
             point_fields: &point_fields,
             cell_fields: &[],
+            field_data: &[],
         };
         let path = folder.path().join("fields.vtu");
         group.throughput(Throughput::Elements(points.len() as u64));

@@ -10,8 +10,7 @@ use crate::xml::escape_attribute;
 
 /// A list of VTU files with their times, which ParaView opens as one series.
 ///
-/// The time of a quasi-static output is the applied displacement or load. Readers sort the files by time and show one
-/// file per time, so a time should not come back.
+/// Times grow from each file to the next: readers sort the files by time and show one file per time.
 #[derive(Debug)]
 pub struct Collection {
     path: PathBuf,
@@ -56,11 +55,18 @@ impl Collection {
 
     /// Lists `file`, relative to the folder of the collection, under `time` and rewrites the collection atomically, so
     /// that a running job can be opened. The file should exist by then.
+    ///
+    /// # Errors
+    ///
+    /// If the time is not finite or not above that of the file before, or the collection cannot be written.
     pub fn append(&mut self, time: f64, file: impl Into<String>) -> Result<(), Error> {
         let file = file.into();
-        if !time.is_finite() {
+        let before = self.outputs.last().map_or(f64::NEG_INFINITY, |it| it.0);
+        if !(time.is_finite() && time > before) {
             let path = self.path.clone();
-            let reason = format!("the time of {file} is {time}; a collection needs finite times");
+            let reason = format!(
+                "the time of {file} is {time} after {before}; a collection needs finite times that grow"
+            );
             return Err(Error::Refused { path, reason });
         }
         self.outputs.push((time, file));
@@ -112,7 +118,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fields.pvd");
         let mut collection = Collection::new(&path);
-        let times = [0.1 + 0.2, 1e-7, -2.5e-300, 0.0];
+        let times = [-2.5e-300, 0.0, 1e-7, 0.1 + 0.2];
         for time in times {
             collection.append(time, "a.vtu").unwrap();
         }
@@ -136,17 +142,16 @@ mod tests {
     }
 
     #[test]
-    fn a_time_that_is_not_finite_is_refused_and_not_listed() {
+    fn a_time_that_does_not_grow_is_refused_and_not_listed() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fields.pvd");
         let mut collection = Collection::new(&path);
-        let error = collection.append(f64::NAN, "a.vtu").unwrap_err();
-        assert!(
-            error
-                .to_string()
-                .ends_with("the time of a.vtu is NaN; a collection needs finite times")
-        );
         collection.append(1.0, "b.vtu").unwrap();
+        for time in [f64::NAN, f64::INFINITY, 0.5, 1.0] {
+            let error = collection.append(time, "a.vtu").unwrap_err().to_string();
+            assert!(error.contains("the time of a.vtu is"), "{error}");
+            assert!(error.ends_with("needs finite times that grow"), "{error}");
+        }
         assert!(!fs::read_to_string(&path).unwrap().contains("a.vtu"));
     }
 }

@@ -22,6 +22,9 @@ pub(crate) use field::Chosen;
 pub use field::Field;
 pub use pieces::{Held, IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
 
+/// Name of the time in the field data of a grid, by which VTK knows it.
+pub const TIME_VALUE: &str = "TimeValue";
+
 /// A cell given by its points, indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cell {
@@ -133,6 +136,8 @@ pub struct UnstructuredGrid<'a> {
     pub point_fields: &'a [Field<'a>],
     /// Fields on the cells.
     pub cell_fields: &'a [Field<'a>],
+    /// Numbers of the whole grid with their names, such as its time.
+    pub field_data: &'a [(&'a str, f64)],
 }
 
 impl UnstructuredGrid<'_> {
@@ -183,7 +188,8 @@ impl UnstructuredGrid<'_> {
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
              compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n\
-             <Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+             {}<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
+            field_data_xml(self.field_data),
             self.points.len(),
             self.cells.len()
         );
@@ -196,6 +202,20 @@ impl UnstructuredGrid<'_> {
         xml.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
         xml
     }
+}
+
+/// The element `FieldData` of some numbers; without any, nothing.
+fn field_data_xml(numbers: &[(&str, f64)]) -> String {
+    if numbers.is_empty() {
+        return String::new();
+    }
+    let array = |(name, number): &(&str, f64)| {
+        let array = Field::scalar(name, std::slice::from_ref(number)).to_xml();
+        // The length of other arrays is that of the points or cells.
+        array.replacen("<DataArray", "<DataArray NumberOfTuples=\"1\"", 1)
+    };
+    let arrays: String = numbers.iter().map(array).collect();
+    format!("<FieldData>\n{arrays}</FieldData>\n")
 }
 
 fn cell_arrays(cells: &[Cell]) -> [String; 3] {

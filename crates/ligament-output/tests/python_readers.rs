@@ -63,9 +63,10 @@ fn write_sample(folder: &Path) {
             Field::components("stress", &["xx", "yy", "xy"], &stress),
         ],
         cell_fields: &[Field::integer("material", &material)],
+        field_data: &[],
     };
     let mut collection = Collection::new(folder.join("fields.pvd"));
-    for (step, time) in [0.0, 0.1 + 0.2, 1e-7].into_iter().enumerate() {
+    for (step, time) in [0.0, 1e-7, 0.1 + 0.2].into_iter().enumerate() {
         let file = format!("fields & {step:04}.vtu");
         write_vtu(folder.join(&file), &grid).unwrap();
         collection.append(time, file).unwrap();

@@ -82,7 +82,7 @@ def assert_same(found, wanted, what):
 
 
 def check_series(folder):
-    times = [0.0, 0.1 + 0.2, 1e-7]
+    times = [0.0, 1e-7, 0.1 + 0.2]
     series = pyvista.get_reader(folder / "fields.pvd")
     assert series.time_values == sorted(times), series.time_values
     listed = sorted((dataset.time, dataset.path) for dataset in series.datasets)

@@ -33,6 +33,7 @@ fn grid<'a>(point_fields: &'a [Field<'a>], cell_fields: &'a [Field<'a>]) -> Unst
         cells: &CELLS,
         point_fields,
         cell_fields,
+        field_data: &[],
     }
 }
 
@@ -142,6 +143,7 @@ fn solid_cells_read_back() {
         cells: &cells,
         point_fields: &[],
         cell_fields: &[],
+        field_data: &[],
     };
     write_vtu(&path, &grid).unwrap();
     let piece = read(&path);
@@ -175,6 +177,7 @@ fn arrays_of_whole_compression_blocks_read_back() {
             cells: &cells,
             point_fields: &[Field::scalar("volume", &volume)],
             cell_fields: &[],
+            field_data: &[],
         };
         write_vtu(&path, &grid).unwrap();
         let piece = read(&path);
@@ -230,6 +233,7 @@ fn the_number_of_threads_changes_no_byte() {
             Field::scalar("damage", &damage),
         ],
         cell_fields: &[],
+        field_data: &[],
     };
     let with_threads = |n_threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n_threads);

@@ -5,7 +5,8 @@ use std::io;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 
-use crate::inputs::{copied, recorded};
+use crate::inputs::copied;
+use crate::origin::recorded_text;
 
 /// Writes the results of a case into a folder, which replaces earlier results if `make` returns that the results are complete. With
 /// `keeps_inputs` the folder gets copies of the files that the case reads, and `make` the case with them.
@@ -41,8 +42,7 @@ fn begun(case: &CaseFile, keeps_inputs: bool, folder: &ResultFolder) -> anyhow::
         }
         false => case.clone(),
     };
-    let recorded = recorded(&case, folder.path()).resolved_toml()?;
-    folder.write(RESOLVED_CASE, &recorded)?;
+    folder.write(RESOLVED_CASE, &recorded_text(&case, folder.path())?)?;
     Ok(case)
 }
 

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use anyhow::bail;
 use ligament_case::case::{CaseFile, MotionStop, Stop};
 use ligament_case::input_file;
 use ligament_output::folder::{self, ResultFolder};
@@ -145,6 +146,46 @@ fn paths(case: &mut CaseFile) -> Vec<(String, &mut PathBuf)> {
         found.extend(file.map(|file| (format!("load.{number}.amplitude.file"), file)));
     }
     found
+}
+
+/// Sets the place of the mesh of a case, if given.
+///
+/// # Errors
+///
+/// If the body is no mesh, or the place has no absolute path.
+pub(crate) fn set_mesh(case: &mut CaseFile, mesh: Option<&Path>) -> anyhow::Result<()> {
+    let Some(mesh) = mesh else {
+        return Ok(());
+    };
+    let Some(section) = &mut case.case.mesh else {
+        bail!("--mesh: the body of the run is no mesh");
+    };
+    section.file = std::path::absolute(mesh)?;
+    Ok(())
+}
+
+/// Finds files of a case that are gone where they were, for results that moved together with them: a file has the place below the results, or
+/// below a folder above them, that ends its earlier path, and a content that the run read.
+pub(crate) fn find_moved(case: &mut CaseFile, folder: &Path, was_read: &dyn Fn(&Identity) -> bool) {
+    let Ok(folder) = folder.canonicalize() else {
+        return;
+    };
+    for (_, file) in paths(case) {
+        let names: Vec<_> = file.iter().collect();
+        let ends = (0..names.len()).map(|from| names[from..].iter().collect::<PathBuf>());
+        let ends: Vec<PathBuf> = ends.filter(|it| it.is_relative()).collect();
+        let above = folder.ancestors();
+        let mut places = above.flat_map(|above| ends.iter().map(|end| above.join(end)));
+        let has_content = |place: &PathBuf| {
+            let content = place.is_file().then(|| input_file::read(place));
+            content.is_some_and(|it| it.is_ok_and(|bytes| was_read(&Identity::new(&bytes))))
+        };
+        if !file.exists()
+            && let Some(place) = places.find(has_content)
+        {
+            *file = place;
+        }
+    }
 }
 
 /// Copies the files of a case into a result folder; returns the case with the copies.

@@ -1,13 +1,12 @@
 //! Runs a body under loads, from its first state or from a checkpoint, and writes the results into a folder.
 
 use ligament::run::{Posed, Restored, follow, resume};
-use ligament::setup::Analysis;
 use ligament::{Loading, Model};
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_model::BodyGrid;
 use ligament_output::folder::ResultFolder;
-use ligament_output::results::{OutputState, PieceWriter, ResultWriter, Time, WriteRule};
+use ligament_output::results::{OutputState, PieceWriter, ResultWriter, WriteRule};
 use ligament_output::summary::{self, Build, Summary};
 
 use crate::checkpoints::{Checkpoints, Stops};
@@ -59,7 +58,7 @@ impl LoadedBody<'_> {
         let of_points = OfPoints::new(model);
         let grid = grid(model);
         broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;
-        let (fixed, rule) = (&model.fixed, write_rule(case, analysis));
+        let (fixed, rule) = (&model.fixed, write_rule(case));
         let mut contents = Contents::default();
         let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
         let provenance = provenance(build.clone(), case, folder.path(), &mut contents);
@@ -114,8 +113,7 @@ impl LoadedBody<'_> {
         OfPoints::new(model);
         let (grid, fixed) = (model.body().grid(), &model.fixed);
         let folder = broadcast_path(&*loading.solver.communicator, None)?;
-        let writer =
-            || PieceWriter::new(folder, &grid, fixed, write_rule(case, analysis), &problem);
+        let writer = || PieceWriter::new(folder, &grid, fixed, write_rule(case), &problem);
         let is_divided = !model.system.subdomain().is_whole();
         let writer = is_divided.then(writer).transpose()?;
         let mut pieces = Pieces::new(writer, requests.is_stopped);
@@ -161,8 +159,8 @@ fn grid(model: &Model) -> BodyGrid {
     }
 }
 
-/// The rule by which the results of a case with an analysis are written.
-pub fn write_rule(case: &CaseFile, analysis: &Analysis) -> WriteRule {
+/// The rule by which the results of a case are written.
+pub fn write_rule(case: &CaseFile) -> WriteRule {
     let output = &case.case.output;
     WriteRule {
         fields_every: output.fields_every.unwrap_or_default() as usize,
@@ -172,9 +170,5 @@ pub fn write_rule(case: &CaseFile, analysis: &Analysis) -> WriteRule {
         effective_stress: output.stress.contains(&StressField::Effective),
         virial: output.stress.contains(&StressField::Virial),
         traction: output.stress.contains(&StressField::Traction),
-        time: match analysis {
-            Analysis::Event(_) => Time::Step,
-            _ => Time::Load,
-        },
     }
 }

@@ -9,6 +9,7 @@ use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::summary::{Build, Identity, Input, Provenance};
 
 use crate::inputs::{Contents, files, recorded};
+use crate::origin::recorded_text;
 
 /// The provenance of a run of a case into a folder, by a build on this computer.
 ///
@@ -23,7 +24,7 @@ pub fn provenance(
 ) -> Result<Provenance, (PathBuf, io::Error)> {
     let recorded = recorded(case, folder);
     // A case that cannot be written as TOML fails when it is run.
-    let resolved = recorded.resolved_toml().unwrap_or_default();
+    let resolved = recorded_text(case, folder).unwrap_or_default();
     let mut inputs = vec![Input {
         key: None,
         file: RESOLVED_CASE.into(),

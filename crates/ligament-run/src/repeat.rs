@@ -5,7 +5,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context, ensure};
 use ligament_analysis::Termination;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
@@ -14,7 +14,7 @@ use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY, Summary}
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::comparison::{Comparison, Ending};
-use crate::inputs::{Contents, are_kept, files, unread};
+use crate::inputs::{Contents, are_kept, files, find_moved, set_mesh, unread};
 use crate::progress::ProgressMode;
 use crate::provenance::provenance;
 use crate::run;
@@ -65,9 +65,13 @@ impl Request<'_> {
         let folder = ResultFolder::settled(self.folder).map_err(in_use)?;
         require_results(&folder)?;
         let summary = summary_of(&folder)?;
-        let case = self.case(&folder)?;
+        let mut case = self.case(&folder)?;
         let mut contents = Contents::default();
         if let Some(record) = &summary.provenance {
+            let mut inputs = record.inputs.iter();
+            find_moved(&mut case, &folder, &|it| {
+                inputs.clone().any(|input| input.content == *it)
+            });
             check_inputs(&folder, record, &case, &mut contents)?;
         }
         let out = self.place(&folder)?;
@@ -103,12 +107,7 @@ impl Request<'_> {
         let mut case = CaseFile::load(&folder.join(RESOLVED_CASE), &[])?;
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
-        if let Some(mesh) = self.mesh {
-            let Some(section) = &mut case.case.mesh else {
-                bail!("--mesh: the body of the run is no mesh");
-            };
-            section.file = std::path::absolute(mesh)?;
-        }
+        set_mesh(&mut case, self.mesh)?;
         // A repetition has no limit of wall time: it is stopped where the run was.
         if let Some(fracture) = &mut case.case.fracture {
             fracture.stop.wall_time = None;
@@ -150,9 +149,12 @@ impl Request<'_> {
         let was_cut_short = [Termination::Stopped.name(), WALL_TIME]
             .iter()
             .any(|name| summary.termination == *name);
-        let length = |folder: &Path| TOLD.iter().map(|name| length_of(&folder.join(name))).sum();
-        let end: u64 = length(folder);
-        let is_at_its_end = || was_cut_short && length(out) >= end;
+        let rows = fs::read(folder.join(HISTORY)).unwrap_or_default();
+        let told =
+            |folder: &Path| -> u64 { TOLD.iter().map(|name| length_of(&folder.join(name))).sum() };
+        let end = told(folder) + without_last_row(&rows);
+        let reached = || told(out) + length_of(&out.join(HISTORY));
+        let is_at_its_end = || was_cut_short && reached() >= end;
         let request = run::Request {
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
             keeps_inputs: are_kept(case, folder),
@@ -174,6 +176,16 @@ const WALL_TIME: &str = "wall-time";
 
 /// Tables that grow with each equilibrium, after which a run can be stopped.
 const TOLD: [&str; 2] = ["iterations.csv", "breaks.csv"];
+
+/// Table whose last row is that of the state in which a run was stopped, written after the stop.
+const HISTORY: &str = "history.csv";
+
+/// Length of a table before its last row, bytes.
+fn without_last_row(table: &[u8]) -> u64 {
+    let rows = table.strip_suffix(b"\n").unwrap_or(table);
+    let end = rows.iter().rposition(|it| *it == b'\n');
+    end.map_or(0, |it| it as u64 + 1)
+}
 
 /// Converts the error of a folder that another process writes to.
 fn in_use(error: ligament_output::Error) -> anyhow::Error {

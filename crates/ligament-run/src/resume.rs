@@ -4,7 +4,7 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{bail, ensure};
+use anyhow::{Context, bail, ensure};
 use ligament::run::{Posed, Restored, on_threads, restore};
 use ligament::{Loading, Model};
 use ligament_analysis::distributed_matrix::MatrixCommunicator;
@@ -16,14 +16,15 @@ use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::quantity::quantity;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
-use ligament_output::summary::{self, Build, SUMMARY, Summary};
+use ligament_output::summary::{self, Build, Identity, SUMMARY, Summary};
 
 use crate::checkpoints::{IsStopped, Stops, VERSION};
 use crate::destination::make_results;
 use crate::end::End;
-use crate::inputs::{Contents, Inputs, MAY_CHANGE, unread};
+use crate::inputs::{Contents, Inputs, MAY_CHANGE, find_moved, set_mesh, unread};
 use crate::loading::{Kept, LoadedBody};
 use crate::model::build_model_on;
+use crate::origin;
 use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
 use crate::progress::{Progress, ProgressMode};
 use crate::run::{self, Report};
@@ -33,6 +34,8 @@ use crate::stages::Stages;
 pub struct Request<'a> {
     /// Result folder of the run.
     pub folder: &'a Path,
+    /// Path of the mesh, where it has moved since the run.
+    pub mesh: Option<&'a Path>,
     /// Changed settings, `key=value` each.
     pub settings: &'a [String],
     /// Number of threads, if other than that of the case.
@@ -61,6 +64,8 @@ impl Request<'_> {
         let mut case = CaseFile::load(&path.join(RESOLVED_CASE), self.settings)?;
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
+        set_mesh(&mut case, self.mesh)?;
+        find_moved(&mut case, &path, &|it| was_read(&path, it));
         on_threads(case.threads(), || {
             self.resume_here((&case, &path), folder, mode)
         })?
@@ -83,6 +88,9 @@ impl Request<'_> {
         mode: ProgressMode,
     ) -> anyhow::Result<Report> {
         let progress = Progress::on(&*self.communicator, mode);
+        if let Some(words) = origin::change(case, path) {
+            progress.stage(&words);
+        }
         let found = match &folder {
             Some(folder) => find_checkpoint(folder, case, &progress)?,
             None => None,
@@ -235,6 +243,15 @@ fn find_checkpoint(
     }
 }
 
+/// Whether a checkpoint of a run was written with an input of this content.
+fn was_read(folder: &Path, content: &Identity) -> bool {
+    let checkpoints = Checkpoint::list(folder).into_iter().flatten();
+    let content = content.to_string();
+    checkpoints
+        .into_iter()
+        .any(|it| it.0.inputs.contains(&content))
+}
+
 /// Refuses a checkpoint of another version of the program or of another case.
 fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> {
     let version = &checkpoint.version;
@@ -243,7 +260,10 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
         "version {version} of the program wrote its checkpoint, and this is version {VERSION}: resume with that version, or run the case \
          again"
     );
-    let inputs = Inputs::of_course(case, &mut Contents::default()).map_err(unread)?;
+    let inputs = Inputs::of_course(case, &mut Contents::default());
+    let inputs = inputs.map_err(unread).context(
+        "an input of the run cannot be read; if the mesh has moved, give its new place with --mesh",
+    )?;
     ensure!(
         inputs.text() == checkpoint.inputs,
         "its checkpoint belongs to other inputs ({}): resume with the case and the mesh of the first run, or run the case again",

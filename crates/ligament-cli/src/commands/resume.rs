@@ -18,6 +18,7 @@ Examples:
   ligament resume results/disk
   ligament resume results/disk --set fracture.stop.bonds=400
   ligament resume results/disk --set fracture.steps=[0.1,0.2,0.3,0.4]
+  ligament resume results/disk --mesh ~/meshes/disk.msh
 
 --set can only change keys that leave earlier results unchanged: fracture.stop.load_fraction, .displacement, .bonds and .wall_time,
 fracture.steps (completed ones must stay, new ones can follow), fracture.max_iterations, output.fields_every,
@@ -29,6 +30,9 @@ pub struct ResumeArgs {
     /// The folder of the results of the run
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
+    /// The mesh, if it has moved since the run began
+    #[arg(long, value_name = "FILE")]
+    pub mesh: Option<PathBuf>,
     /// Change when the run stops, or what it writes from now on, e.g. fracture.stop.bonds=400 (may be repeated)
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub settings: Vec<String>,
@@ -46,6 +50,7 @@ impl ResumeArgs {
         let stop = StopSignal::awaited()?;
         let request = Request {
             folder: &self.folder,
+            mesh: self.mesh.as_deref(),
             settings: &self.settings,
             threads: self.threads,
             build: BUILD,

@@ -8,6 +8,8 @@
 
 mod bench;
 mod kills;
+mod last_row;
+mod moved;
 mod signals;
 
 use std::fs;

@@ -118,6 +118,7 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
         cells: &cells,
         point_fields: &[Field::scalar("along", &along)],
         cell_fields: &[Field::integer("line", &numbers)],
+        field_data: &[],
     };
     vtu::write_vtu(path, &grid)
 }

@@ -26,7 +26,8 @@ pub fn point_grid(path: &Path, grid: &BodyGrid, model: ModelPoints<'_>) -> Resul
 pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Result<(), Error> {
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
-    write_grid(path, grid, &all, &Subdomain::whole(grid.positions.len()))
+    let subdomain = Subdomain::whole(grid.positions.len());
+    write_grid(path, grid, &all, (&subdomain, &[]))
 }
 
 /// Bonds as lines between the points of a body, in the order of the file.
@@ -63,14 +64,13 @@ impl Lines {
         }
     }
 
-    /// Writes the lines with fields of the points and of the bonds; in pieces where the body is divided between processes.
+    /// Writes the lines with fields of the points and of the bonds, and field data; in pieces where the body is divided between processes.
     pub(super) fn write(
         &self,
         path: &Path,
         body: &BodyGrid,
-        point_fields: &[Field<'_>],
-        cell_fields: &[Field<'_>],
-        subdomain: &Subdomain,
+        [point_fields, cell_fields]: [&[Field<'_>]; 2],
+        (subdomain, field_data): (&Subdomain, &[(&str, f64)]),
     ) -> Result<(), Error> {
         let of_points = body.numbering.order_of_file();
         let point_fields: Vec<Field<'_>> = point_fields
@@ -85,6 +85,7 @@ impl Lines {
             cells: &self.cells,
             point_fields: &point_fields,
             cell_fields: &cell_fields,
+            field_data,
         };
         let shared = SharedCells {
             subdomain,
@@ -98,16 +99,16 @@ impl Lines {
     }
 }
 
-/// Writes fields of the points of a body; in pieces where the body is divided between processes. Readers warp by the first vector, the
+/// Writes fields of the points of a body, and field data; in pieces where the body is divided between processes. Readers warp by the first vector, the
 /// displacement.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,
     fields: &[Field<'_>],
-    subdomain: &Subdomain,
+    (subdomain, field_data): (&Subdomain, &[(&str, f64)]),
 ) -> Result<(), Error> {
     if matches!(body.canvas, Canvas::Around(_) | Canvas::Boxes(_)) {
-        return write_around(path, body, fields, subdomain);
+        return write_around(path, body, fields, (subdomain, field_data));
     }
     let order = body.numbering.order_of_file();
     let (numbering, numbers) = (&body.numbering, numbers_in_order(body));
@@ -129,6 +130,7 @@ pub(super) fn write_grid(
         cells: &cells,
         point_fields: &all,
         cell_fields: &[],
+        field_data,
     };
     vtu::write_shared(path, &grid, shared)
 }
@@ -139,7 +141,7 @@ fn write_around(
     path: &Path,
     body: &BodyGrid,
     fields: &[Field<'_>],
-    subdomain: &Subdomain,
+    (subdomain, field_data): (&Subdomain, &[(&str, f64)]),
 ) -> Result<(), Error> {
     let numbering = &body.numbering;
     let points: Vec<u32> = subdomain.owned().collect();
@@ -162,6 +164,7 @@ fn write_around(
         cells: &cells(&canvas),
         point_fields: &of_corners,
         cell_fields: &in_order,
+        field_data,
     };
     let in_file: Vec<u32> = points.iter().map(|&it| numbering.in_file(it)).collect();
     let of_cell = |&cell: &u32| (0..n_corners as u32).map(move |it| n_corners as u32 * cell + it);
@@ -247,7 +250,7 @@ mod tests {
             Field::integer(grid.tagged, &grid.tags),
         ];
         let whole = Subdomain::whole(grid.positions.len());
-        write_grid(&path, &grid, &fields, &whole).unwrap();
+        write_grid(&path, &grid, &fields, (&whole, &[])).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

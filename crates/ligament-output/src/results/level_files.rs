@@ -72,6 +72,7 @@ pub fn write_level_set(
             cells: &cells,
             point_fields: &point_fields.collect::<Vec<Field<'_>>>(),
             cell_fields: if is_mesh { &of_mesh } else { &[] },
+            field_data: &file.field_data()?,
         },
     )?;
     Ok((area(&places, &found.triangles), found.triangles.len()))

@@ -65,7 +65,7 @@ pub use modes::write_modes;
 use outputs::remove_others;
 pub use pieces::PieceWriter;
 pub use point_fields::location;
-pub use rule::{Time, WriteRule};
+pub use rule::WriteRule;
 pub use so_far::OutputState;
 pub use softening_table::CrackedBelow;
 use softening_table::SofteningTable;
@@ -226,11 +226,10 @@ impl<'a> ResultWriter<'a> {
             self.grid,
             self.fixed,
             self.rule,
-            view,
+            (record, view),
         )?;
         self.keep(&name)?;
-        self.fields_collection
-            .append(self.rule.time.value(record, view), name)
+        self.fields_collection.append(rule::time(record), name)
     }
 
     fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
@@ -264,13 +263,11 @@ impl<'a> ResultWriter<'a> {
         lines.write(
             &self.folder.file(&name),
             self.grid,
-            &displacement,
-            &cell_fields,
-            system.subdomain(),
+            [&displacement, &cell_fields],
+            (system.subdomain(), &rule::field_data(record)),
         )?;
         self.keep(&name)?;
-        self.bonds_collection
-            .append(self.rule.time.value(record, view), name)
+        self.bonds_collection.append(rule::time(record), name)
     }
 }
 

@@ -114,7 +114,8 @@ pub(super) fn write(
     point_fields.extend(groups.iter().map(|(name, at)| Field::integer(name, at)));
     let subdomain = system.subdomain();
     let path = folder.join(vtu::file_name(MODEL, subdomain));
-    lines.write(&path, grid, &point_fields, &cell_fields, subdomain)
+    let fields = [&point_fields[..], &cell_fields];
+    lines.write(&path, grid, fields, (subdomain, &[]))
 }
 
 /// Fields of the supported and loaded points: a name and 1 at its points for each group.

@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `modes.csv` | one row per mode |
-//! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh or the lattice; the time is the number of the mode |
+//! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh or the lattice; the time is the number of the mode, beside it the frequency as field data |
 
 use ligament_analysis::Bonds;
 use ligament_analysis::modal::ModalOutcome;
@@ -19,7 +19,7 @@ use crate::Error;
 use crate::csv::{Table, Value};
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
-use crate::vtu::Field;
+use crate::vtu::{Field, TIME_VALUE};
 
 /// Writes all modes of a body.
 pub fn write_modes(
@@ -70,8 +70,11 @@ pub fn write_modes(
             .map(|(field, it)| vtu_field(field, in_space, it));
         let tags = Field::integer(grid.tagged, &grid.tags);
         let fields: Vec<Field<'_>> = fields.chain([tags]).chain(fixed_fields(model)).collect();
-        write_grid(&folder.file(&name), grid, &fields, system.subdomain())?;
-        collection.append(f64::from(number), name)?;
+        let time = f64::from(number);
+        let field_data = [(TIME_VALUE, time), ("frequency_hz", mode.frequency())];
+        let whole = (system.subdomain(), &field_data[..]);
+        write_grid(&folder.file(&name), grid, &fields, whole)?;
+        collection.append(time, name)?;
     }
     Ok(())
 }

@@ -84,6 +84,7 @@ fn write<C: Into<Cell>>(
         cells: &cells,
         point_fields: &point_fields,
         cell_fields: &[Field::integer("cell_of_mesh", &of)],
+        field_data: &fields.field_data()?,
     };
     vtu::write_vtu(path, &grid)
 }

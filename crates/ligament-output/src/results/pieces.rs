@@ -51,7 +51,11 @@ impl Observer for PieceWriter<'_> {
         }
         let path = self.folder.join(fields_file(record, view));
         failed(point_fields::write(
-            &path, self.grid, self.fixed, self.rule, view,
+            &path,
+            self.grid,
+            self.fixed,
+            self.rule,
+            (record, view),
         ))
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ligament_analysis::history::View;
+use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::result_fields::{
     FIELDS, FieldValues, HELD, HORIZON, ModelPoints, ResultField,
 };
@@ -11,7 +11,7 @@ use ligament_model::subdomain::Subdomain;
 use ligament_model::{BodyGrid, Canvas, ConstantFields};
 
 use super::grid::{fixed_fields, write_grid};
-use super::rule::WriteRule;
+use super::rule::{WriteRule, field_data};
 use crate::vtu::Field;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
@@ -25,7 +25,7 @@ pub(super) fn write(
     grid: &BodyGrid,
     fixed: &ConstantFields,
     rule: WriteRule,
-    view: &View<'_>,
+    (record, view): (&StepRecord, &View<'_>),
 ) -> Result<(), Error> {
     let system = view.system;
     let in_space = system.layout().is_in_space();
@@ -49,7 +49,8 @@ pub(super) fn write(
         volumes: system.volumes(),
         spacing: system.spacing(),
     }));
-    write_grid(path, grid, &fields, system.subdomain())
+    let whole = (system.subdomain(), &field_data(record)[..]);
+    write_grid(path, grid, &fields, whole)
 }
 
 /// The fields of a state in the order of the files, with the stresses demanded by the rule; where the body is divided, values are right at

@@ -1,10 +1,11 @@
-//! Rule for the contents and the frequency of the output.
+//! Rule for the contents and the frequency of the output, and the time of a state in it.
 
-use ligament_analysis::ControlKind;
 use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::interface::StressReading;
 use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::result_fields::FieldReading;
+
+use crate::vtu::TIME_VALUE;
 
 /// Rule for the contents and the frequency of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,17 +24,26 @@ pub struct WriteRule {
     pub virial: bool,
     /// Whether the fields have the traction on planes through the points.
     pub traction: bool,
-    /// Quantity used as time in the collections.
-    pub time: Time,
 }
 
-/// Quantity used as the time of an output; in a motion that is the time.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Time {
-    /// The applied displacement, or the applied load where the load is given.
-    Load,
-    /// The number of the row of the history, for a path on which displacement and load go back.
-    Step,
+/// Time of a state in the collections: that of a motion (s), otherwise the number of its row in the history, because loads and
+/// displacements may stay or go back.
+pub(super) fn time(record: &StepRecord) -> f64 {
+    match record.motion {
+        Some(_) => record.load_factor,
+        None => record.step as f64,
+    }
+}
+
+/// Field data of the files of a state: its time, then `load_factor`, `displacement` and `reaction` of its row in the history. The names are
+/// none of fields, because readers look for a name in both.
+pub(super) fn field_data(record: &StepRecord) -> [(&'static str, f64); 4] {
+    [
+        (TIME_VALUE, time(record)),
+        ("load_factor", record.load_factor),
+        ("load_displacement", record.displacement),
+        ("load_reaction", record.reaction),
+    ]
 }
 
 impl WriteRule {
@@ -58,19 +68,6 @@ impl WriteRule {
         match self.fields_every {
             0 => step == 0,
             every => step.is_multiple_of(every),
-        }
-    }
-}
-
-impl Time {
-    pub(super) fn value(self, record: &StepRecord, view: &View<'_>) -> f64 {
-        if record.motion.is_some() {
-            return record.load_factor;
-        }
-        match (self, view.loads.control().kind) {
-            (Self::Step, _) => record.step as f64,
-            (Self::Load, ControlKind::Force) => record.reaction,
-            (Self::Load, _) => record.displacement,
         }
     }
 }

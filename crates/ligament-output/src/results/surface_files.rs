@@ -43,7 +43,7 @@ pub fn write_surface(
     let surface = cracks.surface(step);
     let [grid, stl, opened, growth] = SURFACE_FILES.map(|name| folder.join(name));
     let fields = fields_until(folder, step)?;
-    write_grid(&grid, cracks, &surface, fields.as_ref())?;
+    write_grid(&grid, cracks, &surface, fields.as_ref(), &[])?;
     match surface.triangles.is_empty() {
         true => remove_file(&stl)?,
         false => replace_file(&stl, &stl_of(&surface))?,
@@ -68,16 +68,18 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
     let mut bodies = Collection::new(folder.join("opened.pvd"));
     for (&step, path) in &outputs.files {
         let fields = VtuFile::open(path)?;
-        let surface = cracks.surface(step);
+        let (surface, time) = (cracks.surface(step), fields.time()?);
+        let time = time.unwrap_or(step as f64);
         if !surface.triangles.is_empty() {
             let name = format!("crack_{step:04}.vtu");
-            write_grid(&folder.join(&name), cracks, &surface, Some(&fields))?;
-            surfaces.append(step as f64, name)?;
+            let (path, field_data) = (folder.join(&name), fields.field_data()?);
+            write_grid(&path, cracks, &surface, Some(&fields), &field_data)?;
+            surfaces.append(time, name)?;
         }
         if has_cells(cracks) {
             let name = format!("opened_{step:04}.vtu");
             write_opened(&folder.join(&name), cracks, step, &fields)?;
-            bodies.append(step as f64, name)?;
+            bodies.append(time, name)?;
         }
     }
     Ok(outputs.files.len())
@@ -122,6 +124,7 @@ fn write_grid(
     cracks: &SolidCracks,
     surface: &CrackSurface,
     fields: Option<&VtuFile>,
+    field_data: &[(&str, f64)],
 ) -> Result<(), Error> {
     if surface.triangles.is_empty() {
         return remove_file(path);
@@ -163,6 +166,7 @@ fn write_grid(
             Field::integer("part", &part),
             Field::integer("precrack", &precrack),
         ],
+        field_data,
     };
     vtu::write_vtu(path, &grid)
 }

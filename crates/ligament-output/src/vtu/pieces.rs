@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 use ligament_model::subdomain::Subdomain;
 
 use super::field::Chosen;
-use super::{Cell, Field, UnstructuredGrid, push_fields, write_vtu};
+use super::{Cell, Field, UnstructuredGrid, field_data_xml, push_fields, write_vtu};
 use crate::Error;
 use crate::replace_file;
 use crate::xml::escape_attribute;
@@ -169,6 +169,7 @@ fn write_piece(
         cells: &cells,
         point_fields: &point_fields,
         cell_fields: &cell_fields,
+        field_data: grid.field_data,
     };
     write_vtu(path, &piece)
 }
@@ -185,6 +186,7 @@ fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], held: Held<'_>) -> S
          <VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
          compressor=\"vtkZLibDataCompressor\">\n<PUnstructuredGrid GhostLevel=\"0\">\n",
     );
+    xml.push_str(&field_data_xml(grid.field_data));
     let mut point_fields = grid.point_fields.to_vec();
     point_fields.push(Field::integer(POINT_NUMBER, &[]));
     let mut cell_fields = grid.cell_fields.to_vec();

@@ -8,8 +8,8 @@ mod text;
 
 use std::path::{Path, PathBuf};
 
-use super::Cell;
 use super::pieces::{CELL_NUMBER, POINT_NUMBER};
+use super::{Cell, TIME_VALUE};
 use crate::{Error, FieldLocation};
 use text::{Entry, Section, Text, sources, strange};
 
@@ -110,6 +110,31 @@ impl VtuFile {
         let arrays = self.pieces[0].text.arrays(section);
         let names = arrays.map(|array| array.name.as_str());
         names.filter(|name| ![POINT_NUMBER, CELL_NUMBER].contains(name))
+    }
+
+    /// Numbers of the whole grid with their names, such as its time.
+    ///
+    /// # Errors
+    ///
+    /// If they are damaged.
+    pub fn field_data(&self) -> Result<Vec<(&str, f64)>, Error> {
+        let text = &self.pieces[0].text;
+        let arrays = text.arrays(Section::FieldData);
+        let number = |it: &'_ Entry| text.floats(it).map(|values| values[0]);
+        arrays
+            .map(|it| Ok((it.name.as_str(), number(it)?)))
+            .collect()
+    }
+
+    /// Time of the grid, where it has one: s in a motion, otherwise the number of a step or mode.
+    ///
+    /// # Errors
+    ///
+    /// If the field data are damaged.
+    pub fn time(&self) -> Result<Option<f64>, Error> {
+        let numbers = self.field_data()?.into_iter();
+        let mut times = numbers.filter(|it| it.0 == TIME_VALUE);
+        Ok(times.next().map(|it| it.1))
     }
 
     /// The number of values that a field has for each point or cell, and the names of these components if they have any;

@@ -157,6 +157,7 @@ mod tests {
                 ),
             ],
             cell_fields: &[vtu::Field::scalar("damage", &[0.25])],
+            field_data: &[],
         };
         write_vtu(&path, &grid).unwrap();
         VtuFile::open(path).unwrap()

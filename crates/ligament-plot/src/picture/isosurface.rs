@@ -1,6 +1,6 @@
 //! Surfaces in solids on which a field has a value, as files beside the results.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use ligament_output::pvd::Collection;
 use ligament_output::remedy::Remedy;
@@ -63,9 +63,10 @@ pub fn write_isosurfaces(request: &IsosurfaceRequest) -> Result<Vec<Isosurface>,
         let Some(fields) = outputs.files.get(&step) else {
             continue;
         };
-        let surface = write(request, (step, fields.as_path()), folder.join(&name))?;
+        let file = VtuFile::open(fields)?;
+        let surface = write(request, (step, &file), folder.join(&name))?;
         if let Some(collection) = collection.as_mut().filter(|_| surface.triangles > 0) {
-            collection.append(step as f64, name)?;
+            collection.append(file.time()?.unwrap_or(step as f64), name)?;
         }
         written.push(surface);
     }
@@ -74,25 +75,24 @@ pub fn write_isosurfaces(request: &IsosurfaceRequest) -> Result<Vec<Isosurface>,
 
 fn write(
     request: &IsosurfaceRequest,
-    (step, fields): (usize, &Path),
+    (step, file): (usize, &VtuFile),
     path: PathBuf,
 ) -> Result<Isosurface, PictureError> {
-    let file = VtuFile::open(fields)?;
-    if !is_solid(&file)? {
+    if !is_solid(file)? {
         return Err(PictureError::Plane(
             request.folder.clone(),
             Remedy::LeaveOut("iso"),
         ));
     }
-    let body = SolidBody::read(&file)?;
-    let field = Field::read(&file, &request.field)?;
+    let body = SolidBody::read(file)?;
+    let field = Field::read(file, &request.field)?;
     if field.values.len() != body.grid.positions.len() {
         return Err(PictureError::NoLevel(Remedy::Give {
             option: "field",
             value: "NAME",
         }));
     }
-    let of = (&file, &body);
+    let of = (file, &body);
     let (area, triangles) = write_level_set(&path, of, &field.values, request.level)?;
     Ok(Isosurface {
         step,

@@ -68,11 +68,7 @@ fn halves_of_a_bar_collide_and_rub() {
                     true => assert!(taken > 0.02),
                     false => assert!(taken.abs() < 0.01),
                 }
-                let checkpoint = &states.checkpoints[5];
-                let restored =
-                    motion::restore(&problem, &settings, &mut checkpoint.as_slice()).unwrap();
-                let again = motion::resume(&settings, restored, &mut NoObserver).unwrap();
-                assert_eq!(again.history, outcome.history);
+                assert_resumes(&problem, &settings, (&outcome, &states), &[5, 10]);
             }
         }
     }

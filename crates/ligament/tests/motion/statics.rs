@@ -182,12 +182,7 @@ fn a_motion_with_equilibria_goes_on_with_its_bits() {
     let (outcome, states) = followed(&problem, &settings);
     let two = on_threads(Some(2), || followed(&problem, &settings)).unwrap();
     assert_eq!(two.0.history, outcome.history);
-    for checkpoint in [1, 8, 12, 39].map(|row| &states.checkpoints[row]) {
-        let restored = motion::restore(&problem, &settings, &mut checkpoint.as_slice()).unwrap();
-        let again = motion::resume(&settings, restored, &mut NoObserver).unwrap();
-        assert_eq!(again.history, outcome.history);
-        assert_eq!(again.state, outcome.state);
-    }
+    assert_resumes(&problem, &settings, (&outcome, &states), &[1, 8, 12, 39]);
 }
 
 /// A load that jumps at time zero does twice the work that a body at rest can store: the body moves from the start, and rests in the end with

@@ -229,27 +229,16 @@ impl<'a> Explicit<'a> {
 
     /// Follows the motion row by row.
     fn follow(mut self) -> Result<Outcome, SetupError> {
-        if self.progress.history.is_empty() {
-            self.record()?;
-        }
-        let Clock {
-            rows,
-            steps_per_row,
-            duration,
-        } = self.progress.clock;
-        let mut end = None;
-        for row in self.progress.history.len()..=rows {
-            let time = self.body.state.load_factor;
+        let termination = loop {
+            if let Some(end) = self.record()? {
+                break end;
+            }
+            let (row, time) = (self.progress.history.len(), self.body.state.load_factor);
             self.observer.round(row, 0, time, self.body.broken)?;
-            for _ in 0..steps_per_row {
+            for _ in 0..self.progress.clock.steps_per_row {
                 self.step(row)?;
             }
-            end = self.record()?;
-            if end.is_some() {
-                break;
-            }
-        }
-        let termination = end.unwrap_or(Termination::TimeReached { time: duration });
+        };
         let velocity = self.velocities.at_time(self.inertia.step());
         let rates = self.velocities.rates(&velocity);
         let now = self
@@ -278,14 +267,13 @@ impl<'a> Explicit<'a> {
             ..body.now(energies, velocities.rates(&velocity), of_critical)
         };
         let stop = (&self.settings.stop, self.started);
-        let end = now.record(progress, stop, *observer)?;
-        let checkpoint = |out: &mut dyn Sink| {
+        let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
             let state = |out: &mut dyn Sink| {
                 ExplicitKept::write(body, velocities, contacts.as_ref(), out);
             };
             progress.write_all(energies, EXPLICIT, &state, out);
         };
-        Ok(record::offer(*observer, end, &checkpoint)?)
+        now.record(progress, stop, *observer, &checkpoint)
     }
 
     /// One time step on the way to a row of the history.

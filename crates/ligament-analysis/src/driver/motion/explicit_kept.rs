@@ -23,7 +23,7 @@ pub(super) struct ExplicitKept {
 }
 
 impl ExplicitKept {
-    /// Appends the motion at a row.
+    /// Appends the motion at a row; the forces have those of inertia and damping in them, which do not follow from the state.
     pub(super) fn write(
         body: &Body,
         velocities: &Velocities,
@@ -38,6 +38,9 @@ impl ExplicitKept {
         contacts.map(|it| it.state().clone()).write(out);
         body.costs.write(out);
         CheckValues::new(&body.problem, &body.balanced).write(out);
+        let internal = &body.balanced.internal;
+        internal.values.write(out);
+        internal.on_rigid_bodies.write(out);
     }
 
     /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
@@ -83,6 +86,12 @@ impl ExplicitKept {
         if !CheckValues::new(&body.problem, &body.balanced).agrees(&values_then) {
             return Err(CheckpointError::OtherArithmetic.into());
         }
+        let values: Vec<f64> = Serial::read(from).map_err(damaged)?;
+        if values.len() != body.state.displacement.len() {
+            return Err(CheckpointError::OtherModel.into());
+        }
+        body.balanced.internal.values = values;
+        body.balanced.internal.on_rigid_bodies = Serial::read(from).map_err(damaged)?;
         Ok(Self {
             body,
             velocities,

@@ -163,23 +163,16 @@ impl Implicit<'_> {
 
     /// Follows the motion row by row.
     fn follow(mut self) -> Result<Outcome, SetupError> {
-        if self.progress.history.is_empty() {
-            self.record()?;
-        }
-        let Clock { rows, duration, .. } = self.progress.clock;
-        let mut end = None;
-        for row in self.progress.history.len()..=rows {
-            let time = self.here.state.load_factor;
+        let termination = loop {
+            if let Some(end) = self.record()? {
+                break end;
+            }
+            let (row, time) = (self.progress.history.len(), self.here.state.load_factor);
             self.observer.round(row, 0, time, self.here.broken)?;
-            end = self.move_to_row(row)?;
-            if end.is_none() {
-                end = self.record()?;
+            if let Some(end) = self.move_to_row(row)? {
+                break end;
             }
-            if end.is_some() {
-                break;
-            }
-        }
-        let termination = end.unwrap_or(Termination::TimeReached { time: duration });
+        };
         let solver = *self.stepping.equilibrium.choice();
         let costs = self.stepping.costs();
         let records = (&self.energies, &costs);
@@ -463,14 +456,13 @@ impl Implicit<'_> {
         } = self;
         let now = stepping.now(&problem.problem, here, (energies, &costs));
         let stop = (&self.settings.stop, self.started);
-        let end = now.record(progress, stop, *observer)?;
         let pace = self.pace;
-        let checkpoint = |out: &mut dyn Sink| {
+        let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
             let state = |out: &mut dyn Sink| {
                 ImplicitKept::write(&problem.problem, here, (stepping, pace), out);
             };
             progress.write_all(energies, IMPLICIT, &state, out);
         };
-        Ok(record::offer(*observer, end, &checkpoint)?)
+        now.record(progress, stop, *observer, &checkpoint)
     }
 }

@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::clock::Clock;
 use super::progress::Progress;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
@@ -47,18 +48,22 @@ pub(super) struct Now<'a> {
 }
 
 impl Now<'_> {
-    /// Records the time as a row, and returns the reason why the motion ends there, if it does.
+    /// Records the time as a row, and returns the reason why the motion ends there, if it does. Before, the motion is offered to the observer as
+    /// one that can continue with this row, so that a motion resumed at its end records its last row again; `checkpoint` writes it.
     pub(super) fn record(
         &self,
         progress: &mut Progress,
         stop: (&MotionStop, Instant),
         observer: &mut dyn Observer,
+        checkpoint: &dyn Fn(&Progress, &mut dyn Sink),
     ) -> Result<Option<Termination>, SetupError> {
         let row = progress.history.len();
         let record = self.row(row, progress);
-        let end = self.end(&record, stop);
-        let is_last = end.is_some() || row == progress.clock.rows;
-        self.show(&record, is_last, observer)?;
+        let Clock { rows, duration, .. } = progress.clock;
+        let done = (row == rows).then_some(Termination::TimeReached { time: duration });
+        let end = self.end(&record, stop).or(done);
+        let end = offer(observer, end, &|out| checkpoint(progress, out))?;
+        self.show(&record, end.is_some(), observer)?;
         let (problem, state) = (self.problem, self.state);
         let overlap = &mut progress.overlap;
         if let Some(notice) = remarks::overlap(problem, state, self.fragments, row, overlap) {
@@ -172,9 +177,9 @@ impl Now<'_> {
     }
 }
 
-/// Offers a row to the observer as one from which the motion can continue. Returns the reason why the motion ends there: `end`, or a stop by the
+/// Offers a row to the observer before it is recorded, as one from which the motion can continue. Returns the reason why the motion ends there: `end`, or a stop by the
 /// observer.
-pub(super) fn offer(
+fn offer(
     observer: &mut dyn Observer,
     end: Option<Termination>,
     checkpoint: &dyn Fn(&mut dyn Sink),

@@ -54,6 +54,7 @@ proptest! {
             cells: &cells,
             point_fields: &[Field::scalar(&name, &numbers), Field::single("f32", &single)],
             cell_fields: &[Field::integer(&name, &integers), Field::vector("v", &vectors)],
+            field_data: &[],
         };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.vtu");
@@ -92,6 +93,7 @@ fn sample() -> (tempfile::TempDir, PathBuf, String) {
         cells: &[Cell::Line([0, 1])],
         point_fields: &[Field::scalar("damage", &[0.25, 0.5])],
         cell_fields: &[],
+        field_data: &[],
     };
     write_vtu(&path, &grid).unwrap();
     let text = fs::read_to_string(&path).unwrap();

@@ -41,6 +41,7 @@ struct Contents {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Section {
     Fields(FieldLocation),
+    FieldData,
     Points,
     Cells,
 }
@@ -128,6 +129,7 @@ impl Text {
             Section::Fields(FieldLocation::Point) | Section::Points => (n_points, n_points),
             Section::Fields(FieldLocation::Cell) => (n_cells, n_cells),
             Section::Cells => (n_cells, MOST_CORNERS * n_cells),
+            Section::FieldData => (1, 1),
         };
         let [fewest, most] = [fewest, most].map(|it| it * entry.n_components);
         let bytes = decode(self.text[entry.content.clone()].trim(), most * SIZE);
@@ -209,6 +211,7 @@ impl Entry {
         let section = match section {
             Some("PointData") => Section::Fields(FieldLocation::Point),
             Some("CellData") => Section::Fields(FieldLocation::Cell),
+            Some("FieldData") => Section::FieldData,
             Some("Points") => Section::Points,
             Some("Cells") => Section::Cells,
             _ => return Err("an array is out of place"),
