@@ -69,7 +69,10 @@ impl<const D: usize> FacetPair<D> {
                 .is_err()
         };
         let facets = self.moved(step);
-        let of_facet = |it: &Passed<D>| (0..D as u32).map(|corner| D as u32 * it.number + corner);
+        let of_facet = |it: &Passed<D>| {
+            let first = D as u32 * it.number;
+            (0..D as u32).map(move |corner| first + corner)
+        };
         let free = facets.iter().flat_map(of_facet).filter(|it| is_free(*it));
         let places: Vec<Passing<D>> = free.map(|it| self.passing(it, step)).collect();
         let found = match &self.opposite {
