@@ -279,7 +279,7 @@ impl<'a, const D: usize> Outline<'a, D> {
                           pre-crack, or give two groups";
             contradiction(field, reason)?;
         }
-        let body = self.setup.body.geometry();
+        let body = self.setup.body.geometry::<D>();
         let mut least: BTreeMap<u32, u64> = BTreeMap::new();
         for point in 0..self.system.cloud.len() as u32 {
             let tag = body.tag(point);
