@@ -4,7 +4,7 @@
 
 use ligament_analysis::driver::{self, Outcome, Rows};
 use ligament_analysis::{Component, ControlKind, Termination};
-use verification::bench::{Bench, Watch};
+use verification::bench::{Bench, Watch, solved};
 use verification::numbers::relative_error;
 use verification::trusses::{Rod, Truss};
 
@@ -75,4 +75,39 @@ fn a_stiff_pair_of_points_does_not_hide_what_is_missing_elsewhere() {
     println!("{} N, {} solves", last.reaction, last.solves);
     // 1e-9: forces are judged to 1e-10 of the largest at a point.
     assert!(relative_error(last.reaction, 0.5) < 1e-9, "{last:?}");
+}
+
+/// Supports that have corners in common, by the components they prescribe, by springs, or by both: the forces of all groups on the body are in
+/// balance (to 1e-9 of the load), since no reaction counts twice, and a support that prescribes one component has no force along another.
+#[test]
+fn supports_with_common_points_count_each_reaction_once() {
+    let plate = |supports: &str| {
+        let text = format!(
+            r#"
+lattice = {{ cells = [10, 6], spacing = 0.01, corner = [0.0, 0.0], thickness = 0.01, set = {{ left = {{ left = 1 }}, bottom = {{ bottom = 1 }}, right = {{ right = 1 }} }} }}
+material = {{ young = 15e9, poisson = 0.3 }}
+model = {{ law = "bbpd", horizon_factor = 3.0 }}
+support = [{supports}]
+load = [{{ group = "right", force = {{ x = 1e3, y = -5e2 }} }}]
+"#
+        );
+        let outcome = solved(&text, &[]).outcome;
+        outcome.history.last().unwrap().group_forces.clone()
+    };
+    let rollers = plate(
+        r#"{ group = "left", displacement = { x = 0.0 } }, { group = "bottom", displacement = { y = 0.0 } }"#,
+    );
+    assert!(rollers[0][1] == 0.0 && rollers[1][0] == 0.0 && rollers[2] == [1e3, -5e2]);
+    let fixed = plate(
+        r#"{ group = "left", displacement = { x = 0.0, y = 0.0 } }, { group = "bottom", displacement = { x = 0.0, y = 0.0 } }"#,
+    );
+    let springs = plate(
+        r#"{ group = "left", stiffness = { x = 1e8 } }, { group = "bottom", stiffness = { y = 1e8 } }"#,
+    );
+    for forces in [rollers, fixed, springs] {
+        for axis in 0..2 {
+            let sum: f64 = forces.iter().map(|it| it[axis]).sum();
+            assert!(sum.abs() < 1e-6, "{forces:?}");
+        }
+    }
 }

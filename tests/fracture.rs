@@ -17,6 +17,7 @@ mod fracture_energy;
 mod fragments;
 mod incremental;
 mod mbb_pd_reference;
+mod missed_contact;
 mod properties;
 mod published;
 mod random_strength;

@@ -17,6 +17,7 @@ mod mechanism;
 mod meeting;
 mod newton;
 mod on_rigid;
+mod ready;
 mod residual;
 mod rigid;
 mod secant;
@@ -387,6 +388,11 @@ impl Equilibrium {
         balanced
     }
 
+    /// Reason why a balanced state is no equilibrium after the last one: surfaces moved through each other unseen on the way.
+    pub(crate) fn missed(&self, state: &State, balanced: &Balanced) -> Option<Unbalanced> {
+        self.equations.meeting.missed(state, &balanced.touching)
+    }
+
     /// Whether [`Equilibrium::update_and_forward_solve`] can update the factor for a breakage.
     pub(crate) fn can_update(&self, breakage: &Breakage) -> bool {
         breakage.holds.is_empty() && self.equations.solver.can_update(breakage.n_elements())
@@ -481,9 +487,10 @@ impl Equilibrium {
         };
         let fragments = self.connectivity.fragments();
         let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
-        if imbalance.is_none() {
+        let reason = imbalance.or_else(|| self.missed(state, balanced));
+        if reason.is_none() {
             self.equations.meeting.settle(state, balanced);
         }
-        Ok(imbalance.map_or(attempt, Attempt::Unbalanced))
+        Ok(reason.map_or(attempt, Attempt::Unbalanced))
     }
 }

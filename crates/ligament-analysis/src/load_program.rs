@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use crate::internal::InternalForces;
 use crate::restraints::Restraints;
-use crate::unknowns::Layout;
+use crate::unknowns::{Component, Layout};
 use ligament_model::surface::Vector;
 use ligament_model::thermal::ThermalStrain;
 
@@ -146,6 +146,33 @@ pub struct BoundaryGroup {
     /// Resultant of the given forces that act through this group at load factor 1, shape (n_components), N and
     /// N m.
     pub force: Vec<f64>,
+    /// Components whose motion its supports and loads prescribe at its points.
+    pub holds: Vec<Component>,
+    /// Components that its springs, rollers and platens resist at its points.
+    pub restrains: Vec<Component>,
+}
+
+/// Number of the group for which each reaction counts, shape (n_degrees_of_freedom), so that none counts twice where groups have points in
+/// common: the first group that prescribes the motion, otherwise the first that resists it, otherwise the first that has the point.
+pub(crate) fn groups_of_reactions(groups: &[BoundaryGroup], layout: Layout) -> Vec<Option<usize>> {
+    let mut owners = vec![None; layout.n_degrees_of_freedom()];
+    let prescribes = |group: &BoundaryGroup, component: &Component| group.holds.contains(component);
+    let resists =
+        |group: &BoundaryGroup, component: &Component| group.restrains.contains(component);
+    let rules: [&dyn Fn(&BoundaryGroup, &Component) -> bool; 3] =
+        [&prescribes, &resists, &|_, _| true];
+    for counts in rules {
+        for (number, group) in groups.iter().enumerate() {
+            for &point in &group.points {
+                for (dof, component) in layout.range(point).zip(layout.components) {
+                    if counts(group, component) {
+                        owners[dof].get_or_insert(number);
+                    }
+                }
+            }
+        }
+    }
+    owners
 }
 
 /// Load whose displacement and force are the axes of the force-displacement curve.

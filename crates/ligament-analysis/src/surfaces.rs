@@ -7,7 +7,7 @@ use std::borrow::Cow;
 
 use ligament_model::held::{HeldMotion, held_motions};
 use ligament_model::layout::Layout;
-use ligament_model::surface::{Bonded, Pose, Search, Step, Touch, Vector};
+use ligament_model::surface::{Bonded, Missed, Pose, Search, Step, Touch, Vector};
 use ligament_model::sweep::BondSweep;
 use ligament_model::tensor::{dot, minus, norm};
 
@@ -42,6 +42,27 @@ impl Touching {
     pub fn energy(&self) -> f64 {
         let touches = self.touches.iter().flatten();
         touches.map(Touch::energy).fold(0.0, |sum, it| sum + it)
+    }
+
+    /// Largest work of the forces that a depth (m) causes, on points with the largest displacement (m), or on rigid bodies, J.
+    pub(crate) fn largest_work(&self, depth: f64, displacement: f64) -> f64 {
+        let pressed = self.touches.iter().flatten().filter(|it| it.depth() > 0.0);
+        let stiffness: f64 = pressed.map(|it| it.stiffness).sum();
+        stiffness * depth * displacement.max(self.largest_way())
+    }
+
+    /// Largest displacement of a rigid body, m.
+    fn largest_way(&self) -> f64 {
+        self.rigid.iter().map(|it| norm(*it)).fold(0.0, f64::max)
+    }
+
+    /// Place of the rigid body of a contact.
+    fn pose(&self, contact: &SurfaceContact) -> Pose {
+        let body = contact.rigid_body.and_then(|it| self.rigid.get(it));
+        Pose {
+            displacement: body.copied().unwrap_or_default(),
+            ..Pose::default()
+        }
     }
 
     /// Resultants of each contact of a problem; none before the first equilibrium.
@@ -207,6 +228,14 @@ impl LastTouching {
         &self.touching
     }
 
+    /// Motions of all points, shape (n); before the first equilibrium nothing has moved.
+    fn motions_of(&self, n: usize) -> Cow<'_, [f64]> {
+        match self.motions.is_empty() {
+            true => Cow::Owned(vec![0.0; n]),
+            false => Cow::Borrowed(&self.motions),
+        }
+    }
+
     /// Whether it can be that of a problem.
     pub(crate) fn fits(&self, problem: &ContactProblem) -> bool {
         let Touching { touches, rigid } = &self.touching;
@@ -227,6 +256,8 @@ pub(crate) struct Surfaces {
     degrees_of_freedom: Vec<u32>,
     /// Largest motion of a surface in an iteration, m.
     farthest: f64,
+    /// Largest coordinate without motion of which gaps are differences, m.
+    coordinate: f64,
 }
 
 impl Surfaces {
@@ -248,6 +279,7 @@ impl Surfaces {
             searches,
             degrees_of_freedom: dofs,
             farthest: FARTHEST * reach,
+            coordinate: surfaces().map(|it| it.coordinate()).fold(0.0, f64::max),
             problem: problem.clone(),
         }
     }
@@ -258,6 +290,15 @@ impl Surfaces {
 
     pub(crate) fn problem(&self) -> &ContactProblem {
         &self.problem
+    }
+
+    /// Largest coordinate of which gaps are differences, with the largest displacement of a point (m) and of a rigid body, m; zero without
+    /// contacts.
+    pub(crate) fn coordinate(&self, displacement: f64, touching: &Touching) -> f64 {
+        match self.coordinate {
+            0.0 => 0.0,
+            still => still.max(displacement).max(touching.largest_way()),
+        }
     }
 
     /// Where surfaces touch at motions of all points (n_degrees_of_freedom), a load factor, which is the time in a motion, and displacements of
@@ -279,33 +320,49 @@ impl Surfaces {
         if last.motions == motions && last.touching.rigid == rigid {
             return last.touching.clone();
         }
-        // Before the first equilibrium nothing has moved.
-        let before = match last.motions.is_empty() {
-            true => Cow::Owned(vec![0.0; motions.len()]),
-            false => Cow::Borrowed(&last.motions),
+        let before = last.motions_of(motions.len());
+        let mut found = Touching {
+            touches: Vec::new(),
+            rigid,
         };
         let contacts = self.problem.contacts.iter().zip(&mut self.searches);
         let touches = contacts.enumerate().map(|(index, (contact, search))| {
-            let place = |all: &[Vector]| {
-                let body = contact.rigid_body.and_then(|it| all.get(it));
-                Pose {
-                    displacement: body.copied().unwrap_or_default(),
-                    ..Pose::default()
-                }
-            };
             let step = Step {
                 before: &before,
                 now: motions,
-                rigid: [place(&last.touching.rigid), place(&rigid)],
+                rigid: [&last.touching, &found].map(|it| it.pose(contact)),
                 bonds,
             };
             let then = last.touching.touches.get(index).map_or(&[][..], |it| it);
             contact.surfaces.touches(search, step, then)
         });
-        Touching {
-            touches: touches.collect(),
-            rigid,
-        }
+        found.touches = touches.collect();
+        found
+    }
+
+    /// The first contact that a step from the last equilibrium to another one, with motions of all points (n_degrees_of_freedom), missed, by its
+    /// number.
+    pub(crate) fn missed(
+        &self,
+        (last, bonds): (&LastTouching, Bonded<'_>),
+        (motions, touching): (&[f64], &Touching),
+    ) -> Option<(usize, Missed)> {
+        let before = last.motions_of(motions.len());
+        let dofs = self.degrees_of_freedom.iter().map(|&dof| dof as usize);
+        let of_points = dofs.map(|dof| motions[dof] - before[dof]);
+        let farthest = of_points.fold(0.0, |largest: f64, it| largest.max(it.abs()));
+        let contacts = self.problem.contacts.iter().zip(&touching.touches);
+        contacts
+            .enumerate()
+            .find_map(|(index, (contact, touches))| {
+                let step = Step {
+                    before: &before,
+                    now: motions,
+                    rigid: [&last.touching, touching].map(|it| it.pose(contact)),
+                    bonds,
+                };
+                Some((index, contact.missed(step, farthest, touches)?))
+            })
     }
 
     /// Part of a correction (n_degrees_of_freedom), and of free rigid bodies, by which surfaces move as far as they may in an iteration, at

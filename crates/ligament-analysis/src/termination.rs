@@ -117,6 +117,10 @@ impl Termination {
     /// Description of the end, with names for points.
     pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
         match self {
+            Self::NoEquilibrium {
+                step,
+                reason: reason @ Unbalanced::Missed { .. },
+            } => format!("step {step}: {}", reason.words(name)),
             Self::NoEquilibrium { step, reason } => {
                 format!("no equilibrium in load step {step}: {}", reason.words(name))
             }

@@ -3,7 +3,9 @@
 use std::fmt::{self, Display, Formatter};
 
 use ligament_linalg::FactorError;
+use ligament_model::surface::Missed;
 
+use crate::motion::contact::ContactProblem;
 use crate::unknowns::Component;
 
 /// Advice to the user for [`Unbalanced::RanksDisagree`].
@@ -84,6 +86,13 @@ pub enum Unbalanced {
     NothingDissipates,
     /// Processes that solve the equations together have computed different forces.
     RanksDisagree,
+    /// Surfaces moved through each other, or into each other, in one step, so that they could not meet.
+    Missed {
+        /// Name of the contact.
+        contact: String,
+        /// Where, and how far.
+        missed: Missed,
+    },
     /// The matrix could not be factorised.
     NoFactor(FactorError),
 }
@@ -105,6 +114,12 @@ impl Place {
 }
 
 impl Unbalanced {
+    /// What a contact of a problem, by its number, missed.
+    pub(crate) fn missed(problem: &ContactProblem, (contact, missed): (usize, Missed)) -> Self {
+        let contact = problem.contacts[contact].name.clone();
+        Self::Missed { contact, missed }
+    }
+
     /// Description of the reason, with names for points.
     pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
         match self {
@@ -162,6 +177,14 @@ impl Unbalanced {
                                         the stage other loads, or less to dissipate"
                 .to_owned(),
             Self::RanksDisagree => RANKS_DISAGREE.to_owned(),
+            Self::Missed { contact, missed } => {
+                let Missed { point, way, seen } = *missed;
+                format!(
+                    "the surfaces of the contact `{contact}` move by {way:.3e} m against each other at {}, and through each other unseen:                      take {:.0} times as many steps (`fracture.steps`; in a motion shorter ones), so that they move by at most {seen:.3e} m in                      each; along the exact path, which keeps what faces what, take load steps",
+                    name(point),
+                    (way / seen).ceil()
+                )
+            }
             Self::NoFactor(error) => format!("the stiffness has no factor: {error}"),
         }
     }

@@ -347,7 +347,10 @@ impl<'a> Following<'a> {
                 *line = critical;
                 continue;
             }
-            let end = (goal.end.clone())
+            let missed = (self.path.equilibrium).missed(&self.path.state, &critical);
+            let missed = missed.map(|reason| self.path.without_equilibrium(*step, reason));
+            let end = missed
+                .or(goal.end.clone())
                 .or_else(|| self.path.interruption())
                 .or_else(|| self.path.end_at_rest(&critical))
                 .or_else(|| self.path.end_by_load_fraction(&critical));

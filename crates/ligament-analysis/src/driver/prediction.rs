@@ -60,6 +60,17 @@ pub enum Prediction {
     Nonlinear,
 }
 
+impl Prediction {
+    /// Prediction for a part of a loading whose end, reached in one step, is no equilibrium: where surfaces moved through each other, the
+    /// steps that lead there may see it.
+    fn without_equilibrium(part: usize, n_steps: usize, reason: Unbalanced) -> Self {
+        match reason {
+            Unbalanced::Missed { .. } if n_steps > 1 => Self::Nonlinear,
+            reason => Self::NoEquilibrium { part, reason },
+        }
+    }
+}
+
 /// First bond to reach its limit, where it breaks or begins to soften.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FirstFailure {
@@ -193,7 +204,10 @@ fn in_proportion(
 ) -> Result<Prediction, SetupError> {
     let balanced = match at_full_load(&mut path, at_one)? {
         Attempt::Balanced(balanced) => balanced,
-        Attempt::Unbalanced(reason) => return Ok(Prediction::NoEquilibrium { part: 0, reason }),
+        Attempt::Unbalanced(reason) => {
+            let n_steps = steps.map_or(1, <[f64]>::len);
+            return Ok(Prediction::without_equilibrium(0, n_steps, reason));
+        }
     };
     let factors = steps.unwrap_or(&[1.0]);
     let criteria = path.problem.criteria_at_start(&path.state, &balanced);
@@ -275,10 +289,8 @@ fn in_stages(
         let there = match path.balance(0, &nothing)? {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => {
-                return Ok(Prediction::NoEquilibrium {
-                    part: index,
-                    reason,
-                });
+                let n_steps = if has_steps { part.steps } else { 1 };
+                return Ok(Prediction::without_equilibrium(index, n_steps, reason));
             }
         };
         let criteria = path.criteria(&there).into_owned();

@@ -14,6 +14,7 @@ use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::contact::{ContactEnergy, ContactLoss};
 use crate::history::{ContactAtRest, StepRecord};
+use crate::load_program::groups_of_reactions;
 use crate::probe;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
@@ -378,16 +379,20 @@ pub(super) fn step_record(
     }
 }
 
-/// Forces and moments of each group on the body: the reactions at its points and its own given forces.
+/// Forces and moments of each group on the body: the reactions that count for it and its own given forces.
 fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<Vec<f64>> {
     let layout = problem.system.layout();
-    let groups = problem.loads.groups().iter();
-    groups
+    let groups = problem.loads.groups();
+    let owners = groups_of_reactions(groups, layout);
+    let numbered = groups.iter().enumerate();
+    numbered
         .zip(problem.loads.given_resultants(load_factor))
-        .map(|(group, mut sum)| {
+        .map(|((number, group), mut sum)| {
             for &point in &group.points {
-                for (sum, reaction) in sum.iter_mut().zip(&reactions[layout.range(point)]) {
-                    *sum += reaction;
+                for (sum, dof) in sum.iter_mut().zip(layout.range(point)) {
+                    if owners[dof] == Some(number) {
+                        *sum += reactions[dof];
+                    }
                 }
             }
             sum

@@ -3,10 +3,14 @@
 use ligament_model::Bonds;
 use ligament_model::subdomain::Subdomain;
 
-use super::residual::{Extents, LocalStiffness, RESIDUAL_TOLERANCE, Residual, Scales};
+use super::residual::{
+    Extents, LocalStiffness, OF_GAPS, RESIDUAL_TOLERANCE, Residual, Rounded, Scales,
+};
 use crate::breakage::Breakage;
 use crate::load_program::LoadProgram;
+use crate::motion::contact::ContactProblem;
 use crate::state::State;
+use crate::surfaces::{Surfaces, Touching};
 use crate::tangent::AllowedResidual;
 use crate::unknowns::{Layout, Unknowns};
 
@@ -35,6 +39,8 @@ pub(super) struct Accuracy {
     pub(super) largest_extents: Extents,
     /// Relative tolerance of an iterative solver; None for a direct one.
     tolerance: Option<f64>,
+    /// Bound of the stiffness of contacts between surfaces, shape (n_degrees_of_freedom), N/m and N; empty without contacts.
+    of_contacts: Vec<f64>,
     subdomain: Subdomain,
 }
 
@@ -60,9 +66,17 @@ impl Accuracy {
             local_stiffness: of_bonds.restrained_by(loads.restraints()),
             loaded: loaded(loads),
             largest_extents: Extents::default(),
+            of_contacts: Vec::new(),
             tolerance,
             subdomain: system.subdomain().clone(),
         }
+    }
+
+    /// Lets the gaps of contacts be rounded.
+    pub(super) fn with_contacts(mut self, problem: &ContactProblem) -> Self {
+        let layout = self.local_stiffness.layout();
+        self.of_contacts = problem.stiffness(layout).at_degrees_of_freedom;
+        self
     }
 
     /// Extents over all processes of the sizes of the forces at the points (n_degrees_of_freedom), N and N m.
@@ -82,16 +96,16 @@ impl Accuracy {
     }
 
     /// Relative residual of the residual forces at the unknowns (n_unknowns), with the largest force at an added support;
-    /// `displacement` is the [largest](largest_displacement) of the state.
+    /// `rounded` are lengths in the state.
     pub(super) fn residual(
         &self,
         at: Loaded<'_>,
         extents: Extents,
-        displacement: f64,
+        rounded: Rounded,
         out_of_balance: Vec<f64>,
     ) -> Residual {
         let given = self.given(at);
-        let scales = self.scales(at, &given, extents, displacement);
+        let scales = self.scales(at, &given, extents, rounded);
         let dofs = at.unknowns.degrees_of_freedom().iter().copied();
         let of_unknowns = dofs.zip(out_of_balance);
         // No bond resists these degrees of freedom, so that loads on them are carried by nothing.
@@ -116,8 +130,11 @@ impl Accuracy {
             return AllowedResidual::Share(0.0);
         }
         let given = self.given(at);
-        let displacement = self.largest_displacement(at.unknowns.layout(), at.state);
-        let scales = self.scales(at, &given, extents, displacement);
+        let rounded = Rounded {
+            displacement: self.largest_displacement(at.unknowns.layout(), at.state),
+            ..Rounded::default()
+        };
+        let scales = self.scales(at, &given, extents, rounded);
         let of_unknown = |dof: &u32| match SURELY * sought * scales.at(*dof as usize) {
             // The forces at this degree of freedom are not known yet; the next residual judges them.
             0.0 => f64::INFINITY,
@@ -132,13 +149,23 @@ impl Accuracy {
         AllowedResidual::Share(share * self.tolerance.unwrap_or_default())
     }
 
-    /// Forces due to the rounding of the displacements of a state, shape (n_degrees_of_freedom), N and N m; with an iterative
-    /// solver, due to its tolerance.
-    pub(super) fn rounding(&self, layout: Layout, state: &State) -> Vec<f64> {
+    /// Forces due to the rounding of the displacements of a state and of the gaps between surfaces, shape (n_degrees_of_freedom), N
+    /// and N m; with an iterative solver, due to its tolerance.
+    pub(super) fn rounding(
+        &self,
+        layout: Layout,
+        state: &State,
+        (surfaces, touching): (&Surfaces, &Touching),
+    ) -> Vec<f64> {
         let tolerance = self.tolerance.unwrap_or_default();
         let times = (tolerance / RESIDUAL_TOLERANCE).max(1.0);
         let displacement = self.largest_displacement(layout, state);
-        self.local_stiffness.rounding(times * displacement)
+        let mut forces = self.local_stiffness.rounding(times * displacement);
+        let coordinate = surfaces.coordinate(displacement, touching);
+        for (force, stiffness) in forces.iter_mut().zip(&self.of_contacts) {
+            *force += OF_GAPS * coordinate * stiffness;
+        }
+        forces
     }
 
     /// Given forces of a state, by degree of freedom, N and N m.
@@ -178,19 +205,20 @@ impl Accuracy {
         self.prescribed.iter().map(motion).fold(0.0, f64::max)
     }
 
-    /// Scales of the forces in a body with the given extents, largest displacement and given forces.
+    /// Scales of the forces in a body with the given extents, rounded lengths and given forces.
     fn scales(
         &self,
         at: Loaded<'_>,
         given: &[(u32, f64)],
         extents: Extents,
-        displacement: f64,
+        rounded: Rounded,
     ) -> Scales<'_> {
         let bound = self.bound_by(given, at.state);
         let [extents, largest] =
             [extents, self.largest_extents].map(|it| it.at_most(bound, self.size));
         let given = given.iter().copied();
-        (self.local_stiffness).scales(extents, largest, given, displacement)
+        let scales = (self.local_stiffness).scales(extents, largest, given, rounded);
+        scales.with_contacts(&self.of_contacts)
     }
 }
 

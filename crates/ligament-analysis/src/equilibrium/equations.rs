@@ -4,7 +4,6 @@ use std::io::Read;
 use std::sync::Arc;
 use std::time::Instant;
 
-use ligament_linalg::FactorKind;
 use ligament_model::deformation::Deformations;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::thermal::ThermalStrain;
@@ -13,9 +12,9 @@ use super::accuracy::{Accuracy, Loaded};
 use super::earlier_equilibria::EarlierEquilibria;
 use super::iterate::Iterate;
 use super::mechanism::Measure;
-use super::meeting::{Meeting, Met};
+use super::meeting::Meeting;
 use super::on_rigid;
-use super::residual::{Extents, ROUNDING, Residual};
+use super::residual::{Extents, OF_GAPS, ROUNDING, Residual, Rounded};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -40,6 +39,9 @@ use crate::vectors::dot_of_all;
 /// Share of the energy of the thermal expansions below which the energy of motion of a heated body counts as zero: in a fully fixed
 /// body it is a difference of sums over all bonds, of up to 10^7 terms.
 const CANCELLED: f64 = 1e-10;
+
+/// Share of their scale to which energies balance.
+const ENERGY: f64 = 1e-6;
 
 /// Equations of a problem and their solver.
 pub(super) struct Equations<S: ?Sized = dyn TangentSolver> {
@@ -81,7 +83,8 @@ impl Equations {
             (numbers, problem.may_press()),
         )?;
         let analysis = stiffness.as_ref().map(|it| it.analysis_time());
-        let mut accuracy = Accuracy::new(&**system, &**loads, solver.tolerance());
+        let mut accuracy =
+            Accuracy::new(&**system, &**loads, solver.tolerance()).with_contacts(&problem.contact);
         accuracy.is_unbounded |= !problem.contact.rigid_bodies.is_empty();
         Ok(Self {
             // The residual alone decides where strains are not linear in the displacements or forces have no energy.
@@ -363,23 +366,33 @@ impl Equations {
         } = swept;
         let extents = self.accuracy.extents(&sizes);
         let displacement = self.accuracy.largest_displacement(self.layout(), state);
+        let coordinate = (self.meeting.surfaces).coordinate(displacement, &met.touching);
+        let rounded = Rounded {
+            displacement,
+            coordinate,
+        };
         let out_of_balance = self.external_less(state, &internal);
         let loaded = self.loaded(state);
-        let mut residual = (self.accuracy).residual(loaded, extents, displacement, out_of_balance);
+        let mut residual = (self.accuracy).residual(loaded, extents, rounded, out_of_balance);
         let loads = self.problem.loads.on_rigid_bodies();
         let contact = &self.problem.contact;
         let on_rigid = on_rigid::out_of_balance(loads, contact, state, &met.touching);
-        let of_rigid = on_rigid::relative(loads, state, &on_rigid);
+        let of_rigid = on_rigid::relative((loads, contact), state, &on_rigid, coordinate);
         residual.relative = residual.relative.max(of_rigid);
         self.costs.bonds += start.elapsed();
         let of_expansions = factor.powi(2) * expansion_energy.abs();
         let rounding = ROUNDING * self.accuracy.stiffest * displacement.powi(2);
         let has_negative = energy_of_motion < -(rounding + CANCELLED * of_expansions);
+        let of_bonds = rounding * state.displacement.len() as f64;
+        let of_gaps = met
+            .touching
+            .largest_work(OF_GAPS * coordinate, displacement)
+            / ENERGY;
         Iterate {
             deformations,
             internal,
             stored_energy,
-            energy_floor: of_expansions.max(rounding * state.displacement.len() as f64),
+            energy_floor: of_expansions.max(of_bonds).max(of_gaps),
             residual,
             extents,
             negative_energy: Some(energy_of_motion).filter(|_| has_negative),
@@ -445,53 +458,5 @@ impl Equations {
     pub(super) fn remember(&mut self, extents: Extents) {
         let largest = &mut self.accuracy.largest_extents;
         *largest = largest.or(extents);
-    }
-
-    /// Makes the solver ready for an iterate of a state. Returns the points of mechanisms that are fixed from now on.
-    pub(super) fn make_ready(
-        &mut self,
-        state: &mut State,
-        iterate: &Iterate,
-    ) -> Result<Vec<u32>, Unbalanced> {
-        let Met {
-            closed, touching, ..
-        } = &iterate.met;
-        let resisting = self.meeting.resisting(closed, touching);
-        self.solver.close(resisting, &mut self.costs);
-        self.prepare_solver(state)
-    }
-
-    /// Makes the solver ready, fixing mechanisms until no pivot vanishes. Returns the numbers in the body of the points that were fixed.
-    pub(super) fn prepare_solver(&mut self, state: &mut State) -> Result<Vec<u32>, Unbalanced> {
-        let mut held_now = Vec::new();
-        loop {
-            let vanishing = self.solver.prepare(state, &mut self.costs);
-            let vanishing = vanishing.map_err(Unbalanced::NoFactor)?;
-            let Some(&first) = vanishing.first() else {
-                return Ok(held_now);
-            };
-            if self.problem.system.some_negative() {
-                return Err(self.vanishing_pivot(first));
-            }
-            let (subdomain, layout) = (self.subdomain(), self.layout());
-            for dof in vanishing {
-                let here = subdomain.local_index(dof, layout.components.len());
-                if here.is_some_and(|here| std::mem::replace(&mut state.held[here], true)) {
-                    return Err(self.vanishing_pivot(dof));
-                }
-                held_now.push(layout.point(dof));
-            }
-        }
-    }
-
-    fn vanishing_pivot(&self, dof: usize) -> Unbalanced {
-        let place = self.place(dof);
-        let stiffness = self.stiffness.as_ref();
-        let is_llt = stiffness.is_some_and(|it| it.choice().factorisation == FactorKind::Llt);
-        if is_llt && self.problem.system.some_negative() {
-            Unbalanced::NotPositiveDefinite { place }
-        } else {
-            Unbalanced::VanishingPivot { place }
-        }
     }
 }

@@ -29,7 +29,8 @@ pub(super) fn imbalance(
     let layout = equations.layout();
     let n_components = layout.components.len();
     let external = external_forces(equations, state, balanced);
-    let rounding = equations.accuracy.rounding(layout, state);
+    let surfaces = &equations.meeting.surfaces;
+    let rounding = (equations.accuracy).rounding(layout, state, (surfaces, &balanced.touching));
     let mut sums = vec![Sum::default(); n_components * fragments.len()];
     let of_points = external
         .chunks(n_components)

@@ -2,7 +2,7 @@
 
 use super::accuracy::Loaded;
 use super::equations::Equations;
-use super::residual::{Extents, RESIDUAL_TOLERANCE, Residual};
+use super::residual::{Extents, RESIDUAL_TOLERANCE, Residual, Rounded};
 use crate::load_program::LoadProgram;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
@@ -133,12 +133,16 @@ pub(super) fn measured(
     }
     let accuracy = &equations.accuracy;
     let extents = accuracy.extents(&swept.sizes);
-    let displacement = accuracy.largest_displacement(equations.layout(), line);
+    // Rates of gaps are no differences of positions.
+    let rounded = Rounded {
+        displacement: accuracy.largest_displacement(equations.layout(), line),
+        ..Rounded::default()
+    };
     let dofs = equations.degrees_of_freedom();
     let out_of_balance = loads.external_less(1.0, &line.displacement, &swept.internal, dofs);
     let at = loaded(equations, line, loads);
     Forces {
-        residual: accuracy.residual(at, extents, displacement, out_of_balance.clone()),
+        residual: accuracy.residual(at, extents, rounded, out_of_balance.clone()),
         extents,
         out_of_balance,
     }

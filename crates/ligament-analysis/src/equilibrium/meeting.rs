@@ -15,6 +15,7 @@ use crate::problem::Problem;
 use crate::resisting::{self, Resisting};
 use crate::state::State;
 use crate::surfaces::{LastTouching, Surfaces, Touching};
+use crate::unbalanced::Unbalanced;
 
 /// What may meet in a body.
 #[derive(Clone)]
@@ -34,6 +35,14 @@ pub(super) struct Met {
     pub(super) gaps: Vec<f64>,
     pub(super) closed: Vec<ClosedPair>,
     pub(super) touching: Touching,
+}
+
+/// Bonds of a state.
+fn bonded<'a>(system: &'a dyn Bonds, state: &'a State) -> Bonded<'a> {
+    Bonded {
+        topology: system.topology(),
+        intact: &state.intact,
+    }
 }
 
 impl Meeting {
@@ -71,10 +80,7 @@ impl Meeting {
         let touching = match surfaces.is_empty() {
             true => Touching::default(),
             false => {
-                let bonds = Bonded {
-                    topology: self.system.topology(),
-                    intact: &state.intact,
-                };
+                let bonds = bonded(&*self.system, state);
                 let at = (state.load_factor, &*state.rigid);
                 surfaces.touching((&state.surfaces, bonds), motions, at)
             }
@@ -100,6 +106,17 @@ impl Meeting {
         let mut all = resisting::by_faces(closed, self.layout);
         all.extend(touching.resisting(self.surfaces.problem(), self.layout));
         all
+    }
+
+    /// Reason why a state is no equilibrium after the last one: surfaces moved through each other unseen on the way.
+    pub(super) fn missed(&self, state: &State, touching: &Touching) -> Option<Unbalanced> {
+        let surfaces = &self.surfaces;
+        if surfaces.is_empty() {
+            return None;
+        }
+        let last = (&state.surfaces, bonded(&*self.system, state));
+        let missed = surfaces.missed(last, (&state.displacement, touching));
+        missed.map(|it| Unbalanced::missed(surfaces.problem(), it))
     }
 
     /// Moves friction and contact of a state to its equilibrium.

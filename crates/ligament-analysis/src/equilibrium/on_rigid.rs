@@ -3,6 +3,7 @@
 use ligament_model::surface::Vector;
 use ligament_model::tensor::{minus, norm};
 
+use super::residual::{OF_GAPS, RESIDUAL_TOLERANCE};
 use crate::load_program::RigidLoad;
 use crate::motion::contact::ContactProblem;
 use crate::state::State;
@@ -28,13 +29,22 @@ pub(super) fn out_of_balance(
     loads.iter().map(of_load).collect()
 }
 
-/// Largest of some residual forces on the bodies of loads, over the forces that they consist of.
-pub(super) fn relative(loads: &[RigidLoad], state: &State, forces: &[Vector]) -> f64 {
+/// Largest of some residual forces on the bodies of loads, over the forces that they consist of, among them those of the rounding of gaps with
+/// coordinates of a size (m).
+pub(super) fn relative(
+    (loads, problem): (&[RigidLoad], &ContactProblem),
+    state: &State,
+    forces: &[Vector],
+    coordinate: f64,
+) -> f64 {
+    let gap = OF_GAPS / RESIDUAL_TOLERANCE * coordinate;
     let of_load = |(load, force): (&RigidLoad, &Vector)| {
         let spring = load.stiffness * norm(displacement(state, load));
+        let own = (problem.contacts.iter()).filter(|it| it.rigid_body == Some(load.body));
+        let stiffness: f64 = own.map(|it| it.surfaces.on_rigid_body()[0]).sum();
         match norm(*force) {
             0.0 => 0.0,
-            size => size / (spring + norm(load.force)),
+            size => size / (spring + norm(load.force)).max(gap * stiffness),
         }
     };
     loads.iter().zip(forces).map(of_load).fold(0.0, f64::max)

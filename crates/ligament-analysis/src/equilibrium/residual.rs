@@ -24,6 +24,9 @@ pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-10;
 /// displacement; the only scale of the residual and the energy in a body that fell apart.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
+/// Rounding of a gap between surfaces, relative to the largest coordinate of which it is a difference: that of some five operations.
+pub(super) const OF_GAPS: f64 = 1e-15;
+
 /// Share of the largest force so far below which forces are its rounding, to within [`RESIDUAL_TOLERANCE`].
 const UNLOADED: f64 = 1e-5;
 
@@ -72,6 +75,19 @@ pub(super) struct Scales<'a> {
     extents: Extents,
     /// Displacement whose forces are due to rounding, m.
     rounding: f64,
+    /// Stiffness of contacts at the degrees of freedom, N/m and N; empty without contacts.
+    of_contacts: &'a [f64],
+    /// Gap whose forces are due to rounding, m.
+    gap: f64,
+}
+
+/// Lengths that are rounded in a state, m.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Rounded {
+    /// Largest displacement of a point along an axis.
+    pub(super) displacement: f64,
+    /// Largest coordinate of which gaps between surfaces are differences; zero without contacts.
+    pub(super) coordinate: f64,
 }
 
 /// The largest relative residual of an iterate.
@@ -142,14 +158,13 @@ impl LocalStiffness {
         extents
     }
 
-    /// Scales of a state with the given extents and largest displacement (m), under loads (by degree of freedom, N and N m), where
-    /// `largest` are the extents so far.
+    /// Scales of a state with the given extents, under loads (by degree of freedom, N and N m), where `largest` are the extents so far.
     pub(super) fn scales(
         &self,
         extents: Extents,
         largest: Extents,
         loads: impl Iterator<Item = (u32, f64)>,
-        displacement: f64,
+        rounded: Rounded,
     ) -> Scales<'_> {
         let mut extents = extents.or(largest.times(UNLOADED));
         // A load that no bond carries yet would otherwise have a scale of zero.
@@ -161,7 +176,9 @@ impl LocalStiffness {
         Scales {
             stiffness: self,
             extents,
-            rounding: ROUNDING / RESIDUAL_TOLERANCE * displacement,
+            rounding: ROUNDING / RESIDUAL_TOLERANCE * rounded.displacement,
+            of_contacts: &[],
+            gap: OF_GAPS / RESIDUAL_TOLERANCE * rounded.coordinate,
         }
     }
 }
@@ -225,10 +242,24 @@ impl Extents {
     }
 }
 
-impl Scales<'_> {
+impl<'a> Scales<'a> {
+    /// The scales with a stiffness of contacts at the degrees of freedom, N/m and N.
+    pub(super) fn with_contacts(self, of_contacts: &'a [f64]) -> Self {
+        Self {
+            of_contacts,
+            ..self
+        }
+    }
+
     /// Largest force that may act at a degree of freedom, N or N m.
     #[inline]
     pub(super) fn at(self, dof: usize) -> f64 {
+        let of_gaps = self.of_contacts.get(dof).map_or(0.0, |it| it * self.gap);
+        self.of_bonds(dof).max(of_gaps)
+    }
+
+    #[inline]
+    fn of_bonds(self, dof: usize) -> f64 {
         let stiffness = self.stiffness.values[dof];
         let kind = usize::from(self.stiffness.layout.component(dof).is_rotation());
         let Extent { force, deformation } = self.extents.0[kind];

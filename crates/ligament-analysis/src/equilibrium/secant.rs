@@ -309,6 +309,8 @@ fn next(
         *growth = None;
         found = correction(equations, state, &force, curvature, target, growth)?;
     }
+    let is_short = shorten(equations, &mut found.step);
+    let is_searched = is_searched && !is_short;
     let Correction { force, step, .. } = &found;
     state.load_factor += found.load_change;
     let start = state.displacement.clone();
@@ -335,6 +337,17 @@ fn next(
     let work = equations.dot(&taken, &change);
     curvature.learn(taken, change, work);
     Ok(iterate)
+}
+
+/// Shortens a correction where surfaces would move too far at once to see each other; returns whether it does.
+fn shorten(equations: &Equations, step: &mut [f64]) -> bool {
+    let surfaces = &equations.meeting.surfaces;
+    if surfaces.is_empty() {
+        return false;
+    }
+    let part = surfaces.part_within_reach(&equations.at_degrees_of_freedom(step), &[]);
+    step.iter_mut().for_each(|it| *it *= part);
+    part < 1.0
 }
 
 /// Softens the bonds of an iterate and measures it.

@@ -127,13 +127,19 @@ impl ProportionalLoading {
     ///
     /// Equal points under one name form one group for any number of supports and loads; other points under the same name get a
     /// numbered name.
-    pub fn report_group(&mut self, name: &str, points: Vec<u32>, force: Vec<f64>) {
-        let mut same_name = self.groups.iter_mut().filter(|group| group.name == name);
-        if let Some(group) = same_name.find(|group| group.points == points) {
+    pub fn report_group(
+        &mut self,
+        name: &str,
+        points: Vec<u32>,
+        force: Vec<f64>,
+    ) -> &mut BoundaryGroup {
+        let is_same = |it: &BoundaryGroup| it.name == name && it.points == points;
+        if let Some(place) = self.groups.iter().position(is_same) {
+            let group = &mut self.groups[place];
             for (sum, force) in group.force.iter_mut().zip(force) {
                 *sum += force;
             }
-            return;
+            return group;
         }
         let earlier = self
             .groups
@@ -148,7 +154,11 @@ impl ProportionalLoading {
             name,
             points,
             force,
+            holds: Vec::new(),
+            restrains: Vec::new(),
         });
+        let last = self.groups.len() - 1;
+        &mut self.groups[last]
     }
 }
 

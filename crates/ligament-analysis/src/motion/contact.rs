@@ -7,8 +7,8 @@
 use std::sync::Arc;
 
 use ligament_model::layout::Layout;
-use ligament_model::surface::{Bonded, Search, Step, SurfacePair, Touch, Vector};
-use ligament_model::tensor::cross;
+use ligament_model::surface::{Bonded, Missed, Search, Step, SurfacePair, Touch, Vector};
+use ligament_model::tensor::{cross, minus, norm};
 
 use super::energy_bound::{Drag, PairContacts};
 use super::rigid::{RigidWork, add};
@@ -34,6 +34,24 @@ pub struct SurfaceContact {
     pub surfaces: Arc<dyn SurfacePair>,
     /// Index of the rigid body that is met; `None` for contact between surfaces of the body.
     pub rigid_body: Option<usize>,
+}
+
+impl SurfaceContact {
+    /// A place that the surfaces missed in a step, with the contacts after it, where points move by some way (m) along an axis at most.
+    pub(crate) fn missed(
+        &self,
+        step: Step<'_>,
+        farthest: f64,
+        touches: &[Touch],
+    ) -> Option<Missed> {
+        let [before, now] = step.rigid.map(|it| it.displacement);
+        // Two points move against each other by twice the diagonal of a cube at most.
+        let way = 2.0 * 3.0_f64.sqrt() * farthest + norm(minus(now, before));
+        let is_far = way > self.surfaces.way_seen();
+        is_far
+            .then(|| self.surfaces.missed(step, touches))
+            .flatten()
+    }
 }
 
 impl ContactProblem {
@@ -154,6 +172,8 @@ pub struct ContactForces {
     /// Contact forces at the present time, shape (n_degrees_of_freedom).
     forces: Vec<f64>,
     state: ContactState,
+    /// The first place that a step missed, with the number of the contact.
+    missed: Option<(usize, Missed)>,
 }
 
 impl ContactReading {
@@ -214,6 +234,7 @@ impl ContactForces {
             motions: motions.to_vec(),
             problem,
             state,
+            missed: None,
         };
         let numbered = (0..).zip(bonds.intact).filter(|it| !it.1);
         let broken: Vec<u32> = numbered.map(|it| it.0).collect();
@@ -281,6 +302,11 @@ impl ContactForces {
         &self.state.rigid_bodies
     }
 
+    /// The first place that a step so far missed, with the number of the contact.
+    pub(crate) fn missed(&self) -> Option<(usize, Missed)> {
+        self.missed
+    }
+
     /// State for a checkpoint.
     pub fn state(&self) -> &ContactState {
         &self.state
@@ -294,6 +320,9 @@ impl ContactForces {
 
     /// Finds the contacts at new motions, given the rigid bodies before the step.
     fn meet(&mut self, before: &[RigidState], motions: &[f64], bonds: Bonded<'_>) {
+        let loaded = self.degrees_of_freedom.iter().map(|&dof| dof as usize);
+        let ways = loaded.map(|dof| (motions[dof] - self.motions[dof]).abs());
+        let farthest = ways.fold(0.0, f64::max);
         for (index, contact) in self.problem.contacts.iter().enumerate() {
             let place = |all: &[RigidState]| {
                 let body = contact.rigid_body.map(|it| all[it].pose());
@@ -308,6 +337,10 @@ impl ContactForces {
             let pair = &mut self.state.pairs[index];
             let surfaces = &*contact.surfaces;
             let touches = surfaces.touches(&mut self.searches[index], step, &pair.touches);
+            if self.missed.is_none() {
+                let missed = contact.missed(step, farthest, &touches);
+                self.missed = missed.map(|it| (index, it));
+            }
             *pair = pair.after(surfaces, step, touches);
         }
     }

@@ -130,8 +130,8 @@ fn write_prediction(
         Prediction::Nonlinear => entry(
             out,
             name,
-            "not predicted, because strains are not proportional to the loads (crack faces close, strains are true strains, or bonds \
-             soften by a stress in stages)",
+            "not predicted, because strains are not proportional to the loads (crack faces close, surfaces meet, strains are true \
+             strains, or bonds soften by a stress in stages)",
         ),
     }
 }

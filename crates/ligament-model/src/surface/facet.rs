@@ -1,6 +1,7 @@
 //! Facets of the outline of a body, and how they move with its points.
 
 use super::cells::{Boundaries, CrackFaces};
+use super::rigid::largest_size;
 use super::{Corners, Vector, area_vector, normal, weighted};
 use crate::cloud::PointCloud;
 use crate::layout::Layout;
@@ -290,6 +291,12 @@ impl<const D: usize> Surface<D> {
     /// Largest length of an edge, m.
     pub(super) fn largest_length(&self) -> f64 {
         self.all().map(|it| it.1.length()).fold(0.0, f64::max)
+    }
+
+    /// Largest coordinate of a corner without motion, m.
+    pub(super) fn largest_coordinate(&self) -> f64 {
+        let corners = self.all().flat_map(|it| it.1.corners);
+        (corners.flat_map(|it| it.position)).fold(0.0, largest_size)
     }
 
     /// Largest stiffness of a facet, Pa/m.

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::cells::Bonded;
 use super::facet::{Facet, Surface};
+use super::missed::Missed;
 use super::nearest::nearest_weights;
 use super::pair::{Pose, Step, SurfacePair};
 use super::rigid::{RigidShape, in_space, turned};
@@ -36,8 +37,8 @@ pub enum Opposite<const D: usize> {
 #[derive(Debug, Clone)]
 pub struct FacetPair<const D: usize> {
     pub(super) surface: Surface<D>,
-    opposite: Opposite<D>,
-    friction: f64,
+    pub(super) opposite: Opposite<D>,
+    pub(super) friction: f64,
     /// Mean stiffness of each side, Pa/m.
     of_sides: Vec<f64>,
     /// Length of the longest edge of a facet, m.
@@ -58,11 +59,11 @@ struct Meeting<const D: usize> {
 
 /// An integration point: the place of a facet that it stands for.
 #[derive(Clone, Copy)]
-struct Place {
-    number: u32,
+pub(super) struct Place {
+    pub(super) number: u32,
     /// Number of the facet.
-    facet: usize,
-    weights: Vector,
+    pub(super) facet: usize,
+    pub(super) weights: Vector,
 }
 
 /// The facets of a surface so far, by their places in the search.
@@ -92,7 +93,7 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// The integration point of a number: D on each facet, by Gauss's rule on a segment and that of degree two on a triangle.
-    fn place(number: u32) -> Place {
+    pub(super) fn place(number: u32) -> Place {
         let own = if D == 2 {
             0.5 + 0.5 / 3.0_f64.sqrt()
         } else {
@@ -112,7 +113,7 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// Area that an integration point of a facet stands for, m^2: both surfaces of a pair carry half of the pressure each.
-    fn area(&self, facet: &Facet<D>) -> f64 {
+    pub(super) fn area(&self, facet: &Facet<D>) -> f64 {
         let share = match self.opposite {
             Opposite::OtherSides | Opposite::Unbonded => 0.5,
             Opposite::Rigid(..) => 1.0,
@@ -127,7 +128,7 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// Contact stiffness of a facet against a side, Pa/m: that of both in turn, as springs in series with twice the stiffness each.
-    fn stiffness(&self, facet: usize, of_other: Option<f64>) -> f64 {
+    pub(super) fn stiffness(&self, facet: usize, of_other: Option<f64>) -> f64 {
         let own = self.known(facet).1;
         of_other.map_or(own, |other| 2.0 * own * other / (own + other))
     }
@@ -149,7 +150,7 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// Whether one facet may ever meet another one of the surface.
-    fn may_meet(&self, own: u32, other: u32) -> bool {
+    pub(super) fn may_meet(&self, own: u32, other: u32) -> bool {
         let of_cells = |it: u32| self.surface.facet(it as usize).corners[0].point;
         match self.opposite {
             Opposite::OtherSides => self.known(own as usize).0 != self.known(other as usize).0,
@@ -352,18 +353,6 @@ impl<const D: usize> FacetPair<D> {
             Opposite::Unbonded => one < other,
         }
     }
-
-    /// Shares of the axes in the stiffness of a facet: without friction that of a face of cells acts across it alone.
-    fn axes(&self, facet: &Facet<D>) -> [f64; D] {
-        let across = normal(&facet.corners.map(|it| it.position));
-        match across.filter(|_| self.surface.cracks.is_some() && self.friction == 0.0) {
-            Some(normal) => {
-                let sum: f64 = normal.iter().map(|it| it.abs()).sum();
-                normal.map(|it| it.abs() * sum)
-            }
-            None => [1.0; D],
-        }
-    }
 }
 
 impl<const D: usize> SurfacePair for FacetPair<D> {
@@ -457,6 +446,22 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         self.reach
     }
 
+    fn coordinate(&self) -> f64 {
+        let own = self.surface.largest_coordinate();
+        match &self.opposite {
+            Opposite::Rigid(shape, _) => own.max(shape.coordinate()),
+            Opposite::OtherSides | Opposite::Unbonded => own,
+        }
+    }
+
+    fn way_seen(&self) -> f64 {
+        self.largest_way_seen()
+    }
+
+    fn missed(&self, step: Step<'_>, touches: &[Touch]) -> Option<Missed> {
+        self.first_missed(step, touches)
+    }
+
     fn can_have(&self, touches: &[Touch]) -> bool {
         let n_facets = self.surface.n_facets();
         let exists = |it: &Touch| {
@@ -470,42 +475,8 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         self.surface.degrees_of_freedom()
     }
 
-    /// With (x - y)^2 <= 2 x^2 + 2 y^2 for the motions x and y of the two surfaces; an integration point of another side may act on one point
-    /// alone, and as many as the own ones.
     fn add_bound(&self, sums: &mut [f64]) {
-        let is_driven = matches!(self.opposite, Opposite::Rigid(_, false));
-        let factor = if is_driven { 1.0 } else { 2.0 };
-        let meets_facets = !matches!(self.opposite, Opposite::Rigid(..));
-        let other = meets_facets.then(|| self.surface.largest_stiffness());
-        let of_place =
-            |number: usize, it: &Facet<D>| factor * self.area(it) * self.stiffness(number, other);
-        let times = if meets_facets { 2.0 } else { 1.0 };
-        for (number, facet) in self.surface.all() {
-            let (stiffness, axes) = (times * of_place(number, &facet), self.axes(&facet));
-            for corner in 0..D as u32 {
-                let weights = Self::place(corner).weights;
-                self.surface
-                    .add_bound((&facet, &weights), stiffness, axes, sums);
-            }
-        }
-        if !meets_facets {
-            return;
-        }
-        let all = self.surface.all();
-        let one = all
-            .map(|(number, it)| of_place(number, &it))
-            .fold(0.0, f64::max);
-        let mut seen = vec![false; self.surface.layout.n_points];
-        for (_, facet) in self.surface.all() {
-            for (corner, it) in facet.corners.iter().enumerate() {
-                if !std::mem::replace(&mut seen[it.point as usize], true) {
-                    let weights: Vector =
-                        std::array::from_fn(|it| f64::from(u8::from(it == corner)));
-                    self.surface
-                        .add_bound((&facet, &weights), one, [1.0; D], sums);
-                }
-            }
-        }
+        self.add_bound_of_all(sums);
     }
 
     /// Faces of cracks do not count: what a rigid body feels at a time is at most as wide as the body.

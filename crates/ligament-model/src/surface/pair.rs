@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use super::cells::Bonded;
+use super::missed::Missed;
 use super::search::Search;
 use super::touch::{Touch, Vector};
 
@@ -70,6 +71,16 @@ pub trait SurfacePair: Debug + Send + Sync {
 
     /// Length of the longest edge of a facet, m: a deeper overlap is not seen.
     fn reach(&self) -> f64;
+
+    /// Largest coordinate without motion of which gaps are differences, m: their rounding is relative to it.
+    fn coordinate(&self) -> f64;
+
+    /// Way of the surfaces against each other in a step that contact is sure to see, m; zero where it is that since the undeformed body that
+    /// counts.
+    fn way_seen(&self) -> f64;
+
+    /// A place where the surfaces moved through each other in a step, or into each other, without one of the contacts after it.
+    fn missed(&self, step: Step<'_>, touches: &[Touch]) -> Option<Missed>;
 
     /// Whether numbers of integration points and facets exist, in an ascending order.
     fn can_have(&self, touches: &[Touch]) -> bool;

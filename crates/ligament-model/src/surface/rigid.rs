@@ -94,6 +94,28 @@ impl<const D: usize> RigidShape<D> {
         }
     }
 
+    /// Largest depth in the shape, m; infinite in a wall.
+    pub(super) fn half_width(&self) -> f64 {
+        match *self {
+            Self::Ball { radius, .. } => radius,
+            Self::Wall { .. } => f64::INFINITY,
+            Self::Box { lower, upper } => {
+                let widths = minus(upper, lower);
+                0.5 * widths.into_iter().fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
+
+    /// Largest length in its distances, m: a coordinate of the shape, of a ball together with the radius.
+    pub(super) fn coordinate(&self) -> f64 {
+        let largest = |position: [f64; D]| position.into_iter().fold(0.0, largest_size);
+        match *self {
+            Self::Ball { centre, radius } => largest(centre) + radius,
+            Self::Wall { point, .. } => largest(point),
+            Self::Box { lower, upper } => largest(lower).max(largest(upper)),
+        }
+    }
+
     /// Middle of the shape, of a wall its given point, m.
     pub fn middle(&self) -> [f64; D] {
         match *self {
@@ -104,6 +126,11 @@ impl<const D: usize> RigidShape<D> {
             }
         }
     }
+}
+
+/// The larger of a size and that of a value.
+pub(super) fn largest_size(size: f64, value: f64) -> f64 {
+    size.max(value.abs())
 }
 
 /// Unit vector along a vector of a given length; along an axis where the length is zero.

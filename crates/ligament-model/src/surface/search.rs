@@ -11,6 +11,10 @@ use crate::tensor::{dot, minus};
 /// Number of a box of space along each axis.
 type Place = [i64; 3];
 
+/// Size of the box around a facet over the distance within which facets are near, beyond which it is not one of small strains any more and has
+/// none near it.
+const TORN: f64 = 4.0;
+
 /// Facets of a surface so far, with those near them at the last search. What is found does not change results: it contains at least all
 /// facets within reach.
 #[derive(Debug, Clone, Default)]
@@ -21,7 +25,7 @@ pub struct Search {
     since: Vec<f64>,
     /// For each facet those near it, as places in `facets`, by their numbers.
     near: Vec<Vec<u32>>,
-    /// The facets in boxes of space, as places in `facets`.
+    /// The facets in boxes of space, as places in `facets`, each in as many as a facet that is not [torn](TORN) reaches into.
     boxes: BTreeMap<Place, Vec<u32>>,
 }
 
@@ -63,9 +67,9 @@ impl Search {
         if first == self.facets.len() {
             return;
         }
-        let boxed = |corners: &Corners<D>| bounding_box(*corners);
         for (place, corners) in (0..).zip(sought.corners).skip(first) {
-            for at in places(boxed(corners), sought.within) {
+            let at = sought.is_whole(corners).then(|| bounding_box(*corners));
+            for at in at.into_iter().flat_map(|it| places(it, sought.within)) {
                 self.boxes.entry(at).or_default().push(place);
             }
         }
@@ -87,12 +91,13 @@ impl Search {
         self.since.extend(added.as_flattened().as_flattened());
     }
 
-    /// Whether a corner has moved so far since the last search that facets within reach may be missing: by half of the skin (m).
+    /// Whether a corner has moved so far since the last search that facets within reach may be missing: by half of the skin (m), or to or from a
+    /// position that is not a number.
     fn is_old<const D: usize>(&self, corners: &[Corners<D>], skin: f64) -> bool {
         let (before, _) = self.since.as_chunks::<D>();
         let moved = |(now, before): (&[f64; D], &[f64; D])| {
             let way = minus(*now, *before);
-            dot(way, way) > 0.25 * skin * skin
+            !(dot(way, way) <= 0.25 * skin * skin)
         };
         let now = &corners.as_flattened()[..before.len()];
         now.par_iter().zip(before).any(moved)
@@ -100,6 +105,9 @@ impl Search {
 
     /// Facets whose box is near that of the facet at a place, by their numbers.
     fn around<const D: usize>(&self, place: usize, sought: &Sought<'_, D>) -> Vec<u32> {
+        if !sought.is_whole(&sought.corners[place]) {
+            return Vec::new();
+        }
         let [lower, upper] = bounding_box(sought.corners[place]);
         let within = sought.within;
         let wide = [lower.map(|x| x - within), upper.map(|x| x + within)];
@@ -118,6 +126,14 @@ impl Search {
     }
 }
 
+impl<const D: usize> Sought<'_, D> {
+    /// Whether a facet with these corners can be near others.
+    fn is_whole(&self, corners: &Corners<D>) -> bool {
+        let [lower, upper] = bounding_box(*corners);
+        (0..D).all(|axis| upper[axis] - lower[axis] <= TORN * self.within)
+    }
+}
+
 /// Boxes of space of a size (m) that a box reaches into.
 fn places<const D: usize>([lower, upper]: [[f64; D]; 2], size: f64) -> impl Iterator<Item = Place> {
     let along = |axis: usize| {
@@ -130,4 +146,69 @@ fn places<const D: usize>([lower, upper]: [[f64; D]; 2], size: f64) -> impl Iter
         y.clone()
             .flat_map(move |y| z.clone().map(move |z| [x, y, z]))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A row of 60 segments of 1 m, of which each third has flown away, torn or whole, as far as numbers go or beyond: those that are whole find the
+    /// same neighbours as a comparison of all boxes, and the grid has no more entries than a segment of four times the distance reaches into.
+    #[test]
+    fn what_flies_away_takes_no_memory() {
+        let ways = [0.0, 3.0, 1e3, 1e9, 1e300, f64::INFINITY, f64::NAN];
+        for (one, other) in ways.iter().flat_map(|one| ways.map(|other| (*one, other))) {
+            let segment = |place: usize| {
+                let x = place as f64;
+                let [start, end] = match place % 3 {
+                    0 => [one, other],
+                    _ => [0.0; 2],
+                };
+                [[x + start, -start], [x + 1.0 + end, 0.0]]
+            };
+            let corners: Vec<Corners<2>> = (0..60).map(segment).collect();
+            let sought = Sought {
+                corners: &corners,
+                within: 1.5,
+                may_meet: &|_, _| true,
+            };
+            let mut search = Search::default();
+            search.join(0..60);
+            search.update(&sought, 0.5);
+            let entries: usize = search.boxes.values().map(Vec::len).sum();
+            assert!(entries <= 60 * 25, "{entries} boxes");
+            let is_near = |place: usize, other: &usize| {
+                let [one, another] = [place, *other].map(|it| bounding_box(corners[it]));
+                let wide = [one[0].map(|x| x - 1.5), one[1].map(|x| x + 1.5)];
+                place != *other && crate::geometry::boxes_meet(wide, another)
+            };
+            for place in (0..60).filter(|place| place % 3 != 0) {
+                let still = (0..60).filter(|it| it % 3 != 0);
+                let expected: Vec<u32> = still
+                    .filter(|it| is_near(place, it))
+                    .map(|it| it as u32)
+                    .collect();
+                let found = search.near(place).iter().filter(|it| **it % 3 != 0);
+                assert!(found.copied().eq(expected), "{place}");
+            }
+        }
+    }
+
+    /// A search in which a position was no number is made anew when it is one again.
+    #[test]
+    fn a_lost_position_is_searched_anew() {
+        let row = |x: f64| [[[0.0, 0.0], [1.0, 0.0]], [[x, 0.1], [1.0, 0.1]]];
+        let mut search = Search::default();
+        search.join(0..2);
+        for (x, near) in [(f64::NAN, 0), (0.0, 1)] {
+            let corners = row(x).map(|it| if x.is_nan() { [[x; 2]; 2] } else { it });
+            let sought = Sought {
+                corners: &corners,
+                within: 1.5,
+                may_meet: &|_, _| true,
+            };
+            search.update(&sought, 0.5);
+            assert_eq!(search.near(0).len(), near);
+        }
+    }
 }

@@ -9,11 +9,13 @@
 //! motion touch there.
 
 use super::facet_pair::FacetPair;
+use super::missed::{Missed, distance_from};
 use super::pair::{Pose, Step, SurfacePair};
+use super::rigid::largest_size;
 use super::search::Search;
 use super::touch::{Touch, Vector};
-use super::{Bonded, Opposite, Surface};
-use crate::tensor::dot;
+use super::{Bonded, Opposite, Surface, tangential, weighted};
+use crate::tensor::{dot, minus, norm};
 
 /// Gap over the length of the longest edge of a facet that counts as none: the rounding of coordinates.
 const CLOSED: f64 = 1e-9;
@@ -60,6 +62,35 @@ impl<const D: usize> UndeformedPair<D> {
         let rows = facing.iter().map(|it| pair.row(it, it.normal)).collect();
         Self { pair, facing, rows }
     }
+
+    /// Error of the gap of an integration point, m: against a rigid shape that to the first order, against a facet the way along it. Zero where
+    /// nothing meets.
+    fn slid(&self, touch: &Touch, step: Step<'_>) -> f64 {
+        let surface = &self.pair.surface;
+        let place = FacetPair::<D>::place(touch.place);
+        let moved = |facet: usize, weights: &Vector| {
+            let facet = surface.facet(facet);
+            let still = facet.corners.map(|it| it.position);
+            let now = weighted(&facet.moved(surface.layout, step.now), weights);
+            (now, minus(now, weighted(&still, weights)))
+        };
+        let (now, way) = moved(place.facet, &place.weights);
+        match (&self.pair.opposite, touch.onto) {
+            (Opposite::Rigid(shape, _), _) => {
+                let overlap = -distance_from(shape, now, step.rigid[1]);
+                match overlap.max(touch.overlap) > 0.0 {
+                    true => (overlap - touch.overlap).abs(),
+                    false => 0.0,
+                }
+            }
+            (_, Some(onto)) if touch.overlap > 0.0 => {
+                let (_, other) = moved(onto as usize, &touch.weights);
+                let normal = std::array::from_fn(|axis| touch.normal[axis]);
+                norm(tangential(minus(way, other), normal))
+            }
+            _ => 0.0,
+        }
+    }
 }
 
 impl<const D: usize> SurfacePair for UndeformedPair<D> {
@@ -103,6 +134,29 @@ impl<const D: usize> SurfacePair for UndeformedPair<D> {
     /// Without an end: what an integration point faces does not change.
     fn reach(&self) -> f64 {
         f64::INFINITY
+    }
+
+    fn coordinate(&self) -> f64 {
+        let gaps = self.facing.iter().map(|it| it.overlap);
+        gaps.fold(0.0, largest_size)
+    }
+
+    fn way_seen(&self) -> f64 {
+        0.0
+    }
+
+    /// The first integration point at which the surfaces meet, or their gap to the first order says so, and the present gap is another one by
+    /// more than a facet, or another facet is met by then.
+    fn missed(&self, step: Step<'_>, touches: &[Touch]) -> Option<Missed> {
+        let reach = self.pair.reach;
+        let is_off = |touch: &&Touch| self.slid(touch, step) > reach;
+        let touch = touches.iter().find(is_off)?;
+        let facet = FacetPair::<D>::place(touch.place).facet;
+        Some(Missed {
+            point: self.pair.surface.facet(facet).corners[0].point,
+            way: self.slid(touch, step),
+            seen: reach,
+        })
     }
 
     fn can_have(&self, touches: &[Touch]) -> bool {

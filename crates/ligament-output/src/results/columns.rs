@@ -113,7 +113,8 @@ columns! { "Columns of a history for each group with supports or loads."
     GROUPS:
     "GROUP.force_x" "N" ANY
         "force along x that a support or a load exerts on the body: its group, or `support-N` for the N-th support where that is a \
-         `box` or `at`, or its group begins with `=`, `+`, `-` or `@`, as a formula of a spreadsheet does (so with `load-N`)";
+         `box` or `at`, or its group begins with `=`, `+`, `-` or `@`, as a formula of a spreadsheet does (so with `load-N`); \
+         where groups have points in common, a reaction counts once, for the first that prescribes the motion";
     "GROUP.force_y" "N" ANY "force along y";
     "GROUP.force_z" "N" SOLID "force along z, of a solid";
     "GROUP.moment" "N m" PLANE "sum of the moments on its points, in the plane";
@@ -126,7 +127,8 @@ columns! { "Columns of a history for each contact between surfaces: that of a `[
     `a-b`, and one between all parts is `parts`."
     CONTACTS of ContactReading, Value<'static>:
     "CONTACT.force_x" "N" ANY
-        "force along x, pressing and friction, on the first group of a [contact](contact.md), or by a rigid body on the body" => |it| it.force(0).into();
+        "force along x, pressing and friction, on the first group of a [contact](contact.md), of all parts on that with the smallest number \
+         of a node or cell, or by a rigid body on the body" => |it| it.force(0).into();
     "CONTACT.force_y" "N" ANY "force along y" => |it| it.force(1).into();
     "CONTACT.force_z" "N" SOLID "force along z, of a solid" => |it| it.force(2).into();
     "CONTACT.pressing" "N" ANY "sum of the sizes of the pressing forces in all its places" => |it| it.pressing.into();

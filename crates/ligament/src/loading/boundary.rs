@@ -54,20 +54,26 @@ pub(super) fn boundary<const D: usize>(
             let each: Vec<(u32, f64)> = points.iter().map(|&point| (point, 1.0)).collect();
             places.prescribe(&mut boundary, field, &each, component, 0.0)?;
         }
-        boundary.report_group(&support.name(index), points, vec![0.0; components.len()]);
+        let none = vec![0.0; components.len()];
+        let group = boundary.report_group(&support.name(index), points, none);
+        group.holds.extend(support.components());
+        group.restrains.extend(support.restrained());
     }
     for (index, load) in setup.loads.iter().enumerate() {
         let field = Field::element("loads", index);
         let points = places.points(field, &load.place)?;
         let mut total = vec![0.0; components.len()];
+        let motion = load.action.motion().filter(|_| !load.is_restraint());
+        let holds = motion.iter().flat_map(|it| it.components());
+        let holds: Vec<Component> = holds.map(|(component, _)| component).collect();
         if acting != ActiveLoads::All && acting != ActiveLoads::Load(index) {
-            boundary.report_group(&load.name, points, total);
+            let group = boundary.report_group(&load.name, points, total);
+            group.holds.extend(holds);
+            group.restrains.extend(load.restrained());
             continue;
         }
         let factors = places.factors(field, load.profile.as_ref(), &points)?;
-        if let Some(motion) = load.action.motion()
-            && !load.is_restraint()
-        {
+        if let Some(motion) = motion {
             let each: Vec<(u32, f64)> = points.iter().copied().zip(factors).collect();
             for (component, value) in motion.components() {
                 places.prescribe(&mut boundary, field, &each, component, value)?;
@@ -79,7 +85,9 @@ pub(super) fn boundary<const D: usize>(
                 *sum += value;
             }
         }
-        boundary.report_group(&load.name, points, total);
+        let group = boundary.report_group(&load.name, points, total);
+        group.holds.extend(holds);
+        group.restrains.extend(load.restrained());
     }
     Ok(boundary)
 }

@@ -270,7 +270,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         Ok(())
     }
 
-    /// The number of the part of each facet, in the order of the first points of the parts.
+    /// The number of the part of each facet, in the order of the smallest number of a node or cell of each part in its file.
     fn sides_of_parts(&self, field: Field) -> Result<Sides, SetupError> {
         let parts = Parts::of_bonds(&self.system.cloud, &self.system.bonds);
         let part = |it: &Facet<D>| parts.part(it.corners[0].point);
@@ -280,8 +280,17 @@ impl<'a, const D: usize> Outline<'a, D> {
                           pre-crack, or give two groups";
             contradiction(field, reason)?;
         }
-        for (number, value) in (0..).zip(numbers.values_mut()) {
-            *value = number;
+        let body = self.setup.body.geometry::<D>();
+        let mut least: BTreeMap<u32, u64> = BTreeMap::new();
+        for point in 0..self.system.cloud.len() as u32 {
+            let tag = body.tag(point);
+            let least = least.entry(parts.part(point)).or_insert(tag);
+            *least = tag.min(*least);
+        }
+        let mut in_order: Vec<u32> = numbers.keys().copied().collect();
+        in_order.sort_by_key(|part| least.get(part));
+        for (number, part) in (0..).zip(in_order) {
+            numbers.insert(part, number);
         }
         let side = |it: &Facet<D>| numbers.get(&part(it)).copied();
         Ok(Sides {

@@ -1,5 +1,6 @@
 //! Checks of supports and loads with springs, rollers and platens.
 
+use ligament_analysis::Component;
 use ligament_model::Advice;
 
 use super::check::{Checked, contradiction, positive};
@@ -15,6 +16,14 @@ impl Support {
         self.restrained_normal().is_some() || springs.components().next().is_some()
     }
 
+    /// Components that springs and inclined normals resist: of a normal all displacements.
+    pub fn restrained(&self) -> Vec<Component> {
+        let springs = self.stiffness.components;
+        let springs = springs.components().map(|(component, _)| component);
+        let normal = self.restrained_normal().map(|_| displacements());
+        springs.chain(normal.into_iter().flatten()).collect()
+    }
+
     /// The normal, where it has a spring or is inclined to the axes.
     pub fn restrained_normal(&self) -> Option<Position> {
         let has_spring = self.stiffness.normal.is_some();
@@ -28,6 +37,18 @@ impl Load {
     pub fn is_restraint(&self) -> bool {
         self.stiffness.is_some() || self.tilts
     }
+
+    /// Components that its springs or its platen resist.
+    pub fn restrained(&self) -> Vec<Component> {
+        let all = self.is_restraint().then(displacements);
+        all.into_iter().flatten().collect()
+    }
+}
+
+/// All displacements.
+fn displacements() -> impl Iterator<Item = Component> {
+    let all = Component::IN_SPACE.iter().copied();
+    all.filter(|it| !it.is_rotation())
 }
 
 impl Setup {

@@ -23,6 +23,7 @@ use crate::serial::Sink;
 use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 use ligament_model::surface::Vector;
 
 /// Share of the work by which the energies may differ, or an energy be negative, before the motion counts as growing without cause.
@@ -149,6 +150,13 @@ impl Now<'_> {
         record: &StepRecord,
         (stop, started): (&MotionStop, Instant),
     ) -> Option<Termination> {
+        if let Some(missed) = self.contacts.and_then(ContactForces::missed) {
+            let reason = Unbalanced::missed(&self.problem.contact, missed);
+            return Some(Termination::NoEquilibrium {
+                step: record.step,
+                reason,
+            });
+        }
         let motion = record.motion.unwrap_or_default();
         let time = record.load_factor;
         let given = record.external_work.abs().max(motion.initial_energy);
