@@ -33,6 +33,7 @@ pub mod memory;
 pub mod model;
 mod modes;
 pub mod notices;
+mod pace;
 mod pieces;
 mod processes;
 mod processors;

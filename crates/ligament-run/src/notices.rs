@@ -8,6 +8,31 @@ use crate::gauges;
 /// Largest number of points listed in a notice.
 const SHOWN: usize = 5;
 
+/// A message without the load step or time at its beginning.
+pub(crate) fn bare(message: &str) -> &str {
+    let is_moment = |it: &str| it.starts_with("step ") || it.starts_with("time ");
+    match message.split_once(": ") {
+        Some((moment, rest)) if is_moment(moment) => rest,
+        _ => message,
+    }
+}
+
+/// Messages in their order, in which those that say the same, at whatever step or time, are one with their number.
+pub fn counted(messages: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut all: Vec<(String, usize)> = Vec::new();
+    for message in messages {
+        match all.iter_mut().find(|it| bare(&it.0) == bare(&message)) {
+            Some((_, count)) => *count += 1,
+            None => all.push((message, 1)),
+        }
+    }
+    let counted = all.into_iter().map(|(message, count)| match count {
+        1 => message,
+        _ => format!("{message} ({count} times)"),
+    });
+    counted.collect()
+}
+
 /// Message for a notice, with points by their tags; `closing`: whether faces of cracks carry pressure where they close.
 pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
     match notice {
@@ -49,5 +74,24 @@ pub fn words(notice: &Notice, body: &dyn Body, closing: bool) -> String {
         | Notice::NegativeEnergy { .. }
         | Notice::EnergyUnbalanced { .. }
         | Notice::DissipatedBeyondWork { .. } => notice.to_string(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_that_say_the_same_are_one_with_their_number() {
+        let told = [
+            "a: b",
+            "step 3: c",
+            "time 1e-3 s: c",
+            "d",
+            "step 4: d",
+            "step 5: c",
+        ];
+        let found = counted(told.map(str::to_owned));
+        assert_eq!(found, ["a: b", "step 3: c (3 times)", "d (2 times)"]);
     }
 }
