@@ -231,16 +231,21 @@ impl<'a> Explicit<'a> {
 
     /// Follows the motion row by row.
     fn follow(mut self) -> Result<Outcome, SetupError> {
+        let mut end = None;
         if self.progress.history.is_empty() {
-            self.record()?;
+            // From a first state without finite energies there is nowhere to go; other rules are for states on the way.
+            let is_lost = |it: &Termination| matches!(it, Termination::EnergyGrew { .. });
+            end = self.record()?.filter(is_lost);
         }
         let Clock {
             rows,
             steps_per_row,
             duration,
         } = self.progress.clock;
-        let mut end = None;
         for row in self.progress.history.len()..=rows {
+            if end.is_some() {
+                break;
+            }
             let time = self.body.state.load_factor;
             self.observer.round(row, 0, time, self.body.broken)?;
             for _ in 0..steps_per_row {
