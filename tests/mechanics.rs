@@ -45,4 +45,5 @@ mod stress;
 mod surface_contact;
 mod symmetry;
 mod temperature;
+mod unresisted;
 mod waves;

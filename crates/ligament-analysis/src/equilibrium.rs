@@ -252,6 +252,13 @@ impl Equilibrium {
         self.equations.accuracy.largest_extents.force()
     }
 
+    /// Energy of the rounding of positions, J: the rounding of the size of the body against its stiffest point and against the largest force at a
+    /// point, N, over this size.
+    pub(crate) fn energy_of_rounding(&self, force: f64) -> f64 {
+        let accuracy = &self.equations.accuracy;
+        f64::EPSILON * accuracy.size * (accuracy.stiffest * accuracy.size + force)
+    }
+
     /// Number of negative eigenvalues of the stiffness; 0 where the solver does not know it.
     pub fn negative_eigenvalues(&self) -> usize {
         let inertia = self.equations.solver.inertia();

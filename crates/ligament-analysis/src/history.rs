@@ -456,8 +456,28 @@ pub enum Onward {
     Stop,
 }
 
+/// What a run is about to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ahead {
+    /// Time steps of a motion.
+    TimeSteps {
+        /// Number of steps.
+        count: usize,
+        /// Whether each solves equations.
+        is_implicit: bool,
+    },
+    /// Solutions with a factor of the stiffness.
+    Factor {
+        /// Multiplications of the factorisation.
+        multiplications: f64,
+    },
+}
+
 /// Observer of a run. All methods except [`Observer::step`] have defaults.
 pub trait Observer {
+    /// Called once, before a run does what may take long.
+    fn begins(&mut self, _ahead: Ahead) {}
+
     /// Called after a Newton-Raphson iteration.
     fn iteration(
         &mut self,

@@ -53,10 +53,7 @@ pub enum Termination {
         time: f64,
     },
     /// The energy of a motion grew without cause.
-    #[error(
-        "at {time:.4e} s the energies of the motion differ by {error:.1e} from the work: it grows without cause, as with too large a time \
-         step or an unstable law"
-    )]
+    #[error("{}", grew(*time, *error))]
     EnergyGrew {
         /// Time, s.
         time: f64,
@@ -111,6 +108,20 @@ pub enum Termination {
         /// Reason for the missing equilibrium.
         reason: Unbalanced,
     },
+}
+
+/// Description of a motion whose energies differ at a time (s) from the work by a share of it, which is no number where they are none.
+fn grew(time: f64, error: f64) -> String {
+    match error.is_finite() {
+        true => format!(
+            "at {time:.4e} s the energies of the motion differ by {error:.1e} from the work: it grows without cause, as with too large a time \
+             step or an unstable law"
+        ),
+        false => format!(
+            "at {time:.4e} s the energies of the motion are not numbers, or too large for them; look for a size, stiffness, load or velocity that \
+             is out of all proportion"
+        ),
+    }
 }
 
 impl Termination {

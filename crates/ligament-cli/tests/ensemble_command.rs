@@ -224,3 +224,17 @@ fn other_samples_are_refused() {
     );
     assert!(!place.path("none").exists());
 }
+
+/// More samples than memory has room for are refused before anything is written.
+#[test]
+fn samples_without_end_are_refused() {
+    let place = Place::new();
+    for samples in ["99999999999", "18446744073709551615"] {
+        let output = place.call(&format!(
+            "ensemble case.toml --samples {samples} --out none"
+        ));
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains("10000000"), "{}", stderr(&output));
+    }
+    assert!(!place.path("none").exists());
+}

@@ -14,6 +14,8 @@ pub enum End {
     NoResult,
     /// No equilibrium was found at a load, whether or not bonds were breaking; the results end before it.
     NoEquilibrium,
+    /// The energies of a motion grew without cause, or are not numbers; the results reach up to there.
+    Diverged,
     /// The run ended during breakage, other than by its user or a rule of its case: the last state is not a solution for its load.
     NotAtRest,
 }
@@ -29,6 +31,8 @@ impl End {
             Self::NoResult
         } else if termination == NO_EQUILIBRIUM {
             Self::NoEquilibrium
+        } else if termination == ENERGY_GREW {
+            Self::Diverged
         } else if summary.last_state_not_at_rest && !ASKED_FOR.contains(&termination) {
             Self::NotAtRest
         } else {
@@ -40,7 +44,7 @@ impl End {
     pub fn exit_code(self) -> u8 {
         match self {
             Self::Done => 0,
-            Self::NoResult | Self::NoEquilibrium => 3,
+            Self::NoResult | Self::NoEquilibrium | Self::Diverged => 3,
             Self::Stopped => 4,
             Self::NotAtRest => 6,
         }
@@ -52,6 +56,7 @@ impl End {
             Self::Done,
             Self::NoResult,
             Self::NoEquilibrium,
+            Self::Diverged,
             Self::NotAtRest,
         ];
         ends.iter()
@@ -73,6 +78,9 @@ impl StoppedBeforeSolution {
 
 /// Name in summaries of the end of a run without equilibrium.
 pub const NO_EQUILIBRIUM: &str = "no-equilibrium";
+
+/// Name in summaries of the end of a motion whose energies grow or are not numbers.
+const ENERGY_GREW: &str = "energy-grew";
 
 /// Message about a run that ended without equilibrium after other states.
 pub(crate) const UP_TO_THERE: &str =

@@ -34,6 +34,7 @@ pub mod model;
 mod modes;
 pub mod notices;
 mod origin;
+mod pace;
 mod pieces;
 mod processes;
 mod processors;

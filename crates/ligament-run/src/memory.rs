@@ -123,6 +123,18 @@ pub fn foresee_lattice(
 ///
 /// If the available memory is exceeded, with both numbers.
 pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
+    let (points, family) = families(setup);
+    require_memory_for_bonds(case, points, family, partition_communicator(setup).size())
+}
+
+/// Number of bonds that a body will have, before they are searched.
+pub(crate) fn foreseen_bonds(setup: &Setup) -> f64 {
+    let (points, family) = families(setup);
+    bonds(points, family)
+}
+
+/// Numbers of points and of neighbours of one.
+fn families(setup: &Setup) -> (f64, f64) {
     let dimensions = setup.body.dimensions();
     let points = setup.body.n_points() as f64;
     // Volume of a ball of radius 1 in the body's dimension.
@@ -139,18 +151,23 @@ pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
             ball * length.powi(dimensions as i32) * points / box_of_body
         }
     };
-    require_memory_for_bonds(case, points, family, partition_communicator(setup).size())
+    (points, family)
 }
 
-/// Refuses a number of points and a size of families that exceed the available memory. Each bond belongs to two families, and no point has
-/// more neighbours than other points exist. Each process has all points and about its part of the bonds.
+/// Number of bonds of points with so many neighbours: each belongs to two families, and no point has more neighbours than other points exist.
+fn bonds(points: f64, family: f64) -> f64 {
+    0.5 * points * family.min(points)
+}
+
+/// Refuses a number of points and a size of families that exceed the available memory. Each process has all points and about its part of the
+/// bonds.
 fn require_memory_for_bonds(
     case: &CaseFile,
     points: f64,
     family: f64,
     processes: usize,
 ) -> Result<(), TooLarge> {
-    let bonds = 0.5 * points * family.min(points) / processes as f64;
+    let bonds = bonds(points, family) / processes as f64;
     let needed = (POINT as f64 * points + BOND as f64 * bonds) as u64;
     compare(case, needed, true)
 }

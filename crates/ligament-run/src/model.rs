@@ -10,6 +10,7 @@ use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use rayon::ThreadPoolBuildError;
 
 use crate::memory;
+use crate::pace;
 use crate::processors::{free_threads, tasks_of_others};
 use crate::progress::Progress;
 use crate::stages::Stages;
@@ -99,6 +100,9 @@ pub fn build_model_on(
     let tasks_before = tasks_of_others();
     let setup = case.setup_on_processes(communicator, &mut preparation)?;
     memory::foresee_model(case, &setup)?;
+    if let Some(words) = pace::of_preparation(memory::foreseen_bonds(&setup)) {
+        progress.stage(&words);
+    }
     let tasks = tasks_before.min(tasks_of_others());
     let model = on_free_processors(tasks, || Model::build(setup, &mut preparation))?;
     let mut model = model.map_err(|error| case.located(error))?;

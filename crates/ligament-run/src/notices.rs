@@ -11,6 +11,31 @@ use crate::gauges;
 /// Largest number of points listed in a notice.
 const SHOWN: usize = 5;
 
+/// A message without the load step or time at its beginning.
+pub(crate) fn bare(message: &str) -> &str {
+    let is_moment = |it: &str| it.starts_with("step ") || it.starts_with("time ");
+    match message.split_once(": ") {
+        Some((moment, rest)) if is_moment(moment) => rest,
+        _ => message,
+    }
+}
+
+/// Messages in their order, in which those that say the same, at whatever step or time, are one with their number.
+pub fn counted(messages: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut all: Vec<(String, usize)> = Vec::new();
+    for message in messages {
+        match all.iter_mut().find(|it| bare(&it.0) == bare(&message)) {
+            Some((_, count)) => *count += 1,
+            None => all.push((message, 1)),
+        }
+    }
+    let counted = all.into_iter().map(|(message, count)| match count {
+        1 => message,
+        _ => format!("{message} ({count} times)"),
+    });
+    counted.collect()
+}
+
 /// Message for a notice of a run of a setup, with points by their tags.
 pub fn words(notice: &Notice, body: &dyn Body, setup: &Setup) -> String {
     match notice {
@@ -79,5 +104,24 @@ fn remedy_of_overlap(setup: &Setup) -> String {
             let laws = listed(&laws, BondLaw::quoted);
             format!("`closing = true` in [model] lets them with laws whose points turn ({laws})")
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn messages_that_say_the_same_are_one_with_their_number() {
+        let told = [
+            "a: b",
+            "step 3: c",
+            "time 1e-3 s: c",
+            "d",
+            "step 4: d",
+            "step 5: c",
+        ];
+        let found = counted(told.map(str::to_owned));
+        assert_eq!(found, ["a: b", "step 3: c (3 times)", "d (2 times)"]);
     }
 }

@@ -20,6 +20,7 @@ use crate::loading::LoadedBody;
 use crate::memory;
 use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
+use crate::notices::counted;
 use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode, StepLine};
 use crate::provenance::provenance;
@@ -173,7 +174,7 @@ impl<'a> Request<'a> {
         stages: Stages,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
-        for warning in &model.warnings {
+        for warning in counted(model.warnings.iter().map(ToString::to_string)) {
             progress.stage(&format!("warning: {warning}"));
         }
         if let Analysis::Modal(settings) = model.setup.analysis {

@@ -20,6 +20,7 @@ use ligament_output::summary::{
 };
 
 use crate::end::{End, UP_TO_THERE};
+use crate::notices::counted;
 use ligament::Model;
 use ligament_case::case::CaseFile;
 
@@ -124,9 +125,10 @@ pub fn summary(
         solver: solver_summary(&outcome.costs, &outcome.solver),
         provenance: Some(noted.provenance),
         stages: noted.stages,
-        warnings: (model.warnings.iter().map(ToString::to_string))
-            .chain(noted.notices.into_iter().chain(of_end))
-            .collect(),
+        warnings: counted(
+            (model.warnings.iter().map(ToString::to_string))
+                .chain(noted.notices.into_iter().chain(of_end)),
+        ),
     }
 }
 

@@ -7,12 +7,13 @@ use ligament::{Body, Model};
 use ligament_analysis::Termination;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+    Ahead, BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
 };
 use ligament_output::results::ResultWriter;
 
 use crate::checkpoints::{Checkpoints, Stops};
-use crate::notices::words;
+use crate::notices::{bare, words};
+use crate::pace;
 use crate::progress::{Progress, StepLine, noun};
 
 /// Largest number of notices shown during the run; all are in `summary.json`.
@@ -31,6 +32,8 @@ pub(crate) struct Watch<'a> {
     /// The points of the whole body.
     names: &'a dyn Body,
     setup: &'a Setup,
+    /// Number of bonds.
+    bonds: usize,
 }
 
 impl<'a> Watch<'a> {
@@ -66,6 +69,7 @@ impl<'a> Watch<'a> {
             last,
             names: &*model.names,
             setup,
+            bonds: model.counts.bonds,
         }
     }
 
@@ -83,6 +87,12 @@ impl<'a> Watch<'a> {
 }
 
 impl Observer for Watch<'_> {
+    fn begins(&mut self, ahead: Ahead) {
+        if let Some(words) = pace::words(ahead, self.bonds) {
+            self.progress.stage(&words);
+        }
+    }
+
     fn round(
         &mut self,
         step: usize,
@@ -119,7 +129,8 @@ impl Observer for Watch<'_> {
 
     fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
         let words = words(notice, self.names, self.setup);
-        if self.notices.len() < SHOWN {
+        let is_new = |it: &String| bare(it) != bare(&words);
+        if self.notices.len() < SHOWN && self.notices.iter().all(is_new) {
             self.progress.stage(&words);
         }
         self.notices.push(words);

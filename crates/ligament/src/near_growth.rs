@@ -1,7 +1,7 @@
 //! Growth of a near field: where the stress of elements reaches a share of the strength, bonds take their place and the run begins anew.
 
 use ligament_analysis::history::{
-    BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
+    Ahead, BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
 };
 use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::{Observer, Termination};
@@ -196,6 +196,10 @@ pub struct Guarded<'a> {
 }
 
 impl Observer for Guarded<'_> {
+    fn begins(&mut self, ahead: Ahead) {
+        self.observer.begins(ahead);
+    }
+
     fn iteration(
         &mut self,
         iteration: usize,

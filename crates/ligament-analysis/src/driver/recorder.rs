@@ -149,15 +149,40 @@ impl Energies {
 
     /// Work from the last state to this one, J.
     pub(super) fn work_to(&self, problem: &Problem, state: &State, balanced: &Balanced) -> f64 {
-        let mut work = 0.0;
-        let now = self.loaded_now(problem, state, balanced);
-        for (now, last) in now.zip(&self.last_loaded) {
-            let mean_force = 0.5 * (now.force + last.force);
-            work += mean_force * (now.displacement - last.displacement);
-        }
+        let work = self.work_at(problem, state, balanced, |_| true);
         let (factor, force) = self.thermal;
         let (factor_now, force_now) = Self::thermal_now(problem, state, balanced);
         work + 0.5 * (force + force_now) * (factor_now - factor)
+    }
+
+    /// Work of prescribed motions from the last state to this one, J.
+    pub(super) fn work_of_motions_to(
+        &self,
+        problem: &Problem,
+        state: &State,
+        balanced: &Balanced,
+    ) -> f64 {
+        let reacts = |dof| problem.loads.reacts_at(dof);
+        self.work_at(problem, state, balanced, reacts)
+    }
+
+    /// Work of loads at some of the degrees of freedom from the last state to this one, J.
+    fn work_at(
+        &self,
+        problem: &Problem,
+        state: &State,
+        balanced: &Balanced,
+        counts: impl Fn(usize) -> bool,
+    ) -> f64 {
+        let now = self.loaded_now(problem, state, balanced);
+        let both = self.loaded.iter().zip(now.zip(&self.last_loaded));
+        let counted = both.filter(|(dof, _)| counts(**dof as usize));
+        let mut work = 0.0;
+        for (_, (now, last)) in counted {
+            let mean_force = 0.5 * (now.force + last.force);
+            work += mean_force * (now.displacement - last.displacement);
+        }
+        work
     }
 
     /// Forces and displacements of the loaded degrees of freedom in a state.

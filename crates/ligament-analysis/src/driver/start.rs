@@ -7,7 +7,7 @@ use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::gauges;
-use crate::history::{Notice, Observer, ObserverError, StepRecord, View};
+use crate::history::{Ahead, Notice, Observer, ObserverError, StepRecord, View};
 use crate::problem::Problem;
 use crate::serial;
 use crate::state::State;
@@ -69,6 +69,10 @@ fn begin_proportional(
     equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,
 ) -> Result<Start, SetupError> {
+    if let Some(stiffness) = equilibrium.stiffness() {
+        let multiplications = stiffness.symbolic().n_multiplications();
+        observer.begins(Ahead::Factor { multiplications });
+    }
     let mut unloaded = equilibrium.known(State::fresh(&*problem.system));
     let breakage = equilibrium.break_bonds(&mut unloaded, &[]);
     let free = gauges::free_bodies(

@@ -167,6 +167,30 @@ pub enum MotionError {
         /// Critical step, s.
         critical: f64,
     },
+    /// Time steps were required in a number that has no end.
+    #[error(
+        "the motion would take {steps:.1e} time steps of {at_most:.3e} s, more than can be computed: shorten the duration, or lengthen the step \
+         (coarser points, less stiffness, or for slow loads scheme = \"auto\")"
+    )]
+    TooManySteps {
+        /// Number of steps.
+        steps: f64,
+        /// Longest step, s.
+        at_most: f64,
+    },
+    /// Damping by mass beyond what a step can follow.
+    #[error(
+        "damping by mass of {alpha:.4e} 1/s is too fast for a time step of {step:.4e} s: from 2/damping.mass = {:.4e} s on velocities would \
+         change their sign from step to step instead of decaying; take a motion.step well below it (a tenth decays right to 0.4 %), or less \
+         damping",
+        2.0 / alpha
+    )]
+    DampingTooFast {
+        /// Time step, s.
+        step: f64,
+        /// Damping over mass, 1/s.
+        alpha: f64,
+    },
     /// A rigid body with a mass was required in implicit steps that turn it, with bonds that soften, or between equilibria.
     #[error(
         "implicit steps move a rigid body with a mass without turning it, beside bonds that do not soften, and not from equilibria: remove \
@@ -176,6 +200,19 @@ pub enum MotionError {
     /// Several processes cannot compute a motion.
     #[error("several processes cannot compute a motion in time; use one process")]
     SeveralProcesses,
+}
+
+impl Damping {
+    /// Refuses time steps (s) in which the trapezoidal rule turns velocities round: it keeps (1 - a)/(1 + a) of them with a = alpha dt/2, where
+    /// exp(-2 a) is right.
+    pub(crate) fn check(self, step: f64) -> Result<(), MotionError> {
+        let alpha = self.mass;
+        // A product that is 2 but for rounding would leave no velocity to go on from.
+        match alpha * step < 2.0 * (1.0 - 1e-9) {
+            true => Ok(()),
+            false => Err(MotionError::DampingTooFast { step, alpha }),
+        }
+    }
 }
 
 impl MotionProblem {

@@ -31,6 +31,7 @@ use ligament_case::case::CaseFile;
 use ligament_output::summary::Stage;
 use ligament_run::disk;
 use ligament_run::model::build_model;
+use ligament_run::notices::counted;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
@@ -96,7 +97,7 @@ fn write_report(
         )?;
     }
     let warnings = model.warnings.iter().map(ToString::to_string);
-    for warning in warnings.chain(noticed) {
+    for warning in counted(warnings.chain(noticed)) {
         writeln!(out, "warning: {warning}")?;
     }
     if let Some(warning) = too_stiff {

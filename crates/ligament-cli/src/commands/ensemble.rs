@@ -30,6 +30,9 @@ first, fracture.scatter.0.seed.
 
 The same command again computes the samples that are missing; with more --samples it goes on.";
 
+/// Largest number of samples: their numbers and rows are held in memory, some 100 bytes each.
+const MOST_SAMPLES: u64 = 10_000_000;
+
 /// `ligament ensemble`.
 #[derive(Debug, Args)]
 pub struct EnsembleArgs {
@@ -37,7 +40,7 @@ pub struct EnsembleArgs {
     #[command(flatten)]
     pub case: CaseArgs,
     /// Number of samples
-    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u64).range(1..=MOST_SAMPLES))]
     pub samples: u64,
     /// Seed of the ensemble
     #[arg(long, value_name = "S", default_value_t = 0)]

@@ -9,6 +9,8 @@ use ligament_output::summary::{
     ModalSummary, ModeSummary, ModelSummary, Provenance, StabilitySummary, Stage,
 };
 
+use crate::notices::counted;
+
 use super::model::{OfPoints, heading, model_summary};
 use super::solver::solver_summary;
 use ligament::Model;
@@ -31,8 +33,8 @@ pub fn modal_summary(
         effective_shares: moving.shares(&mode.participation),
     };
     let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
-    let mut warnings: Vec<String> = model.warnings.iter().map(ToString::to_string).collect();
-    warnings.extend(outcome.notices.iter().map(ToString::to_string));
+    let notices = outcome.notices.iter().map(ToString::to_string);
+    let warnings = counted((model.warnings.iter().map(ToString::to_string)).chain(notices));
     ModalSummary {
         model: model_summary(case, model, OfPoints::new(model)),
         mass: moving.total,

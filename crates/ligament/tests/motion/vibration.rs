@@ -171,3 +171,81 @@ fn a_motion_that_grows_without_cause_ends() {
     ));
     assert!(outcome.history.len() < 20);
 }
+
+/// A free body in translation loses exp(-2 alpha t) of its energy to damping by mass, as long as a step can follow it; a step of 2/alpha or more, in
+/// which the scheme would turn its velocity round, is refused by both schemes.
+///
+/// The decay to alpha t (alpha dt)^2/6: (1 - a)/(1 + a) = exp(-2 a - 2 a^3/3 - ...) with a = alpha dt/2.
+#[test]
+fn damping_by_mass_decays_or_is_refused() {
+    let n_components = 3;
+    let problem = motion_of(&plate(Law::NHPD), |model| {
+        let n = model.system.to_bonds().layout().n_degrees_of_freedom();
+        let along_x = |dof: usize| f64::from(u8::from(dof.is_multiple_of(n_components)));
+        (0..n).map(along_x).collect()
+    });
+    let step = 0.5 * critical_step(&problem, &settings(1.0, 1)).unwrap().step;
+    let (rows, steps) = (2, 40);
+    let duration = (rows * steps) as f64 * step;
+    let explicit = ExplicitSettings {
+        step: Some(1.000_001 * step),
+        safety: 0.9,
+    };
+    let of_schemes = [
+        MotionSettings {
+            scheme: Scheme::Explicit(explicit),
+            ..settings(duration, rows)
+        },
+        implicit(duration, rows, steps, 0.0),
+    ];
+    for mut settings in of_schemes {
+        settings.damping.mass = 0.2 / step;
+        let history = followed(&problem, &settings).0.history;
+        let energy = |row: usize| history[row].motion.unwrap().kinetic_energy;
+        let decayed = (energy(2) / energy(1)).ln();
+        let expected = -2.0 * settings.damping.mass * 0.5 * duration;
+        assert!(
+            (decayed / expected - 1.0).abs() < 0.2 * 0.2 / 10.0,
+            "{decayed} {expected}"
+        );
+        for times in [2.0, 20.0] {
+            settings.damping.mass = times / step;
+            let refused = motion::run(&problem, &settings, &mut NoObserver);
+            let words = refused.err().map(|it| it.to_string()).unwrap_or_default();
+            assert!(words.contains("2/damping.mass"), "{words}");
+        }
+    }
+}
+
+/// A velocity whose square is no number ends the motion at its first state, and says so.
+#[test]
+fn velocities_beyond_all_numbers_end_a_motion() {
+    for settings in [settings(1e-3, 10), implicit(1e-3, 10, 5, 0.0)] {
+        let problem = motion_of(&plate(Law::NHPD), |model| {
+            vec![1e300; model.system.to_bonds().layout().n_degrees_of_freedom()]
+        });
+        let (outcome, _) = followed(&problem, &settings);
+        assert!(matches!(
+            outcome.termination,
+            Termination::EnergyGrew { .. }
+        ));
+        assert_eq!(outcome.history.len(), 1);
+        let words = outcome.termination.to_string();
+        assert!(words.contains("are not numbers"), "{words}");
+    }
+}
+
+/// Steps in a number that has no end are refused, as they were begun before.
+#[test]
+fn steps_without_end_are_refused() {
+    let problem = motion_of(&plate(Law::NHPD), |model| {
+        wavy(model.system.to_bonds().layout().n_degrees_of_freedom())
+    });
+    for duration in [1e9, 1e300] {
+        for settings in [settings(duration, 10), implicit(duration, 10, 1 << 50, 0.0)] {
+            let refused = motion::run(&problem, &settings, &mut NoObserver);
+            let words = refused.err().map(|it| it.to_string()).unwrap_or_default();
+            assert!(words.contains("time steps"), "{words}");
+        }
+    }
+}

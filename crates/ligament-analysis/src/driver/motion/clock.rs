@@ -1,7 +1,11 @@
 //! Times of a motion: equal time steps, of which a fixed number makes a row of the history.
 
+use crate::history::Ahead;
 use crate::motion::{ImplicitSettings, MotionError, MotionSettings};
 use crate::serial;
+
+/// Largest number of time steps: a step of the smallest body takes a microsecond, so that these take eleven days.
+const MOST_STEPS: f64 = 1e12;
 
 /// Times of a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,36 +26,59 @@ serial!(Clock {
 
 impl Clock {
     /// Times with the largest step that divides the time between two rows and is not larger than `at_most`, s.
-    pub(super) fn new(settings: &MotionSettings, at_most: f64) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// If there are more steps than any machine can take.
+    fn new(settings: &MotionSettings, at_most: f64) -> Result<Self, MotionError> {
         let MotionSettings { duration, rows, .. } = *settings;
         let between = duration / rows as f64;
         // A step that divides the time but for rounding is not made smaller.
-        let steps_per_row = (between / at_most * (1.0 - 1e-12)).ceil().max(1.0) as usize;
-        Self {
+        let steps_per_row = (between / at_most * (1.0 - 1e-12)).ceil().max(1.0);
+        let steps = rows as f64 * steps_per_row;
+        if !(steps <= MOST_STEPS) {
+            return Err(MotionError::TooManySteps { steps, at_most });
+        }
+        Ok(Self {
             duration,
             rows,
-            steps_per_row,
+            steps_per_row: steps_per_row as usize,
+        })
+    }
+
+    /// What steps at these times are to an observer.
+    pub(super) fn ahead(&self, is_implicit: bool) -> Ahead {
+        Ahead::TimeSteps {
+            count: self.rows * self.steps_per_row,
+            is_implicit,
         }
     }
 
     /// Times of implicit steps. Where equilibria follow each other, a row is halved until its parts are as short as a step of the motion.
-    pub(super) fn implicit(settings: &MotionSettings, implicit: ImplicitSettings) -> Self {
-        let clock = Self::new(settings, implicit.step);
+    ///
+    /// # Errors
+    ///
+    /// If there are too many.
+    pub(super) fn implicit(
+        settings: &MotionSettings,
+        implicit: ImplicitSettings,
+    ) -> Result<Self, MotionError> {
+        let clock = Self::new(settings, implicit.step)?;
         let steps_per_row = match implicit.statics {
             Some(_) => clock.steps_per_row.next_power_of_two(),
             None => clock.steps_per_row,
         };
-        Self {
+        Ok(Self {
             steps_per_row,
             ..clock
-        }
+        })
     }
 
     /// Times with a given step, or with a fraction of the critical step, s.
     ///
     /// # Errors
     ///
-    /// If the given step is larger than the critical one.
+    /// If the given step is larger than the critical one, or there are too many.
     pub(super) fn explicit(
         settings: &MotionSettings,
         (given, safety): (Option<f64>, f64),
@@ -59,8 +86,8 @@ impl Clock {
     ) -> Result<Self, MotionError> {
         match given {
             Some(step) if step > critical => Err(MotionError::StepTooLarge { step, critical }),
-            Some(step) => Ok(Self::new(settings, step)),
-            None => Ok(Self::new(settings, safety * critical)),
+            Some(step) => Self::new(settings, step),
+            None => Self::new(settings, safety * critical),
         }
     }
 

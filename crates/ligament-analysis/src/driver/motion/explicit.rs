@@ -72,6 +72,7 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     let (clock, choice) = chosen(problem, settings, explicit)?;
+    observer.begins(clock.ahead(false));
     let numbers = BondNumbers::new(&*problem.problem.system)?;
     let friction = FaceFriction::new(problem.problem.face_friction, BTreeMap::new());
     let body = Body::new(&problem.problem, numbers, friction, None);
@@ -145,6 +146,7 @@ pub(super) fn chosen(
     let wanted = (explicit.step, explicit.safety);
     let clock = Clock::explicit(settings, wanted, critical.step)?;
     let step = clock.step();
+    settings.damping.check(step)?;
     Ok((clock, ExplicitChoice { step, critical }))
 }
 

@@ -53,7 +53,10 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     implicit_fit::check(problem, settings, implicit)?;
-    let clock = Clock::implicit(settings, implicit);
+    let clock = Clock::implicit(settings, implicit)?;
+    if implicit.statics.is_none() {
+        observer.begins(clock.ahead(true));
+    }
     let mut state = State::fresh(&*problem.problem.system);
     problem
         .problem
@@ -101,7 +104,7 @@ pub(super) fn resume(
         progress,
         kept,
     } = resumed;
-    if progress.clock != Clock::implicit(settings, implicit) {
+    if progress.clock != Clock::implicit(settings, implicit)? {
         return Err(CheckpointError::OtherTimes.into());
     }
     let ImplicitKept {
@@ -274,7 +277,8 @@ impl Implicit<'_> {
     /// Leaves inertia out, if the body with its present bonds has an equilibrium at this time that is as near as `share` of the energy; returns
     /// whether it has.
     fn come_to_rest(&mut self, row: usize, tick: usize, share: f64) -> Result<bool, SetupError> {
-        let most = share * self.energy_given();
+        let rounding = quasi_static::rounding(&self.stepping.equilibrium, &self.here.balanced);
+        let most = (share * self.energy_given()).max(rounding);
         let kinetic = self.progress.motion.kinetic_energy;
         if kinetic > most {
             return Ok(false);
@@ -362,7 +366,8 @@ impl Implicit<'_> {
         let free = quasi_static::set_free(problem, &self.energies, &self.here, &taken);
         let work = (self.energies).work_to(problem, &taken.state, &taken.balanced);
         let given = self.energies.external_work + work;
-        if free <= share * self.energy_given().max(given) {
+        let rounding = quasi_static::rounding(&self.stepping.equilibrium, &taken.balanced);
+        if free <= (share * self.energy_given().max(given)).max(rounding) {
             return Ok(Ok(taken));
         }
         self.problem.problem.criteria = criteria;

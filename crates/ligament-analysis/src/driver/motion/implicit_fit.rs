@@ -1,5 +1,6 @@
 //! What implicit steps can follow.
 
+use super::clock::Clock;
 use crate::motion::contact::{RigidBody, RigidMotion};
 use crate::motion::{ImplicitSettings, MotionError, MotionProblem, MotionSettings};
 use crate::problem::Problem;
@@ -35,5 +36,6 @@ pub(super) fn check(
     if settings.damping.stiffness > 0.0 && !is_plain {
         return Err(MotionError::StiffnessDamping);
     }
-    Ok(())
+    let step = Clock::implicit(settings, implicit)?.step();
+    settings.damping.check(step)
 }

@@ -61,7 +61,7 @@ pub fn time_step(
     match settings.scheme {
         Scheme::Explicit(explicit) => Ok(explicit::chosen(problem, settings, explicit)?.1),
         Scheme::Implicit(implicit) => Ok(ExplicitChoice {
-            step: Clock::implicit(settings, implicit).step(),
+            step: Clock::implicit(settings, implicit)?.step(),
             critical: critical_step(problem, settings)?,
         }),
     }

@@ -3,13 +3,18 @@
 //! A step sets free what the loads do and the bonds neither store nor dissipate, W - dE - dD, less what friction and contact take. Between equilibria with the same bonds that is
 //! nothing; a bond that breaks at its limit sets free 1/2 u^T K_b (u' - u); an avalanche, a part that comes off and a load that jumps set free
 //! what only a motion can carry away.
+//!
+//! A part that nothing holds has an equilibrium under a force only where it touches what resists it. A step across a gap finds that one; what the
+//! force does on the way counts as set free, but not what a prescribed motion seems to do there by the trapezoidal rule.
 
 use super::clock::Clock;
 use super::here::Here;
 use super::stepping::{HALVINGS, Pace};
 use super::taken::Taken;
+use crate::balanced::Balanced;
 use crate::bond_numbers::sum_over_bonds;
 use crate::driver::recorder::Energies;
+use crate::equilibrium::Equilibrium;
 use crate::motion::{ImplicitSettings, MotionProblem};
 use crate::problem::Problem;
 
@@ -33,6 +38,13 @@ pub(super) fn pace_from(tick: usize, clock: &Clock) -> Pace {
     }
 }
 
+/// Energy that an equilibrium sets free by rounding, J: where nothing resists a part yet, the work so far is no more than that, and a share of it says
+/// nothing.
+pub(super) fn rounding(equilibrium: &Equilibrium, balanced: &Balanced) -> f64 {
+    let of_positions = equilibrium.energy_of_rounding(balanced.internal.force_scale);
+    balanced.energy_floor.max(of_positions)
+}
+
 /// Energy that a step sets free, J.
 pub(super) fn set_free(problem: &Problem, energies: &Energies, here: &Here, taken: &Taken) -> f64 {
     let work = energies.work_to(problem, &taken.state, &taken.balanced);
@@ -48,10 +60,22 @@ pub(super) fn set_free(problem: &Problem, energies: &Energies, here: &Here, take
     }
     let now = (&taken.state, &taken.balanced);
     let mut onward = energies.clone();
-    let friction = onward.follow_contact(problem, now, &taken.broken).friction;
+    let faces = onward.follow_contact(problem, now, &taken.broken);
     let surfaces = onward.follow_surfaces(problem, now.0, now.1);
     let kept = surfaces.stored - here.balanced.touching.energy();
-    free + surfaces.driving - friction - surfaces.dissipated - kept
+    // Faces close and open without force on the way, which the trapezoidal rule counts as work.
+    let closure = if taken.broken.is_empty() {
+        faces.closure
+    } else {
+        0.0
+    };
+    let free = free + surfaces.driving - faces.friction - closure - surfaces.dissipated - kept;
+    if !taken.state.held.contains(&true) {
+        return free;
+    }
+    let moving = energies.work_of_motions_to(problem, &taken.state, &taken.balanced);
+    let on_the_way = surfaces.excess + closure - (moving + surfaces.driving).max(0.0);
+    free + on_the_way.max(0.0)
 }
 
 #[cfg(test)]

@@ -62,7 +62,9 @@ impl Now<'_> {
         let record = self.row(row, progress);
         let Clock { rows, duration, .. } = progress.clock;
         let done = (row == rows).then_some(Termination::TimeReached { time: duration });
-        let end = self.end(&record, stop).or(done);
+        // Rules of the case are for states on the way.
+        let end = self.end(&record, stop);
+        let end = end.filter(|it| row > 0 || !it.is_by_rule()).or(done);
         let end = offer(observer, end, &|out| checkpoint(progress, out))?;
         self.show(&record, end.is_some(), observer)?;
         let (problem, state) = (self.problem, self.state);
