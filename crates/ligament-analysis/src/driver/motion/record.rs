@@ -22,6 +22,7 @@ use crate::serial::Sink;
 use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
 use crate::state::State;
+use crate::termination::{Growth, Verdict};
 use ligament_model::surface::Vector;
 
 /// Share of the work by which the energies may differ, or an energy be negative, before the motion counts as growing without cause.
@@ -55,13 +56,17 @@ impl Now<'_> {
         observer: &mut dyn Observer,
     ) -> Result<Option<Termination>, SetupError> {
         let row = progress.history.len();
-        let record = self.row(row, progress);
+        let mut record = self.row(row, progress);
         let end = self.end(&record, stop);
+        let verdict = end.as_ref().map(|it| it.row().verdict);
+        record.at_rest = verdict != Some(Verdict::Invalid);
         let is_last = end.is_some() || row == progress.clock.rows;
         self.show(&record, is_last, observer)?;
         let (problem, state) = (self.problem, self.state);
         let overlap = &mut progress.overlap;
-        if let Some(notice) = remarks::overlap(problem, state, self.fragments, row, overlap) {
+        if record.at_rest
+            && let Some(notice) = remarks::overlap(problem, state, self.fragments, row, overlap)
+        {
             observer.notice(&notice)?;
         }
         if let Some(notice) = remarks::energies(problem, &record, progress.history.last()) {
@@ -138,6 +143,19 @@ impl Now<'_> {
         record: &StepRecord,
         (stop, started): (&MotionStop, Instant),
     ) -> Option<Termination> {
+        if let Some(growth) = self.growth(record) {
+            let time = record.load_factor;
+            return Some(Termination::EnergyGrew { time, growth });
+        }
+        let bonds = stop.bonds.filter(|&most| self.broken >= most);
+        let bonds = bonds.map(|bonds| Termination::BondsBroken { bonds });
+        let elapsed = started.elapsed().as_secs_f64();
+        let seconds = stop.wall_time.filter(|&most| elapsed >= most);
+        bonds.or(seconds.map(|seconds| Termination::WallTime { seconds }))
+    }
+
+    /// What grew without cause up to a row; None where nothing did. Energies that are not numbers count as grown.
+    fn growth(&self, record: &StepRecord) -> Option<Growth> {
         let motion = record.motion.unwrap_or_default();
         let scale = record.external_work.abs() + motion.initial_energy;
         let scale = scale.max(record.energy_floor);
@@ -147,15 +165,12 @@ impl Now<'_> {
         let error = record.energy_error();
         let has_energy = self.problem.system.has_energy();
         let balances = error.is_finite() && (error.abs() <= GROWN || !has_energy);
-        if !(balances && is_stored && is_moving) {
-            let time = record.load_factor;
-            return Some(Termination::EnergyGrew { time, error });
-        }
-        let bonds = stop.bonds.filter(|&most| self.broken >= most);
-        let bonds = bonds.map(|bonds| Termination::BondsBroken { bonds });
-        let elapsed = started.elapsed().as_secs_f64();
-        let seconds = stop.wall_time.filter(|&most| elapsed >= most);
-        bonds.or(seconds.map(|seconds| Termination::WallTime { seconds }))
+        let grown = [
+            (!balances, Growth::Balance(error)),
+            (!is_stored, Growth::Stored(record.stored_energy)),
+            (!is_moving, Growth::Kinetic(motion.kinetic_energy)),
+        ];
+        grown.into_iter().find(|it| it.0).map(|it| it.1)
     }
 }
 
