@@ -141,3 +141,10 @@ pub struct Stability {
 }
 
 serial!(Stability { negative, expected });
+
+impl Stability {
+    /// Whether the stiffness has more negative eigenvalues than the rotations explain.
+    pub fn is_unstable(&self) -> bool {
+        self.negative > self.expected
+    }
+}

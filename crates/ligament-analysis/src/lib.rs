@@ -51,7 +51,7 @@ pub mod stiffness;
 pub mod supports;
 pub mod surfaces;
 mod tangent;
-mod termination;
+pub mod termination;
 pub mod unbalanced;
 pub mod unknowns;
 mod vectors;

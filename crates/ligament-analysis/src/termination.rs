@@ -1,4 +1,7 @@
-//! Reasons for the end of a run.
+//! Reasons for the end of a run, and the table of what each means for its results.
+//!
+//! A new end is a variant of [`Termination`] with its words, and a row of the table `ends!` below. Exit codes, summaries, studies and the table in
+//! `docs/commands.md` follow from the row.
 
 use thiserror::Error;
 
@@ -53,25 +56,23 @@ pub enum Termination {
         time: f64,
     },
     /// The energy of a motion grew without cause.
-    #[error("{}", grew(*time, *error))]
+    #[error("at {time:.4e} s {growth}: it grows without cause, as with too large a time step or an unstable law")]
     EnergyGrew {
         /// Time, s.
         time: f64,
-        /// Energy imbalance, relative to the work.
-        error: f64,
+        /// What grew.
+        growth: Growth,
     },
-    /// An entry of the ledger of a motion that takes energy has given it.
+    /// The intact model is unstable, and the problem does not allow that.
     #[error(
-        "at {time:.4e} s the energy of {entry} is {share:.1e} of the energy that the motion was given, and should be positive: it comes from \
-         nothing, as with too large a time step"
+        "the intact model is unstable: {negative} negative eigenvalues where {expected} are expected (Poisson's ratio too large for this \
+         horizon factor), so that no load was applied"
     )]
-    EnergyFromNothing {
-        /// Time, s.
-        time: f64,
-        /// Entry of the ledger.
-        entry: &'static str,
-        /// Energy of the entry, relative to the larger of the energy at time zero and the work.
-        share: f64,
+    Unstable {
+        /// Number of negative eigenvalues of the stiffness.
+        negative: usize,
+        /// Number that the rotations explain.
+        expected: usize,
     },
     /// The observer stopped the run.
     #[error("the run was stopped")]
@@ -110,20 +111,6 @@ pub enum Termination {
     },
 }
 
-/// Description of a motion whose energies differ at a time (s) from the work by a share of it, which is no number where they are none.
-fn grew(time: f64, error: f64) -> String {
-    match error.is_finite() {
-        true => format!(
-            "at {time:.4e} s the energies of the motion differ by {error:.1e} from the work: it grows without cause, as with too large a time \
-             step or an unstable law"
-        ),
-        false => format!(
-            "at {time:.4e} s the energies of the motion are not numbers, or too large for them; look for a size, stiffness, load or velocity that \
-             is out of all proportion"
-        ),
-    }
-}
-
 impl Termination {
     /// Description of the end, with names for points.
     pub fn words(&self, name: &dyn Fn(u32) -> String) -> String {
@@ -146,45 +133,170 @@ impl Termination {
 
     /// Whether the run could continue from its end, because a rule ended it.
     pub fn is_by_rule(&self) -> bool {
-        match self {
-            Self::StepsDone
-            | Self::LoadFraction { .. }
-            | Self::DisplacementReached { .. }
-            | Self::BondsBroken { .. }
-            | Self::WallTime { .. }
-            | Self::Stopped
-            | Self::NotAtRest { .. } => true,
-            Self::FullLoad
-            | Self::TimeReached { .. }
-            | Self::EnergyGrew { .. }
-            | Self::EnergyFromNothing { .. }
-            | Self::EnergyDissipated { .. }
-            | Self::NothingBreaks
-            | Self::FellApart
-            | Self::Collapsed
-            | Self::LostStiffness { .. }
-            | Self::NoEquilibrium { .. } => false,
-        }
+        self.row().is_by_rule
     }
 
     /// Short name for files.
     pub fn name(&self) -> &'static str {
-        match self {
-            Self::StepsDone => "steps-done",
-            Self::FullLoad => "full-load",
-            Self::EnergyDissipated { .. } => "energy-dissipated",
-            Self::NothingBreaks => "nothing-breaks",
-            Self::LoadFraction { .. } => "load-fraction",
-            Self::DisplacementReached { .. } => "displacement-reached",
-            Self::BondsBroken { .. } => "bonds-broken",
-            Self::WallTime { .. } => "wall-time",
-            Self::TimeReached { .. } => "time-reached",
-            Self::EnergyGrew { .. } | Self::EnergyFromNothing { .. } => "energy-grew",
-            Self::Stopped => "stopped",
-            Self::FellApart => "fell-apart",
-            Self::Collapsed | Self::LostStiffness { .. } => "collapsed",
-            Self::NotAtRest { .. } => "not-at-rest",
-            Self::NoEquilibrium { .. } => "no-equilibrium",
+        self.row().name
+    }
+}
+
+/// What grew in a motion without cause.
+#[derive(Debug, Clone, Copy, PartialEq, Error)]
+pub enum Growth {
+    /// Energies and work do not balance, by this share of the work.
+    #[error("the energies of the motion differ by {0:.1e} from the work")]
+    Balance(f64),
+    /// Energies are not numbers.
+    #[error(
+        "the energies of the motion are not numbers, or too large for them (look for a size, stiffness, load or velocity that is out of all \
+         proportion)"
+    )]
+    NoNumber,
+    /// An entry of the ledger that takes energy has given it.
+    #[error(
+        "the energy of {entry} of the motion is {share:.1e} of the energy that it was given, and can only be positive"
+    )]
+    Given {
+        /// Entry of the ledger.
+        entry: &'static str,
+        /// Energy of the entry, over the larger of the energy at time zero and the work.
+        share: f64,
+    },
+    /// The bonds store a negative energy, J.
+    #[error("the bonds of the motion store a negative energy, {0:.3e} J")]
+    Stored(f64),
+    /// The kinetic energy is negative, J.
+    #[error("the kinetic energy of the motion is negative, {0:.3e} J")]
+    Kinetic(f64),
+}
+
+/// What the end of a run says of its results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Verdict {
+    /// The loading was completed, or a rule that looks at states at rest ended the run.
+    Complete,
+    /// A rule ended the run that does so during breakage as well.
+    AskedFor,
+    /// The user stopped the run, which can be resumed.
+    Stopped,
+    /// No equilibrium was found at a load.
+    NoEquilibrium,
+    /// From here on results cannot be trusted.
+    Invalid,
+    /// The run ended during breakage.
+    Breaking,
+}
+
+/// Row of the table of ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Row {
+    /// Short name for files.
+    pub name: &'static str,
+    /// What the end says of the results.
+    pub verdict: Verdict,
+    /// Whether the run could continue from there, because a rule ended it.
+    pub is_by_rule: bool,
+}
+
+/// The table of ends, of which `Termination::row` and [`ENDS`] are made: name, verdict, and whether the run could continue.
+macro_rules! ends {
+    ($($end:pat => $name:literal, $verdict:ident, $is_by_rule:literal;)*) => {
+        /// All rows of the table of ends.
+        pub const ENDS: &[Row] = &[$(Row {
+            name: $name,
+            verdict: Verdict::$verdict,
+            is_by_rule: $is_by_rule,
+        }),*];
+
+        impl Termination {
+            /// Row of the table of ends.
+            pub fn row(&self) -> Row {
+                use Termination::*;
+                match self {
+                    $($end => Row {
+                        name: $name,
+                        verdict: Verdict::$verdict,
+                        is_by_rule: $is_by_rule,
+                    }),*
+                }
+            }
         }
+    };
+}
+
+ends! {
+    StepsDone => "steps-done", Complete, true;
+    FullLoad => "full-load", Complete, false;
+    EnergyDissipated { .. } => "energy-dissipated", Complete, false;
+    NothingBreaks => "nothing-breaks", Complete, false;
+    FellApart => "fell-apart", Complete, false;
+    LoadFraction { .. } => "load-fraction", Complete, true;
+    DisplacementReached { .. } => "displacement-reached", Complete, true;
+    TimeReached { .. } => "time-reached", Complete, false;
+    BondsBroken { .. } => "bonds-broken", AskedFor, true;
+    WallTime { .. } => "wall-time", AskedFor, true;
+    NoEquilibrium { .. } => "no-equilibrium", NoEquilibrium, false;
+    Unstable { .. } => "unstable", Invalid, false;
+    EnergyGrew { .. } => "energy-grew", Invalid, false;
+    Collapsed | LostStiffness { .. } => "collapsed", Breaking, false;
+    NotAtRest { .. } => "not-at-rest", Breaking, true;
+    Stopped => "stopped", Stopped, true;
+}
+
+/// End of a run, by the use of its results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// The loading was completed, a rule of the case ended the run, or the body separated.
+    Done,
+    /// A signal stopped the run, which can be resumed.
+    Stopped,
+    /// No state under load is in equilibrium: there is no result.
+    NoResult,
+    /// No equilibrium was found at a load, whether or not bonds were breaking; the results end before it.
+    NoEquilibrium,
+    /// The results cannot be trusted from some state on, and end before it.
+    Invalid,
+    /// The run ended during breakage, other than by its user or a rule of its case: the load where it ended has no solution.
+    NotAtRest,
+}
+
+impl Verdict {
+    /// End of a run; `without_equilibrium`: no state under load is at rest; `is_breaking`: the last state is not.
+    pub fn end(self, without_equilibrium: bool, is_breaking: bool) -> End {
+        match self {
+            Self::Stopped => End::Stopped,
+            Self::NoEquilibrium | Self::Invalid | Self::Breaking if without_equilibrium => {
+                End::NoResult
+            }
+            Self::NoEquilibrium => End::NoEquilibrium,
+            Self::Invalid => End::Invalid,
+            Self::Breaking => End::NotAtRest,
+            Self::Complete if is_breaking => End::NotAtRest,
+            Self::Complete | Self::AskedFor => End::Done,
+        }
+    }
+
+    /// Whether a run that ends so has no result at all if no state under load is at rest.
+    pub fn needs_rest(self) -> bool {
+        self.end(true, true) == End::NoResult
+    }
+}
+
+impl End {
+    /// Exit code of the program.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::NoResult | Self::NoEquilibrium | Self::Invalid => 3,
+            Self::Stopped => 4,
+            Self::NotAtRest => 6,
+        }
+    }
+
+    /// Whether studies treat the run as failed.
+    pub fn is_failure(self) -> bool {
+        self.exit_code() == Self::NoResult.exit_code()
     }
 }

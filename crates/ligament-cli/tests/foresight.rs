@@ -467,3 +467,48 @@ fn what_a_crack_will_spend_is_foretold() {
     let line = said(&[&format!("precrack=[{lower},{upper}]")]);
     assert!(line.contains("takes 36.00 mJ (600"), "{line}");
 }
+
+/// Criteria by the stress around bonds have their own words: a crack spends by `rankine`, and by `mohr-coulomb` that softens, what it spends by
+/// `bond-energy`; of brittle bonds with a limit of stress nothing is said about it. The run breaks bonds by the criterion that was asked for.
+#[test]
+fn criteria_of_stress_have_their_own_words() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let load = "displacement = { x = 3e-4 }";
+    let report = |criterion: &str| {
+        let rest = format!(
+            "[fracture]\nsteps = 20\nstop = {{ bonds = 1 }}\n[[fracture.criterion]]\n{criterion}"
+        );
+        let case = bar(load, &rest).replace("[material]", "[material]\ncompressive_strength = 20e6");
+        let (code, told, error) = check(folder, &case, &[]);
+        assert_eq!(code, Some(0), "{error}");
+        let lines = told.lines().map(str::to_owned);
+        let lines = lines.skip_while(|it| it != "failure criteria").skip(1);
+        let lines: Vec<String> = lines.take_while(|it| it.starts_with("  ")).collect();
+        assert!(!told.contains("never break") && !told.contains("no bond"), "{told}");
+        (case, lines)
+    };
+    let spent = |lines: &[String]| {
+        let line = lines.iter().find(|it| it.contains("a crack spends"));
+        line.cloned()
+    };
+    let (_, by_energy) = report("kind = \"bond-energy\"");
+    let by_energy = spent(&by_energy).unwrap();
+    assert!(by_energy.contains("of the fracture_energy"), "{by_energy}");
+    for (kind, after, is_spent) in [
+        ("rankine", "after = \"linear\"", true),
+        ("rankine", "after = \"two-branch\"", true),
+        ("mohr-coulomb", "after = \"linear\"", true),
+        ("mohr-coulomb", "", false),
+        ("bond-rankine", "", false),
+    ] {
+        let (case, lines) = report(&format!("kind = \"{kind}\"\n{after}"));
+        assert!(lines[0].starts_with(&format!("  {kind}")), "{lines:?}");
+        let expected = is_spent.then(|| by_energy.clone());
+        assert_eq!(spent(&lines), expected, "{kind}");
+        fs::write(folder.join("case.toml"), case).unwrap();
+        let output = ligament_in(folder, &["run", "case.toml", "--out", "out", "--force", "-q"]);
+        let by = format!(", by {kind}");
+        assert!(stdout(&output).contains(&by), "{}", stdout(&output));
+    }
+}

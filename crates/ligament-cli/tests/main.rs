@@ -5,6 +5,7 @@ mod cite_command;
 mod columns;
 mod command_line;
 mod crack_command;
+mod ends;
 mod ensemble_command;
 mod explain;
 mod faults;

@@ -1,6 +1,7 @@
 //! `summary.json` of a run, or of an analysis of natural modes; writers and readers share these types.
 
 mod certificate;
+mod end;
 mod modal;
 mod model;
 mod motion;
@@ -22,6 +23,7 @@ use crate::folder::ResultFolder;
 use crate::quantity::{place, quantity};
 
 pub use certificate::CertificateSummary;
+pub use end::{UP_TO_THERE, verdict};
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 pub use motion::{EnergiesSummary, MotionSummary};

@@ -63,12 +63,9 @@ pub(crate) fn case_html(case: &str) -> String {
 }
 
 fn of_steps(summary: Summary) -> InWords {
-    let mut texts = Vec::new();
-    if summary.without_equilibrium {
-        texts.push("There is no equilibrium under any load, so there are no results.");
-    } else if summary.last_state_not_at_rest {
-        texts.push("Not converged: bonds were still breaking in the last state. Ignore it.");
-    }
+    let of_end = summary.warning_of_end();
+    let of_end = of_end.map(|[head, words]| format!("{head}: {words}"));
+    let mut texts: Vec<&str> = of_end.iter().map(String::as_str).collect();
     texts.extend(summary.warnings.iter().map(String::as_str));
     let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);
     let html = tables(

@@ -10,6 +10,7 @@
 //! | [`model`] | the discrete model of a case, with its stages timed and shown |
 //! | [`loading`] | a body under loads, and the rule by which its results are written |
 //! | [`end`] | the end of a run and its exit code |
+//! | [`stability`] | advice about a model that is unstable |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and the display of progress |
 //! | `processes`, `pieces` | the communication of processes, and the output of ranks other than 0 |
@@ -43,6 +44,7 @@ pub mod provenance;
 pub mod repeat;
 pub mod resume;
 pub mod run;
+pub mod stability;
 pub mod stages;
 pub mod summary;
 pub mod watch;

@@ -163,7 +163,7 @@ impl Request<'_> {
             |folder, _| {
                 let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
-                let is_complete = End::from_summary(&summary) != End::Stopped;
+                let is_complete = summary.end() != End::Stopped;
                 Ok((summary, is_complete))
             },
         )?;

@@ -64,7 +64,8 @@ impl Report {
     /// End of the run.
     pub fn end(&self) -> End {
         match self {
-            Self::Loading(summary) => End::from_summary(summary),
+            Self::Loading(summary) => summary.end(),
+            Self::Modes(summary) if summary.unstable => End::Invalid,
             Self::Modes(_) | Self::OfRankZero => End::Done,
         }
     }
@@ -239,7 +240,7 @@ fn follow_loads(
         let body = LoadedBody { case, ..body };
         let summary = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
-        let is_complete = End::from_summary(&summary) != End::Stopped;
+        let is_complete = summary.end() != End::Stopped;
         Ok((summary, is_complete))
     })?;
     Ok(Report::Loading(Box::new(summary)))

@@ -16,11 +16,12 @@ use ligament_analysis::{ProportionalLoading, Termination};
 use ligament_output::quantity::{between, quantity, settled};
 use ligament_output::summary::{
     CertificateSummary, OverlapSummary, PathPoint, Provenance, Spread, StabilitySummary, Stage,
-    Summary, UnitsSummary,
+    Summary, UP_TO_THERE, UnitsSummary,
 };
 
-use crate::end::{End, UP_TO_THERE};
+use crate::end::End;
 use crate::notices::counted;
+use crate::stability;
 use ligament::Model;
 use ligament_case::case::CaseFile;
 
@@ -43,7 +44,10 @@ const ROUNDING: f64 = 1e-9;
 
 /// Description of the end of a run, with points by their tags and positions.
 pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
-    outcome.termination.words(&|point| model.names.place(point))
+    match &outcome.termination {
+        end @ Termination::Unstable { .. } => stability::words(end, model),
+        end => end.words(&|point| model.names.place(point)),
+    }
 }
 
 /// Smallest, mean and largest change of the points' temperature at load factor 1, K.
@@ -85,10 +89,13 @@ pub fn summary(
     };
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
     let scale = |step: &StepRecord| step.external_work.abs().max(step.energy_floor);
-    let work = largest(&mut history.iter().map(scale));
-    let missing = largest(&mut history.iter().map(|step| step.missing_energy().abs()));
-    let is_cut_short = matches!(outcome.termination, Termination::NoEquilibrium { .. });
-    let of_end = (is_cut_short && !without_equilibrium).then(|| UP_TO_THERE.to_owned());
+    let work = largest(&mut outcome.at_rest().map(scale));
+    let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
+    let last_state_not_at_rest = history.last().is_some_and(|last| !last.at_rest);
+    let verdict = outcome.termination.row().verdict;
+    let is_cut_short =
+        verdict.end(without_equilibrium, last_state_not_at_rest) == End::NoEquilibrium;
+    let of_end = is_cut_short.then(|| UP_TO_THERE.to_owned());
     Summary {
         model: model::model_summary(case, model, noted.of_points),
         temperature_change: temperature_change(boundary),
@@ -113,7 +120,7 @@ pub fn summary(
         termination: outcome.termination.name().into(),
         termination_message: ending(outcome, model),
         without_equilibrium,
-        last_state_not_at_rest: history.last().is_some_and(|last| !last.at_rest),
+        last_state_not_at_rest,
         energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
         certificate: noted.certificate,
         overlap: outcome.overlap.map(|it| OverlapSummary {
@@ -156,28 +163,25 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         None if summary.exact_path => format!("{} states of the exact path", summary.steps),
         None => format!("{} load steps", summary.steps),
     };
-    writeln!(
-        out,
-        "  broken bonds       {}{softened} in {of_steps}",
-        summary.broken_bonds
-    )?;
-    writeln!(
-        out,
-        "  energy balance     off by {:.1e} of the work",
-        summary.energy_balance_error
-    )?;
+    let broken = match &summary.certificate {
+        Some(it) if summary.last_state_not_at_rest => format!(
+            "{} up to the last state at rest, and {} more that broke{softened}",
+            it.broken_bonds,
+            summary.broken_bonds - it.broken_bonds
+        ),
+        _ => format!("{}{softened}", summary.broken_bonds),
+    };
+    writeln!(out, "  broken bonds       {broken} in {of_steps}")?;
+    if !summary.without_equilibrium {
+        let off = summary.energy_balance_error;
+        writeln!(out, "  energy balance     off by {off:.1e} of the work")?;
+    }
     if let Some(certificate) = &summary.certificate {
         write_certificate(certificate, out)?;
     }
     writeln!(out, "  ended because      {}", summary.termination_message)?;
-    if summary.without_equilibrium {
-        let none = "there is no equilibrium under any load, so there are no results";
-        writeln!(out, "  NO EQUILIBRIUM     {none}")?;
-    } else if End::from_summary(summary) == End::NoEquilibrium {
-        writeln!(out, "  NO EQUILIBRIUM     {UP_TO_THERE}")?;
-    } else if summary.last_state_not_at_rest {
-        let last = "bonds were still breaking in the last state; ignore it";
-        writeln!(out, "  NOT CONVERGED      {last}")?;
+    if let Some([head, words]) = summary.warning_of_end() {
+        writeln!(out, "  {head:<18} {words}")?;
     }
     for warning in summary.warnings.iter().take(WARNINGS_SHOWN) {
         writeln!(out, "  warning: {warning}")?;

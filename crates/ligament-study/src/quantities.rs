@@ -8,7 +8,7 @@ use serde_json::Value;
 use ligament::suggestion::{hint, nearest};
 use ligament_case::input_file;
 use ligament_output::folder::refuse_link;
-use ligament_run::end::NO_EQUILIBRIUM;
+use ligament_output::summary::verdict;
 
 /// Lists of a summary of which a table of runs has the lengths only.
 const COUNTED: [&str; 1] = ["warnings"];
@@ -157,14 +157,16 @@ impl Quantities {
         }
     }
 
-    /// Reason why the run has no result under load, or none beyond some load, if it ended without equilibrium.
+    /// Reason why the run has no result under load, or none beyond some state, if studies take it as failed.
     pub(crate) fn without_equilibrium(&self) -> Option<String> {
         let reason = self.get("termination_message").and_then(Value::as_str);
         let reason = reason.unwrap_or("no equilibrium was found");
         if self.get("without_equilibrium").is_some_and(|it| it == true) {
             return Some(format!("no result under load: {reason}"));
         }
-        (self.get("termination")? == NO_EQUILIBRIUM).then(|| reason.to_owned())
+        let verdict = verdict(self.get("termination")?.as_str()?);
+        let end = verdict.end(false, self.ends_not_at_rest());
+        end.is_failure().then(|| reason.to_owned())
     }
 
     /// Whether breakage continued in the last state of the run.

@@ -1,5 +1,6 @@
 //! Energy dissipated by a crack through a model under its failure criteria, for comparison with the material's fracture energy.
 
+use ligament_model::failure::Criterion;
 use ligament_model::failure::crack_opening::CrackEnergy;
 
 use crate::model::Model;
@@ -7,11 +8,18 @@ use crate::model::Model;
 /// Energies of cracks that open along x, and along y, through a material of a model.
 ///
 /// Only points count whose families are complete, of the one material, and free to break, so that surfaces, interfaces, far fields and parts
-/// without failure do not contribute. `None` for solids, where there is no such point, without criteria, and for bonds with strains of their own
-/// (`mbb-pd`), whose criteria dissipate the fracture energy by definition.
+/// without failure do not contribute. `None` for solids, where there is no such point, without criteria, for bonds with strains of their own
+/// (`mbb-pd`), whose criteria dissipate the fracture energy by definition, and where bonds break at once by the stress around them, of which an
+/// opening tells nothing.
 pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
     let system = model.system.of_dimension::<2>()?;
-    if model.criteria.list.is_empty() {
+    let list = &model.criteria.list;
+    let softens = |choice| {
+        let mut of_choice = list.iter().filter(|it| it.choice == choice);
+        of_choice.any(|it| it.starting().is_some())
+    };
+    let is_by_stress = |it: &Criterion| it.follows_stress() && !softens(it.choice);
+    if list.is_empty() || list.iter().any(is_by_stress) {
         return None;
     }
     let cloud = &system.cloud;

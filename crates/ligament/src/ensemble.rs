@@ -10,7 +10,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
-use ligament_analysis::Observer;
+use ligament_analysis::{Observer, Termination};
 use ligament_analysis::driver::event::{self, EventSettings};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Outcome, Prepared, Problem};
@@ -113,6 +113,11 @@ impl Ensemble {
             seed,
             breaking,
         })
+    }
+
+    /// End of all samples where the intact model is unstable, unless the setup allows that.
+    pub fn refused(&self) -> Option<Termination> {
+        self.prepared.refused(&self.problem)
     }
 
     /// The model, with the limits of the seed of its setup.

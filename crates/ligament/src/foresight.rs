@@ -29,6 +29,7 @@ pub fn predict(
                 Termination::NoEquilibrium { reason, .. } => {
                     Some(Prediction::NoEquilibrium { part, reason })
                 }
+                end @ Termination::Unstable { .. } => Some(Prediction::Refused(end)),
                 _ => None,
             }
         }

@@ -12,7 +12,7 @@
 //! The first page is [`body`]: points from a mesh, a lattice or arrays. [`formulation`] turns law and corrections into stiffness
 //! ([`direction`] gives it over the direction of a bond), [`loading`] supports and loads into forces and constraints on the points.
 //! [`patch_test`] and [`bending_test`] measure the stiffness of the discrete body, [`crack_energy`] the energy that a crack dissipates,
-//! [`foresight`] predicts the first bond at its limit, and [`plausibility`] finds implausible values. The error of a setup is a
+//! [`foresight`] predicts the first bond at its limit, [`stability`] finds the largest Poisson's ratio of a stable body, and [`plausibility`] finds implausible values. The error of a setup is a
 //! [`SetupError`] that names the field; remarks about a model are [`Warning`]s.
 //!
 //! ```
@@ -76,6 +76,7 @@ pub mod processes;
 pub mod run;
 pub mod setup;
 mod soundness;
+pub mod stability;
 pub mod stage;
 pub mod suggestion;
 pub mod system;

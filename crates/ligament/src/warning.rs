@@ -4,7 +4,7 @@ mod correction;
 mod criteria;
 
 use ligament_model::correction::{CorrectionReport, DomainReport};
-use ligament_model::failure::Criteria;
+use ligament_model::failure::{Choice, Criteria};
 use ligament_model::failure::softening::linear;
 use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
@@ -226,10 +226,12 @@ pub enum Warning {
     },
     /// A criterion of energy with a negative shear stiffness, so that bonds nearly along a crack never reach a limit.
     #[error(
-        "criterion \"bond-energy\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and \
+        "criterion \"{criterion}\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and \
          those nearly along a crack never fail; \"critical-stretch\" breaks them"
     )]
     EnergyGivenBack {
+        /// The criterion.
+        criterion: &'static str,
         /// Poisson's ratio of the material.
         poisson: f64,
         /// Poisson's ratio of central forces.
@@ -451,12 +453,20 @@ fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Warning> {
 }
 
 fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
-    let mut kinds = setup.criteria.iter();
-    let looks_at_energy =
-        kinds.any(|it| (it.kind.measures.iter()).any(|it| it.needs_shear_stiffness()));
+    // Bonds that begin to soften by the stress around them take a negative shear stiffness for none.
+    let by_energy = |it: &&Choice| {
+        let measures = it.kind.measures;
+        measures.iter().any(|it| it.needs_shear_stiffness())
+            && !measures.iter().any(|it| it.takes_stress())
+    };
+    let criterion = setup.criteria.iter().find(by_energy)?.kind.word;
     let (poisson, limit) = poisson_and_limit(setup, material);
     let gives_energy = poisson > limit && !setup.law.row.fixes_poisson;
-    (looks_at_energy && gives_energy).then_some(Warning::EnergyGivenBack { poisson, limit })
+    gives_energy.then_some(Warning::EnergyGivenBack {
+        criterion,
+        poisson,
+        limit,
+    })
 }
 
 fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {

@@ -18,6 +18,9 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     let (mut path, at_one) = Path::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
+    if let Some(end) = path.end_if_unstable()? {
+        return Ok(path.into_outcome(end, Rows::LoadSteps));
+    }
     let nothing = Breakage::default();
     let mut termination = Termination::StepsDone;
     let ends = ends(problem);

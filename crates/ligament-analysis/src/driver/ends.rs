@@ -1,9 +1,13 @@
 //! Ends of a run before its last load: stop rules, and a body that carries no load any more.
 
 use super::path::Path;
-use crate::balanced::Balanced;
+use super::recorder::StepCounters;
+use crate::balanced::{Attempt, Balanced};
+use crate::breakage::Breakage;
+use crate::error::SetupError;
 use crate::history::{Notice, ObserverError, Termination};
 use crate::load_program::{ControlKind, LoadCourse};
+use crate::termination::Verdict;
 use crate::unbalanced::Unbalanced;
 
 /// Fraction of the peak load below which a body carries no load, only rounding.
@@ -39,6 +43,22 @@ impl Path<'_> {
         let given = loads.control_displacement(self.state.load_factor, &self.state.displacement);
         let whole = (self.course.elastic.stiffness * given).abs();
         if peak <= NO_LOAD * whole { whole } else { peak }
+    }
+
+    /// End of a run whose intact model is unstable, unless the problem allows that; the unloaded body is its only record.
+    pub(super) fn end_if_unstable(&mut self) -> Result<Option<Termination>, SetupError> {
+        let Some(end) = self.course.elastic.refused(&self.problem) else {
+            return Ok(None);
+        };
+        self.enter(0, 0)?;
+        if let Attempt::Balanced(unloaded) = self.balance(0, &Breakage::default())? {
+            let counters = StepCounters {
+                at_rest: true,
+                ..Default::default()
+            };
+            self.record(&unloaded, counters, true)?;
+        }
+        Ok(Some(end))
     }
 
     /// Stop rule for broken bonds or wall time that applies at present.
@@ -129,13 +149,8 @@ impl Path<'_> {
     /// equilibrium.
     pub(super) fn report_past_peak(&mut self, end: &Termination) -> Result<(), ObserverError> {
         let is_force = self.problem.loads.control().kind == ControlKind::Force;
-        let gave_way = matches!(
-            end,
-            Termination::NoEquilibrium { .. }
-                | Termination::NotAtRest { .. }
-                | Termination::Collapsed
-                | Termination::LostStiffness { .. }
-        );
+        let verdict = end.row().verdict;
+        let gave_way = matches!(verdict, Verdict::NoEquilibrium | Verdict::Breaking);
         if !is_force || self.is_whole() || !gave_way || self.is_controlled() {
             return Ok(());
         }

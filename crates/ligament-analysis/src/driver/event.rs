@@ -82,6 +82,9 @@ fn run_begun(
     (mut path, at_one): (Path<'_>, Option<State>),
     settings: &EventSettings,
 ) -> Result<Outcome, SetupError> {
+    if let Some(end) = path.end_if_unstable()? {
+        return Ok(path.into_outcome(end, Rows::Events));
+    }
     path.require_resistance(at_one.as_ref())?;
     let is_staged = path.problem.loads.course().is_some();
     let begins_unloaded = is_staged || !path.problem.contact.is_empty();
@@ -120,6 +123,9 @@ pub fn predict(
 ) -> Result<Prediction, SetupError> {
     refuse(problem)?;
     let (path, at_one) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    if let Some(refused) = Prediction::refused(&path) {
+        return Ok(refused);
+    }
     path.require_resistance(at_one.as_ref())?;
     prediction::predict(path, at_one, None)
 }

@@ -24,4 +24,5 @@ pub use course::Restored;
 pub use outcome::{LoadPoint, Outcome, Rows};
 pub use prediction::{FirstFailure, Prediction, StepOfFailure};
 pub use prepared::Prepared;
+pub use start::stability_of;
 pub use stop::StopRules;

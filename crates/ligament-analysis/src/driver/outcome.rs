@@ -68,21 +68,18 @@ impl Outcome {
     /// Whether the run ended without any equilibrium of the loaded body; false for a run that was stopped, which may still reach
     /// one.
     pub fn is_without_equilibrium(&self) -> bool {
-        let is_answer = |step: &StepRecord| step.at_rest && step.step > 0;
-        let ended_so = matches!(
-            self.termination,
-            Termination::NoEquilibrium { .. }
-                | Termination::NotAtRest { .. }
-                | Termination::Collapsed
-                | Termination::LostStiffness { .. }
-        );
-        ended_so && !self.history.iter().any(is_answer)
+        let needs_rest = self.termination.row().verdict.needs_rest();
+        needs_rest && !self.at_rest().any(|it| it.step > 0)
+    }
+
+    /// Records whose numbers are results: those at rest.
+    pub fn at_rest(&self) -> impl DoubleEndedIterator<Item = &StepRecord> {
+        self.history.iter().filter(|it| it.at_rest)
     }
 
     /// Record at rest with the largest reaction.
     pub fn peak(&self) -> Option<LoadPoint> {
-        let at_rest = self.history.iter().filter(|step| step.at_rest);
-        let largest = at_rest.reduce(|best, step| {
+        let largest = self.at_rest().reduce(|best, step| {
             if step.reaction > best.reaction {
                 step
             } else {
@@ -98,9 +95,8 @@ impl Outcome {
     /// Where the exact path returns from a snap-back, the curve drops at the largest displacement so far onto the line through the
     /// origin to the next event; in stages, whose lines do not pass through the origin, the next event follows directly.
     pub fn envelope(&self) -> Vec<LoadPoint> {
-        let at_rest = self.history.iter().filter(|step| step.at_rest);
         let is_proportional = self.history.iter().all(|step| step.factors.is_empty());
-        let points = at_rest.map(LoadPoint::from);
+        let points = self.at_rest().map(LoadPoint::from);
         if self.rows == Rows::LoadSteps {
             return points.collect();
         }

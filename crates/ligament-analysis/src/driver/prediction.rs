@@ -18,7 +18,7 @@ use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;
 use crate::error::SetupError;
-use crate::history::{Notice, ObserverError};
+use crate::history::{Notice, ObserverError, Termination};
 use crate::load_program::{LoadCourse, Part, PartControl, Programme};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
@@ -56,6 +56,8 @@ pub enum Prediction {
         /// Reason for the missing equilibrium.
         reason: Unbalanced,
     },
+    /// The run ends before its first load, because the intact model is unstable.
+    Refused(Termination),
     /// The state is neither proportional to the load nor piecewise linear, so that there is no prediction.
     Nonlinear,
 }
@@ -97,6 +99,14 @@ pub struct StepOfFailure {
     pub steps: usize,
     /// Number of bonds beyond their limits at the end of the step if none broke.
     pub beyond: usize,
+}
+
+impl Prediction {
+    /// Prediction of a run whose intact model is unstable, unless the problem allows that.
+    pub(super) fn refused(path: &Path<'_>) -> Option<Self> {
+        let refused = path.course.elastic.refused(&path.problem);
+        refused.map(Self::Refused)
+    }
 }
 
 impl Path<'_> {

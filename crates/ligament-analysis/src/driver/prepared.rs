@@ -5,7 +5,7 @@ use super::start::{Start, begin};
 use super::stop::StopRules;
 use crate::equilibrium::{Equilibrium, IntactEquilibrium};
 use crate::error::SetupError;
-use crate::history::Observer;
+use crate::history::{Observer, Termination};
 use crate::problem::Problem;
 use crate::state::State;
 
@@ -36,6 +36,12 @@ impl Prepared {
             energy_tolerance,
             shared: equilibrium.intact().map(|it| (it, start)),
         })
+    }
+
+    /// End of all runs where the intact model is unstable, unless the problem allows that.
+    pub fn refused(&self, problem: &Problem) -> Option<Termination> {
+        let (_, start) = self.shared.as_ref()?;
+        start.elastic.refused(problem)
     }
 
     /// Whether the runs share the factor.

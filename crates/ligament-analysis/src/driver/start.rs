@@ -7,7 +7,7 @@ use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::gauges;
-use crate::history::{Ahead, Notice, Observer, ObserverError, StepRecord, View};
+use crate::history::{Ahead, Notice, Observer, ObserverError, StepRecord, Termination, View};
 use crate::problem::Problem;
 use crate::serial;
 use crate::state::State;
@@ -106,6 +106,9 @@ fn begin_proportional(
         report_mechanisms(0, &balanced, observer)?;
         start.unloaded.held.clone_from(&at_one.held);
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
+        if start.elastic.refused(problem).is_some() {
+            return Ok(start);
+        }
         match is_deformed(problem, &at_one, &balanced) {
             true => start.deformed = Some(balanced),
             false => observer.notice(&Notice::Undeformed)?,
@@ -123,6 +126,28 @@ fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
     let is_heated = temperatures.iter().any(|change| *change != 0.0);
     let rounding = balanced.energy_floor / at_one.displacement.len() as f64;
     is_heated || rounding == 0.0 || balanced.stored_energy.abs() > rounding
+}
+
+impl ElasticAnswer {
+    /// End of a run where the intact model is unstable, unless the problem allows that.
+    pub(super) fn refused(&self, problem: &Problem) -> Option<Termination> {
+        let stability = self.stability.filter(Stability::is_unstable)?;
+        let Stability { negative, expected } = stability;
+        let end = Termination::Unstable { negative, expected };
+        (!problem.solver.allows_unstable).then_some(end)
+    }
+}
+
+/// Inertia of the intact stiffness of a problem, from one factorisation and one solution; None where it cannot be indefinite, or where there
+/// is no factor.
+///
+/// # Errors
+///
+/// If the equations cannot be set up.
+pub fn stability_of(problem: &Problem) -> Result<Option<Stability>, SetupError> {
+    let mut equilibrium = Equilibrium::new(problem, f64::INFINITY)?;
+    let start = begin(problem, &mut equilibrium, &mut NoObserver)?;
+    Ok(start.elastic.stability)
 }
 
 impl Start {
@@ -163,8 +188,10 @@ fn stability(
         return Ok(None);
     }
     let stability = equilibrium.stability(state)?;
+    // A refused model is the end of the run, which says so.
     if let Some(Stability { negative, expected }) = stability
         && negative != expected
+        && problem.solver.allows_unstable
     {
         observer.notice(&Notice::Unstable { negative, expected })?;
     }

@@ -68,10 +68,13 @@ pub fn run_from(
 
 /// Follows the load program from the unloaded body; with its equilibrium at load factor one, if there is one.
 fn run_begun(
-    begun: (Path<'_>, Option<State>),
+    (mut path, at_one): (Path<'_>, Option<State>),
     settings: &SteppedSettings,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, _, plan) = planned(begun, settings)?;
+    if let Some(end) = path.end_if_unstable()? {
+        return Ok(path.into_outcome(end, Rows::LoadSteps));
+    }
+    let (mut path, _, plan) = planned((path, at_one), settings)?;
     path.soften();
     let mut stepping = Stepping {
         path,
@@ -94,6 +97,9 @@ pub fn predict(
     observer: &mut dyn Observer,
 ) -> Result<Prediction, SetupError> {
     let begun = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    if let Some(refused) = Prediction::refused(&begun.0) {
+        return Ok(refused);
+    }
     let (path, at_one, plan) = planned(begun, settings)?;
     let factors: Vec<f64> = plan.iter().skip(1).map(|it| it.load_factor).collect();
     prediction::predict(path, at_one, Some(&factors))

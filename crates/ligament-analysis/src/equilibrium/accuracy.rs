@@ -90,6 +90,13 @@ impl Accuracy {
         self.subdomain.max(largest_displacement(layout, state))
     }
 
+    /// Whether a point has moved farther than so many times the size of the body or the prescribed motions.
+    pub(super) fn moves_beyond(&self, layout: Layout, state: &State, times: f64) -> bool {
+        let prescribed = self.subdomain.max(self.largest_prescribed(state));
+        let limit = self.size.max(prescribed);
+        self.largest_displacement(layout, state) > times * limit
+    }
+
     /// Replaces the loads.
     pub(super) fn load_with(&mut self, loads: &dyn LoadProgram) {
         self.loaded = loaded(loads);

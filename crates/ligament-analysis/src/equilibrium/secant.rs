@@ -45,6 +45,10 @@ const CARRIED_AFTER: usize = 60;
 /// drop in which bonds alternate, and damage that only grows terminates.
 const ONE_WAY_AFTER: usize = 150;
 
+/// Number of iterations from which a state may count as diverging, and how many times farther than the body is large, or its supports move
+/// it, some point has then moved. Before that a part that hangs by nothing may have moved as far, and is held.
+const DIVERGING: (usize, f64) = (20, 1e6);
+
 /// Brings a state with softening bonds into equilibrium at its load factor.
 ///
 /// Every iterate determines the remaining stiffness of the bonds. The secants are positive, so that the secant stiffness K_s is
@@ -112,7 +116,10 @@ fn sought(
             equations.earlier = earlier;
             return Ok(equations.settled(iterate, iterations, mechanisms));
         }
-        if iterations == ITERATION_LIMIT || !residual.relative.is_finite() {
+        let layout = equations.problem.system.layout();
+        let diverges = iterations >= DIVERGING.0
+            && (equations.accuracy).moves_beyond(layout, state, DIVERGING.1);
+        if iterations == ITERATION_LIMIT || diverges || !residual.relative.is_finite() {
             return Ok(equations.not_settled(&residual, iterations));
         }
         previous_energy = iterate.stored_energy;

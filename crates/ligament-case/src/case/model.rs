@@ -35,6 +35,11 @@ pub struct ModelSection {
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0), extend("default" = 0.0))]
     pub closing_friction: f64,
+    /// Whether a run goes on where the intact model is unstable, with more negative eigenvalues than its rotations explain; its results are
+    /// then not to be trusted.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[schemars(extend("default" = false))]
+    pub allow_unstable: bool,
     /// Where the constants of the law come from.
     #[schemars(extend("description" = of_laws("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
     pub calibration: Option<Word<Calibration>>,

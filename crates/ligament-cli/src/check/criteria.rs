@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
+use ligament_model::failure::starting::Starting;
 use ligament_model::failure::{Choice, Criterion};
 use ligament_model::scatter::{Distribution, Scatter, Scattered};
 use ligament_output::quantity::{between, four_digits, quantity};
@@ -22,11 +23,13 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         return Ok(());
     }
     writeln!(out, "failure criteria")?;
-    let given = model.setup.criteria.iter();
-    let given = given.flat_map(|it| std::iter::repeat_n(it, it.kind.measures.len()));
-    for (given, criterion) in given.zip(&model.criteria.list) {
-        write_limits(out, criterion)?;
-        if given.spends_fracture_energy() {
+    for criterion in &model.criteria.list {
+        match criterion.starting() {
+            Some(starting) => write_start(out, criterion, starting)?,
+            None => write_limits(out, criterion)?,
+        }
+        let given = model.setup.criteria.get(criterion.choice);
+        if given.is_some_and(Choice::spends_fracture_energy) {
             write_energy(out, model, criterion)?;
         }
     }
@@ -141,6 +144,26 @@ fn write_scatter(
         "{distribution}, {correlation}, seed {seed}: factors {min:.4} to {max:.4}, deviation {deviation:.2} %"
     );
     entry(out, name, words)
+}
+
+/// Writes where bonds begin to soften by the stress around them, and what they take then.
+fn write_start(
+    out: &mut dyn Write,
+    criterion: &Criterion,
+    starting: &Starting,
+) -> io::Result<()> {
+    let finite = |values: &[f64]| Range::over(values.iter().copied().filter(|it| it.is_finite()));
+    let both = finite(starting.strengths()).zip(finite(starting.critical_stretches()));
+    let Some((strength, critical)) = both else {
+        return writeln!(out, "  {:<21} no limit: no bond can fail", criterion.name);
+    };
+    writeln!(
+        out,
+        "  {:<21} begins at {} = {strength} around a bond; {}; takes what a brittle bond takes up to the stretch {critical}",
+        criterion.name,
+        starting.formula(),
+        criterion.after.law().force,
+    )
 }
 
 fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {

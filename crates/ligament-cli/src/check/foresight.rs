@@ -11,6 +11,7 @@ use ligament_output::quantity::{four_digits, place, quantity};
 use ligament_run::memory;
 use ligament_run::model::Model;
 use ligament_run::notices::words;
+use ligament_run::stability;
 use ligament_run::stages::Stages;
 
 use super::Extent;
@@ -25,7 +26,16 @@ const ROUNDING: f64 = 1e-12;
 /// Largest number of unknowns for which the prediction without a factor is made by default, some seconds on one processor.
 const MOST_UNKNOWNS: usize = 300_000;
 
-/// Writes the first bond at its limit, and returns the notices of a run before its first load step.
+/// What a run would tell before its first load step.
+#[derive(Default)]
+pub(super) struct Foreseen {
+    /// Notices of the run.
+    pub(super) notices: Vec<String>,
+    /// Reason why the run would end there.
+    pub(super) refused: Option<String>,
+}
+
+/// Writes the first bond at its limit, and returns what a run would tell before its first load step.
 ///
 /// # Errors
 ///
@@ -37,7 +47,7 @@ pub(super) fn write(
     problem: &Problem,
     too_costly: Option<String>,
     stages: &mut Stages,
-) -> anyhow::Result<Vec<String>> {
+) -> anyhow::Result<Foreseen> {
     let analysis = &model.setup.analysis;
     if let Some(reason) = too_costly {
         let name = match analysis.is_fracture() {
@@ -45,22 +55,32 @@ pub(super) fn write(
             false => "first solution",
         };
         entry(out, name, format!("not computed: {reason}"))?;
-        return Ok(Vec::new());
+        return Ok(Foreseen::default());
     }
     let mut notices = Notices::default();
     let prediction = stages.time("first solution", || {
         predict(problem, analysis, &mut notices)
     });
-    if let Some(prediction) = prediction.map_err(|it| case.explained(it))? {
-        write_prediction(out, model, problem, &prediction)?;
-    }
+    let refused = match prediction.map_err(|it| case.explained(it))? {
+        Some(Prediction::Refused(end)) => {
+            Some(stages.time("stability", || stability::words(&end, model)))
+        }
+        Some(prediction) => {
+            write_prediction(out, model, problem, &prediction)?;
+            None
+        }
+        None => None,
+    };
     // Free rigid motions are reported with the supports.
     let told = notices
         .0
         .iter()
         .filter(|it| !matches!(it, Notice::FreeBody(_)));
     let words = |it| words(it, model.body(), &model.setup);
-    Ok(told.map(words).collect())
+    Ok(Foreseen {
+        notices: told.map(words).collect(),
+        refused,
+    })
 }
 
 /// Reason why the prediction is not made by default, if it is too costly.
@@ -127,6 +147,8 @@ fn write_prediction(
                 "warning: the intact body has no equilibrium under the loads{at}: {reason}"
             )
         }
+        // The reason is the end of the check.
+        Prediction::Refused(_) => Ok(()),
         Prediction::Nonlinear => entry(
             out,
             name,

@@ -21,16 +21,17 @@ use ligament_run::summary::temperature_change;
 
 use super::body::write_group;
 use super::entry::{entry, megabytes, spread};
+use super::foresight::Foreseen;
 use super::{Extent, equations, foresight, model, restraints};
 
-/// Checks supports, loads and equations, and returns the notices of a run before its first load step.
+/// Checks supports, loads and equations, and returns what a run would tell before its first load step.
 pub(super) fn check(
     case: &CaseFile,
     extent: Extent,
     model: &Model,
     stages: &mut Stages,
     out: &mut dyn Write,
-) -> anyhow::Result<Vec<String>> {
+) -> anyhow::Result<Foreseen> {
     let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;
     loading.solver.memory = memory::for_factor(case, &*model.system);
@@ -60,7 +61,7 @@ pub(super) fn check(
     }
     refuse(&problem, &model.setup.analysis).map_err(|it| case.explained(it))?;
     let Some(equilibrium) = equilibrium else {
-        return Ok(Vec::new());
+        return Ok(Foreseen::default());
     };
     let too_costly = foresight::too_costly(case, extent, &problem, &equilibrium);
     drop(equilibrium);

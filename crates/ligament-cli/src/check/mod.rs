@@ -37,17 +37,19 @@ use ligament_run::stages::Stages;
 
 use entry::{entry, megabytes};
 pub use extent::Extent;
+use foresight::Foreseen;
 
 /// Name of the file with the fields of the points.
 pub const FIELDS: &str = "points.vtu";
 
-/// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it.
+/// Builds the model of a case and reports it; with a folder, writes `points.vtu` with all fixed fields into it. Returns the reason why a run
+/// would end before its first load, if it would.
 pub fn check(
     case: &CaseFile,
     extent: Extent,
     fields: Option<&Path>,
     out: &mut (dyn Write + Send),
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Option<String>> {
     on_threads(case.threads(), || check_here(case, extent, fields, out))?
 }
 
@@ -57,7 +59,7 @@ fn check_here(
     extent: Extent,
     fields: Option<&Path>,
     out: &mut dyn Write,
-) -> anyhow::Result<()> {
+) -> anyhow::Result<Option<String>> {
     let mut stages = Stages::default();
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut stages, &progress)?;
@@ -71,15 +73,15 @@ fn write_report(
     fields: Option<&Path>,
     (model, mut stages): (&Model, Stages),
     out: &mut dyn Write,
-) -> anyhow::Result<()> {
-    let noticed = match model.setup.analysis {
+) -> anyhow::Result<Option<String>> {
+    let Foreseen { notices, refused } = match model.setup.analysis {
         Analysis::Modal(settings) => {
             modal::check(case, settings, extent, model, &mut stages, out)?;
-            Vec::new()
+            Foreseen::default()
         }
         Analysis::Motion(ref settings) => {
             motion::check(case, settings, extent, model, &mut stages, out)?;
-            Vec::new()
+            Foreseen::default()
         }
         Analysis::Elastic { .. } | Analysis::Stepped(_) | Analysis::Event(_) => {
             loading::check(case, extent, model, &mut stages, out)?
@@ -97,7 +99,7 @@ fn write_report(
         )?;
     }
     let warnings = model.warnings.iter().map(ToString::to_string);
-    for warning in counted(warnings.chain(noticed)) {
+    for warning in counted(warnings.chain(notices)) {
         writeln!(out, "warning: {warning}")?;
     }
     if let Some(warning) = too_stiff {
@@ -118,7 +120,7 @@ fn write_report(
         point_grid(&path, &grid, points)?;
         writeln!(out, "fields written to {}", path.display())?;
     }
-    Ok(())
+    Ok(refused)
 }
 
 /// Writes time and memory of the check and the available disk space, the part of the report that varies.

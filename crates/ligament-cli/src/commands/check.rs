@@ -1,9 +1,12 @@
 //! `ligament check`.
 
+use std::io::Write;
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use clap::Args;
 use ligament_output::check_file;
+use ligament_run::end::End;
 
 use super::case_args::CaseArgs;
 use super::output;
@@ -40,7 +43,7 @@ pub struct CheckArgs {
 
 impl CheckArgs {
     /// Does it.
-    pub(super) fn execute(self) -> anyhow::Result<()> {
+    pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         if let Some(folder) = &self.out {
             check_file(&folder.join(FIELDS), self.force)?;
         }
@@ -50,6 +53,13 @@ impl CheckArgs {
             (false, false) => Extent::Matrix,
             (false, true) => Extent::PatchTest,
         };
-        check(&case, extent, self.out.as_deref(), &mut terminal::stdout())
+        let out = &mut terminal::stdout();
+        let Some(reason) = check(&case, extent, self.out.as_deref(), out)? else {
+            return Ok(ExitCode::SUCCESS);
+        };
+        out.flush()?;
+        writeln!(terminal::stderr(), "error: no result under load: {reason}")?;
+        // A run would end with the same code.
+        Ok(ExitCode::from(End::NoResult.exit_code()))
     }
 }

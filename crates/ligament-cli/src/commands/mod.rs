@@ -230,7 +230,7 @@ impl Cli {
             Command::Repeat(args) => return args.execute(),
             Command::Sweep(args) => args.execute(program),
             Command::Ensemble(args) => return args.execute(),
-            Command::Check(args) => args.execute(),
+            Command::Check(args) => return args.execute(),
             Command::Calibrate(args) => args.execute(),
             Command::Explain(args) => args.execute(),
             Command::Plot(args) => args.execute(),

@@ -34,7 +34,7 @@ Exit codes:
   0  done
   1  error
   2  wrong usage
-  3  no equilibrium under any load, or beyond some load
+  3  no equilibrium under any load, or beyond some load; or an unstable model, or a motion whose energy grew: do not trust it
   4  stopped by a signal
   6  collapsed, or ended while bonds were breaking: ignore the last state";
 

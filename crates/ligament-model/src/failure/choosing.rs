@@ -41,6 +41,7 @@ pub fn criteria<const D: usize>(
                     [_] => kind.word,
                     _ => measure.word(),
                 }),
+                choice: place,
                 measure,
                 after: match limits.is_brittle {
                     true => AfterLimit::new(brittle::LAW, Vec::new()),

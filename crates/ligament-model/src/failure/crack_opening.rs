@@ -19,6 +19,7 @@
 //! whose ends are apart across the crack by a quarter of the distance of points at least (`PASSED`), the others as never broken.
 
 use super::criterion::{Criteria, Criterion};
+use super::starting::Surface;
 use super::weakened::Weakened;
 use crate::element::BondDeformation;
 use crate::system::BondSystem;
@@ -90,7 +91,14 @@ fn taken(
 ) -> Option<f64> {
     let ends = criteria.list.iter().filter_map(|criterion| {
         let measure = criterion.measure(bond, growing);
-        let end = criterion.break_limit(bond) / measure;
+        let limit = match criterion.starting() {
+            // An opening pulls, and does not come to the surface of shear.
+            Some(starting) if starting.surface != Surface::Tension => f64::INFINITY,
+            // Wherever the bond begins, it takes what a brittle bond with its fracture energy does.
+            Some(starting) => starting.critical[bond],
+            None => criterion.break_limit(bond),
+        };
+        let end = limit / measure;
         (measure > 0.0 && end.is_finite()).then_some((end, criterion))
     });
     let (end, first) = ends.min_by(|(one, _), (other, _)| one.total_cmp(other))?;
@@ -104,6 +112,14 @@ fn by_criterion(
     bond: usize,
     last: &BondDeformation,
 ) -> f64 {
+    let rigidities = &system.rigidities;
+    let squares = [
+        rigidities.axial[bond] * last.stretch().powi(2),
+        rigidities.shear[bond] * last.shear().powi(2),
+    ];
+    if criterion.starting().is_some() {
+        return 0.5 * (squares[0] + squares[1]);
+    }
     let after = &criterion.after;
     // Of the elastic energy at the end of the law, that at the limit is 1/end^2, of which the law takes `total` times.
     let softened = after.total_dissipated(bond) / after.end(bond).powi(2);
@@ -111,7 +127,5 @@ fn by_criterion(
         Weakened::Opening | Weakened::Crushing | Weakened::Whole => [softened; 2],
         Weakened::Sliding => [1.0, softened],
     };
-    let rigidities = &system.rigidities;
-    0.5 * (axial * rigidities.axial[bond] * last.stretch().powi(2)
-        + shear * rigidities.shear[bond] * last.shear().powi(2))
+    0.5 * (axial * squares[0] + shear * squares[1])
 }

@@ -17,8 +17,10 @@ use crate::stress::point_strain::StrainAround;
 /// A failure criterion with its limits.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
-    /// Name of the criterion in results.
+    /// Name of the criterion in results, which begins with the word of its kind.
     pub name: &'static str,
+    /// Place of its choice among those of the criteria.
+    pub choice: usize,
     /// Measure of the deformation that has the limit.
     pub measure: Measure,
     /// Limit of each bond; infinite where it never fails, shape (n_bonds).
@@ -38,6 +40,7 @@ impl Criterion {
     pub fn brittle(name: &'static str, measure: Measure, limit: Vec<f64>) -> Self {
         Self {
             name,
+            choice: 0,
             measure,
             limit: limit.into(),
             coefficient: Arc::default(),

@@ -133,6 +133,7 @@ impl Criteria {
             *criterion = Criterion {
                 stress: Stresses::new(utilisations.iter().map(stress).collect()),
                 surroundings: Some(Arc::new(Surroundings::Stress)),
+                choice: criterion.choice,
                 ..Criterion::brittle(criterion.name, Measure::NormalStress, limit)
             };
         }

@@ -136,22 +136,28 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         [lateral, shear, bar, along, slopes[material]]
     });
     if !choice.after.law.softens {
-        return Ok(vec![tensile(basis), sheared]);
+        return Ok(named([(tensile(basis), TENSION), (sheared, SHEAR)]));
     }
     let [never_pulled, pulled] = rankine::of_tension(basis, &[2, 1]);
     let [never_sheared, sheared] = of_shear(basis, sheared);
-    Ok(vec![
-        never_pulled,
-        never_sheared,
-        Limits {
-            name: Some("tension-softening"),
-            ..pulled
-        },
-        Limits {
-            name: Some("shear-softening"),
-            ..sheared
-        },
-    ])
+    Ok(named([
+        (never_pulled, "mohr-coulomb-tension-at-once"),
+        (never_sheared, "mohr-coulomb-shear-at-once"),
+        (pulled, TENSION),
+        (sheared, SHEAR),
+    ]))
+}
+
+/// Names of failure by tension and by shear in results; of bonds that soften, those that never began break at once.
+const TENSION: &str = "mohr-coulomb-tension";
+const SHEAR: &str = "mohr-coulomb-shear";
+
+fn named<const N: usize>(limits: [(Limits, &'static str); N]) -> Vec<Limits> {
+    let name = |(limits, name)| Limits {
+        name: Some(name),
+        ..limits
+    };
+    limits.into_iter().map(name).collect()
 }
 
 /// Limits of bonds that never began to soften by shear, and of those that did, from the limits c/E' where bonds begin.

@@ -58,7 +58,13 @@ pub(super) fn check(choice: &Choice) -> Result<(), Unfit> {
 /// Limits of bonds that never began to soften, and of those that did: none before they do.
 fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let [never_began, begun] = of_tension(basis, &[1]);
-    Ok(vec![never_began, begun])
+    let name = Some("rankine-at-once");
+    let never_began = Limits {
+        name,
+        ..never_began
+    };
+    let name = Some(RANKINE.word);
+    Ok(vec![never_began, Limits { name, ..begun }])
 }
 
 /// Limits of bonds that never began to soften by tension, and of those that did; places of all criteria of bonds that never began, counted

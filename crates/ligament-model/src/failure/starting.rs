@@ -41,6 +41,24 @@ pub struct Starting {
 }
 
 impl Starting {
+    /// F_t/E' or c/E' of each bond, shape (n_bonds); infinite where a bond never fails.
+    pub fn strengths(&self) -> &[f64] {
+        &self.strength
+    }
+
+    /// Critical stretch of each bond if it were brittle with the fracture energy that it takes, shape (n_bonds).
+    pub fn critical_stretches(&self) -> &[f64] {
+        &self.critical
+    }
+
+    /// What comes to the strength, over E' in plain text.
+    pub fn formula(&self) -> &'static str {
+        match self.surface {
+            Surface::Tension => "sigma_1/E'",
+            Surface::Shear { .. } => "(|tau| + sigma_n tan(phi))/E' on some plane",
+        }
+    }
+
     /// F_t/E' or c/E' of a bond, and its moduli.
     pub(crate) fn strength(&self, bond: usize) -> (f64, &Moduli) {
         (self.strength[bond], &self.moduli[bond])

@@ -72,7 +72,7 @@ columns! { "Columns of every history."
     "at_rest" "" ANY
         "1 if no bond was left to break; 0 in the last row of a run that ended before. That row is the last equilibrium on the way of a \
          body that was breaking, under a load that it does not carry: after a collapse its displacements may be as large as the body, \
-         and neither they nor the energies beside them are those of a test" => |it| usize::from(it.at_rest).into();
+         and neither they nor the energies beside them are those of a test; of a motion it is the first that is not to be trusted" => |it| usize::from(it.at_rest).into();
     "negative_eigenvalues" "" ANY
         "negative eigenvalues of the stiffness; 0 where it is positive definite" => |it| it.negative_eigenvalues.into();
     "dissipated_energy" "J" ANY

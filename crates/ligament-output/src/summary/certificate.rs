@@ -6,15 +6,19 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default)]
 pub struct CertificateSummary {
+    /// Number of the last state at rest, which all values describe.
+    pub step: usize,
+    /// Number of bonds broken up to there.
+    pub broken_bonds: usize,
     /// Work of supports and loads, J.
     pub work: f64,
-    /// Energy stored in the bonds at the end, J.
+    /// Energy stored in the bonds, J.
     pub stored: f64,
     /// Energy that breakages took out of the body, J: what bonds dissipated, and what would have become motion.
     pub released: f64,
     /// Energy that the laws of the bonds dissipated, J.
     pub dissipated: f64,
-    /// Area of the cracks at the end, m^2, of bonds that broke or have less than a tenth of their force left; none without cracks, of a divided
+    /// Area of the cracks, m^2, of bonds that broke or have less than a tenth of their force left; none without cracks, of a divided
     /// body, and of one with more points than are traced in a moment.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub crack_area: Option<f64>,

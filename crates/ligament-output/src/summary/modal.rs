@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::values::{Text, number};
-use super::{ModelSummary, Provenance, SolverSummary, StabilitySummary, Stage};
+use super::{ModelSummary, Provenance, SolverSummary, StabilitySummary, Stage, is_false};
 
 /// Summary of a modal analysis. Keys that an earlier version did not write have their default.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -28,6 +28,9 @@ pub struct ModalSummary {
     pub modes: Vec<ModeSummary>,
     /// Shares of all modes together in the mass free to move along the axes, and in its inertia.
     pub effective_shares: Vec<f64>,
+    /// Whether the model is unstable, and the case does not allow that: the modes are not to be trusted.
+    #[serde(skip_serializing_if = "is_false")]
+    pub unstable: bool,
     /// Numbers of negative eigenvalues of the stiffness, found and expected from the rotations, where Poisson's ratio is large.
     pub stability: Option<StabilitySummary>,
     /// The solver and its work.

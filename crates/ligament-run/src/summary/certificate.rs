@@ -7,6 +7,7 @@ use std::path::Path;
 use ligament::Model;
 use ligament::setup::Analysis;
 use ligament_analysis::driver::{Outcome, Rows};
+use ligament_analysis::history::StepRecord;
 use ligament_output::csv::read::Sheet;
 use ligament_output::quantity::{four_digits, quantity};
 use ligament_output::results::cracks::StoredCracks;
@@ -16,7 +17,7 @@ use ligament_output::summary::CertificateSummary;
 /// Largest number of points of a body whose cracks are traced at the end of a run, which takes a second.
 const MOST_POINTS: usize = 100_000;
 
-/// Certificate of a run whose tables are complete in a folder; none of a motion.
+/// Certificate of the last state at rest of a run whose tables are complete in a folder; none of a motion, and of a run without a result.
 ///
 /// # Errors
 ///
@@ -26,21 +27,23 @@ pub(crate) fn certificate(
     model: &Model,
     outcome: &Outcome,
 ) -> Result<Option<CertificateSummary>, ligament_output::Error> {
-    let Some(last) = outcome
-        .history
-        .last()
-        .filter(|_| outcome.rows != Rows::Times)
-    else {
+    let last = outcome.at_rest().next_back();
+    let is_result = |_: &&StepRecord| {
+        outcome.rows != Rows::Times && !outcome.is_without_equilibrium()
+    };
+    let Some(last) = last.filter(is_result) else {
         return Ok(None);
     };
-    let is_cracked = outcome.broken_bonds > 0 || outcome.softened_bonds > 0;
+    let is_cracked = last.broken_bonds > 0 || outcome.softened_bonds > 0;
     let is_traced = model.system.subdomain().is_whole() && model.system.n_points() <= MOST_POINTS;
     let area = match is_cracked && is_traced {
         // A body whose points have no cells has no faces along which a crack could be traced.
-        true => crack_area(folder).ok().filter(|area| *area > 0.0),
+        true => crack_area(folder, last.step).ok().filter(|area| *area > 0.0),
         false => None,
     };
     Ok(Some(CertificateSummary {
+        step: last.step,
+        broken_bonds: last.broken_bonds,
         work: last.external_work,
         stored: last.stored_energy,
         released: last.released_energy,
@@ -48,28 +51,43 @@ pub(crate) fn certificate(
         crack_area: area,
         dissipated_per_area: area.map(|area| last.dissipated_energy / area),
         fracture_energy: model.setup.spent_fracture_energy(),
-        largest_residual: largest_residual(&folder.join("iterations.csv"))?,
+        largest_residual: largest_residual(&folder.join("iterations.csv"), until(outcome, last))?,
         ties: ties(&folder.join("breaks.csv"), tie_tolerance(model, outcome))?,
     }))
 }
 
-/// Area of the cracks in the last state, m^2.
-fn crack_area(folder: &Path) -> Result<f64, ligament_output::Error> {
+/// Step and round of the last solution that a run found up to its last record at rest.
+fn until(outcome: &Outcome, last: &StepRecord) -> (usize, usize) {
+    let is_last = outcome.history.last().is_some_and(|it| it.at_rest);
+    // A record of the exact path is the state before its bonds break in the first round.
+    let rounds = match outcome.rows == Rows::Events && !is_last {
+        true => 0,
+        false => usize::MAX,
+    };
+    (last.step, rounds)
+}
+
+/// Area of the cracks in the state of a step, m^2.
+fn crack_area(folder: &Path, step: usize) -> Result<f64, ligament_output::Error> {
     if has_solid(folder)? {
-        return Ok(SolidCracks::open(folder)?.surface(usize::MAX).area());
+        return Ok(SolidCracks::open(folder)?.surface(step).area());
     }
     let cracks = StoredCracks::open(folder)?;
-    let lines = cracks.lines(usize::MAX);
+    let lines = cracks.lines(step);
     Ok(cracks.thickness * lines.iter().map(|line| line.length()).sum::<f64>())
 }
 
-/// Largest residual of the last iteration of each round; none without iterations.
-fn largest_residual(path: &Path) -> Result<Option<f64>, ligament_output::Error> {
+/// Largest residual of the last iteration of each round up to a step and a round; none without iterations.
+fn largest_residual(
+    path: &Path,
+    until: (usize, usize),
+) -> Result<Option<f64>, ligament_output::Error> {
     let mut ends = BTreeMap::new();
     for [step, round, residual] in Sheet::read(path)?.numbers(["step", "round", "residual"])? {
         ends.insert((step as usize, round as usize), residual);
     }
-    Ok(ends.into_values().reduce(f64::max))
+    let found = ends.into_iter().filter(|(place, _)| *place <= until);
+    Ok(found.map(|(_, residual)| residual).reduce(f64::max))
 }
 
 /// Relative difference of utilisations up to which the run took bonds as tied.
@@ -139,9 +157,12 @@ mod tests {
     fn the_largest_residual_is_that_of_a_state_found() {
         let rows = "step,round,iteration,residual\n1,1,1,0.5\n1,1,2,1e-9\n1,2,1,1e-8\n2,1,1,3e-9\n";
         let (_folder, path) = file(rows);
-        assert_eq!(largest_residual(&path).unwrap(), Some(1e-8));
+        let all = (2, usize::MAX);
+        assert_eq!(largest_residual(&path, all).unwrap(), Some(1e-8));
+        // The second round did not find its state.
+        assert_eq!(largest_residual(&path, (1, 1)).unwrap(), Some(1e-9));
         let (_folder, path) = file("step,round,iteration,residual\n");
-        assert_eq!(largest_residual(&path).unwrap(), None);
+        assert_eq!(largest_residual(&path, all).unwrap(), None);
     }
 
     /// Equal utilisations are ties within a round alone.

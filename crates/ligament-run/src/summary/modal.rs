@@ -13,6 +13,7 @@ use crate::notices::counted;
 
 use super::model::{OfPoints, heading, model_summary};
 use super::solver::solver_summary;
+use crate::stability;
 use ligament::Model;
 use ligament_case::case::CaseFile;
 
@@ -25,6 +26,7 @@ pub fn modal_summary(
     stages: &[Stage],
 ) -> ModalSummary {
     let moving = &outcome.moving;
+    let is_unstable = outcome.stability.is_some_and(|it| it.is_unstable());
     let summary = |(index, mode): (usize, &Mode)| ModeSummary {
         mode: index + 1,
         kind: mode.kind.name().into(),
@@ -50,6 +52,7 @@ pub fn modal_summary(
             .map(|k| modes.iter().map(|mode| mode.effective_shares[k]).sum())
             .collect(),
         modes,
+        unstable: is_unstable && !model.setup.solver.allows_unstable,
         stability: outcome.stability.map(StabilitySummary::from),
         solver: solver_summary(&outcome.costs, &SolverChoice::Direct(outcome.solver)),
         provenance: Some(provenance),
@@ -103,6 +106,10 @@ pub fn write_modal(summary: &ModalSummary, out: &mut dyn Write) -> io::Result<()
             out,
             "  counted            no mode below the highest is missing"
         )?;
+    }
+    if summary.unstable {
+        let remedy = stability::remedy(None);
+        writeln!(out, "  NOT TO BE TRUSTED  the model is unstable; {remedy}")?;
     }
     for warning in &summary.warnings {
         writeln!(out, "  warning: {warning}")?;

@@ -15,7 +15,7 @@ pub(super) fn motion_summary(analysis: &Analysis, outcome: &Outcome) -> Option<M
     let Analysis::Motion(settings) = analysis else {
         return None;
     };
-    let last = outcome.history.last()?;
+    let last = outcome.at_rest().next_back()?;
     let motion = last.motion?;
     let (time, time_steps) = (last.load_factor, motion.time_steps);
     let explicit = match &outcome.solver {

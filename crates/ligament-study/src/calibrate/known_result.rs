@@ -118,6 +118,7 @@ fn complete_modal_summary() -> ModalSummary {
         complete: None,
         modes: vec![mode],
         effective_shares: vec![0.0],
+        unstable: false,
         stability: Some(stability()),
         solver: complete_solver(),
         provenance: None,

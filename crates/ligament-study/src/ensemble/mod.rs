@@ -27,6 +27,7 @@ use ligament_output::{remove_if_there, replace_file};
 use ligament_run::end::End;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
+use ligament_run::stability;
 use ligament_run::stages::Stages;
 
 use crate::sweep::StudyError;
@@ -96,7 +97,14 @@ fn prepared(request: &Request<'_>) -> anyhow::Result<Ensemble> {
     let case = request.case;
     let quiet = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &quiet)?;
-    Ensemble::new(model, request.seed).map_err(|error| case.explained(error))
+    let ensemble = Ensemble::new(model, request.seed).map_err(|error| case.explained(error))?;
+    match ensemble.refused() {
+        Some(end) => bail!(
+            "no sample has a result: {}",
+            stability::words(&end, ensemble.model())
+        ),
+        None => Ok(ensemble),
+    }
 }
 
 /// Removes stored samples; the folder is then of the new identity.

@@ -11,7 +11,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use ligament_output::remove_if_there;
-use ligament_run::end::End;
+use ligament_run::end::leaves_results;
 use ligament_run::memory;
 
 use super::estimate::Estimates;
@@ -248,7 +248,7 @@ impl Launcher<'_> {
         let run = self.runs[index];
         let exit = status?;
         // A run that ended during breakage or without equilibrium also has results, which include its end.
-        let has_results = End::leaves_results(exit.code());
+        let has_results = leaves_results(exit.code());
         if !has_results {
             let reason = self.last_words(run, exit);
             record::fail(run, self.folder, &reason)?;

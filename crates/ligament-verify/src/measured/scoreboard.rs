@@ -47,12 +47,12 @@ impl Scores {
 impl Score {
     fn of_reading(reading: &Reading) -> Self {
         let summary = &reading.summary;
-        let ended = usize::from(End::from_summary(summary) == End::NoEquilibrium);
+        let ended = matches!(summary.end(), End::NoEquilibrium | End::Invalid);
         Self {
             run: reading.run.clone(),
             points: summary.model.points,
             increments: summary.steps,
-            failed: reading.failed + ended,
+            failed: reading.failed + usize::from(ended),
             seconds: reading.seconds,
             spent: summary.certificate.and_then(|it| it.spent_ratio()),
         }

@@ -23,6 +23,7 @@ use crate::serial::Sink;
 use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
 use crate::state::State;
+use crate::termination::{Growth, Verdict};
 use crate::unbalanced::Unbalanced;
 use ligament_model::surface::Vector;
 
@@ -59,17 +60,21 @@ impl Now<'_> {
         checkpoint: &dyn Fn(&Progress, &mut dyn Sink),
     ) -> Result<Option<Termination>, SetupError> {
         let row = progress.history.len();
-        let record = self.row(row, progress);
+        let mut record = self.row(row, progress);
         let Clock { rows, duration, .. } = progress.clock;
         let done = (row == rows).then_some(Termination::TimeReached { time: duration });
         // Rules of the case are for states on the way.
         let end = self.end(&record, stop);
         let end = end.filter(|it| row > 0 || !it.is_by_rule()).or(done);
+        let verdict = end.as_ref().map(|it| it.row().verdict);
+        record.at_rest = verdict != Some(Verdict::Invalid);
         let end = offer(observer, end, &|out| checkpoint(progress, out))?;
         self.show(&record, end.is_some(), observer)?;
         let (problem, state) = (self.problem, self.state);
         let overlap = &mut progress.overlap;
-        if let Some(notice) = remarks::overlap(problem, state, self.fragments, row, overlap) {
+        if record.at_rest
+            && let Some(notice) = remarks::overlap(problem, state, self.fragments, row, overlap)
+        {
             observer.notice(&notice)?;
         }
         if !progress.has_turned
@@ -159,14 +164,26 @@ impl Now<'_> {
                 reason,
             });
         }
+        if let Some(growth) = self.growth(record) {
+            let time = record.load_factor;
+            return Some(Termination::EnergyGrew { time, growth });
+        }
+        let bonds = stop.bonds.filter(|&most| self.broken >= most);
+        let bonds = bonds.map(|bonds| Termination::BondsBroken { bonds });
+        let elapsed = started.elapsed().as_secs_f64();
+        let seconds = stop.wall_time.filter(|&most| elapsed >= most);
+        bonds.or(seconds.map(|seconds| Termination::WallTime { seconds }))
+    }
+
+    /// What grew without cause up to a row; None where nothing did. Energies that are not numbers count as grown.
+    fn growth(&self, record: &StepRecord) -> Option<Growth> {
         let motion = record.motion.unwrap_or_default();
-        let time = record.load_factor;
         let given = record.external_work.abs().max(motion.initial_energy);
         let given = given.max(record.energy_floor);
         let negative = (motion.taken().into_iter()).find(|(_, energy)| *energy < -GROWN * given);
         if let Some((entry, energy)) = negative {
             let share = energy / given;
-            return Some(Termination::EnergyFromNothing { time, entry, share });
+            return Some(Growth::Given { entry, share });
         }
         let scale = record.external_work.abs() + motion.initial_energy;
         let scale = scale.max(record.energy_floor);
@@ -176,14 +193,13 @@ impl Now<'_> {
         let error = record.energy_error();
         let has_energy = self.problem.system.has_energy();
         let balances = error.is_finite() && (error.abs() <= GROWN || !has_energy);
-        if !(balances && is_stored && is_moving) {
-            return Some(Termination::EnergyGrew { time, error });
-        }
-        let bonds = stop.bonds.filter(|&most| self.broken >= most);
-        let bonds = bonds.map(|bonds| Termination::BondsBroken { bonds });
-        let elapsed = started.elapsed().as_secs_f64();
-        let seconds = stop.wall_time.filter(|&most| elapsed >= most);
-        bonds.or(seconds.map(|seconds| Termination::WallTime { seconds }))
+        let grown = [
+            (!error.is_finite(), Growth::NoNumber),
+            (!balances, Growth::Balance(error)),
+            (!is_stored, Growth::Stored(record.stored_energy)),
+            (!is_moving, Growth::Kinetic(motion.kinetic_energy)),
+        ];
+        grown.into_iter().find(|it| it.0).map(|it| it.1)
     }
 }
 
