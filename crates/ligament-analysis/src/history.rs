@@ -17,6 +17,7 @@ use crate::serial::Sink;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
 
+pub use crate::ahead::Ahead;
 pub use crate::termination::Termination;
 
 /// Record of a load step at rest (or where the run was stopped), or of an event of the exact path: the state at the load at which
@@ -454,23 +455,6 @@ pub enum Onward {
     Go,
     /// The run ends here.
     Stop,
-}
-
-/// What a run is about to do.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Ahead {
-    /// Time steps of a motion.
-    TimeSteps {
-        /// Number of steps.
-        count: usize,
-        /// Whether each solves equations.
-        is_implicit: bool,
-    },
-    /// Solutions with a factor of the stiffness.
-    Factor {
-        /// Multiplications of the factorisation.
-        multiplications: f64,
-    },
 }
 
 /// Observer of a run. All methods except [`Observer::step`] have defaults.

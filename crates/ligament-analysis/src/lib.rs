@@ -6,6 +6,7 @@
 //! during the run; the end of a run is a [`Termination`], never an error.
 //! The crate reads and writes no files and prints nothing.
 
+mod ahead;
 pub mod assembly;
 pub mod at_once;
 pub mod balanced;

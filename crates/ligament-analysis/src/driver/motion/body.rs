@@ -254,6 +254,7 @@ impl Body {
         Now {
             contacts: None,
             below_zero: square / (1.0 - square),
+            rounding: 0.0,
             problem: &self.problem,
             numbers: &self.numbers,
             fragments: self.connectivity.fragments(),

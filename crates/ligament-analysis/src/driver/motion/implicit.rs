@@ -13,7 +13,7 @@ use super::implicit_fit;
 use super::implicit_kept::ImplicitKept;
 use super::progress::{IMPLICIT, Progress, Resumed};
 use super::quasi_static;
-use super::record;
+use super::record::{self, Now};
 use super::rigid_step;
 use super::stepping::{CALM, HALVINGS, Pace, Stepping, scheme};
 use super::taken::{self, Taken, TooLong, Trial};
@@ -459,7 +459,14 @@ impl Implicit<'_> {
             observer,
             ..
         } = self;
-        let now = stepping.now(&problem.problem, here, (energies, &costs));
+        let rounding = match problem.problem.contact.is_empty() {
+            true => 0.0,
+            false => quasi_static::rounding(&stepping.equilibrium, &here.balanced),
+        };
+        let now = Now {
+            rounding,
+            ..stepping.now(&problem.problem, here, (energies, &costs))
+        };
         let stop = (&self.settings.stop, self.started);
         let pace = self.pace;
         let checkpoint = |progress: &Progress, out: &mut dyn Sink| {

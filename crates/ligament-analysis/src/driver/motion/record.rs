@@ -47,6 +47,8 @@ pub(super) struct Now<'a> {
     pub(super) broken: usize,
     /// Share of the energy by which the kinetic energy of the scheme may be negative in a stable motion.
     pub(super) below_zero: f64,
+    /// Energy below which differences are rounding of the places of contacts, J.
+    pub(super) rounding: f64,
 }
 
 impl Now<'_> {
@@ -107,6 +109,7 @@ impl Now<'_> {
         };
         let mut record = step_record(problem, solution, self.energies, self.fragments, counters);
         record.motion = Some(progress.motion);
+        record.energy_floor = record.energy_floor.max(self.rounding);
         // Explicit steps have contacts of their own, implicit ones those of their equilibria.
         if let Some(contacts) = self.contacts {
             record.contacts = contacts.readings();

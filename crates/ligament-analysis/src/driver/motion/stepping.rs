@@ -267,6 +267,7 @@ impl Stepping {
             rigid: &here.motion.rigid,
             broken: here.broken,
             below_zero: 0.0,
+            rounding: 0.0,
             energies,
             problem,
             costs,
