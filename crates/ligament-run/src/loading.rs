@@ -54,7 +54,6 @@ impl LoadedBody<'_> {
         let problem = loading.problem(model);
         let motion = loading.motion(&problem);
         let posed = Posed::new(&problem, motion.as_ref());
-        let analysis = &model.setup.analysis;
         let of_points = OfPoints::new(model);
         let grid = grid(model);
         broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;

@@ -21,6 +21,8 @@ use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 
+use anyhow::bail;
+
 use ligament::ensemble::{Ensemble, Sample};
 use ligament::run::on_threads;
 use ligament_output::{remove_if_there, replace_file};
