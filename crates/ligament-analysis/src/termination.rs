@@ -56,7 +56,9 @@ pub enum Termination {
         time: f64,
     },
     /// The energy of a motion grew without cause.
-    #[error("at {time:.4e} s {growth}: it grows without cause, as with too large a time step or an unstable law")]
+    #[error(
+        "at {time:.4e} s {growth}: it grows without cause, as with too large a time step or an unstable law"
+    )]
     EnergyGrew {
         /// Time, s.
         time: f64,

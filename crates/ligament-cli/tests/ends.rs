@@ -33,8 +33,12 @@ fn told(folder: &Path, case: &str, arguments: &[&str]) -> (Option<i32>, String, 
 const RUN: [&str; 6] = ["run", "case.toml", "--out", "out", "--force", "-q"];
 
 fn run(folder: &Path, case: &str, settings: &[&str]) -> (Option<i32>, String, String) {
-    let sets = settings.iter().flat_map(|it| ["--set", it]);
-    told(folder, case, &RUN.into_iter().chain(sets).collect::<Vec<_>>())
+    let sets = settings.iter().flat_map(|it| ["--set", *it]);
+    told(
+        folder,
+        case,
+        &RUN.into_iter().chain(sets).collect::<Vec<_>>(),
+    )
 }
 
 fn summary(folder: &Path) -> Value {
@@ -63,7 +67,9 @@ fn codes(cell: &str) -> Vec<u8> {
 }
 
 fn with_rest(row: &Row) -> Vec<u8> {
-    let mut codes = [false, true].map(|it| row.verdict.end(false, it).exit_code()).to_vec();
+    let mut codes = [false, true]
+        .map(|it| row.verdict.end(false, it).exit_code())
+        .to_vec();
     codes.dedup();
     codes
 }
@@ -90,7 +96,10 @@ fn an_unstable_model_ends_before_its_first_load() {
         for number in ["elastic stiffness", "load  ", "energies"] {
             assert!(!shown.contains(number), "{shown}");
         }
-        assert!(shown.contains("NO RESULT") && error.contains("allow_unstable"), "{error}");
+        assert!(
+            shown.contains("NO RESULT") && error.contains("allow_unstable"),
+            "{error}"
+        );
         let summary = summary(folder);
         assert_eq!(summary["termination"], "unstable");
         assert!(summary["peak"].is_null() && summary["certificate"].is_null());
@@ -106,7 +115,11 @@ fn an_unstable_model_ends_before_its_first_load() {
     assert!((0.25..0.3).contains(&largest), "{error}");
     for (poisson, wanted) in [(largest, 0), (largest + 3e-3, 3)] {
         let poisson = format!("material.poisson={poisson}");
-        assert_eq!(run(folder, &elastic, &[&poisson]).0, Some(wanted), "{poisson}");
+        assert_eq!(
+            run(folder, &elastic, &[&poisson]).0,
+            Some(wanted),
+            "{poisson}"
+        );
     }
 }
 
@@ -121,18 +134,19 @@ fn studies_refuse_an_unstable_model() {
     let (code, shown, _) = told(folder, &stepped, &["sweep", "study.toml", "--out", "study"]);
     assert_eq!(code, Some(1), "{shown}");
     assert!(shown.contains("1 done, 1 failed"), "{shown}");
-    let words = "calibrate case.toml --key material.young --of elastic_stiffness --target 1e8 --out found";
+    let words =
+        "calibrate case.toml --key material.young --of elastic_stiffness --target 1e8 --out found";
     let (code, _, error) = told(folder, &stepped, &words.split(' ').collect::<Vec<_>>());
     assert_eq!(code, Some(1), "{error}");
     assert!(error.contains("the intact model is unstable"), "{error}");
-    let scatter = "scatter = { distribution = \"weibull\", modulus = 10.0 }\n";
+    let scatter =
+        "scatter = { of = \"fracture-energy\", distribution = \"weibull\", modulus = 10.0 }\n";
     let scattered = stepped.replace("steps = 2\n", &format!("steps = 2\n{scatter}"));
     let words = "ensemble case.toml --samples 2 --out samples -q";
     let (code, _, error) = told(folder, &scattered, &words.split(' ').collect::<Vec<_>>());
     assert_eq!(code, Some(1), "{error}");
     assert!(error.contains("no sample has a result"), "{error}");
-    let modes = format!("{STEEL}analysis = \"modal\"\n[modal]\nmodes = 3\n");
-    let modes = format!("analysis = \"modal\"\n{}", modes.replace("analysis = \"modal\"\n", ""));
+    let modes = format!("analysis = \"modal\"\n{STEEL}[modal]\nmodes = 3\n");
     let (code, shown, _) = run(folder, &modes, &[]);
     assert_eq!(code, Some(3), "{shown}");
     assert!(shown.contains("NOT TO BE TRUSTED"), "{shown}");
@@ -145,9 +159,9 @@ fn a_motion_that_grows_has_no_success() {
     let folder = folder.path();
     let motion = format!(
         "analysis = \"motion\"\n{STEEL}load = [{{ group = \"top\", velocity = {{ y = 1.0 }} }}]\n\
-         motion = {{ scheme = \"implicit\", step = 5e-8, duration = 2e-5, rows = 40 }}\n"
+         motion = {{ scheme = \"implicit\", step = 5e-8, duration = 2e-6, rows = 40 }}\n"
     );
-    let (code, shown, error) = run(folder, &motion, &["material.poisson=0.4"]);
+    let (code, shown, error) = run(folder, &motion, &[]);
     assert_eq!(code, Some(3), "{shown}{error}");
     let summary = summary(folder);
     assert_eq!(summary["termination"], "energy-grew");
@@ -158,8 +172,13 @@ fn a_motion_that_grows_has_no_success() {
     let rows: Vec<Vec<&str>> = lines.collect();
     let (last, before) = (&rows[rows.len() - 1], &rows[rows.len() - 2]);
     assert_eq!([last, before].map(|it| it[column("at_rest")]), ["0", "1"]);
-    let stored = summary["motion"]["energies"]["stored_energy"].as_f64().unwrap();
-    assert_eq!(stored, before[column("stored_energy")].parse::<f64>().unwrap());
+    let stored = summary["motion"]["energies"]["stored_energy"]
+        .as_f64()
+        .unwrap();
+    assert_eq!(
+        stored,
+        before[column("stored_energy")].parse::<f64>().unwrap()
+    );
 }
 
 /// A strip collapses under a force in a load step: its certificate is that of the last state at rest, and the bonds that broke after it are
@@ -185,11 +204,20 @@ fracture = { steps = 20, criterion = [{ kind = "bond-energy" }] }
     let mut lines = history.lines().map(|it| it.split(',').collect::<Vec<_>>());
     let names = lines.next().unwrap();
     let column = |name: &str| names.iter().position(|it| *it == name).unwrap();
-    let at_rest = lines.filter(|it| it[column("at_rest")] == "1").last().unwrap();
+    let at_rest = lines
+        .filter(|it| it[column("at_rest")] == "1")
+        .last()
+        .unwrap();
     let number = |name: &str| at_rest[column(name)].parse::<f64>().unwrap();
-    assert_eq!(certificate["work"].as_f64().unwrap(), number("external_work"));
+    assert_eq!(
+        certificate["work"].as_f64().unwrap(),
+        number("external_work")
+    );
     assert_eq!(certificate["step"].as_f64().unwrap(), number("step"));
-    assert_eq!(certificate["broken_bonds"].as_f64().unwrap(), number("broken_bonds"));
+    assert_eq!(
+        certificate["broken_bonds"].as_f64().unwrap(),
+        number("broken_bonds")
+    );
     assert!(summary["broken_bonds"].as_f64().unwrap() > number("broken_bonds"));
     assert!(shown.contains("up to the last state at rest"), "{shown}");
     // The state of the collapse has a thousand times the work.

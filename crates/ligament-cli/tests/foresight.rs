@@ -479,13 +479,17 @@ fn criteria_of_stress_have_their_own_words() {
         let rest = format!(
             "[fracture]\nsteps = 20\nstop = {{ bonds = 1 }}\n[[fracture.criterion]]\n{criterion}"
         );
-        let case = bar(load, &rest).replace("[material]", "[material]\ncompressive_strength = 20e6");
+        let case =
+            bar(load, &rest).replace("[material]", "[material]\ncompressive_strength = 20e6");
         let (code, told, error) = check(folder, &case, &[]);
         assert_eq!(code, Some(0), "{error}");
         let lines = told.lines().map(str::to_owned);
         let lines = lines.skip_while(|it| it != "failure criteria").skip(1);
         let lines: Vec<String> = lines.take_while(|it| it.starts_with("  ")).collect();
-        assert!(!told.contains("never break") && !told.contains("no bond"), "{told}");
+        assert!(
+            !told.contains("never break") && !told.contains("no bond"),
+            "{told}"
+        );
         (case, lines)
     };
     let spent = |lines: &[String]| {
@@ -507,7 +511,10 @@ fn criteria_of_stress_have_their_own_words() {
         let expected = is_spent.then(|| by_energy.clone());
         assert_eq!(spent(&lines), expected, "{kind}");
         fs::write(folder.join("case.toml"), case).unwrap();
-        let output = ligament_in(folder, &["run", "case.toml", "--out", "out", "--force", "-q"]);
+        let output = ligament_in(
+            folder,
+            &["run", "case.toml", "--out", "out", "--force", "-q"],
+        );
         let by = format!(", by {kind}");
         assert!(stdout(&output).contains(&by), "{}", stdout(&output));
     }

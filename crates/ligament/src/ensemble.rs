@@ -10,11 +10,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
-use ligament_analysis::{Observer, Termination};
 use ligament_analysis::driver::event::{self, EventSettings};
 use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Outcome, Prepared, Problem};
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
+use ligament_analysis::{Observer, Termination};
 use ligament_model::failure::Criteria;
 use ligament_model::scatter::{self, Scatter};
 use ligament_model::{ConstantFields, System};

@@ -4,8 +4,8 @@ mod correction;
 mod criteria;
 
 use ligament_model::correction::{CorrectionReport, DomainReport};
-use ligament_model::failure::{Choice, Criteria};
 use ligament_model::failure::softening::linear;
+use ligament_model::failure::{Choice, Criteria};
 use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
 use ligament_model::subdomain::Subdomain;

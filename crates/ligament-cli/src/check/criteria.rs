@@ -147,11 +147,7 @@ fn write_scatter(
 }
 
 /// Writes where bonds begin to soften by the stress around them, and what they take then.
-fn write_start(
-    out: &mut dyn Write,
-    criterion: &Criterion,
-    starting: &Starting,
-) -> io::Result<()> {
+fn write_start(out: &mut dyn Write, criterion: &Criterion, starting: &Starting) -> io::Result<()> {
     let finite = |values: &[f64]| Range::over(values.iter().copied().filter(|it| it.is_finite()));
     let both = finite(starting.strengths()).zip(finite(starting.critical_stretches()));
     let Some((strength, critical)) = both else {

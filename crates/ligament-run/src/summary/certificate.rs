@@ -28,9 +28,8 @@ pub(crate) fn certificate(
     outcome: &Outcome,
 ) -> Result<Option<CertificateSummary>, ligament_output::Error> {
     let last = outcome.at_rest().next_back();
-    let is_result = |_: &&StepRecord| {
-        outcome.rows != Rows::Times && !outcome.is_without_equilibrium()
-    };
+    let is_result =
+        |_: &&StepRecord| outcome.rows != Rows::Times && !outcome.is_without_equilibrium();
     let Some(last) = last.filter(is_result) else {
         return Ok(None);
     };
@@ -38,7 +37,9 @@ pub(crate) fn certificate(
     let is_traced = model.system.subdomain().is_whole() && model.system.n_points() <= MOST_POINTS;
     let area = match is_cracked && is_traced {
         // A body whose points have no cells has no faces along which a crack could be traced.
-        true => crack_area(folder, last.step).ok().filter(|area| *area > 0.0),
+        true => crack_area(folder, last.step)
+            .ok()
+            .filter(|area| *area > 0.0),
         false => None,
     };
     Ok(Some(CertificateSummary {
