@@ -263,7 +263,8 @@ fn stability_is_counted_and_its_loss_reported() {
             format!("material.poisson={poisson}"),
             format!("model.horizon_factor={factor}"),
         ];
-        let bench = Bench::new(DISK, &[&settings[0], &settings[1]]);
+        let allowed = "model.allow_unstable=true";
+        let bench = Bench::new(DISK, &[&settings[0], &settings[1], allowed]);
         (bench.points(), bench.solve())
     };
     let (_, run) = solve("0.21", "3");

@@ -164,6 +164,9 @@ impl Quantities {
         if self.get("without_equilibrium").is_some_and(|it| it == true) {
             return Some(format!("no result under load: {reason}"));
         }
+        if self.get("unstable").is_some_and(|it| it == true) {
+            return Some("the model is unstable".to_owned());
+        }
         let verdict = verdict(self.get("termination")?.as_str()?);
         let end = verdict.end(false, self.ends_not_at_rest());
         end.is_failure().then(|| reason.to_owned())

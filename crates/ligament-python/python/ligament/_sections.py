@@ -156,6 +156,9 @@ class Model(TypedDict, total=False):
     """Whether the faces of cracks carry pressure again where they close; of laws whose points turn. Default false."""
     closing_friction: float
     """Coefficient of friction on faces that close; not along the exact path. Default 0.0."""
+    allow_unstable: bool
+    """Whether a run goes on where the intact model is unstable, with more negative eigenvalues than its rotations explain; its results are
+then not to be trusted. Default false."""
     calibration: Literal["integral", "discrete"]
     """Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
 
