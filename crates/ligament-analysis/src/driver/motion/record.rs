@@ -61,7 +61,9 @@ impl Now<'_> {
         let record = self.row(row, progress);
         let Clock { rows, duration, .. } = progress.clock;
         let done = (row == rows).then_some(Termination::TimeReached { time: duration });
-        let end = self.end(&record, stop).or(done);
+        // Energies of the first row are small, and below zero where forces begin suddenly: no rule ends a motion there.
+        let by_rule = (row > 0).then(|| self.end(&record, stop)).flatten();
+        let end = by_rule.or(done);
         let end = offer(observer, end, &|out| checkpoint(progress, out))?;
         self.show(&record, end.is_some(), observer)?;
         let (problem, state) = (self.problem, self.state);
@@ -164,8 +166,8 @@ impl Now<'_> {
     }
 }
 
-/// Offers a row to the observer before it is recorded, as one from which the motion can continue. Returns the reason why the motion ends there: `end`, or a stop by the
-/// observer.
+/// Offers a row to the observer before it is recorded, as one from which the motion can continue. Returns the reason why the motion ends
+/// there: `end`, or a stop by the observer.
 fn offer(
     observer: &mut dyn Observer,
     end: Option<Termination>,
