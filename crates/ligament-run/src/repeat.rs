@@ -68,9 +68,8 @@ impl Request<'_> {
         let mut case = self.case(&folder)?;
         let mut contents = Contents::default();
         if let Some(record) = &summary.provenance {
-            let inputs = record.inputs.iter();
             find_moved(&mut case, &folder, &|it| {
-                inputs.clone().any(|input| input.content == *it)
+                record.inputs.iter().any(|input| input.content == *it)
             });
             check_inputs(&folder, record, &case, &mut contents)?;
         }

@@ -245,11 +245,9 @@ fn find_checkpoint(
 
 /// Whether a checkpoint of a run was written with an input of this content.
 fn was_read(folder: &Path, content: &Identity) -> bool {
-    let checkpoints = Checkpoint::list(folder).into_iter().flatten();
+    let mut checkpoints = Checkpoint::list(folder).into_iter().flatten();
     let content = content.to_string();
-    checkpoints
-        .into_iter()
-        .any(|it| it.0.inputs.contains(&content))
+    checkpoints.any(|it| it.0.inputs.contains(&content))
 }
 
 /// Refuses a checkpoint of another version of the program or of another case.

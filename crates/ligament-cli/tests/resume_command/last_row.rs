@@ -97,7 +97,7 @@ impl Place {
             ..run::Request::new(&case, &out, Build::default())
         };
         request.run(ProgressMode::Quiet).unwrap();
-        asked.into_inner()
+        asked.load(Ordering::Relaxed)
     }
 
     fn resume(&self, name: &str, settings: &[&str]) {

@@ -99,8 +99,8 @@ impl Lines {
     }
 }
 
-/// Writes fields of the points of a body, and field data; in pieces where the body is divided between processes. Readers warp by the first vector, the
-/// displacement.
+/// Writes fields of the points of a body, and field data; in pieces where the body is divided between processes. Readers warp by the first
+/// vector, the displacement.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,

@@ -65,9 +65,12 @@ impl Now<'_> {
         let mut record = self.row(row, progress);
         let Clock { rows, duration, .. } = progress.clock;
         let done = (row == rows).then_some(Termination::TimeReached { time: duration });
-        // Rules of the case are for states on the way.
+        // Energies of the first row are small, and below zero where forces begin suddenly: it ends a motion only where they are no numbers.
+        let is_lost = |it: &Termination| {
+            matches!(it, Termination::EnergyGrew { growth, .. } if *growth == Growth::NoNumber)
+        };
         let end = self.end(&record, stop);
-        let end = end.filter(|it| row > 0 || !it.is_by_rule()).or(done);
+        let end = end.filter(|it| row > 0 || is_lost(it)).or(done);
         let verdict = end.as_ref().map(|it| it.row().verdict);
         record.at_rest = verdict != Some(Verdict::Invalid);
         let end = offer(observer, end, &|out| checkpoint(progress, out))?;
@@ -206,8 +209,8 @@ impl Now<'_> {
     }
 }
 
-/// Offers a row to the observer before it is recorded, as one from which the motion can continue. Returns the reason why the motion ends there: `end`, or a stop by the
-/// observer.
+/// Offers a row to the observer before it is recorded, as one from which the motion can continue. Returns the reason why the motion ends
+/// there: `end`, or a stop by the observer.
 fn offer(
     observer: &mut dyn Observer,
     end: Option<Termination>,
