@@ -5,6 +5,8 @@ use crate::shape::{Region, Shape, SolidShape};
 use crate::stress::point_strain::tests::{GRADIENT, affine, springs};
 use crate::thermal::{StressFreeStrains, ThermalStrain};
 
+const AXES: &[Component] = &[Component::X, Component::Y, Component::Z];
+
 /// Largest difference of the components of the strains of all points, with the bonds marked in `intact` and what is left of them, from
 /// expected ones.
 fn off<const D: usize>(
@@ -15,7 +17,7 @@ fn off<const D: usize>(
 ) -> f64 {
     let layout = Layout {
         n_points: system.cloud.len(),
-        components: &[Component::X, Component::Y, Component::Z][..D],
+        components: &AXES[..D],
     };
     let carried = Carried {
         motion: Motion {
@@ -86,7 +88,7 @@ fn assert_carried<const D: usize, S: Region<D>>(space: Space) {
     }
     let layout = Layout {
         n_points: system.cloud.len(),
-        components: &[Component::X, Component::Y, Component::Z][..D],
+        components: &AXES[..D],
     };
     let displacement = affine(&system, GRADIENT);
     let still = Carried {
@@ -110,8 +112,6 @@ fn assert_carried<const D: usize, S: Region<D>>(space: Space) {
         expected,
     );
     assert!(off < 1e-12, "turned: {off:e}");
-    let size = |strain: SymTensor<D>| strain.contracted(&strain).sqrt();
-    assert!((0..system.cloud.len() as u32).all(|it| size(expected(it)) < size(strain)));
 }
 
 #[test]
