@@ -66,9 +66,7 @@ impl Now<'_> {
         let Clock { rows, duration, .. } = progress.clock;
         let done = (row == rows).then_some(Termination::TimeReached { time: duration });
         // Energies of the first row are small, and below zero where forces begin suddenly: it ends a motion only where they are no numbers.
-        let is_lost = |it: &Termination| {
-            matches!(it, Termination::EnergyGrew { growth, .. } if *growth == Growth::NoNumber)
-        };
+        let is_lost = |it: &Termination| matches!(it, Termination::EnergyGrew { growth, .. } if *growth == Growth::NoNumber);
         let end = self.end(&record, stop);
         let end = end.filter(|it| row > 0 || is_lost(it)).or(done);
         let verdict = end.as_ref().map(|it| it.row().verdict);
