@@ -6,6 +6,7 @@ use std::path::Path;
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::{Component, fields};
 use ligament_case::case::StressField;
 use ligament_model::interface::StressReading;

@@ -4,6 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use ligament_mesh::gmsh;
 use tempfile::TempDir;
 
 use super::bench::{refused, results, succeeded, termination};
@@ -22,8 +23,11 @@ output = { fields_every = 20, model = false }
 fn project(folder: &Path) {
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/disk-4mm.msh");
     fs::create_dir_all(folder.join("meshes")).unwrap();
+    let nodes = gmsh::parse(&fs::read(&mesh).unwrap()).unwrap().positions;
+    let rows = nodes.iter().map(|[x, y]| format!("{x:?},{y:?},1\n"));
+    let rows: String = rows.collect();
+    fs::write(folder.join("press.csv"), format!("x,y,factor\n{rows}")).unwrap();
     fs::copy(mesh, folder.join("meshes/disk.msh")).unwrap();
-    fs::write(folder.join("press.csv"), "time,factor\n0,0\n1,1\n").unwrap();
     fs::write(folder.join("case.toml"), CASE).unwrap();
     let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
     let case = folder.join("case.toml");
