@@ -44,11 +44,12 @@ impl Touching {
         touches.map(Touch::energy).fold(0.0, |sum, it| sum + it)
     }
 
-    /// Largest work of the forces that a depth (m) causes, on points with the largest displacement (m), or on rigid bodies, J.
-    pub(crate) fn largest_work(&self, depth: f64, displacement: f64) -> f64 {
+    /// Largest work of the forces that a depth (m) causes where surfaces press, or at one place of a stiffness (N/m) that may just touch, on
+    /// points with the largest displacement (m), or on rigid bodies, J.
+    pub(crate) fn largest_work(&self, depth: f64, displacement: f64, stiffness: f64) -> f64 {
         let pressed = self.touches.iter().flatten().filter(|it| it.depth() > 0.0);
-        let stiffness: f64 = pressed.map(|it| it.stiffness).sum();
-        stiffness * depth * displacement.max(self.largest_way())
+        let pressed: f64 = pressed.map(|it| it.stiffness).sum();
+        pressed.max(stiffness) * depth * displacement.max(self.largest_way())
     }
 
     /// Largest displacement of a rigid body, m.

@@ -180,7 +180,9 @@ impl Unbalanced {
             Self::Missed { contact, missed } => {
                 let Missed { point, way, seen } = *missed;
                 format!(
-                    "the surfaces of the contact `{contact}` move by {way:.3e} m against each other at {}, and through each other unseen:                      take {:.0} times as many steps (`fracture.steps`; in a motion shorter ones), so that they move by at most {seen:.3e} m in                      each; along the exact path, which keeps what faces what, take load steps",
+                    "the surfaces of the contact `{contact}` move by {way:.3e} m against each other at {}, and through each other unseen: take {:.0} \
+                     times as many steps (`fracture.steps`; in a motion shorter ones), so that they move by at most {seen:.3e} m in each; along the \
+                     exact path, which keeps what faces what, take load steps",
                     name(point),
                     (way / seen).ceil()
                 )

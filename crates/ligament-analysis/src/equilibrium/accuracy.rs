@@ -79,6 +79,11 @@ impl Accuracy {
         self
     }
 
+    /// Bound of the stiffness of contacts at a degree of freedom, N/m; 0 without contacts.
+    pub(super) fn stiffest_contact(&self) -> f64 {
+        self.of_contacts.iter().copied().fold(0.0, f64::max)
+    }
+
     /// Extents over all processes of the sizes of the forces at the points (n_degrees_of_freedom), N and N m.
     pub(super) fn extents(&self, sizes: &[f64]) -> Extents {
         let here = self.local_stiffness.extents(sizes);

@@ -384,10 +384,8 @@ impl Equations {
         let rounding = ROUNDING * self.accuracy.stiffest * displacement.powi(2);
         let has_negative = energy_of_motion < -(rounding + CANCELLED * of_expansions);
         let of_bonds = rounding * state.displacement.len() as f64;
-        let of_gaps = met
-            .touching
-            .largest_work(OF_GAPS * coordinate, displacement)
-            / ENERGY;
+        let (gap, touch) = (OF_GAPS * coordinate, self.accuracy.stiffest_contact());
+        let of_gaps = met.touching.largest_work(gap, displacement, touch) / ENERGY;
         Iterate {
             deformations,
             internal,
