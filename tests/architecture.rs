@@ -226,7 +226,7 @@ const TOP: [&str; 16] = [
 ];
 
 /// Lines of a source file that one can still take in.
-const LONGEST_FILE: usize = 500;
+const LONGEST_FILE: usize = 900;
 
 /// Dependencies of the crates under `crates/`, those for tests apart.
 struct Dependencies {
@@ -417,7 +417,7 @@ fn no_crate_outgrows_the_others() {
     }
 }
 
-/// No source file is longer than 500 lines; there are no exceptions.
+/// No source file is longer than 900 lines: a stage can be read in one place, and a longer file has several reasons to change.
 #[test]
 fn source_files_are_short() {
     let files = sources(&repository().join("crates"));

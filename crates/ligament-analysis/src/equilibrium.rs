@@ -17,7 +17,6 @@ mod mechanism;
 mod meeting;
 mod newton;
 mod on_rigid;
-mod ready;
 mod residual;
 mod rigid;
 mod secant;

@@ -367,12 +367,7 @@ impl Reading {
 
     /// Value in an equilibrium state; on a divided body the share of this process.
     fn value(&self, solution: Solution<'_>) -> f64 {
-        let Solution {
-            system,
-            state,
-            balanced,
-            ..
-        } = solution;
+        let (system, state, balanced) = (solution.system, solution.state, solution.balanced);
         let rate = |point: u32, component: Component, of: fn(Rates<'_>) -> &[f64]| {
             let rates = solution.motion;
             rates.map_or(f64::NAN, |it| {

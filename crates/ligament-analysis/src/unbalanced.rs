@@ -177,19 +177,21 @@ impl Unbalanced {
                                         the stage other loads, or less to dissipate"
                 .to_owned(),
             Self::RanksDisagree => RANKS_DISAGREE.to_owned(),
-            Self::Missed { contact, missed } => {
-                let Missed { point, way, seen } = *missed;
-                format!(
-                    "the surfaces of the contact `{contact}` move by {way:.3e} m against each other at {}, and through each other unseen: take {:.0} \
-                     times as many steps (`fracture.steps`; in a motion shorter ones), so that they move by at most {seen:.3e} m in each; along the \
-                     exact path, which keeps what faces what, take load steps",
-                    name(point),
-                    (way / seen).ceil()
-                )
-            }
+            Self::Missed { contact, missed } => unseen(contact, missed, &name(missed.point)),
             Self::NoFactor(error) => format!("the stiffness has no factor: {error}"),
         }
     }
+}
+
+/// What surfaces of a contact moved through unseen, at a place.
+fn unseen(contact: &str, missed: &Missed, place: &str) -> String {
+    let Missed { way, seen, .. } = *missed;
+    format!(
+        "the surfaces of the contact `{contact}` move by {way:.3e} m against each other at {place}, and through each other unseen: take {:.0} \
+         times as many steps (`fracture.steps`; in a motion shorter ones), so that they move by at most {seen:.3e} m in each; along the \
+         exact path, which keeps what faces what, take load steps",
+        (way / seen).ceil()
+    )
 }
 
 impl Display for Unbalanced {

@@ -16,10 +16,10 @@ const MULTIPLICATIONS: f64 = 1e10;
 /// Time of preparing a bond, with the correction, on one thread, s: a plate of a million points with 13 million bonds took 17 s.
 const PREPARED_BOND: f64 = 1.3e-6;
 
-/// Shortest time that is told, s.
+/// Shortest time of which a run tells before it begins, s.
 const LONG: f64 = 60.0;
 
-/// Number of time steps that is told whatever they take.
+/// Number of time steps from which on a run tells of them, whatever time they take.
 const MANY: usize = 1_000_000_000;
 
 /// Words about what a run of a body with so many bonds is about to do, where that takes long.

@@ -92,10 +92,9 @@ pub fn summary(
     let work = largest(&mut outcome.at_rest().map(scale));
     let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
     let last_state_not_at_rest = history.last().is_some_and(|last| !last.at_rest);
-    let verdict = outcome.termination.row().verdict;
-    let is_cut_short =
-        verdict.end(without_equilibrium, last_state_not_at_rest) == End::NoEquilibrium;
-    let of_end = is_cut_short.then(|| UP_TO_THERE.to_owned());
+    let end = (outcome.termination.row().verdict).end(without_equilibrium, last_state_not_at_rest);
+    let of_end = (end == End::NoEquilibrium).then(|| UP_TO_THERE.to_owned());
+    let warnings = model.warnings.iter().map(ToString::to_string);
     Summary {
         model: model::model_summary(case, model, noted.of_points),
         temperature_change: temperature_change(boundary),
@@ -132,10 +131,7 @@ pub fn summary(
         solver: solver_summary(&outcome.costs, &outcome.solver),
         provenance: Some(noted.provenance),
         stages: noted.stages,
-        warnings: counted(
-            (model.warnings.iter().map(ToString::to_string))
-                .chain(noted.notices.into_iter().chain(of_end)),
-        ),
+        warnings: counted(warnings.chain(noted.notices).chain(of_end)),
     }
 }
 

@@ -46,7 +46,7 @@ impl SurfaceContact {
     ) -> Option<Missed> {
         let [before, now] = step.rigid.map(|it| it.displacement);
         // Two points move against each other by twice the diagonal of a cube at most.
-        let way = 2.0 * 3.0_f64.sqrt() * farthest + norm(minus(now, before));
+        let way = 12.0_f64.sqrt() * farthest + norm(minus(now, before));
         let is_far = way > self.surfaces.way_seen();
         is_far
             .then(|| self.surfaces.missed(step, touches))

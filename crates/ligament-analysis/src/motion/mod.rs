@@ -170,7 +170,7 @@ pub enum MotionError {
     /// Time steps were required in a number that has no end.
     #[error(
         "the motion would take {steps:.1e} time steps of {at_most:.3e} s, more than can be computed: shorten the duration, or lengthen the step \
-         (coarser points, less stiffness, or for slow loads scheme = \"auto\")"
+         (coarser points, less stiffness, or for slow loads equilibria until the body moves)"
     )]
     TooManySteps {
         /// Number of steps.

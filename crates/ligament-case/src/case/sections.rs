@@ -6,7 +6,6 @@ use ligament::body::AnyBody;
 use ligament::implausible::Implausible;
 use ligament::near_growth::Growth;
 use ligament::setup::{self, Section, Setup};
-use ligament_analysis::SolverSettings;
 use ligament_mesh::{AnyMesh, Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
@@ -382,10 +381,7 @@ impl Case {
                 .unwrap_or_default(),
             probes: each("probe", &self.probes, |it, key| it.setup(key, dimensions))?,
             analysis: self.analysis_of_setup()?,
-            solver: SolverSettings {
-                allows_unstable: self.model.allow_unstable,
-                ..self.solver.setup()
-            },
+            solver: self.solver.setup(self.model.allow_unstable),
             threads: self.solver.threads.map(|threads| threads as usize),
             remarks: self.remarks(),
         })

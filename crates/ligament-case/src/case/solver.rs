@@ -56,7 +56,7 @@ impl Solver {
         ]
     }
 
-    pub(super) fn setup(&self) -> SolverSettings {
+    pub(super) fn setup(&self, allows_unstable: bool) -> SolverSettings {
         let default = SolverSettings::default();
         let rebuild_every = self.rebuild_every.map(|bonds| bonds as usize);
         SolverSettings {
@@ -66,6 +66,7 @@ impl Solver {
             ordering: self.ordering.0,
             update: self.update.0,
             rebuild_every: rebuild_every.unwrap_or(default.rebuild_every),
+            allows_unstable,
             ..default
         }
     }

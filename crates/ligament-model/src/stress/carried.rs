@@ -11,8 +11,8 @@
 //!
 //! eps = sym(sum w c (x) n K^-1), K = sum w n (x) n.
 //!
-//! That is the strain at which the sound material carries the stress of the damaged one (Lemaitre and Chaboche, Mechanics of Solid Materials,
-//! 1990, section 7.2: there 1 - D is one factor for all directions, here each bond has its own). A sound point has its strain by
+//! That is the strain at which the sound material carries the stress of the damaged one (Lemaitre and Chaboche 1990,
+//! section 7.2: there 1 - D is one factor for all directions, here each bond has its own). A sound point has its strain by
 //! `point_strain`, a point that lost all its bonds none. omega is the rotation that leaves the bonds the least shear,
 //! sum w phi_t |(e - (n . e) n)|^2; bonds without shear rigidity have no part in it, so that points that fly apart do not matter.
 

@@ -14,13 +14,11 @@
 //! (<g_0 - g>^2 + |s|^2) is stored. The depth g_0 <= 0 is the overlap that a contact was found with beyond what the step explains: at the
 //! start, or where surfaces are born that overlap. Nothing jumps there; g_0 follows the gap as it opens, and is never restored.
 
-mod bound;
 mod cell_facets;
 mod cells;
 mod facet;
 mod facet_pair;
 mod lattice;
-mod missed;
 mod nearest;
 mod pair;
 mod rigid;
@@ -32,8 +30,7 @@ pub use cell_facets::CellFaces;
 pub use cells::{Bonded, Boundaries, CrackFaces, InnerFace};
 pub use facet::{Corner, Facet, Surface};
 pub use facet_pair::{FacetPair, Opposite};
-pub use missed::Missed;
-pub use pair::{Pose, Step, SurfacePair};
+pub use pair::{Missed, Pose, Step, SurfacePair};
 pub use rigid::RigidShape;
 pub use search::Search;
 pub use touch::{Touch, Vector};

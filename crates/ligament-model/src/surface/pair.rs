@@ -3,7 +3,6 @@
 use std::fmt::Debug;
 
 use super::cells::Bonded;
-use super::missed::Missed;
 use super::search::Search;
 use super::touch::{Touch, Vector};
 
@@ -27,6 +26,17 @@ pub struct Pose {
     pub displacement: Vector,
     /// Angles about the axes since time zero, rad: in the plane that about z; in space they turn nothing but a sphere.
     pub rotation: Vector,
+}
+
+/// A place where surfaces moved through each other, or into each other, without contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Missed {
+    /// Point of the body there.
+    pub point: u32,
+    /// Way of the surfaces against each other in the step, m.
+    pub way: f64,
+    /// Way in a step that contact is sure to see, m.
+    pub seen: f64,
 }
 
 /// Surfaces that may come into contact, without their coordinates.

@@ -8,9 +8,8 @@
 //! surfaces move along each other by less than a facet, and where what they slide along is as good as flat. Surfaces that overlap without
 //! motion touch there.
 
-use super::facet_pair::FacetPair;
-use super::missed::{Missed, distance_from};
-use super::pair::{Pose, Step, SurfacePair};
+use super::facet_pair::{FacetPair, distance_from};
+use super::pair::{Missed, Pose, Step, SurfacePair};
 use super::rigid::largest_size;
 use super::search::Search;
 use super::touch::{Touch, Vector};

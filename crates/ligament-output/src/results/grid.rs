@@ -70,8 +70,9 @@ impl Lines {
         path: &Path,
         body: &BodyGrid,
         [point_fields, cell_fields]: [&[Field<'_>]; 2],
-        (subdomain, field_data): (&Subdomain, &[(&str, f64)]),
+        of_file: (&Subdomain, &[(&str, f64)]),
     ) -> Result<(), Error> {
+        let (subdomain, field_data) = of_file;
         let of_points = body.numbering.order_of_file();
         let point_fields: Vec<Field<'_>> = point_fields
             .iter()

@@ -54,8 +54,8 @@ pub(super) fn boundary<const D: usize>(
             let each: Vec<(u32, f64)> = points.iter().map(|&point| (point, 1.0)).collect();
             places.prescribe(&mut boundary, field, &each, component, 0.0)?;
         }
-        let none = vec![0.0; components.len()];
-        let group = boundary.report_group(&support.name(index), points, none);
+        let group =
+            boundary.report_group(&support.name(index), points, vec![0.0; components.len()]);
         group.holds.extend(support.components());
         group.restrains.extend(support.restrained());
     }
@@ -64,8 +64,8 @@ pub(super) fn boundary<const D: usize>(
         let points = places.points(field, &load.place)?;
         let mut total = vec![0.0; components.len()];
         let motion = load.action.motion().filter(|_| !load.is_restraint());
-        let holds = motion.iter().flat_map(|it| it.components());
-        let holds: Vec<Component> = holds.map(|(component, _)| component).collect();
+        let holds = (motion.iter()).flat_map(|it| it.components().map(|(component, _)| component));
+        let holds: Vec<Component> = holds.collect();
         if acting != ActiveLoads::All && acting != ActiveLoads::Load(index) {
             let group = boundary.report_group(&load.name, points, total);
             group.holds.extend(holds);
