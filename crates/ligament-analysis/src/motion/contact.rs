@@ -414,6 +414,7 @@ serial!(Touch {
     offset,
     slip,
     stiffness,
+    credit,
     area,
     is_first
 });

@@ -9,13 +9,14 @@
 //! while a contact goes on along a facet. It would be negative where the point comes to another facet, where facets turn, and in the step in
 //! which a contact ends, because its force acts until the end of that step. So
 //!
-//! 1. the depth d of the contact is at most the larger root of k d^2 - k d a = 2 U_n - F_n . s, with the approach a = -n' . s' and the parts U_n
-//!    and F_n along the normal before the step, which is a for a new contact and d + a for one that goes on; the elastic part of the sliding is
-//!    bounded in the same way;
-//! 2. what is still missing is taken by a drag 2 D s/|s|^2 against the motion, which acts for one step. Where a contact ends, it leaves the work of
-//!    a force that ends when the surfaces part, and is smaller than the force before.
+//! 1. a contact may give back what it has taken across the surfaces so far (its credit C >= 0), as in the step in which it began;
+//! 2. the depth d of the contact is at most the larger root of k d^2 - k d a = 2 (U_n + C) - F_n . s, with the approach a = -n' . s' and the
+//!    parts U_n and F_n along the normal before the step, which is a for a new contact and at least d + a for one that goes on; the elastic
+//!    part of the sliding is bounded in the same way, without credit;
+//! 3. what is still missing is taken by a drag 2 (D + C) s/|s|^2 against the motion, which acts for one step. Where a contact ends, it leaves the
+//!    work of a force that ends when the surfaces part, and is smaller than the force before.
 //!
-//! Contacts take energy in a step, or leave it as it was.
+//! From its begin to its end a contact takes energy, or none.
 
 use ligament_model::surface::{Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{dot, norm};
@@ -74,11 +75,15 @@ impl PairContacts {
             }
             let moved = surfaces.way(touch, step);
             match ended.next_if(|it| it.place == touch.place) {
-                None => bound(touch, moved, Left::default(), rounding),
+                None => {
+                    bound(touch, moved, Left::default(), rounding);
+                    touch.credit = (-across(touch, moved)).max(0.0);
+                }
                 Some(before) => {
                     let way = surfaces.way(before, step);
                     let left = left(before, way);
                     bound(touch, moved, left, rounding);
+                    touch.credit = (left.along_normal - across(touch, moved)).max(0.0);
                     let needed = touch.energy() + 0.5 * dot(touch.force(), moved);
                     let small = touch.stiffness * touch.depth().max(before.depth()) * rounding;
                     taking(needed - left.total() - small, before, way);
@@ -93,7 +98,13 @@ impl PairContacts {
     }
 }
 
-/// Energy of a contact that its force leaves over a step, J.
+/// Energy that the pressure of a contact after a step stores and the work that it did in the step (motion of its surfaces, m), J.
+fn across(touch: &Touch, way: Vector) -> f64 {
+    let depth = touch.depth().max(0.0);
+    0.5 * touch.stiffness * depth * depth + 0.5 * dot(touch.normal_force(), way)
+}
+
+/// Energy of a contact that its force leaves over a step, with its credit, J.
 #[derive(Debug, Clone, Copy, Default)]
 struct Left {
     along_normal: f64,
@@ -113,7 +124,9 @@ fn left(before: &Touch, way: Vector) -> Left {
     } = *before;
     let of_sliding = 0.5 * stiffness * dot(slip, slip);
     Left {
-        along_normal: before.energy() - of_sliding - 0.5 * dot(before.normal_force(), way),
+        along_normal: before.energy() + before.credit
+            - of_sliding
+            - 0.5 * dot(before.normal_force(), way),
         of_sliding: of_sliding - 0.5 * dot(before.friction_force(), way),
     }
 }

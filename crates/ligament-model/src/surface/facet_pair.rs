@@ -298,6 +298,7 @@ impl<const D: usize> FacetPair<D> {
             offset,
             slip: in_space(slip),
             stiffness: area * self.stiffness(place.facet, other),
+            credit: before.map_or(0.0, |it| it.credit),
             area,
             is_first: meeting
                 .onto

@@ -26,6 +26,8 @@ pub struct Touch {
     pub slip: Vector,
     /// Stiffness k A, N/m.
     pub stiffness: f64,
+    /// Energy that the contact has taken across the surfaces and may give back, J; 0 but in explicit steps.
+    pub credit: f64,
     /// Area A that it stands for, m^2.
     pub area: f64,
     /// Whether the force counts for the first surface of the pair; otherwise the opposite one does.

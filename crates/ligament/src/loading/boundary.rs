@@ -37,8 +37,9 @@ pub(super) fn boundary<const D: usize>(
 ) -> Result<ProportionalLoading, SetupError> {
     let (places, components) = (Places { setup, cloud }, Component::in_dimensions(D));
     let heating = heating(&places)?;
+    let n_points = cloud.len();
     let all = Layout {
-        n_points: cloud.len(),
+        n_points,
         components,
     };
     let mut boundary = ProportionalLoading::new(all, places.control(heating.as_ref())?);
