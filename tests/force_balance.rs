@@ -97,7 +97,9 @@ load = [{{ group = "right", force = {{ x = 1e3, y = -5e2 }} }}]
     let rollers = plate(
         r#"{ group = "left", displacement = { x = 0.0 } }, { group = "bottom", displacement = { y = 0.0 } }"#,
     );
-    assert!(rollers[0][1] == 0.0 && rollers[1][0] == 0.0 && rollers[2] == [1e3, -5e2]);
+    assert!(rollers[0][1] == 0.0 && rollers[1][0] == 0.0);
+    // The forces of points add up to the load by rounding.
+    assert!((rollers[2][0] - 1e3).abs() < 1e-9 && (rollers[2][1] + 5e2).abs() < 1e-9);
     let fixed = plate(
         r#"{ group = "left", displacement = { x = 0.0, y = 0.0 } }, { group = "bottom", displacement = { x = 0.0, y = 0.0 } }"#,
     );

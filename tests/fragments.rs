@@ -207,7 +207,7 @@ cracks = true
 /// The lattice of the plate, and that of a solid in its place.
 const LATTICES: [&str; 2] = [
     "[lattice]\ncells = [12, 7]\nspacing = 0.1\nthickness = 0.01\n",
-    "[solid_lattice]\ncells = [6, 4, 3]\nspacing = 0.2\n",
+    "[solid_lattice]\ncells = [6, 4, 3]\nspacing = [0.2, 0.2, 0.2]\n",
 ];
 
 const WALL: &str =
