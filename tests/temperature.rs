@@ -38,7 +38,10 @@ const LAWS: [(&str, &[&str]); 12] = [
     ("bbpd-conical", &["model.law=bbpd-conical"]),
     ("pds", &["model.law=pds"]),
     ("mppd", &[]),
-    ("mppd, negative k_t", &["material.poisson=0.4"]),
+    (
+        "mppd, negative k_t",
+        &["material.poisson=0.4", "model.allow_unstable=true"],
+    ),
     ("mppd-beam", &["model.law=mppd-beam"]),
     ("orthotropic", &["model.law=orthotropic", LAMINA]),
     ("nhpd", &["model.law=nhpd"]),

@@ -131,7 +131,7 @@ fn stresses_are_asked_for_by_name() {
     assert_eq!(
         message("[\"tractions\"]"),
         "--set output.stress=[\"tractions\"]: output.stress.0: unknown value \"tractions\"; did you mean \"traction\"? \
-         valid values: \"material\", \"virial\", \"traction\""
+         valid values: \"material\", \"effective\", \"virial\", \"traction\""
     );
     assert_eq!(
         message("[\"virial\", \"virial\"]"),
