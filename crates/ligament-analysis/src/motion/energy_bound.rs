@@ -9,14 +9,15 @@
 //! while a contact goes on along a facet. It would be negative where the point comes to another facet, where facets turn, and in the step in
 //! which a contact ends, because its force acts until the end of that step. So
 //!
-//! 1. a contact may give back what it has taken across the surfaces so far (its credit C >= 0), as in the step in which it began;
+//! 1. a contact may give back what it has taken across the surfaces so far (its credit C >= 0), as in the step in which it began, and one that ends
+//!    also what others of the pair of surfaces took that have ended;
 //! 2. the depth d of the contact is at most the larger root of k d^2 - k d a = 2 (U_n + C) - F_n . s, with the approach a = -n' . s' and the
 //!    parts U_n and F_n along the normal before the step, which is a for a new contact and at least d + a for one that goes on; the elastic
 //!    part of the sliding is bounded in the same way, without credit;
 //! 3. what is still missing is taken by a drag 2 (D + C) s/|s|^2 against the motion, which acts for one step. Where a contact ends, it leaves the
 //!    work of a force that ends when the surfaces part, and is smaller than the force before.
 //!
-//! From its begin to its end a contact takes energy, or none.
+//! So the contacts of a pair of surfaces together have never given energy.
 
 use ligament_model::surface::{Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{dot, norm};
@@ -41,6 +42,8 @@ pub(super) struct PairContacts {
     /// Integration points in contact, ascending.
     pub(super) touches: Vec<Touch>,
     pub(super) drags: Vec<Drag>,
+    /// Energy that contacts which have ended took across the surfaces, and that others may give back, J.
+    credit: f64,
 }
 
 impl PairContacts {
@@ -51,27 +54,21 @@ impl PairContacts {
         step: Step<'_>,
         mut touches: Vec<Touch>,
     ) -> Self {
-        let mut drags = Vec::new();
-        let rounding = ROUNDING * surfaces.reach();
-        let mut taking = |missing: f64, touch: &Touch, way: Vector| {
-            let square = dot(way, way);
-            if missing > 0.0 && square > 0.0 {
-                let force = way.map(|it| -2.0 * missing * it / square);
-                drags.push(Drag {
-                    touch: *touch,
-                    force,
-                });
-            }
+        let mut after = Self {
+            credit: self.credit,
+            ..Self::default()
         };
+        let rounding = ROUNDING * surfaces.reach();
         for before in &self.drags {
             let way = surfaces.way(&before.touch, step);
-            taking(0.5 * dot(before.force, way), &before.touch, way);
+            let given = 0.5 * dot(before.force, way);
+            after.credit += (-given).max(0.0);
+            after.take(given, &before.touch, way);
         }
         let mut ended = self.touches.iter().peekable();
         for touch in &mut touches {
             while let Some(before) = ended.next_if(|it| it.place < touch.place) {
-                let way = surfaces.way(before, step);
-                taking(-left(before, way).total(), before, way);
+                after.end(before, surfaces.way(before, step));
             }
             let moved = surfaces.way(touch, step);
             match ended.next_if(|it| it.place == touch.place) {
@@ -86,15 +83,40 @@ impl PairContacts {
                     touch.credit = (left.along_normal - across(touch, moved)).max(0.0);
                     let needed = touch.energy() + 0.5 * dot(touch.force(), moved);
                     let small = touch.stiffness * touch.depth().max(before.depth()) * rounding;
-                    taking(needed - left.total() - small, before, way);
+                    after.take(needed - left.total() - small, before, way);
                 }
             }
         }
         for before in ended {
-            let way = surfaces.way(before, step);
-            taking(-left(before, way).total(), before, way);
+            after.end(before, surfaces.way(before, step));
         }
-        Self { touches, drags }
+        after.touches = touches;
+        after
+    }
+
+    /// Ends a contact, whose surfaces moved by a way (m) in the step.
+    fn end(&mut self, before: &Touch, way: Vector) {
+        let left = left(before, way);
+        if left.total() >= 0.0 {
+            self.credit += left.along_normal.max(0.0);
+        }
+        self.take(-left.total(), before, way);
+    }
+
+    /// Takes an energy (J) that a contact before the step gave, from the credit of others or by a drag against its way (m).
+    fn take(&mut self, given: f64, touch: &Touch, way: Vector) {
+        let square = dot(way, way);
+        if given <= 0.0 || square == 0.0 {
+            return;
+        }
+        let of_others = given.min(self.credit);
+        self.credit -= of_others;
+        if given > of_others {
+            let drag = 2.0 * (given - of_others) / square;
+            let force = way.map(|it| -drag * it);
+            let touch = *touch;
+            self.drags.push(Drag { touch, force });
+        }
     }
 }
 
@@ -159,4 +181,8 @@ fn bound(touch: &mut Touch, way: Vector, left: Left, rounding: f64) {
 }
 
 serial!(Drag { touch, force });
-serial!(PairContacts { touches, drags });
+serial!(PairContacts {
+    touches,
+    drags,
+    credit
+});
