@@ -97,9 +97,7 @@ impl PairContacts {
     /// Ends a contact, whose surfaces moved by a way (m) in the step.
     fn end(&mut self, before: &Touch, way: Vector) {
         let left = left(before, way);
-        if left.total() >= 0.0 {
-            self.credit += left.along_normal.max(0.0);
-        }
+        self.credit += left.along_normal.min(left.total()).max(0.0);
         self.take(-left.total(), before, way);
     }
 
