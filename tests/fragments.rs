@@ -405,10 +405,7 @@ fn fragments_at_a_wall_give_no_energy() {
             let speed = format!("initial_velocity=[{{velocity={{x={speed:?},y=1.0}}}}]");
             let wall = if kind.is_solid() { WALL_OF_SOLID } else { WALL };
             let breaks = r#"fracture={criterion=[{kind="critical-stretch"}]}"#;
-            let rows = plate(
-                kind,
-                &[&law, &speed, wall, breaks, "motion.duration=1.2e-3"],
-            );
+            let rows = plate(kind, &[&law, &speed, wall, breaks, "motion.duration=8e-4"]);
             let first = rows[0].motion.unwrap().initial_energy;
             let last = rows.last().unwrap();
             let least = rows.iter().flat_map(|it| {

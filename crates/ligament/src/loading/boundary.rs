@@ -67,23 +67,19 @@ pub(super) fn boundary<const D: usize>(
         let motion = load.action.motion().filter(|_| !load.is_restraint());
         let holds = (motion.iter()).flat_map(|it| it.components().map(|(component, _)| component));
         let holds: Vec<Component> = holds.collect();
-        if acting != ActiveLoads::All && acting != ActiveLoads::Load(index) {
-            let group = boundary.report_group(&load.name, points, total);
-            group.holds.extend(holds);
-            group.restrains.extend(load.restrained());
-            continue;
-        }
-        let factors = places.factors(field, load.profile.as_ref(), &points)?;
-        if let Some(motion) = motion {
-            let each: Vec<(u32, f64)> = points.iter().copied().zip(factors).collect();
-            for (component, value) in motion.components() {
-                places.prescribe(&mut boundary, field, &each, component, value)?;
+        if acting == ActiveLoads::All || acting == ActiveLoads::Load(index) {
+            let factors = places.factors(field, load.profile.as_ref(), &points)?;
+            if let Some(motion) = motion {
+                let each: Vec<(u32, f64)> = points.iter().copied().zip(factors).collect();
+                for (component, value) in motion.components() {
+                    places.prescribe(&mut boundary, field, &each, component, value)?;
+                }
             }
-        }
-        for (point, force) in places.forces(field, load, &points)?.at_points {
-            for ((&component, value), sum) in components.iter().zip(force).zip(&mut total) {
-                boundary.add_force(point, component, value);
-                *sum += value;
+            for (point, force) in places.forces(field, load, &points)?.at_points {
+                for ((&component, value), sum) in components.iter().zip(force).zip(&mut total) {
+                    boundary.add_force(point, component, value);
+                    *sum += value;
+                }
             }
         }
         let group = boundary.report_group(&load.name, points, total);
