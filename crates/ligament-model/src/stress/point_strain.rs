@@ -70,8 +70,8 @@ impl<const D: usize> Fit<D> {
     /// Adds to M alone, for a bond that is in K.
     #[inline]
     pub(super) fn add_slope(&mut self, n: [f64; D], moved: [f64; D], weight_per_length: f64) {
-        for column in 0..D {
-            let along = weight_per_length * n[column];
+        for (column, n) in n.into_iter().enumerate() {
+            let along = weight_per_length * n;
             for (row, moved) in moved.iter().enumerate() {
                 self.slopes[(row, column)] += along * moved;
             }

@@ -97,7 +97,8 @@ impl Search {
         let (before, _) = self.since.as_chunks::<D>();
         let moved = |(now, before): (&[f64; D], &[f64; D])| {
             let way = minus(*now, *before);
-            !(dot(way, way) <= 0.25 * skin * skin)
+            let square = dot(way, way);
+            square.is_nan() || square > 0.25 * skin * skin
         };
         let now = &corners.as_flattened()[..before.len()];
         now.par_iter().zip(before).any(moved)
