@@ -156,16 +156,16 @@ pub struct BoundaryGroup {
 /// common: the first group that prescribes the motion, otherwise the first that resists it, otherwise the first that has the point.
 pub(crate) fn groups_of_reactions(groups: &[BoundaryGroup], layout: Layout) -> Vec<Option<usize>> {
     let mut owners = vec![None; layout.n_degrees_of_freedom()];
-    let prescribes = |group: &BoundaryGroup, component: &Component| group.holds.contains(component);
-    let resists =
-        |group: &BoundaryGroup, component: &Component| group.restrains.contains(component);
-    let rules: [&dyn Fn(&BoundaryGroup, &Component) -> bool; 3] =
-        [&prescribes, &resists, &|_, _| true];
-    for counts in rules {
+    let counts = |rule: usize, group: &BoundaryGroup, component: &Component| match rule {
+        0 => group.holds.contains(component),
+        1 => group.restrains.contains(component),
+        _ => true,
+    };
+    for rule in 0..3 {
         for (number, group) in groups.iter().enumerate() {
             for &point in &group.points {
                 for (dof, component) in layout.range(point).zip(layout.components) {
-                    if counts(group, component) {
+                    if counts(rule, group, component) {
                         owners[dof].get_or_insert(number);
                     }
                 }

@@ -36,7 +36,7 @@ impl Clock {
         // A step that divides the time but for rounding is not made smaller.
         let steps_per_row = (between / at_most * (1.0 - 1e-12)).ceil().max(1.0);
         let steps = rows as f64 * steps_per_row;
-        if !(steps <= MOST_STEPS) {
+        if steps.is_nan() || steps > MOST_STEPS {
             return Err(MotionError::TooManySteps { steps, at_most });
         }
         Ok(Self {
