@@ -61,7 +61,9 @@ fn renamed(from: &Path, to: PathBuf) -> PathBuf {
 fn results_that_moved_go_on() {
     let place = TempDir::new().unwrap();
     let [stayed, first] = ["stayed", "first"].map(|it| place.path().join(it));
-    [&stayed, &first].map(|it| project(it));
+    for folder in [&stayed, &first] {
+        project(folder);
+    }
     succeeded(resume(&stayed, &[]));
     assert_eq!(termination(&stayed.join("results/out")), "bonds-broken");
 
