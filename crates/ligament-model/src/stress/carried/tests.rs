@@ -1,3 +1,5 @@
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
 use super::*;
 use crate::layout::Component;
 use crate::material::{Plane, Space};
