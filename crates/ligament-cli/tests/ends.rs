@@ -206,7 +206,7 @@ fracture = { steps = 20, criterion = [{ kind = "bond-energy" }] }
     let column = |name: &str| names.iter().position(|it| *it == name).unwrap();
     let at_rest = lines
         .filter(|it| it[column("at_rest")] == "1")
-        .last()
+        .next_back()
         .unwrap();
     let number = |name: &str| at_rest[column(name)].parse::<f64>().unwrap();
     assert_eq!(
