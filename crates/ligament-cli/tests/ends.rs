@@ -204,10 +204,7 @@ fracture = { steps = 20, criterion = [{ kind = "bond-energy" }] }
     let mut lines = history.lines().map(|it| it.split(',').collect::<Vec<_>>());
     let names = lines.next().unwrap();
     let column = |name: &str| names.iter().position(|it| *it == name).unwrap();
-    let at_rest = lines
-        .filter(|it| it[column("at_rest")] == "1")
-        .next_back()
-        .unwrap();
+    let at_rest = lines.rfind(|it| it[column("at_rest")] == "1").unwrap();
     let number = |name: &str| at_rest[column(name)].parse::<f64>().unwrap();
     assert_eq!(
         certificate["work"].as_f64().unwrap(),

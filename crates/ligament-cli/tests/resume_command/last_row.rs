@@ -65,7 +65,7 @@ fracture = { criterion = [{ kind = "critical-stretch" }] }"#,
         "auto",
         r#"analysis = "motion"
 load = [{ group = "top", displacement = { y = 8e-6 }, amplitude = { shape = "ramp", duration = 1.0 } }]
-motion = { duration = 1.0, rows = 5, scheme = "auto", step = 1e-3, damping = { mass = 1e4 } }
+motion = { duration = 1.0, rows = 5, scheme = "auto", step = 1e-3, damping = { mass = 1e3 } }
 fracture = { criterion = [{ kind = "critical-stretch" }] }"#,
     ),
 ];

@@ -91,7 +91,7 @@ fn results_that_moved_go_on() {
     succeeded(resume(&moved, &["--mesh", mesh.to_str().unwrap()]));
     assert!(tables(&moved) == tables(&stayed));
     // The table moved with the results, and now the mesh.
-    fs::copy(&mesh, moved.join("meshes/disk.msh")).unwrap();
+    fs::copy(&mesh, moved.join("elsewhere.msh")).unwrap();
     fs::remove_file(&mesh).unwrap();
     let again = renamed(&moved, place.path().join("again"));
     let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
