@@ -257,7 +257,7 @@ pub(crate) struct Surfaces {
     degrees_of_freedom: Vec<u32>,
     /// Largest motion of a surface in an iteration, m.
     farthest: f64,
-    /// Largest coordinate without motion of which gaps are differences, m.
+    /// Largest coordinate without motion that gaps are computed from, m.
     coordinate: f64,
 }
 
@@ -293,7 +293,7 @@ impl Surfaces {
         &self.problem
     }
 
-    /// Largest coordinate of which gaps are differences, with the largest displacement of a point (m) and of a rigid body, m; zero without
+    /// Largest coordinate that gaps are computed from, with the largest displacement of a point (m) and of a rigid body, m; zero without
     /// contacts.
     pub(crate) fn coordinate(&self, displacement: f64, touching: &Touching) -> f64 {
         match self.coordinate {

@@ -29,7 +29,7 @@ pub(super) fn out_of_balance(
     loads.iter().map(of_load).collect()
 }
 
-/// Largest of some residual forces on the bodies of loads, over the forces that they consist of, among them those of the rounding of gaps with
+/// Largest residual force on the bodies of some loads, over the forces that it consists of, among them those of the rounding of gaps with
 /// coordinates of a size (m).
 pub(super) fn relative(
     (loads, problem): (&[RigidLoad], &ContactProblem),

@@ -24,7 +24,7 @@ pub(super) const RESIDUAL_TOLERANCE: f64 = 1e-10;
 /// displacement; the only scale of the residual and the energy in a body that fell apart.
 pub(crate) const ROUNDING: f64 = 1e-14;
 
-/// Rounding of a gap between surfaces, relative to the largest coordinate of which it is a difference: that of some five operations.
+/// Rounding of a gap between surfaces, relative to the largest of the coordinates that it is computed from: the rounding of some five operations.
 pub(super) const OF_GAPS: f64 = 1e-15;
 
 /// Share of the largest force so far below which forces are its rounding, to within [`RESIDUAL_TOLERANCE`].
@@ -86,7 +86,7 @@ pub(super) struct Scales<'a> {
 pub(super) struct Rounded {
     /// Largest displacement of a point along an axis.
     pub(super) displacement: f64,
-    /// Largest coordinate of which gaps between surfaces are differences; zero without contacts.
+    /// Largest coordinate that gaps between surfaces are computed from, m; zero without contacts.
     pub(super) coordinate: f64,
 }
 

@@ -23,7 +23,7 @@ pub(super) struct ExplicitKept {
 }
 
 impl ExplicitKept {
-    /// Appends the motion at a row; the forces have those of inertia and damping in them, which do not follow from the state.
+    /// Appends the motion at a row, with its forces: inertia and damping are in them, and do not follow from the state.
     pub(super) fn write(
         body: &Body,
         velocities: &Velocities,
