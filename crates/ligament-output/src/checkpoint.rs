@@ -338,7 +338,8 @@ mod tests {
         bytes[BEGINNING.len()] += 1;
         let reason = parsed(&bytes).unwrap_err();
         assert!(
-            reason.contains("format 9") && reason.contains("format 8"),
+            reason.contains(&format!("format {FORMAT}"))
+                && reason.contains(&format!("format {}", FORMAT + 1)),
             "{reason}"
         );
         let reason = parsed(b"step,load_factor").unwrap_err();
