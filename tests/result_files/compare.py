@@ -217,6 +217,8 @@ class Variety:
     def __init__(self):
         self.varies = {}
         self.differ = {}
+        # Of fields with one value a file.
+        self.values = defaultdict(set)
 
     def see(self, file, expected):
         columns = defaultdict(list)
@@ -227,7 +229,10 @@ class Variety:
             for component, column in enumerate(table.T):
                 key = kind_of(file), part, name, component
                 numbers = column[~np.isnan(column)] if column.dtype.kind == "f" else column
-                self.varies[key] = self.varies.get(key, False) or len(np.unique(numbers)) > 1
+                if len(numbers) == 1:
+                    self.values[key].update(numbers.tolist())
+                varies = len(np.unique(numbers)) > 1 or len(self.values[key]) > 1
+                self.varies[key] = self.varies.get(key, False) or varies
                 columns[part, values.dtype].append((key, column))
         for group in columns.values():
             for (one, first), (other, second) in combinations(group, 2):

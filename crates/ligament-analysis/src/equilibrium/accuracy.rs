@@ -39,7 +39,8 @@ pub(super) struct Accuracy {
     pub(super) largest_extents: Extents,
     /// Relative tolerance of an iterative solver; None for a direct one.
     tolerance: Option<f64>,
-    /// Bound of the stiffness of contacts between surfaces, shape (n_degrees_of_freedom), N/m and N; empty without contacts.
+    /// Largest force and moment of contacts between surfaces over the gap that causes it, shape (n_degrees_of_freedom), N/m and N; empty
+    /// without contacts.
     of_contacts: Vec<f64>,
     subdomain: Subdomain,
 }
@@ -75,13 +76,15 @@ impl Accuracy {
     /// Lets the gaps of contacts be rounded.
     pub(super) fn with_contacts(mut self, problem: &ContactProblem) -> Self {
         let layout = self.local_stiffness.layout();
-        self.of_contacts = problem.stiffness(layout).at_degrees_of_freedom;
+        self.of_contacts = over_gaps(layout, problem.stiffness(layout).at_degrees_of_freedom);
         self
     }
 
-    /// Bound of the stiffness of contacts at a degree of freedom, N/m; 0 without contacts.
+    /// Bound of the stiffness of contacts against a displacement, N/m; 0 without contacts.
     pub(super) fn stiffest_contact(&self) -> f64 {
-        self.of_contacts.iter().copied().fold(0.0, f64::max)
+        let layout = self.local_stiffness.layout();
+        let of_displacements = layout.displacements(&self.of_contacts);
+        of_displacements.fold(0.0, f64::max)
     }
 
     /// Extents over all processes of the sizes of the forces at the points (n_degrees_of_freedom), N and N m.
@@ -232,6 +235,21 @@ impl Accuracy {
         let scales = (self.local_stiffness).scales(extents, largest, given, rounded);
         scales.with_contacts(&self.of_contacts)
     }
+}
+
+/// Forces and moments over a gap, N/m and N, from stiffnesses at the degrees of freedom (n_degrees_of_freedom), N/m and N m: with the stiffness k
+/// of a point against displacements and k r^2 against rotations, a gap g causes the force k g and the moment k r g.
+fn over_gaps(layout: Layout, mut stiffnesses: Vec<f64>) -> Vec<f64> {
+    let components = layout.components;
+    for of_point in stiffnesses.chunks_mut(components.len()) {
+        let displacements = components.iter().zip(&*of_point);
+        let displacements = displacements.filter(|(component, _)| !component.is_rotation());
+        let stiffest = displacements.fold(0.0, |most: f64, (_, it)| most.max(*it));
+        for (_, it) in (components.iter().zip(of_point)).filter(|(it, _)| it.is_rotation()) {
+            *it = (stiffest * *it).sqrt();
+        }
+    }
+    stiffnesses
 }
 
 /// Largest displacement of a point on this process, m.

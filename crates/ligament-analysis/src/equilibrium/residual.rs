@@ -75,7 +75,7 @@ pub(super) struct Scales<'a> {
     extents: Extents,
     /// Displacement whose forces are due to rounding, m.
     rounding: f64,
-    /// Stiffness of contacts at the degrees of freedom, N/m and N; empty without contacts.
+    /// Force and moment of contacts over the gap that causes it, at the degrees of freedom, N/m and N; empty without contacts.
     of_contacts: &'a [f64],
     /// Gap whose forces are due to rounding, m.
     gap: f64,
@@ -243,7 +243,7 @@ impl Extents {
 }
 
 impl<'a> Scales<'a> {
-    /// The scales with a stiffness of contacts at the degrees of freedom, N/m and N.
+    /// The scales with the forces and moments of contacts over their gaps at the degrees of freedom, N/m and N.
     pub(super) fn with_contacts(self, of_contacts: &'a [f64]) -> Self {
         Self {
             of_contacts,

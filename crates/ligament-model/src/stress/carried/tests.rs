@@ -113,7 +113,9 @@ fn assert_carried<const D: usize, S: Region<D>>(space: Space) {
         (&intact, &remaining),
         expected,
     );
-    assert!(off < 1e-12, "turned: {off:e}");
+    // Displacements of up to 12 are rounded by 2e-15, and fits in corners that lost a third of their bonds magnify that some hundred times, in
+    // both readings.
+    assert!(off < 1e-11, "turned: {off:e}");
 }
 
 #[test]
