@@ -219,8 +219,8 @@ fn every_source_has_its_reference() {
 }
 
 /// Links between the pages of the repository lead somewhere.
-#[test]
-fn links_lead_somewhere() {
+/// Paths of all pages, the list of changes apart.
+fn pages() -> Vec<PathBuf> {
     let root = repository();
     let mut pages: Vec<PathBuf> = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"]
         .map(|name| root.join(name))
@@ -228,8 +228,90 @@ fn links_lead_somewhere() {
     for folder in ["docs", "cases", "meshes", "tools"] {
         pages.extend(files(&root.join(folder), "md"));
     }
+    assert!(pages.len() > 30, "the pages were found");
+    pages
+}
+
+/// What a page sets in code within its sentences.
+fn code_spans(page: &str) -> Vec<&str> {
+    let outside_blocks = page.split("```").step_by(2);
+    outside_blocks
+        .flat_map(|text| text.split('`').skip(1).step_by(2))
+        .collect()
+}
+
+/// Files, modules and functions that pages name are there: a path is the end of that of a file, and each word of a path of modules names a file, a
+/// folder or an item, behind the name of a crate of that crate.
+#[test]
+fn names_in_pages_exist() {
+    let root = repository();
+    let folders = ["crates", "tests", "tools"].map(|it| root.join(it));
+    let paths = ["rs", "py", "js"].map(|it| folders.each_ref().map(|folder| files(folder, it)));
+    let paths = paths.as_flattened().concat();
+    let words: Vec<(&PathBuf, BTreeSet<String>)> =
+        paths.iter().map(|it| (it, words_of(it))).collect();
+    let is_file = |span: &str| paths.iter().any(|it| it.ends_with(span));
+    let names = |word: &str, folder: &Path| {
+        let within = words.iter().filter(|(path, _)| path.starts_with(folder));
+        within.into_iter().any(|(_, words)| words.contains(word))
+    };
+    let exists = |span: &str| {
+        let path: Vec<&str> = span.trim_end_matches("()").split("::").collect();
+        let folder = root.join("crates").join(path[0].replace('_', "-"));
+        let (within, path) = match folder.is_dir() {
+            true => (&folder, &path[1..]),
+            false => (&root, &path[..]),
+        };
+        path.iter().all(|word| names(word, within))
+    };
+    let mut missing = Vec::new();
+    for page in pages() {
+        let text = fs::read_to_string(&page).unwrap();
+        for span in code_spans(&text) {
+            let is_path = [".rs", ".py", ".js"].iter().any(|it| span.ends_with(it));
+            let is_item = span.contains("::") || span.ends_with("()");
+            let is_name = |it: char| it.is_alphanumeric() || "_/.:()-".contains(it);
+            // Paths for a new file have a word in capitals for its name, and methods of other packages begin with a dot.
+            let is_other = span.contains("NAME") || span.starts_with('.');
+            if !(is_path || is_item) || !span.chars().all(is_name) || is_other {
+                continue;
+            }
+            let is_there = if is_path { is_file(span) } else { exists(span) };
+            if !is_there {
+                missing.push(format!("{}: {span}", page.display()));
+            }
+        }
+    }
+    assert!(missing.is_empty(), "{missing:#?}");
+}
+
+/// Words of a source file that name something, with those of its path.
+fn words_of(path: &Path) -> BTreeSet<String> {
+    const BEFORE_NAMES: [&str; 11] = [
+        "class", "const", "def", "enum", "fn", "function", "mod", "static", "struct", "trait",
+        "type",
+    ];
+    let text = fs::read_to_string(path).unwrap();
+    let words: Vec<&str> = (text.split(|it: char| !(it.is_alphanumeric() || it == '_')))
+        .filter(|it| !it.is_empty())
+        .collect();
+    let named = words
+        .windows(2)
+        .filter(|pair| BEFORE_NAMES.contains(&pair[0]));
+    let variants = words.iter().filter(|it| it.starts_with(char::is_uppercase));
+    let of_path = path.iter().filter_map(|it| it.to_str());
+    let of_path = of_path.map(|it| it.split('.').next().unwrap_or(it));
+    let all = named
+        .map(|pair| pair[1])
+        .chain(variants.copied())
+        .chain(of_path);
+    all.map(str::to_owned).collect()
+}
+
+#[test]
+fn links_lead_somewhere() {
     let mut broken = Vec::new();
-    for page in &pages {
+    for page in &pages() {
         let text = fs::read_to_string(page).unwrap();
         for link in text
             .split("](")
@@ -257,7 +339,7 @@ fn links_lead_somewhere() {
             }
         }
     }
-    assert!(pages.len() > 30 && broken.is_empty(), "{broken:#?}");
+    assert!(broken.is_empty(), "{broken:#?}");
 }
 
 /// The anchors that the headings of a page make.

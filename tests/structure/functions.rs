@@ -10,6 +10,8 @@ pub(super) struct Function {
     pub(super) lines: usize,
     /// What it is given, the value it is called on included.
     pub(super) parameters: usize,
+    /// Whether its body has a loop.
+    pub(super) has_loop: bool,
 }
 
 /// The functions that are defined in tokens, nested ones included.
@@ -34,10 +36,13 @@ fn function(tokens: &[Token], at: usize) -> Option<Function> {
             body = closing(tokens, body);
         }
     }
+    let end = closing(tokens, body);
+    let is_loop = |it: &Token| ["for", "loop", "while"].contains(&it.text.as_str());
     (tokens[body].text == "{").then(|| Function {
         name: tokens[at + 1].text.clone(),
-        lines: tokens[closing(tokens, body)].line - tokens[at].line + 1,
+        lines: tokens[end].line - tokens[at].line + 1,
         parameters: parameters(&tokens[open + 1..close]),
+        has_loop: tokens[body..end].iter().any(is_loop),
     })
 }
 
