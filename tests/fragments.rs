@@ -399,12 +399,16 @@ fn a_body_with_a_crack_flies_on() {
 #[test]
 fn fragments_at_a_wall_give_no_energy() {
     for kind in KINDS {
-        for (law, speed) in [("nhpd", 15.0), ("mppd", 15.0), ("pds", 15.0)] {
+        let laws: &[&str] = match kind.is_solid() {
+            true => &["nhpd", "pds"],
+            false => &["nhpd", "mppd", "pds"],
+        };
+        for law in laws {
             let law = format!("model.law={law}");
-            let speed = format!("initial_velocity=[{{velocity={{x={speed:?},y=1.0}}}}]");
+            let speed = "initial_velocity=[{velocity={x=15.0,y=1.0}}]";
             let wall = if kind.is_solid() { WALL_OF_SOLID } else { WALL };
             let breaks = r#"fracture={criterion=[{kind="critical-stretch"}]}"#;
-            let rows = plate(kind, &[&law, &speed, wall, breaks]);
+            let rows = plate(kind, &[&law, speed, wall, breaks]);
             let first = rows[0].motion.unwrap().initial_energy;
             let last = rows.last().unwrap();
             let least = rows.iter().flat_map(|it| {
