@@ -399,11 +399,7 @@ fn a_body_with_a_crack_flies_on() {
 #[test]
 fn fragments_at_a_wall_give_no_energy() {
     for kind in KINDS {
-        let laws: &[&str] = match kind.is_solid() {
-            true => &["nhpd", "pds"],
-            false => &["nhpd", "mppd", "pds"],
-        };
-        for law in laws {
+        for law in ["nhpd", "mppd", "pds"] {
             let law = format!("model.law={law}");
             let speed = "initial_velocity=[{velocity={x=15.0,y=1.0}}]";
             let wall = if kind.is_solid() { WALL_OF_SOLID } else { WALL };

@@ -218,7 +218,6 @@ fn every_source_has_its_reference() {
     );
 }
 
-/// Links between the pages of the repository lead somewhere.
 /// Paths of all pages, the list of changes apart.
 fn pages() -> Vec<PathBuf> {
     let root = repository();
@@ -249,7 +248,7 @@ fn names_in_pages_exist() {
     let paths = ["rs", "py", "js"].map(|it| folders.each_ref().map(|folder| files(folder, it)));
     let paths = paths.as_flattened().concat();
     let words: Vec<(&PathBuf, BTreeSet<String>)> =
-        paths.iter().map(|it| (it, words_of(it))).collect();
+        paths.iter().map(|it| (it, names_of(it))).collect();
     let is_file = |span: &str| paths.iter().any(|it| it.ends_with(span));
     let names = |word: &str, folder: &Path| {
         let within = words.iter().filter(|(path, _)| path.starts_with(folder));
@@ -285,21 +284,24 @@ fn names_in_pages_exist() {
     assert!(missing.is_empty(), "{missing:#?}");
 }
 
-/// Words of a source file that name something, with those of its path.
-fn words_of(path: &Path) -> BTreeSet<String> {
+/// Names that a source file defines, those of variants among them, and the names of the file and of its folders.
+fn names_of(path: &Path) -> BTreeSet<String> {
     const BEFORE_NAMES: [&str; 11] = [
         "class", "const", "def", "enum", "fn", "function", "mod", "static", "struct", "trait",
         "type",
     ];
     let text = fs::read_to_string(path).unwrap();
-    let words: Vec<&str> = (text.split(|it: char| !(it.is_alphanumeric() || it == '_')))
+    let code = (text.lines()).filter(|line| !line.trim_start().starts_with("//"));
+    let words: Vec<&str> = code
+        .flat_map(|line| line.split(|it: char| !(it.is_alphanumeric() || it == '_')))
         .filter(|it| !it.is_empty())
         .collect();
     let named = words
         .windows(2)
         .filter(|pair| BEFORE_NAMES.contains(&pair[0]));
     let variants = words.iter().filter(|it| it.starts_with(char::is_uppercase));
-    let of_path = path.iter().filter_map(|it| it.to_str());
+    let below = path.strip_prefix(repository()).unwrap();
+    let of_path = below.iter().filter_map(|it| it.to_str());
     let of_path = of_path.map(|it| it.split('.').next().unwrap_or(it));
     let all = named
         .map(|pair| pair[1])
@@ -308,6 +310,7 @@ fn words_of(path: &Path) -> BTreeSet<String> {
     all.map(str::to_owned).collect()
 }
 
+/// Links between the pages of the repository lead somewhere.
 #[test]
 fn links_lead_somewhere() {
     let mut broken = Vec::new();

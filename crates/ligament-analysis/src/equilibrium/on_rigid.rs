@@ -29,8 +29,8 @@ pub(super) fn out_of_balance(
     loads.iter().map(of_load).collect()
 }
 
-/// Largest residual force on the bodies of some loads, over the forces that it consists of, among them those of the rounding of gaps with
-/// coordinates of a size (m).
+/// Largest residual force on the bodies of some loads, over the forces that it is the sum of and the force that the rounding of gaps between
+/// coordinates of a size (m) causes.
 pub(super) fn relative(
     (loads, problem): (&[RigidLoad], &ContactProblem),
     state: &State,
