@@ -251,6 +251,11 @@ impl Equilibrium {
         self.equations.accuracy.largest_extents.force()
     }
 
+    /// Diagonal of the box around the body, m.
+    pub(crate) fn size(&self) -> f64 {
+        self.equations.accuracy.size
+    }
+
     /// Energy of the rounding of positions, J: the rounding of the size of the body against its stiffest point and against the largest force at a
     /// point, N, over this size.
     pub(crate) fn energy_of_rounding(&self, force: f64) -> f64 {

@@ -345,8 +345,8 @@ pub enum Notice {
     AtOnce(AtOnce),
     /// The equilibria ended, and the body moves.
     #[error(
-        "time {time:.6e} s: the body loses its balance: a step without inertia would set free more than {share:.1e} of the work, so that it \
-         moves from here on"
+        "time {time:.6e} s: the body loses its balance: a step without inertia would set free more than {share:.1e} of the work, or let a part slip \
+         off another one, so that it moves from here on"
     )]
     LostBalance {
         /// Time of the last equilibrium, s.

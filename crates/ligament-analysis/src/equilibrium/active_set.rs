@@ -45,7 +45,7 @@ const WAY_FALLS: f64 = 0.9;
 /// force, and residuals relative to a small share of the largest force so far do not fall below the rounding of that force.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
-/// Halvings of a step in the search for the lowest energy, the number of bits of a double.
+/// Halvings of a step in the search for the lowest energy, or for where friction turns round, the number of bits of a double.
 const HALVINGS: usize = 53;
 
 /// Brings a state into equilibrium at its load factor.
@@ -196,7 +196,7 @@ fn search_along_way(
     correction: &Correction,
 ) -> Iterate {
     let mut at = 1.0;
-    line_search::part(-start, -end, |part| {
+    line_search::part(-start, -end, HALVINGS, |part| {
         correction.add_to(equations, state, part - at);
         at = part;
         iterate = equations.measure(state);

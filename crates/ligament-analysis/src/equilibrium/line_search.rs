@@ -3,9 +3,6 @@
 /// Work along a correction, relative to that at its beginning, at which the search ends.
 const NEAR: f64 = 0.5;
 
-/// Largest number of trials.
-const TRIES: usize = 5;
-
 /// Largest ratio of a part to the one tried before.
 const GROWTH: f64 = 4.0;
 
@@ -16,13 +13,13 @@ const INSIDE: f64 = 0.1;
 /// along the correction (Nocedal and Wright 2006, section 3.5).
 ///
 /// `work` is the work at part zero, `now` that at part one, and `at` computes it at other parts, found by the secant method; the
-/// last part tried is returned. Without positive work at the beginning (equations that are not definite) the whole correction is
+/// last of at most `tries` is returned. Without positive work at the beginning (equations that are not definite) the whole correction is
 /// taken.
-pub(super) fn part(work: f64, mut now: f64, mut at: impl FnMut(f64) -> f64) -> f64 {
+pub(super) fn part(work: f64, mut now: f64, tries: usize, mut at: impl FnMut(f64) -> f64) -> f64 {
     let mut part = 1.0;
     let mut before = (0.0, work);
     let mut beyond = None;
-    for _ in 1..TRIES {
+    for _ in 1..tries {
         let is_near = now.abs() <= NEAR * work;
         // Work that is not finite ends the search.
         if is_near || work <= 0.0 || !now.is_finite() {
@@ -59,9 +56,9 @@ fn between((start, some): (f64, f64), (end, none): (f64, f64)) -> f64 {
 mod tests {
     use super::*;
 
-    fn found(work: impl Fn(f64) -> f64) -> (f64, Vec<f64>) {
+    fn found(tries: usize, work: impl Fn(f64) -> f64) -> (f64, Vec<f64>) {
         let mut tried = vec![1.0];
-        let part = part(work(0.0), work(1.0), |part| {
+        let part = part(work(0.0), work(1.0), tries, |part| {
             tried.push(part);
             work(part)
         });
@@ -73,22 +70,35 @@ mod tests {
     /// near enough.
     #[test]
     fn a_straight_line_is_met_at_once() {
-        assert_eq!(found(|part| 2.0 * (1.2 - part)), (1.0, vec![1.0]));
-        assert_eq!(found(|part| 2.0 * (4.0 - part)), (4.0, vec![1.0, 4.0]));
-        assert_eq!(found(|part| 2.0 * (0.5 - part)), (0.5, vec![1.0, 0.5]));
+        assert_eq!(found(5, |part| 2.0 * (1.2 - part)), (1.0, vec![1.0]));
+        assert_eq!(found(5, |part| 2.0 * (4.0 - part)), (4.0, vec![1.0, 4.0]));
+        assert_eq!(found(5, |part| 2.0 * (0.5 - part)), (0.5, vec![1.0, 0.5]));
     }
 
     /// Beyond a bend: the work is positive up to 1.5, and negative from there on.
     #[test]
     fn a_zero_is_enclosed() {
-        let (part, tried) = found(|part| if part < 1.5 { 1.0 } else { -2.0 * (part - 1.5) });
+        let (part, tried) = found(5, |part| if part < 1.5 { 1.0 } else { -2.0 * (part - 1.5) });
         assert!((1.0..2.0).contains(&part), "{tried:?}");
-        assert!(tried.len() <= TRIES);
+        assert!(tried.len() <= 5);
+    }
+
+    /// Friction that turns round within a hundred thousandth of the correction: the work leaps from one value to its opposite, and halves of the
+    /// interval are all that the secant method finds.
+    #[test]
+    fn a_leap_is_enclosed_where_there_are_tries() {
+        let leap = |part: f64| (1e5 * (1e-3 - part)).clamp(-1.0, 1.0);
+        let (part, tried) = found(53, leap);
+        assert!(leap(part).abs() <= NEAR && tried.len() < 25, "{tried:?}");
+        assert_eq!(leap(found(5, leap).0), -1.0);
     }
 
     #[test]
     fn equations_that_are_not_definite_are_not_searched() {
-        assert_eq!(found(|_| -1.0), (1.0, vec![1.0]));
-        assert_eq!(found(|part| if part > 0.0 { f64::NAN } else { 1.0 }).0, 1.0);
+        assert_eq!(found(5, |_| -1.0), (1.0, vec![1.0]));
+        assert_eq!(
+            found(5, |part| if part > 0.0 { f64::NAN } else { 1.0 }).0,
+            1.0
+        );
     }
 }

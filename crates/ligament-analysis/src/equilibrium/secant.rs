@@ -38,6 +38,11 @@ const GROWTH_EVERY: usize = 5;
 /// Largest number of iterations of a solve.
 const ITERATION_LIMIT: usize = 1000;
 
+/// Largest number of trials of a line search; where surfaces meet, friction turns round and contacts close within a small part of a correction,
+/// and the search goes on.
+const TRIES: usize = 5;
+const TRIES_IN_CONTACT: usize = 53;
+
 /// Number of iterations after which a force at an added support is accepted where faces close.
 const CARRIED_AFTER: usize = 60;
 
@@ -317,7 +322,10 @@ fn next(
         found = correction(equations, state, &force, curvature, target, growth)?;
     }
     let is_short = shorten(equations, &mut found.step);
-    let is_searched = is_searched && !is_short;
+    let tries = match equations.meeting.surfaces.is_empty() {
+        true => TRIES,
+        false => TRIES_IN_CONTACT,
+    };
     let Correction { force, step, .. } = &found;
     state.load_factor += found.load_change;
     let start = state.displacement.clone();
@@ -332,9 +340,10 @@ fn next(
     };
     let (mut iterate, mut left) = go(1.0);
     let mut part = 1.0;
-    if is_searched {
-        let works = [force, &left].map(|it| dot_of_all(&subdomain, it, step));
-        part = line_search::part(works[0], works[1], |part| {
+    let works = [force, &left].map(|it| dot_of_all(&subdomain, it, step));
+    // Beyond the end of a shortened correction surfaces would not see each other.
+    if is_searched && !(is_short && works[1] >= 0.0) {
+        part = line_search::part(works[0], works[1], tries, |part| {
             (iterate, left) = go(part);
             dot_of_all(&subdomain, &left, step)
         });

@@ -99,10 +99,10 @@ pub struct Case {
     /// Parts of the outline through which waves leave the body in a motion.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub quiet: Vec<Quiet>,
-    /// Contact between parts of the body in a motion.
+    /// Contact between parts of the body.
     #[serde(rename = "contact", default, skip_serializing_if = "Vec::is_empty")]
     pub contacts: Vec<Contact>,
-    /// Rigid bodies that parts of the body meet in a motion.
+    /// Rigid bodies that parts of the body meet.
     #[serde(rename = "rigid", default, skip_serializing_if = "Vec::is_empty")]
     pub rigid_bodies: Vec<Rigid>,
     /// Linear finite elements in place of bonds, away from parts of a meshed body.

@@ -1120,9 +1120,9 @@ the temperature, otherwise the first rigid body that moves."""
     quiet: Sequence[Quiet]
     """Parts of the outline through which waves leave the body in a motion."""
     contact: Sequence[Contact]
-    """Contact between parts of the body in a motion."""
+    """Contact between parts of the body."""
     rigid: Sequence[Rigid]
-    """Rigid bodies that parts of the body meet in a motion."""
+    """Rigid bodies that parts of the body meet."""
     far_field: FarField
     """Linear finite elements in place of bonds, away from parts of a meshed body."""
     no_fail: Sequence[NoFail]

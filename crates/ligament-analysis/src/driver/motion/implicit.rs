@@ -366,8 +366,11 @@ impl Implicit<'_> {
         let free = quasi_static::set_free(problem, &self.energies, &self.here, &taken);
         let work = (self.energies).work_to(problem, &taken.state, &taken.balanced);
         let given = self.energies.external_work + work;
-        let rounding = quasi_static::rounding(&self.stepping.equilibrium, &taken.balanced);
-        if free <= (share * self.energy_given().max(given)).max(rounding) {
+        let equilibrium = &self.stepping.equilibrium;
+        let rounding = quasi_static::rounding(equilibrium, &taken.balanced);
+        let both = [&self.here.state, &taken.state];
+        let slips = quasi_static::slips(problem, equilibrium.size(), both);
+        if !slips && free <= (share * self.energy_given().max(given)).max(rounding) {
             return Ok(Ok(taken));
         }
         self.problem.problem.criteria = criteria;

@@ -4,7 +4,8 @@
 //! nothing; a bond that breaks at its limit sets free 1/2 u^T K_b (u' - u); an avalanche, a part that comes off and a load that jumps set free
 //! what only a motion can carry away.
 //!
-//! A part that nothing holds has an equilibrium under a force only where it touches what resists it. A step across a gap finds that one; what the
+//! A part that nothing holds has an equilibrium under a force only where it touches what resists it. One that a prescribed motion presses against
+//! another without friction has one beside it as well, past which it cannot have slipped at once ([`slips`]). A step across a gap finds that one; what the
 //! force does on the way counts as set free, but not what a prescribed motion seems to do there by the trapezoidal rule.
 
 use super::clock::Clock;
@@ -17,6 +18,8 @@ use crate::driver::recorder::Energies;
 use crate::equilibrium::Equilibrium;
 use crate::motion::{ImplicitSettings, MotionProblem};
 use crate::problem::Problem;
+use crate::state::State;
+use ligament_model::tensor::{minus, norm};
 
 /// Pace at time zero: without inertia where the settings have it so and the body is at rest.
 pub(super) fn first_pace(problem: &MotionProblem, implicit: ImplicitSettings) -> Pace {
@@ -43,6 +46,34 @@ pub(super) fn pace_from(tick: usize, clock: &Clock) -> Pace {
 pub(super) fn rounding(equilibrium: &Equilibrium, balanced: &Balanced) -> f64 {
     let of_positions = equilibrium.energy_of_rounding(balanced.internal.force_scale);
     balanced.energy_floor.max(of_positions)
+}
+
+/// Share of the size of a body by which a part that nothing holds may move in a step beyond [`LEVER`] times what is prescribed: surfaces that
+/// slip off each other move by their own size, parts in contact by the gaps between them.
+const SLIP: f64 = 0.1;
+
+/// Ratio of a motion at the end of a lever to the one that moves it.
+const LEVER: f64 = 10.0;
+
+/// Whether a part that nothing holds slips off what it touches in a step from a state to another one, for a body of a size (m).
+pub(super) fn slips(problem: &Problem, size: f64, [before, after]: [&State; 2]) -> bool {
+    if problem.contact.is_empty() || !after.held.contains(&true) {
+        return false;
+    }
+    let layout = problem.system.layout();
+    let way = |dof: usize| (after.displacement[dof] - before.displacement[dof]).abs();
+    let moved = (0..after.displacement.len()).filter(|&dof| !layout.component(dof).is_rotation());
+    let prescribed = moved
+        .clone()
+        .filter(|&dof| problem.loads.is_prescribed(dof));
+    let prescribed = prescribed.map(way).fold(0.0, f64::max);
+    let of_tools = problem.contact.rigid_bodies.iter().map(|it| {
+        let [from, to] = [before, after].map(|it| it.load_factor);
+        let [from, to] = [from, to].map(|time| it.motion.displacement(time));
+        norm(minus(to, from))
+    });
+    let prescribed = of_tools.fold(prescribed, f64::max);
+    moved.map(way).fold(0.0, f64::max) > SLIP * size + LEVER * prescribed
 }
 
 /// Energy that a step sets free, J.
