@@ -41,6 +41,13 @@ pub(super) const FALLS: f64 = 0.1;
 /// Ratio of successive residuals with friction below which the residual counts as falling: it falls by a constant factor.
 const WAY_FALLS: f64 = 0.9;
 
+/// Largest number of trials of the search along a correction with friction. Long corrections leap over ways in which pairs stick and slide in turn,
+/// and end after a few of them; where friction turns round within a small part of each, the residual stays as it is.
+const TRIES: usize = 5;
+
+/// Number of iterations without a falling residual after which the search goes on to the end.
+const PATIENCE: usize = 10;
+
 /// Residual up to which the last iterate, or else the nearest one, is accepted: a part that only touches another one carries no
 /// force, and residuals relative to a small share of the largest force so far do not fall below the rounding of that force.
 const LARGEST_RESIDUAL: f64 = 1e-8;
@@ -58,12 +65,11 @@ pub(super) fn balance(
     equations.prescribe(state);
     let mut mechanisms = Vec::new();
     let sought = equations.accuracy.sought(breakage);
-    let is_exact = equations.solver.tolerance().is_none();
     let mut iterations = usize::from(equations.follow(state, breakage));
     let mut iterate = equations.measure(state);
     let mut before = f64::INFINITY;
     let largest = sought.max(LARGEST_RESIDUAL);
-    let (limit, slowly) = pace(equations);
+    let (limit, mut fall) = pace(equations);
     // Pairs of parts that only touch each other close and open by rounding, so that a worse iterate can follow a solution.
     let mut nearest: Option<Nearest> = None;
     loop {
@@ -73,7 +79,7 @@ pub(super) fn balance(
         }
         let is_over = iterations == limit;
         // One more iteration removes the residual due to the soft supports of detached parts.
-        let falls = is_exact && residual.relative < FALLS * before;
+        let falls = equations.solver.tolerance().is_none() && residual.relative < FALLS * before;
         let tolerance = match is_over {
             true => largest,
             false if falls => REFINED,
@@ -96,13 +102,14 @@ pub(super) fn balance(
             return Ok(equations.not_settled(&residual, iterations));
         }
         keep_nearer(&mut nearest, &residual, largest, state);
-        let next = match next(equations, state, &iterate, sought, &mut mechanisms) {
+        let tries = fall.tries(iterations, residual.relative);
+        let next = match next(equations, state, &iterate, sought, tries, &mut mechanisms) {
             Ok(next) => next,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };
         let (opened, closed) = contact::changes(&iterate.met.closed, &next.met.closed);
         let is_same = opened.is_empty() && closed.is_empty();
-        if is_same && next.residual.relative > slowly * residual.relative {
+        if is_same && next.residual.relative > fall.slowly * residual.relative {
             equations.solver.discard();
         }
         iterate = next;
@@ -110,26 +117,57 @@ pub(super) fn balance(
     }
 }
 
-/// Largest number of iterations, and the ratio of successive residuals above which the factor is made anew.
-fn pace(equations: &Equations) -> (usize, f64) {
-    if equations.meeting.depends_on_way() {
+/// Largest number of iterations, and the fall of the residual before the first one.
+fn pace(equations: &Equations) -> (usize, Fall) {
+    let (limit, slowly) = if equations.meeting.depends_on_way() {
         (WAY_LIMIT, WAY_FALLS)
     } else {
         (ITERATION_LIMIT, FALLS)
-    }
+    };
+    let fall = Fall {
+        slowly,
+        lowest: f64::INFINITY,
+        iteration: 0,
+    };
+    (limit, fall)
 }
 
-/// Corrects a state for the relative residual `sought` and measures it; appends the points of mechanisms that the solver found.
+/// Corrects a state for the relative residual `sought`, with so many `tries` along the correction with friction, and measures it; appends the points
+/// of mechanisms that the solver found.
 fn next(
     equations: &mut Equations,
     state: &mut State,
     iterate: &Iterate,
     sought: f64,
+    tries: usize,
     mechanisms: &mut Vec<u32>,
 ) -> Result<Iterate, Unbalanced> {
     let mut correction = rigid::correction(equations, state, iterate, sought, mechanisms)?;
     correction.shorten(equations);
-    Ok(search(equations, state, iterate, &correction))
+    Ok(search(equations, state, iterate, &correction, tries))
+}
+
+/// Where the residual of an iteration last fell.
+struct Fall {
+    /// Ratio of residuals below which one falls; the factor is made anew where successive ones do not.
+    slowly: f64,
+    lowest: f64,
+    /// Iteration that had it.
+    iteration: usize,
+}
+
+impl Fall {
+    /// Number of trials of the search along the correction of an iterate.
+    fn tries(&mut self, iteration: usize, residual: f64) -> usize {
+        if residual < self.slowly * self.lowest {
+            (self.lowest, self.iteration) = (residual, iteration);
+        }
+        if iteration < self.iteration + PATIENCE {
+            TRIES
+        } else {
+            HALVINGS
+        }
+    }
 }
 
 /// The nearest iterate to an equilibrium so far.
@@ -155,12 +193,14 @@ fn keep_nearer(nearest: &mut Option<Nearest>, residual: &Residual, largest: f64,
     }
 }
 
-/// Moves the state along a correction to the minimum of the energy, or to its end, and measures the state there.
+/// Moves the state along a correction to the minimum of the energy, or to its end, and measures the state there; with friction to where the
+/// residual forces do little work along the correction, found by so many `tries`.
 fn search(
     equations: &mut Equations,
     state: &mut State,
     iterate: &Iterate,
     correction: &Correction,
+    tries: usize,
 ) -> Iterate {
     let start = correction.slope(equations, state, iterate);
     correction.add_to(equations, state, 1.0);
@@ -170,7 +210,14 @@ fn search(
         return next;
     }
     if equations.meeting.depends_on_way() {
-        return search_along_way(equations, state, next, (start, end), correction);
+        let (mut at, mut found) = (1.0, next);
+        line_search::part(-start, -end, tries, |part| {
+            correction.add_to(equations, state, part - at);
+            at = part;
+            found = equations.measure(state);
+            -correction.slope(equations, state, &found)
+        });
+        return found;
     }
     let pairs = equations.meeting.faces.pairs().iter();
     let gaps = iterate.met.gaps.iter().zip(&next.met.gaps);
@@ -184,25 +231,6 @@ fn search(
     let length = lowest(start, end, &moved);
     correction.add_to(equations, state, length - 1.0);
     equations.measure(state)
-}
-
-/// Moves the state back from the end of a correction, an iterate, to where the residual forces do little work along it, from the slopes at
-/// both ends.
-fn search_along_way(
-    equations: &mut Equations,
-    state: &mut State,
-    mut iterate: Iterate,
-    (start, end): (f64, f64),
-    correction: &Correction,
-) -> Iterate {
-    let mut at = 1.0;
-    line_search::part(-start, -end, HALVINGS, |part| {
-        correction.add_to(equations, state, part - at);
-        at = part;
-        iterate = equations.measure(state);
-        -correction.slope(equations, state, &iterate)
-    });
-    iterate
 }
 
 /// A pair whose gap changes along a step.
