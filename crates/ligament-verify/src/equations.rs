@@ -8,6 +8,8 @@ use ligament_analysis::Equilibrium;
 /// Sizes of the equations of equilibrium, with the program's elimination order.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Equations {
+    /// Number of bonds.
+    pub(super) bonds: f64,
     /// Number of unknowns, the order of the stiffness matrix.
     pub(super) unknowns: f64,
     /// Number of entries of the matrix's lower triangle.
@@ -32,6 +34,7 @@ impl Equations {
         let stiffness = stiffness.context("the equations are solved without a matrix")?;
         let symbolic = stiffness.symbolic();
         Ok(Self {
+            bonds: model.plane().bonds.len() as f64,
             unknowns: stiffness.unknowns().len() as f64,
             matrix: symbolic.pattern().n_entries() as f64,
             factor: symbolic.n_factor_values() as f64,

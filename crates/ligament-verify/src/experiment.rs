@@ -4,6 +4,7 @@ use anyhow::Context;
 use ligament_plot::picture::maps::Maps;
 use ligament_plot::plots::Plot;
 
+use super::experiment_file::ExperimentFile;
 use super::measured::MeasuredTest;
 use super::measured::scoreboard::Scores;
 use super::table::{Extent, Table};
@@ -20,7 +21,7 @@ pub struct Experiment {
     pub source: &'static str,
     /// Description of the computation.
     pub setup: &'static str,
-    /// Cases that are run, with settings of each entry.
+    /// Cases that are run, with settings of each entry; those of a file are in it.
     pub cases: &'static [&'static Template],
     /// Way to the tables.
     pub compute: Compute,
@@ -31,11 +32,21 @@ pub struct Experiment {
 pub enum Compute {
     /// Function that computes the tables, or their fast subset.
     Code(fn(Extent) -> anyhow::Result<Findings>),
+    /// File of the experiment.
+    File(&'static ExperimentFile),
     /// Entry of the table of measured tests.
     Measured(&'static MeasuredTest),
 }
 
 impl Experiment {
+    /// Paths of the cases that are run, from the root of the repository.
+    pub fn case_files(&self) -> Vec<&'static str> {
+        match self.compute {
+            Compute::File(file) => file.cases(),
+            _ => self.cases.iter().map(|it| it.path).collect(),
+        }
+    }
+
     /// Runs the experiment; a table without entries in the subset is left out.
     ///
     /// # Errors
@@ -44,6 +55,7 @@ impl Experiment {
     pub fn run(&self, extent: Extent) -> anyhow::Result<Findings> {
         let findings = match self.compute {
             Compute::Code(compute) => compute(extent),
+            Compute::File(file) => file.compute(extent),
             Compute::Measured(test) => test.compute(extent),
         };
         let mut findings =

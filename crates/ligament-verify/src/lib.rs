@@ -5,7 +5,8 @@
 //! | `published` | the reader of `published/*.csv`: known values, tolerances, misprints with their reasons |
 //! | [`table`], [`entry`], `printed` | tables, verdicts on entries, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
-//! | `disk`, `poisson`, ... | the experiments, one file each |
+//! | [`experiment_file`] | experiments that are files beside their tables, and what expressions there can read |
+//! | `cracks`, `poisson`, ... | the other experiments, one module each |
 //! | [`finite_elements`] | classical elasticity, for comparison with the lattices of the papers |
 //! | [`measured`] | measured tests with bands of acceptance, from a table |
 //! | `papers` | the papers' tables and figures, and the tables of this report that compare them |
@@ -17,6 +18,7 @@
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use clap::Parser;
 use ligament::suggestion::hint;
@@ -24,42 +26,34 @@ use ligament_cli::commands::output;
 use ligament_output::folder::{Kind, ResultFolder};
 
 mod anisotropy;
-mod bars;
 mod contact;
-mod cost;
 mod crack_path;
 mod cracks;
 mod cylinder;
 mod directions;
-mod disk;
-mod disk_modes;
-mod disk_test;
 pub mod entry;
 mod equations;
 mod experiment;
+pub mod experiment_file;
 pub mod finite_elements;
 mod frequencies;
 mod griffith;
 mod hole;
-mod inclined;
 mod lamina;
 mod lamina_elements;
 mod maps;
 pub mod measured;
-mod moduli;
 mod motion;
 mod named_modes;
 mod papers;
 mod patch_test;
+mod places;
 mod plates;
-mod poisson;
 mod printed;
 mod published;
 mod readings;
 mod report;
 mod ring;
-mod slots;
-mod softening;
 mod spread;
 mod square_elements;
 mod statics;
@@ -70,63 +64,73 @@ mod tension;
 mod trial;
 mod yielding;
 
+use Written::{Code, File};
 pub use experiment::{Compute, Experiment, Findings};
 pub use measured::experiments;
 pub use trial::Template;
 
 use entry::Verdict;
+use experiment_file::ExperimentFile;
 use report::{console, files, markdown, page, scoreboard};
 use table::Extent;
 use tally::Tally;
 
-/// Experiments that are written as code, in the order of the report; the measured tests follow them ([`experiments`]).
-pub static EXPERIMENTS: [Experiment; 46] = [
-    frequencies::EXPERIMENT,
-    statics::EXPERIMENT,
-    readings::EXPERIMENT,
-    lamina::EXPERIMENT,
-    tension::EXPERIMENT,
-    maps::EXPERIMENT,
-    directions::EXPERIMENT,
-    moduli::EXPERIMENT,
-    poisson::EXPERIMENT,
-    yielding::EXPERIMENT,
-    anisotropy::EXPERIMENT,
-    disk::EXPERIMENT,
-    slots::EXPERIMENT,
-    inclined::EXPERIMENT,
-    griffith::EXPERIMENT,
-    softening::EXPERIMENT,
-    plates::EXPERIMENT,
-    cylinder::EXPERIMENT,
-    cracks::EXPERIMENT,
-    cost::EXPERIMENT,
-    patch_test::EXPERIMENT,
-    bars::EXPERIMENT,
-    ring::EXPERIMENT,
-    hole::EXPERIMENT,
-    disk_modes::EXPERIMENT,
-    strength::squares::EXPERIMENT,
-    strength::hole::EXPERIMENT,
-    strength::disk::EXPERIMENT,
-    strength::crack::EXPERIMENT,
-    strength::bar::EXPERIMENT,
-    strength::cube::EXPERIMENT,
-    strength::glass::EXPERIMENT,
-    motion::waves::EXPERIMENT,
-    motion::vibration::EXPERIMENT,
-    motion::lamb::EXPERIMENT,
-    motion::branching::EXPERIMENT,
-    motion::kalthoff::EXPERIMENT,
-    motion::spall::EXPERIMENT,
-    motion::stretching::EXPERIMENT,
-    motion::disk::EXPERIMENT,
-    motion::splitting::EXPERIMENT,
-    motion::contact::EXPERIMENT,
-    motion::schemes::EXPERIMENT,
-    contact::sliding::EXPERIMENT,
-    contact::hertz::EXPERIMENT,
-    contact::flaw::EXPERIMENT,
+/// Where an experiment is written.
+enum Written {
+    /// In its own module.
+    Code(&'static Experiment),
+    /// In a file of its name ([`experiment_file`]).
+    File(&'static str),
+}
+
+/// Experiments of published values, in the order of the report; the measured tests follow them ([`experiments`]).
+static PUBLISHED: [Written; 46] = [
+    Code(&frequencies::EXPERIMENT),
+    Code(&statics::EXPERIMENT),
+    Code(&readings::EXPERIMENT),
+    Code(&lamina::EXPERIMENT),
+    Code(&tension::EXPERIMENT),
+    Code(&maps::EXPERIMENT),
+    Code(&directions::EXPERIMENT),
+    File("moduli"),
+    File("poisson"),
+    Code(&yielding::EXPERIMENT),
+    Code(&anisotropy::EXPERIMENT),
+    File("disk"),
+    File("slots"),
+    File("inclined"),
+    File("griffith"),
+    File("softening"),
+    Code(&plates::EXPERIMENT),
+    Code(&cylinder::EXPERIMENT),
+    Code(&cracks::EXPERIMENT),
+    File("cost"),
+    File("patch_test"),
+    File("bars"),
+    File("ring"),
+    File("hole"),
+    File("disk_modes"),
+    Code(&strength::squares::EXPERIMENT),
+    File("strength_hole"),
+    File("strength_disk"),
+    File("strength_crack"),
+    File("strength_bar"),
+    Code(&strength::cube::EXPERIMENT),
+    Code(&strength::glass::EXPERIMENT),
+    Code(&motion::waves::EXPERIMENT),
+    Code(&motion::vibration::EXPERIMENT),
+    Code(&motion::lamb::EXPERIMENT),
+    Code(&motion::branching::EXPERIMENT),
+    Code(&motion::kalthoff::EXPERIMENT),
+    File("motion_spall"),
+    Code(&motion::stretching::EXPERIMENT),
+    Code(&motion::disk::EXPERIMENT),
+    Code(&motion::splitting::EXPERIMENT),
+    Code(&motion::contact::EXPERIMENT),
+    Code(&motion::schemes::EXPERIMENT),
+    Code(&contact::sliding::EXPERIMENT),
+    Code(&contact::hertz::EXPERIMENT),
+    Code(&contact::flaw::EXPERIMENT),
 ];
 
 const EXAMPLES: &str = "\
@@ -245,14 +249,32 @@ fn conclude(all: &Tally) -> Result<(), VerifyError> {
     }
 }
 
+/// The experiments of published values, in the order of the report.
+///
+/// # Errors
+///
+/// If the file of one cannot be read.
+pub fn published_experiments() -> anyhow::Result<&'static [Experiment]> {
+    static READ: OnceLock<Vec<Experiment>> = OnceLock::new();
+    if let Some(all) = READ.get() {
+        return Ok(all);
+    }
+    let all = PUBLISHED.iter().map(|it| match it {
+        Code(experiment) => Ok(**experiment),
+        File(name) => Ok(ExperimentFile::read(name)?.experiment()),
+    });
+    let all = all.collect::<anyhow::Result<Vec<_>>>()?;
+    Ok(READ.get_or_init(|| all))
+}
+
 /// All experiments, in the order of the report.
 ///
 /// # Errors
 ///
-/// If the table of measured tests is wrong.
+/// If the file of an experiment or the table of measured tests is wrong.
 pub fn all() -> anyhow::Result<Vec<Experiment>> {
-    let measured = experiments()?.iter();
-    Ok(EXPERIMENTS.iter().chain(measured).copied().collect())
+    let published = published_experiments()?.iter();
+    Ok(published.chain(experiments()?).copied().collect())
 }
 
 /// The experiments of these names, in the order of the report; all without names. A name that no experiment has is that of a group: of all

@@ -209,20 +209,29 @@ impl<'a> Labels<'a> {
 
     /// The label of a key as a number; `1/3` is one.
     pub(super) fn number(&self, key: &str) -> Result<f64, LabelError> {
-        let label = self.text(key)?;
-        let number = match label.split_once('/') {
-            None => label.parse().ok(),
-            Some((above, below)) => above
-                .parse()
-                .ok()
-                .zip(below.parse().ok())
-                .map(|(above, below): (f64, f64)| above / below),
-        };
-        number.ok_or_else(|| LabelError::NotANumber {
-            key: key.to_owned(),
-            label: label.to_owned(),
-        })
+        number(key, self.text(key)?)
     }
+
+    /// Keys with their labels.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = (&'a String, &'a String)> + use<'a> {
+        self.keys.iter().zip(self.labels)
+    }
+}
+
+/// The label of a key as a number; `1/3` is one.
+pub(super) fn number(key: &str, label: &str) -> Result<f64, LabelError> {
+    let number = match label.split_once('/') {
+        None => label.parse().ok(),
+        Some((above, below)) => above
+            .parse()
+            .ok()
+            .zip(below.parse().ok())
+            .map(|(above, below): (f64, f64)| above / below),
+    };
+    number.ok_or_else(|| LabelError::NotANumber {
+        key: key.to_owned(),
+        label: label.to_owned(),
+    })
 }
 
 impl fmt::Display for Labels<'_> {

@@ -1,7 +1,8 @@
 //! A case of the repository, run in memory with changed settings.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use ligament::body::AnyBody;
@@ -16,6 +17,7 @@ use ligament_case::case::document::Node;
 use ligament_case::case::{BodyKind, CaseFile};
 
 use super::crack_path::Breakages;
+use super::places::repository;
 
 /// A case file of the repository, embedded in the program.
 #[derive(Debug)]
@@ -58,9 +60,12 @@ pub(super) struct StoredMesh {
 
 /// A case with settings (`key=value`, as with `--set`) for a run.
 pub(super) struct Trial {
-    template: &'static Template,
+    /// Path of the case in the repository.
+    path: Cow<'static, str>,
+    text: Cow<'static, str>,
     settings: Vec<String>,
     mesh: Option<&'static StoredMesh>,
+    mesh_file: Option<PathBuf>,
 }
 
 impl StoredMesh {
@@ -78,14 +83,28 @@ impl Template {
     /// A trial of the case without settings.
     pub(super) fn trial(&'static self) -> Trial {
         Trial {
-            template: self,
+            path: Cow::Borrowed(self.path),
+            text: Cow::Borrowed(self.text),
             settings: Vec::new(),
             mesh: None,
+            mesh_file: None,
         }
     }
 }
 
 impl Trial {
+    /// A trial of a case file, by its path from the root of the repository, without settings.
+    pub(super) fn of_file(path: &str) -> anyhow::Result<Self> {
+        let text = std::fs::read_to_string(repository().join(path));
+        Ok(Self {
+            path: Cow::Owned(path.to_owned()),
+            text: Cow::Owned(text.with_context(|| path.to_owned())?),
+            settings: Vec::new(),
+            mesh: None,
+            mesh_file: None,
+        })
+    }
+
     /// The trial with one more setting.
     pub(super) fn set(mut self, key: &str, value: impl std::fmt::Debug) -> Self {
         self.settings.push(format!("{key}={value:?}"));
@@ -110,6 +129,19 @@ impl Trial {
             mesh: Some(mesh),
             ..self.set("mesh.file", mesh.path)
         }
+    }
+
+    /// The trial on a mesh file.
+    pub(super) fn on_mesh_file(self, path: PathBuf) -> Self {
+        Self {
+            mesh_file: Some(path.clone()),
+            ..self.set("mesh.file", path)
+        }
+    }
+
+    /// The mesh file that was set.
+    pub(super) fn mesh_file(&self) -> Option<&Path> {
+        self.mesh_file.as_deref()
     }
 
     /// Runs the case, as `ligament run` does.
@@ -170,16 +202,16 @@ impl Trial {
         work: impl FnOnce(&CaseFile, Setup) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
         let attempt = || {
-            let path = Path::new(self.template.path);
-            let (text, settings) = (self.template.text, &self.settings);
+            let path = repository().join(&*self.path);
+            let (text, settings) = (&*self.text, &self.settings);
             let Some(mesh) = self.mesh else {
-                let case = CaseFile::parse(path, text.to_owned(), settings)?;
+                let case = CaseFile::parse(&path, text.to_owned(), settings)?;
                 let setup = case.setup(&mut ())?;
                 return work(&case, setup);
             };
             let (kind, body) = mesh.body()?;
             let document = Node::parse_document(text)?;
-            let case = CaseFile::on_body(path, document, settings, kind)?;
+            let case = CaseFile::on_body(&path, document, settings, kind)?;
             let setup = case.setup_on(body)?;
             work(&case, setup)
         };
@@ -192,7 +224,7 @@ impl Trial {
         let words: Vec<String> = settings
             .map(|setting| format!(" --set {setting}"))
             .collect();
-        format!("ligament run {}{}", self.template.path, words.concat())
+        format!("ligament run {}{}", self.path, words.concat())
     }
 }
 

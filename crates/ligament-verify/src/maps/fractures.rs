@@ -8,8 +8,9 @@ use ligament_analysis::history::BreakRecord;
 use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 
+use crate::cracks;
+use crate::experiment_file::ExperimentFile;
 use crate::trial::Trial;
-use crate::{cracks, disk, inclined, slots};
 
 /// The correction of the paper, and the patch correction, under which uniform strains are in equilibrium.
 const CORRECTIONS: [&str; 2] = ["domain", "patch"];
@@ -40,13 +41,19 @@ const PLATES: [Figure; 3] = [("central", 14), ("three", 16), ("hole", 17)];
 /// All maps of damage.
 pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     let mut maps = Vec::new();
+    let [disk, slotted, inclined] = ["disk", "slots", "inclined"].map(ExperimentFile::read);
+    let [disk, slotted, inclined] = [disk?, slotted?, inclined?];
+    let of = |file: &ExperimentFile, correction: &str, labels: &[(&str, &str)]| {
+        let all = [&[("correction", correction), ("lambda", "3")], labels].concat();
+        file.trial(&all)
+    };
     for (mesh, figure) in DISKS {
-        let trial = |correction| disk::trial(mesh, correction, 3.0);
+        let trial = |correction| of(&disk, correction, &[("mesh", mesh)]);
         let title = format!("Brazilian disk, lambda = 3, mesh of {mesh}");
         maps.push(under_both(figure, title, trial)?);
     }
     for (case, figure) in SLOTS {
-        let trial = |correction| slots::trial(case, "2 mm", correction, 3.0);
+        let trial = |correction| of(&slotted, correction, &[("slots", case), ("mesh", "2 mm")]);
         let slots = match case.parse::<u32>() {
             Ok(angle) => format!("one slot at {angle} degrees"),
             Err(_) => format!("{case} slots"),
@@ -57,7 +64,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     maps.push(under_both(
         24,
         "Plate with an inclined slot, theta = 62.5, lambda = 3".to_owned(),
-        |it| inclined::trial("62.5", it, 3.0),
+        |correction| of(&inclined, correction, &[("theta", "62.5")]),
     )?);
     for (case, figure) in PLATES {
         let trial = cracks::trial(case, 1.0, "mixed-mode")?.set("fracture.stop.load_fraction", END);

@@ -8,14 +8,13 @@
 //! | `reading` | one run of a test, and what is read from it |
 //! | `judgement` | values of a run against the bands |
 //! | `size_effect` | Bazant's law through peaks of several sizes |
-//! | `places` | folders of the repository |
 //! | `figure` | the figure of a test |
 //! | [`scoreboard`] | scores of the runs, for the page of measured tests |
 
 mod curve;
 mod figure;
 mod judgement;
-mod places;
+
 mod reading;
 pub mod scoreboard;
 mod size_effect;
@@ -26,9 +25,9 @@ use std::sync::OnceLock;
 use super::experiment::{Compute, Experiment, Findings};
 use super::table::Extent;
 
+use crate::places::folder;
 use curve::MeasuredCurve;
 use judgement::Judgement;
-use places::folder;
 use reading::Reading;
 use scoreboard::Scores;
 pub use test::MeasuredTest;

@@ -14,8 +14,8 @@ use ligament_run::run::{Report, run};
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 use rustix::time::{ClockId, clock_gettime};
 
-use super::places::repository;
 use super::test::{Axis, MeasuredTest, Quantity, Variant};
+use crate::places::repository;
 
 /// What a run gave.
 #[derive(Debug, Clone)]

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::places::{folder, repository};
+use crate::places::{folder, repository};
 
 /// A measured test.
 #[derive(Debug, Clone, PartialEq, Deserialize)]

@@ -8,7 +8,6 @@ pub(super) mod kalthoff;
 pub(super) mod lamb;
 pub(super) mod record;
 pub(super) mod schemes;
-pub(super) mod spall;
 pub(super) mod splitting;
 pub(super) mod stretching;
 pub(super) mod vibration;

@@ -9,14 +9,10 @@ use crate::experiment::{Experiment, Findings};
 
 /// Lists all experiments on the console.
 pub(crate) fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::Result<()> {
-    for Experiment {
-        name,
-        title,
-        source,
-        ..
-    } in experiments
-    {
-        writeln!(console, "{name:<18}{title} ({source})")?;
+    let row = |it: &Experiment| [it.name, it.title, it.source].map(str::to_owned).to_vec();
+    let rows: Vec<Vec<String>> = experiments.iter().map(row).collect();
+    for line in aligned(&rows, usize::MAX) {
+        writeln!(console, "{line}")?;
     }
     Ok(())
 }

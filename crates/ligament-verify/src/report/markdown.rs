@@ -32,8 +32,8 @@ pub(crate) fn text(done: &[(Experiment, Findings)]) -> String {
             "\n## {}\n\n**{}.** {}\n",
             experiment.name, experiment.title, experiment.setup
         );
-        let cases = experiment.cases.iter();
-        let cases: Vec<String> = cases.map(|case| format!("`{}`", case.path)).collect();
+        let cases = experiment.case_files().into_iter();
+        let cases: Vec<String> = cases.map(|case| format!("`{case}`")).collect();
         if !cases.is_empty() {
             let _ = write!(text, "\nCases: {}.\n", cases.join(", "));
         }

@@ -1,0 +1,246 @@
+//! The runs of an entry, and the memory of what came out of them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use anyhow::{Context, bail};
+
+use super::document::{Choice, ExperimentFile, Run, TableOfFile};
+use super::expression::Expression;
+use super::quantity::{CURVE, Read, RunResults, quantity};
+use crate::places::repository;
+use crate::table::{Labels, number};
+use crate::trial::Trial;
+
+/// What stands for doubled braces while the others are filled: characters that no setting has.
+const OPENING: &str = "\u{1}";
+const CLOSING: &str = "\u{2}";
+
+/// The runs whose results an entry or a point of a plot joins, and the expression of its value.
+pub(super) struct EntryRuns<'a> {
+    file: &'a ExperimentFile,
+    /// Runs of the table, added to those of the file.
+    run: &'a Run,
+    value: Expression,
+    /// Labels of each run, by the beginning of their keys up to a comma.
+    runs: Vec<BTreeMap<String, String>>,
+}
+
+impl<'a> EntryRuns<'a> {
+    /// The runs of an entry of a table.
+    pub(super) fn of_entry(
+        file: &'a ExperimentFile,
+        table: &'a TableOfFile,
+        labels: Labels<'_>,
+    ) -> anyhow::Result<Self> {
+        let of_entry: BTreeMap<String, String> = (labels.pairs())
+            .map(|(key, label)| (name_of(key).to_owned(), label.to_owned()))
+            .collect();
+        let mut runs = vec![of_entry];
+        for (key, members) in &table.over {
+            let label = runs[0].get(key).map_or("", String::as_str);
+            let Some(members) = members.get(label) else {
+                continue;
+            };
+            let with = |(of_run, member): (&BTreeMap<String, String>, &String)| {
+                let mut of_run = of_run.clone();
+                of_run.insert(key.clone(), member.clone());
+                of_run
+            };
+            let pairs = runs
+                .iter()
+                .flat_map(|run| members.iter().map(move |it| (run, it)));
+            runs = pairs.map(with).collect();
+        }
+        Self::new(file, &table.run, &table.value, runs)
+    }
+
+    /// The runs with some labels, of which the first one decides on the expression of the value.
+    pub(super) fn new(
+        file: &'a ExperimentFile,
+        run: &'a Run,
+        value: &Choice,
+        runs: Vec<BTreeMap<String, String>>,
+    ) -> anyhow::Result<Self> {
+        let text = value.for_labels(|key| label(&runs[0], key))?;
+        let value = Expression::parse(&with_labels(text, &runs[0])?)?;
+        Ok(Self {
+            file,
+            run,
+            value,
+            runs,
+        })
+    }
+
+    /// The trial of a run.
+    pub(super) fn trial(&self, run: usize) -> anyhow::Result<Trial> {
+        let labels = &self.runs[run];
+        let choice = |own: &'a Option<Choice>, of_file: &'a Option<Choice>| {
+            let choice = own.as_ref().or(of_file.as_ref());
+            choice
+                .map(|it| it.for_labels(|key| label(labels, key)))
+                .transpose()
+        };
+        let case = choice(&self.run.case, &self.file.run.case)?.context("no `case` is named")?;
+        let mut trial = Trial::of_file(case)?;
+        let mesh = choice(&self.run.mesh, &self.file.run.mesh)?;
+        if let Some(mesh) = mesh.filter(|it| !it.is_empty()) {
+            trial = trial.on_mesh_file(repository().join("meshes").join(mesh));
+        }
+        let mut settings: Vec<&String> = Vec::new();
+        for run in [&self.file.run, self.run] {
+            settings.extend(&run.set);
+            if let Some(by_label) = &run.set_by {
+                settings.extend(by_label.for_labels(|key| label(labels, key))?);
+            }
+        }
+        for setting in settings {
+            let (key, value) = setting
+                .split_once('=')
+                .context("a setting is `key=value`")?;
+            trial = trial.set_toml(key, &self.filled(value, run)?);
+        }
+        Ok(trial)
+    }
+
+    /// A setting with its braces filled: in a text by labels, elsewhere by numbers. Braces that belong to the setting are doubled.
+    fn filled(&self, setting: &str, run: usize) -> anyhow::Result<String> {
+        let setting = setting.replace("{{", OPENING).replace("}}", CLOSING);
+        let mut filled = String::new();
+        let mut left = &*setting;
+        while let Some((before, rest)) = left.split_once('{') {
+            let (inner, after) = rest.split_once('}').context("a `}` is missing")?;
+            filled.push_str(before);
+            let is_in_text = filled.matches('"').count() % 2 == 1;
+            if is_in_text {
+                filled.push_str(&label(&self.runs[run], inner)?);
+            } else {
+                let mut of = |run: usize, name: &str| self.number(run, name);
+                let number = Expression::parse(inner)?.value(run..run + 1, &mut of)?;
+                filled.push_str(&written(number));
+            }
+            left = after;
+        }
+        filled.push_str(left);
+        Ok(filled.replace(OPENING, "{").replace(CLOSING, "}"))
+    }
+
+    /// The number of a name that is a label or a number of the file.
+    pub(super) fn number(&self, run: usize, name: &str) -> anyhow::Result<f64> {
+        match self.number_if_any(run, name)? {
+            Some(number) => Ok(number),
+            None => bail!("no label and no number is called `{name}`"),
+        }
+    }
+
+    fn number_if_any(&self, run: usize, name: &str) -> anyhow::Result<Option<f64>> {
+        let labels = &self.runs[run];
+        if let Some(choice) = self.file.numbers.get(name) {
+            let text = choice.for_labels(|key| label(labels, key))?;
+            let expression = Expression::parse(text).with_context(|| format!("number `{name}`"))?;
+            let mut of = |run: usize, name: &str| self.number(run, name);
+            return expression.value(run..run + 1, &mut of).map(Some);
+        }
+        match labels.get(name) {
+            Some(label) => Ok(Some(number(name, label)?)),
+            None if name == "pi" => Ok(Some(std::f64::consts::PI)),
+            None => Ok(None),
+        }
+    }
+}
+
+/// A name of a key in expressions: what stands before a comma and its unit.
+fn name_of(key: &str) -> &str {
+    key.split(',').next().unwrap_or(key)
+}
+
+/// The label of a key.
+fn label(labels: &BTreeMap<String, String>, key: &str) -> anyhow::Result<String> {
+    let known = || labels.keys().cloned().collect::<Vec<_>>().join(", ");
+    let found = labels.get(key).cloned();
+    found.with_context(|| format!("no label `{key}`; labels: {}", known()))
+}
+
+/// A text with the labels in its braces.
+pub(super) fn with_labels(text: &str, labels: &BTreeMap<String, String>) -> anyhow::Result<String> {
+    let mut filled = text.to_owned();
+    for (key, label) in labels {
+        filled = filled.replace(&format!("{{{key}}}"), label);
+    }
+    Ok(filled)
+}
+
+/// A number as TOML has it; a whole one without a point, as lattices count their cells.
+fn written(number: f64) -> String {
+    let whole = number.round();
+    if (number - whole).abs() < 1e-9 * whole.abs().max(1.0) && whole.abs() < 1e9 {
+        format!("{whole}")
+    } else {
+        format!("{number:?}")
+    }
+}
+
+/// Results of all runs of an experiment, by the commands that give the same.
+#[derive(Default)]
+pub(super) struct RunMemory {
+    /// Quantities that are read from each run.
+    wanted: BTreeMap<String, BTreeSet<String>>,
+    found: BTreeMap<String, RunResults>,
+}
+
+impl RunMemory {
+    /// Notes the quantities that the value of some runs needs, so that each run is read at once.
+    pub(super) fn plan(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<()> {
+        for run in 0..runs.runs.len() {
+            let names = runs.value.names().into_iter();
+            let mut quantities = BTreeSet::new();
+            for name in names {
+                if runs.number_if_any(run, name)?.is_none() {
+                    quantity(name)?;
+                    quantities.insert(name.to_owned());
+                }
+            }
+            if !quantities.is_empty() {
+                let command = runs.trial(run)?.command();
+                self.wanted.entry(command).or_default().extend(quantities);
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes that the curve of a run is needed.
+    pub(super) fn plan_curve(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<()> {
+        let command = runs.trial(0)?.command();
+        self.wanted
+            .entry(command)
+            .or_default()
+            .insert(CURVE.to_owned());
+        Ok(())
+    }
+
+    /// The value of some runs.
+    pub(super) fn value(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<f64> {
+        let all = 0..runs.runs.len();
+        runs.value
+            .value(all, &mut |run, name| match runs.number_if_any(run, name)? {
+                Some(number) => Ok(number),
+                None => self.results(runs, run)?.value(name),
+            })
+    }
+
+    /// The curve of displacement and load of a run, m and N.
+    pub(super) fn curve(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<Vec<[f64; 2]>> {
+        Ok(self.results(runs, 0)?.curve.clone())
+    }
+
+    fn results(&mut self, runs: &EntryRuns<'_>, run: usize) -> anyhow::Result<&RunResults> {
+        let trial = runs.trial(run)?;
+        let command = trial.command();
+        if !self.found.contains_key(&command) {
+            let wanted = self.wanted.get(&command).cloned().unwrap_or_default();
+            let number = |name: &str| runs.number(run, name);
+            let results = RunResults::of_trial(&trial, &wanted, &Read { number: &number })?;
+            self.found.insert(command.clone(), results);
+        }
+        self.found.get(&command).context("the run has no results")
+    }
+}

@@ -1,0 +1,132 @@
+//! Experiments that are files: `published/NAME.toml` says which case runs with which settings for the labels of an entry, and which expression of
+//! what comes out is compared. docs/verification.md explains every key.
+//!
+//! | module | holds |
+//! |---|---|
+//! | `document` | the file as it is written |
+//! | `expression` | numbers, names, + - * / and statistics over runs |
+//! | `quantity` | what an expression can read from a run |
+//! | `entry_runs` | the runs of an entry, each with its labels and its trial, and their memory |
+//! | `figure` | plots |
+
+mod document;
+mod entry_runs;
+mod expression;
+mod figure;
+mod quantity;
+
+use std::path::Path;
+
+use anyhow::{Context, ensure};
+
+use super::experiment::{Compute, Experiment, Findings};
+use super::published::known_values;
+use super::table::{Extent, Known};
+use super::trial::Trial;
+
+pub use document::ExperimentFile;
+use document::{Choice, TableOfFile};
+use entry_runs::{EntryRuns, RunMemory};
+
+impl ExperimentFile {
+    /// Reads the experiment of a name.
+    ///
+    /// # Errors
+    ///
+    /// If the file cannot be read or is none of an experiment.
+    pub(super) fn read(name: &str) -> anyhow::Result<Self> {
+        let path = folder().join(format!("{name}.toml"));
+        let attempt = || -> anyhow::Result<Self> {
+            let read: Self = toml::from_str(&std::fs::read_to_string(&path)?)?;
+            ensure!(read.name == name, "its name is `{}`", read.name);
+            Ok(read)
+        };
+        attempt().with_context(|| path.display().to_string())
+    }
+
+    /// The experiment, which lasts as long as the program.
+    pub(super) fn experiment(self) -> Experiment {
+        let file: &'static Self = Box::leak(Box::new(self));
+        Experiment {
+            name: &file.name,
+            title: &file.title,
+            source: &file.source,
+            setup: &file.setup,
+            cases: &[],
+            compute: Compute::File(file),
+        }
+    }
+
+    /// The case files of all tables, in the order of their names, from the root of the repository.
+    pub(super) fn cases(&self) -> Vec<&str> {
+        let runs = self.table.iter().map(|table| &table.run);
+        let all = runs.chain([&self.run]).filter_map(|run| run.case.as_ref());
+        let mut cases: Vec<&str> = all.flat_map(Choice::texts).collect();
+        cases.sort_unstable();
+        cases.dedup();
+        cases
+    }
+
+    /// The trial of the case of all tables with some labels, each after its key.
+    pub(super) fn trial(&self, labels: &[(&str, &str)]) -> anyhow::Result<Trial> {
+        let labels = labels
+            .iter()
+            .map(|(key, label)| (key.to_string(), label.to_string()));
+        figure::runs(self, "0", labels.collect())?.trial(0)
+    }
+
+    /// Computes the tables, or their fast subset, and with all entries the plots.
+    ///
+    /// # Errors
+    ///
+    /// If a table cannot be read, a case cannot be run, or a value has no meaning for an entry.
+    pub(super) fn compute(&self, extent: Extent) -> anyhow::Result<Findings> {
+        let known = self.table.iter().map(|table| table.known());
+        let known: Vec<Known> = known.collect::<anyhow::Result<_>>()?;
+        let mut memory = RunMemory::default();
+        for (table, known) in self.table.iter().zip(&known) {
+            known.judge(extent, |labels| {
+                memory.plan(&EntryRuns::of_entry(self, table, labels)?)?;
+                Ok(f64::NAN)
+            })?;
+        }
+        let figures = match extent {
+            Extent::Fast => &[][..],
+            Extent::Full => &self.plot,
+        };
+        for figure in figures {
+            figure.plan(self, &mut memory)?;
+        }
+        let mut tables = Vec::new();
+        for (table, known) in self.table.iter().zip(&known) {
+            tables.push(known.judge(extent, |labels| {
+                memory.value(&EntryRuns::of_entry(self, table, labels)?)
+            })?);
+        }
+        let mut plots = Vec::new();
+        for figure in &self.plot {
+            plots.extend(figure.plots(self, extent, &tables, &mut memory)?);
+        }
+        Ok(Findings {
+            tables,
+            plots,
+            ..Findings::default()
+        })
+    }
+}
+
+impl TableOfFile {
+    fn known(&self) -> anyhow::Result<Known> {
+        let path = folder().join(format!("{}.csv", self.file));
+        let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+        Ok(known_values(&self.file, &text)?)
+    }
+}
+
+/// Folder of the experiments and their tables.
+fn folder() -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src/published")
+}
+
+#[cfg(test)]
+mod tests;

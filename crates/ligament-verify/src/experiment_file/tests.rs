@@ -1,0 +1,113 @@
+use super::*;
+use crate::places::repository;
+
+/// Every file of the repository is read, and what it names exists.
+#[test]
+fn the_experiments_of_the_repository_are_right() {
+    let mut n_files = 0;
+    for entry in std::fs::read_dir(folder()).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_none_or(|it| it != "toml") {
+            continue;
+        }
+        n_files += 1;
+        let name = path.file_stem().unwrap().to_str().unwrap();
+        let file = ExperimentFile::read(name).unwrap();
+        for case in file.cases() {
+            assert!(repository().join(case).is_file(), "{name}: {case}");
+        }
+        for table in &file.table {
+            let known = table.known().unwrap();
+            let mut memory = RunMemory::default();
+            known
+                .judge(Extent::Full, |labels| {
+                    memory.plan(&EntryRuns::of_entry(&file, table, labels)?)?;
+                    Ok(f64::NAN)
+                })
+                .unwrap();
+        }
+    }
+    assert!(n_files > 5);
+}
+
+const TEXT: &str = r#"
+name = "bar"
+title = "A bar"
+source = "closed form"
+setup = "A bar."
+[numbers]
+force = "area*3e6"
+area = { by = "lambda", 3 = 2.0, 4 = "1 + 2" }
+[run]
+case = "cases/plate-tension/case.toml"
+set = ['model.horizon_factor={lambda}', 'correction.surface="{correction}"', 'lattice.cells=[{60/lambda},{force/1e5}]', 'fracture={{ steps = 2 }}']
+[[table]]
+file = "bar-tension"
+value = { by = "correction", patch = "last.stiffness/force", domain = "mean(area)" }
+[table.over.lambda]
+all = ["3", "4"]
+"#;
+
+fn runs<'a>(file: &'a ExperimentFile, labels: [&str; 2]) -> anyhow::Result<EntryRuns<'a>> {
+    let keys = ["lambda", "correction"].map(str::to_owned);
+    let labels = labels.map(str::to_owned);
+    EntryRuns::of_entry(
+        file,
+        &file.table[0],
+        crate::table::Labels::new(&keys, &labels),
+    )
+}
+
+/// Settings have numbers as TOML has them, and texts of labels.
+#[test]
+fn labels_become_settings() {
+    let file: ExperimentFile = toml::from_str(TEXT).unwrap();
+    let command = runs(&file, ["4", "patch"]).unwrap().trial(0).unwrap();
+    assert_eq!(
+        command.command(),
+        "ligament run cases/plate-tension/case.toml --set model.horizon_factor=4 --set correction.surface=\"patch\" --set \
+         lattice.cells=[15,90] --set fracture={ steps = 2 }"
+    );
+    let joined = runs(&file, ["all", "domain"]).unwrap();
+    assert_eq!(RunMemory::default().value(&joined).unwrap(), 2.5);
+}
+
+#[test]
+fn what_is_wrong_is_told() {
+    for (from, to, expected) in [
+        (
+            "last.stiffness",
+            "last.stifness",
+            "no quantity is called `last.stifness`",
+        ),
+        (
+            "\"last.stiffness/force\"",
+            "\"last.stiffness/\"",
+            "a term is missing",
+        ),
+        ("4 = \"1 + 2\"", "5 = 2.0", "nothing is given for lambda 4"),
+        (
+            "{correction}",
+            "{surface}",
+            "no label `surface`; labels: correction, lambda",
+        ),
+        ("{lambda}", "{lambda", "a `}` is missing"),
+        (
+            "patch =",
+            "volume =",
+            "nothing is given for correction patch",
+        ),
+    ] {
+        let file: ExperimentFile = toml::from_str(&TEXT.replacen(from, to, 1)).unwrap();
+        let found = runs(&file, ["4", "patch"]).and_then(|it| RunMemory::default().plan(&it));
+        let found = format!("{:#}", found.unwrap_err());
+        assert!(found.contains(expected), "{from}: {found}");
+    }
+    for (from, to, expected) in [
+        ("source", "sources", "unknown field `sources`"),
+        ("{ by =", "{ of =", "`by` names the keys of the labels"),
+    ] {
+        let found = toml::from_str::<ExperimentFile>(&TEXT.replacen(from, to, 1)).unwrap_err();
+        assert!(found.to_string().contains(expected), "{found}");
+    }
+}
