@@ -1,6 +1,7 @@
 """The package as a whole: the command, types, examples in texts, notebooks."""
 
 import doctest
+import functools
 import importlib
 import json
 import os
@@ -48,7 +49,9 @@ def test_the_command_stops_in_order(plate: dict[str, object], tmp_path: Path) ->
     plate["fracture"] = {"steps": 20000}
     case = tmp_path / "case.toml"
     case.write_text(ligament.Case(plate).to_toml())
-    running = subprocess.Popen([COMMAND, "run", str(case), "--out", str(tmp_path / "out")], stdout=subprocess.PIPE, text=True)
+    # Shells let what they start in the background ignore the signal.
+    heed = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
+    running = subprocess.Popen([COMMAND, "run", str(case), "--out", str(tmp_path / "out")], stdout=subprocess.PIPE, text=True, preexec_fn=heed)
     time.sleep(2.0)
     running.send_signal(signal.SIGINT)
     told, _ = running.communicate(timeout=60)
