@@ -9,7 +9,7 @@ use ligament_model::thermal::ThermalStrain;
 
 use super::trial::displacements;
 
-/// Stress concentration K_t at the rim of the hole of a plate, and the root mean square of what the fit leaves over it, from the strain between
+/// Stress concentration K_t at the rim of the hole of a plate, and the root mean square of what the fit leaves over it, %, from the strain between
 /// neighbours times `young` (Pa), from the virial stress and from the traction; all over the `traction` (Pa) on the ends.
 pub(super) fn concentrations(
     solution: &Solution,
@@ -55,7 +55,7 @@ pub(super) fn concentrations(
     ])
 }
 
-/// Value a + b of the fit a + b cos(2 theta) to values over theta, and its residual over that.
+/// Value a + b of the fit a + b cos(2 theta) to values over theta, and its residual over that, %.
 fn fit(values: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let values: Vec<[f64; 2]> = values.collect();
     let count = values.len() as f64;
@@ -71,5 +71,5 @@ fn fit(values: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let b = (cv - c * v) / (cc - c * c);
     let a = v - b * c;
     let left = mean(&|c, v| (v - a - b * c).powi(2)).sqrt();
-    [a + b, left / (a + b)]
+    [a + b, 100.0 * left / (a + b)]
 }

@@ -140,7 +140,7 @@ static QUANTITIES: [(&str, Source); 62] = [
         "first_crack.horizon",
         Source::Run(|it| Ok(it.first_crack()?.horizon)),
     ),
-    // Share of the first 100 broken bonds that end on the circle of `radius` about the origin.
+    // Share of the first 100 broken bonds that end on the circle of `radius` about the origin, %.
     ("breaks.at_rim", Source::Run(at_rim)),
     // Extent along y, mean x and |x|, mean y of the cracked points, m, and whether they join the platens, at the first peak and at the end.
     (
@@ -551,7 +551,7 @@ fn at_rim(ran: &Ran<'_>) -> anyhow::Result<f64> {
         ends.into_iter().any(is_on_rim)
     };
     let early = &ran.breaks[..EARLY.min(ran.breaks.len())];
-    Ok(early.iter().filter(ends_there).count() as f64 / early.len() as f64)
+    Ok(100.0 * early.iter().filter(ends_there).count() as f64 / early.len() as f64)
 }
 
 fn to_platens(ran: &Ran<'_>) -> anyhow::Result<f64> {
