@@ -165,7 +165,7 @@ experiments!(
 fn measured_tests() {
     let is_fast = |it: &&Experiment| match it.compute {
         Compute::Measured(test) => test.run.iter().any(|run| run.fast),
-        Compute::Code(_) => false,
+        Compute::Code(_) | Compute::File(_) => false,
     };
     let mut run = 0;
     for experiment in experiments().unwrap().iter().filter(is_fast) {
