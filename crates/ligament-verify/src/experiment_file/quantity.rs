@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `probe.NAME` | last value of a probe, whose `-` is `_` here |
 //! | `frequency.N` | frequency of the elastic mode N from one on, Hz; the case is one of natural modes |
+//! | `turn.N` | root mean square by which factors of bonds change where the mesh is turned by N degrees |
 //! | others | the row of [`QUANTITIES`] |
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -43,7 +44,8 @@ struct Ran<'a> {
 
 /// What quantities need beside the run.
 pub(super) struct Read<'a> {
-    /// A number of the experiment, such as the radius of a disk.
+    /// A number of the experiment, such as the radius of a disk. Entries of one run share what is read from it: numbers that differ between them belong
+    /// to the name of a quantity.
     pub(super) number: &'a dyn Fn(&str) -> anyhow::Result<f64>,
 }
 
@@ -54,15 +56,14 @@ enum Source {
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
-    /// A trial that is run in another way.
-    Trial(fn(&Trial, &Read<'_>) -> anyhow::Result<f64>),
+    Turn,
     Probe,
     Curve,
     Frequency,
 }
 
 /// Quantities of runs and of equations.
-static QUANTITIES: [(&str, Source); 62] = [
+static QUANTITIES: [(&str, Source); 61] = [
     (
         "elastic_stiffness",
         Source::Run(|it| Ok(it.solution.outcome.elastic_stiffness)),
@@ -249,14 +250,10 @@ static QUANTITIES: [(&str, Source); 62] = [
         Source::Family(|it| it.shear_modulus.at(0, 1)),
     ),
     ("family.poisson", Source::Family(|it| it.poisson[0][1])),
-    // The patch test, and the root mean square by which factors of bonds change with a turn by `angle`.
+    // The patch test.
     ("patch.young", Source::Patch(young)),
     ("patch.poisson", Source::Patch(poisson)),
     ("patch.scatter", Source::Patch(|it| Ok(scatter(it)))),
-    (
-        "patch.change_by_turn",
-        Source::Trial(|trial, read| change_by_turn(trial, (read.number)("angle")?)),
-    ),
     ("equations.unknowns", Source::Equations(|it| it.unknowns)),
     ("equations.bonds", Source::Equations(|it| it.bonds)),
     ("equations.matrix", Source::Equations(|it| it.matrix)),
@@ -278,6 +275,9 @@ fn source(name: &str) -> anyhow::Result<Source> {
     }
     if name.starts_with("frequency.") {
         return Ok(Source::Frequency);
+    }
+    if name.starts_with("turn.") {
+        return Ok(Source::Turn);
     }
     if name == CURVE {
         return Ok(Source::Curve);
@@ -347,7 +347,7 @@ impl Found {
             }
             Source::Family(of) => Ok(of(self.family.as_ref().context("there is no family")?)),
             Source::Patch(of) => of(self.patch.as_ref().context("there is no patch test")?),
-            Source::Trial(of) => of(trial, read),
+            Source::Turn => change_by_turn(trial, name.trim_start_matches("turn.").parse()?),
             Source::Probe => probe(
                 &run()?.0,
                 &name.trim_start_matches("probe.").replace('_', "-"),
