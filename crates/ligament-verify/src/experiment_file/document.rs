@@ -63,9 +63,20 @@ pub(super) struct TableOfFile {
     /// What runs, where it differs from the other tables; settings are added to theirs.
     #[serde(default)]
     pub(super) run: Run,
-    /// Labels that stand for several runs: by key and label, the labels of these. An entry without the key has the empty label.
+    /// Labels that stand for several runs, those of the first key outermost.
     #[serde(default)]
-    pub(super) over: BTreeMap<String, BTreeMap<String, Vec<String>>>,
+    pub(super) over: Vec<Over>,
+}
+
+/// A label that stands for several.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Over {
+    pub(super) key: String,
+    /// The label; empty where the table has no such key.
+    #[serde(default)]
+    pub(super) label: String,
+    pub(super) members: Vec<String>,
 }
 
 /// A text, or texts by labels of an entry.

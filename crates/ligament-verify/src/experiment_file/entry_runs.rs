@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context, bail};
 
-use super::document::{Choice, ExperimentFile, Run, TableOfFile};
+use super::document::{Choice, ExperimentFile, Over, Run, TableOfFile};
 use super::expression::Expression;
 use super::quantity::{CURVE, Read, RunResults, quantity};
 use crate::places::repository;
@@ -35,12 +35,16 @@ impl<'a> EntryRuns<'a> {
         let of_entry: BTreeMap<String, String> = (labels.pairs())
             .map(|(key, label)| (name_of(key).to_owned(), label.to_owned()))
             .collect();
-        let mut runs = vec![of_entry];
-        for (key, members) in &table.over {
-            let label = runs[0].get(key).map_or("", String::as_str);
-            let Some(members) = members.get(label) else {
+        let mut runs = vec![of_entry.clone()];
+        for over in &table.over {
+            let Over {
+                key,
+                label,
+                members,
+            } = over;
+            if of_entry.get(key).map_or("", String::as_str) != label {
                 continue;
-            };
+            }
             let with = |(of_run, member): (&BTreeMap<String, String>, &String)| {
                 let mut of_run = of_run.clone();
                 of_run.insert(key.clone(), member.clone());

@@ -44,8 +44,7 @@ set = ['model.horizon_factor={lambda}', 'correction.surface="{correction}"', 'la
 [[table]]
 file = "bar-tension"
 value = { by = "correction", patch = "last.stiffness/force", domain = "mean(area)" }
-[table.over.lambda]
-all = ["3", "4"]
+over = [{ key = "lambda", label = "all", members = ["3", "4"] }]
 "#;
 
 fn runs<'a>(file: &'a ExperimentFile, labels: [&str; 2]) -> anyhow::Result<EntryRuns<'a>> {
