@@ -21,7 +21,7 @@ pub struct Experiment {
     pub source: &'static str,
     /// Description of the computation.
     pub setup: &'static str,
-    /// Cases that are run, with settings of each entry; those of a file are in it.
+    /// Cases that are run, with settings of each entry. An experiment that is a file names its cases there.
     pub cases: &'static [&'static Template],
     /// Way to the tables.
     pub compute: Compute,

@@ -63,7 +63,7 @@ pub(super) struct TableOfFile {
     /// What runs, where it differs from the other tables; settings are added to theirs.
     #[serde(default)]
     pub(super) run: Run,
-    /// Labels that stand for several runs, those of the first key outermost.
+    /// Labels that stand for several runs each. The first key is the outermost.
     #[serde(default)]
     pub(super) over: Vec<Over>,
 }
@@ -160,7 +160,7 @@ pub(super) struct Figure {
     pub(super) name: String,
     pub(super) title: String,
     pub(super) axes: [String; 2],
-    /// Labels of which each has a plot of its own, by key.
+    /// Labels by key. Each of them has a plot of its own.
     #[serde(default)]
     pub(super) each: BTreeMap<String, Vec<String>>,
     /// Texts by labels for the title.
@@ -234,7 +234,7 @@ pub(super) struct RunSeries {
     #[serde(default)]
     pub(super) xs: Vec<String>,
     pub(super) y: Option<String>,
-    /// Label along x whose value divides those of its line.
+    /// Label along x. The value there divides all values of its line.
     pub(super) over: Option<String>,
     /// The curve of a run: expressions of `displacement` and `reaction`.
     pub(super) curve: Option<[String; 2]>,

@@ -6,7 +6,7 @@ use anyhow::{Context, bail};
 
 use super::document::{Choice, ExperimentFile, Over, Run, TableOfFile};
 use super::expression::Expression;
-use super::quantity::{CURVE, Read, RunResults, quantity};
+use super::quantity::{CURVE, Numbers, RunResults, ensure_known};
 use crate::places::repository;
 use crate::table::{Labels, number};
 use crate::trial::Trial;
@@ -18,7 +18,7 @@ const CLOSING: &str = "\u{2}";
 /// The runs whose results an entry or a point of a plot joins, and the expression of its value.
 pub(super) struct EntryRuns<'a> {
     file: &'a ExperimentFile,
-    /// Runs of the table, added to those of the file.
+    /// What the table runs, added to what the file runs.
     run: &'a Run,
     value: Expression,
     /// Labels of each run, by the beginning of their keys up to a comma.
@@ -45,20 +45,12 @@ impl<'a> EntryRuns<'a> {
             if of_entry.get(key).map_or("", String::as_str) != label {
                 continue;
             }
-            let with = |(of_run, member): (&BTreeMap<String, String>, &String)| {
-                let mut of_run = of_run.clone();
-                of_run.insert(key.clone(), member.clone());
-                of_run
-            };
-            let pairs = runs
-                .iter()
-                .flat_map(|run| members.iter().map(move |it| (run, it)));
-            runs = pairs.map(with).collect();
+            runs = with_each(&runs, key, members);
         }
         Self::new(file, &table.run, &table.value, runs)
     }
 
-    /// The runs with some labels, of which the first one decides on the expression of the value.
+    /// Several runs by their labels. Those of the first run choose the expression of the value.
     pub(super) fn new(
         file: &'a ExperimentFile,
         run: &'a Run,
@@ -152,6 +144,22 @@ impl<'a> EntryRuns<'a> {
     }
 }
 
+/// Labels of runs, each with all labels of a key in turn.
+pub(super) fn with_each(
+    runs: &[BTreeMap<String, String>],
+    key: &str,
+    labels: &[String],
+) -> Vec<BTreeMap<String, String>> {
+    let with = |run: &BTreeMap<String, String>, label: &String| {
+        let mut run = run.clone();
+        run.insert(key.to_owned(), label.clone());
+        run
+    };
+    let all = runs.iter();
+    all.flat_map(|run| labels.iter().map(move |label| with(run, label)))
+        .collect()
+}
+
 /// A name of a key in expressions: what stands before a comma and its unit.
 fn name_of(key: &str) -> &str {
     key.split(',').next().unwrap_or(key)
@@ -199,7 +207,7 @@ impl RunMemory {
             let mut quantities = BTreeSet::new();
             for name in names {
                 if runs.number_if_any(run, name)?.is_none() {
-                    quantity(name)?;
+                    ensure_known(name)?;
                     quantities.insert(name.to_owned());
                 }
             }
@@ -242,7 +250,7 @@ impl RunMemory {
         if !self.found.contains_key(&command) {
             let wanted = self.wanted.get(&command).cloned().unwrap_or_default();
             let number = |name: &str| runs.number(run, name);
-            let results = RunResults::of_trial(&trial, &wanted, &Read { number: &number })?;
+            let results = RunResults::of_trial(&trial, &wanted, &Numbers { number: &number })?;
             self.found.insert(command.clone(), results);
         }
         self.found.get(&command).context("the run has no results")

@@ -8,7 +8,7 @@ use ligament_plot::plots::{Colour, Mark, Plot, Series};
 use super::document::{
     Choice, ExperimentFile, Figure, FixedLine, MarkOfFile, Run, RunSeries, TableSeries,
 };
-use super::entry_runs::{EntryRuns, RunMemory, with_labels};
+use super::entry_runs::{EntryRuns, RunMemory, with_each, with_labels};
 use super::expression::Expression;
 use crate::table::{Extent, Table, number};
 
@@ -78,15 +78,7 @@ impl Figure {
     fn of_each(&self) -> Vec<LabelsOfRun> {
         let mut all = vec![self.labels.clone()];
         for (key, labels) in &self.each {
-            let with = |(of_plot, label): (&LabelsOfRun, &String)| {
-                let mut of_plot = of_plot.clone();
-                of_plot.insert(key.clone(), label.clone());
-                of_plot
-            };
-            let pairs = all
-                .iter()
-                .flat_map(|it| labels.iter().map(move |label| (it, label)));
-            all = pairs.map(with).collect();
+            all = with_each(&all, key, labels);
         }
         all
     }
@@ -97,17 +89,14 @@ impl Figure {
             return Vec::new();
         };
         let line = |label: &String| {
-            let mut of_line = labels.clone();
-            of_line.insert(of_runs.line.clone(), label.clone());
+            let of_line = with_each(
+                std::slice::from_ref(labels),
+                &of_runs.line,
+                &[label.clone()],
+            );
             let points = match &of_runs.x {
-                None => vec![of_line],
-                Some(key) => (of_runs.xs.iter())
-                    .map(|x| {
-                        let mut point = of_line.clone();
-                        point.insert(key.clone(), x.clone());
-                        point
-                    })
-                    .collect(),
+                None => of_line,
+                Some(key) => with_each(&of_line, key, &of_runs.xs),
             };
             (label.clone(), points)
         };

@@ -36,14 +36,14 @@ const ON_CIRCLE: f64 = 1e-9;
 const EARLY: usize = 100;
 
 /// A run with its breakages in their order, and the numbers of the experiment.
-struct Ran<'a> {
+struct LoadedRun<'a> {
     solution: &'a Solution,
     breaks: &'a [BreakRecord],
-    read: &'a Read<'a>,
+    numbers: &'a Numbers<'a>,
 }
 
 /// What quantities need beside the run.
-pub(super) struct Read<'a> {
+pub(super) struct Numbers<'a> {
     /// A number of the experiment, such as the radius of a disk. Entries of one run share what is read from it: numbers that differ between them belong
     /// to the name of a quantity.
     pub(super) number: &'a dyn Fn(&str) -> anyhow::Result<f64>,
@@ -52,7 +52,7 @@ pub(super) struct Read<'a> {
 /// Way to a quantity.
 #[derive(Clone, Copy)]
 enum Source {
-    Run(fn(&Ran<'_>) -> anyhow::Result<f64>),
+    Run(fn(&LoadedRun<'_>) -> anyhow::Result<f64>),
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
@@ -225,23 +225,23 @@ static QUANTITIES: [(&str, Source); 61] = [
     // Cracks driven by the fracture energy.
     (
         "griffith.strength",
-        Source::Run(|it| griffith::relative_strength(it.solution, it.read.number)),
+        Source::Run(|it| griffith::relative_strength(it.solution, it.numbers.number)),
     ),
     (
         "griffith.crossing",
-        Source::Run(|it| griffith::crossing_energy(it.solution, it.read.number)),
+        Source::Run(|it| griffith::crossing_energy(it.solution, it.numbers.number)),
     ),
     (
         "griffith.released",
-        Source::Run(|it| griffith::released(it.solution, it.read.number)),
+        Source::Run(|it| griffith::released(it.solution, it.numbers.number)),
     ),
     (
         "griffith.separation",
-        Source::Run(|it| griffith::separation_energy(it.solution, it.read.number)),
+        Source::Run(|it| griffith::separation_energy(it.solution, it.numbers.number)),
     ),
     (
         "griffith.deviation",
-        Source::Run(|it| griffith::deviation(it.solution, it.read.number)),
+        Source::Run(|it| griffith::deviation(it.solution, it.numbers.number)),
     ),
     // Constants of the family of the point nearest to the origin.
     ("family.young", Source::Family(|it| it.young[0])),
@@ -264,8 +264,8 @@ static QUANTITIES: [(&str, Source); 61] = [
     ),
 ];
 
-/// The way to a quantity of a name.
-pub(super) fn quantity(name: &str) -> anyhow::Result<()> {
+/// Refuses a name that no quantity has.
+pub(super) fn ensure_known(name: &str) -> anyhow::Result<()> {
     source(name).map(|_| ())
 }
 
@@ -337,7 +337,7 @@ impl Found {
         &self,
         (name, source): &(String, Source),
         trial: &Trial,
-        read: &Read<'_>,
+        numbers: &Numbers<'_>,
     ) -> anyhow::Result<f64> {
         let run = || self.run.as_ref().context("the case was not run");
         match source {
@@ -355,10 +355,10 @@ impl Found {
             Source::Curve => anyhow::bail!("a curve is no number"),
             Source::Run(of) => {
                 let (solution, breaks) = run()?;
-                of(&Ran {
+                of(&LoadedRun {
                     solution,
                     breaks,
-                    read,
+                    numbers,
                 })
             }
         }
@@ -370,13 +370,13 @@ impl RunResults {
     pub(super) fn of_trial(
         trial: &Trial,
         wanted: &BTreeSet<String>,
-        read: &Read<'_>,
+        numbers: &Numbers<'_>,
     ) -> anyhow::Result<Self> {
         let sources = wanted.iter().map(|name| Ok((name.clone(), source(name)?)));
         let sources: Vec<(String, Source)> = sources.collect::<anyhow::Result<_>>()?;
         let found = Found::new(trial, &sources)?;
         let values = sources.iter().filter(|it| it.0 != CURVE).map(|it| {
-            let value = found.value(it, trial, read);
+            let value = found.value(it, trial, numbers);
             (it.0.clone(), value.map_err(|error| format!("{error:#}")))
         });
         let curve = found.run.as_ref().map(|it| it.0.outcome.envelope());
@@ -417,9 +417,9 @@ fn frequency(modes: &[f64], name: &str) -> anyhow::Result<f64> {
     found.with_context(|| format!("the body has no elastic mode {number}"))
 }
 
-impl Ran<'_> {
+impl LoadedRun<'_> {
     fn number(&self, name: &str) -> anyhow::Result<f64> {
-        (self.read.number)(name)
+        (self.numbers.number)(name)
     }
 
     fn last(&self) -> anyhow::Result<&StepRecord> {
@@ -542,7 +542,7 @@ fn extent(crack: &Crack) -> f64 {
     (high - low).max(0.0)
 }
 
-fn at_rim(ran: &Ran<'_>) -> anyhow::Result<f64> {
+fn at_rim(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let radius = ran.number("radius")?;
     ran.first()?;
     let is_on_rim = |[x, y]: [f64; 2]| x.hypot(y) > radius - ON_CIRCLE;
@@ -554,7 +554,7 @@ fn at_rim(ran: &Ran<'_>) -> anyhow::Result<f64> {
     Ok(100.0 * early.iter().filter(ends_there).count() as f64 / early.len() as f64)
 }
 
-fn to_platens(ran: &Ran<'_>) -> anyhow::Result<f64> {
+fn to_platens(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let crack = ran.crack();
     let parts: Vec<Crack> = ran.cuts().iter().map(|&cut| crack.part_from(cut)).collect();
     let to_platen = |platen: Segment| {
@@ -568,7 +568,7 @@ fn to_platens(ran: &Ran<'_>) -> anyhow::Result<f64> {
         .fold(0.0, f64::max))
 }
 
-fn between_cuts(ran: &Ran<'_>) -> f64 {
+fn between_cuts(ran: &LoadedRun<'_>) -> f64 {
     let (crack, cuts) = (ran.crack(), ran.cuts());
     let parts: Vec<Crack> = cuts.iter().map(|&cut| crack.part_from(cut)).collect();
     let pairs = (1..cuts.len()).map(|second| {
@@ -584,13 +584,13 @@ fn half_turn(crack: &Crack, along: [f64; 2]) -> f64 {
     crack.half_turn(along).map_or(f64::NAN, |it| it.mean)
 }
 
-fn is_symmetric(ran: &Ran<'_>) -> anyhow::Result<f64> {
+fn is_symmetric(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let crack = ran.crack();
     let mismatch = half_turn(&crack, [1.0, 0.0]) / crack.mean_horizon();
     Ok(f64::from(u8::from(mismatch <= 1.0)))
 }
 
-fn leads_left(ran: &Ran<'_>) -> anyhow::Result<f64> {
+fn leads_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let crack = ran.crack();
     let reach = |sign: f64| {
         let tip = crack.part(|[x, _]| sign * x > 0.0).tip();
@@ -601,7 +601,7 @@ fn leads_left(ran: &Ran<'_>) -> anyhow::Result<f64> {
 
 /// Angle to the x axis of the mean direction of the crack from the right end of the first cut, minus that from the left end, degrees, over their
 /// common length; NaN where there is no crack at an end.
-fn towards_left(ran: &Ran<'_>) -> anyhow::Result<f64> {
+fn towards_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let crack = ran.crack();
     let [left, right] = *ran.cuts().first().context("the body has no cut")?;
     let angle = |end: [f64; 2], sign: f64| {
