@@ -92,7 +92,7 @@ impl Figure {
             let of_line = with_each(
                 std::slice::from_ref(labels),
                 &of_runs.line,
-                &[label.clone()],
+                std::slice::from_ref(label),
             );
             let points = match &of_runs.x {
                 None => of_line,
