@@ -49,10 +49,15 @@ def test_the_command_stops_in_order(plate: dict[str, object], tmp_path: Path) ->
     plate["fracture"] = {"steps": 20000}
     case = tmp_path / "case.toml"
     case.write_text(ligament.Case(plate).to_toml())
+    out = tmp_path / "out"
     # Shells let what they start in the background ignore the signal.
     heed = functools.partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
-    running = subprocess.Popen([COMMAND, "run", str(case), "--out", str(tmp_path / "out")], stdout=subprocess.PIPE, text=True, preexec_fn=heed)
-    time.sleep(2.0)
+    running = subprocess.Popen([COMMAND, "run", str(case), "--out", str(out)], stdout=subprocess.PIPE, text=True, preexec_fn=heed)
+    # Longer than a busy machine takes to the first solution, before which there is nothing to go on from.
+    until = time.monotonic() + 120.0
+    while not (out / "history.csv").is_file():
+        assert running.poll() is None and time.monotonic() < until, "the run has not begun"
+        time.sleep(0.01)
     running.send_signal(signal.SIGINT)
     told, _ = running.communicate(timeout=60)
     assert running.returncode == 4 and "ligament resume" in told
