@@ -17,7 +17,7 @@ use super::criterion::Criterion;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::scatter::Scatters;
-use super::values::{Numbers, missing, numbers, refuse, require};
+use super::values::{Numbers, missing, numbers, require};
 use super::word::Word;
 
 /// Largest number of equal load steps, and of parts of one: each has a row in the history.
@@ -131,16 +131,13 @@ impl Default for Stop {
 impl Fracture {
     /// Fills in missing keys of the load steps; with stages, these are those of the stages.
     pub(super) fn complete(&mut self, key: &KeyPath, is_staged: bool) -> Result<(), KeyFault> {
-        match self.control {
-            Control::Stepped => {
-                let settings = self.stepping(key, is_staged)?;
-                let rule = settings.rule;
-                self.bonds_per_iteration = Some(rule.bonds_per_iteration as u32);
-                self.order = Some(Word(rule.order));
-                self.max_iterations = Some(settings.round_limit as u32);
-                self.refine_first_break = Some(settings.refine_first_break as u32);
-            }
-            Control::Event => self.refuse_stepping(key)?,
+        if self.control == Control::Stepped {
+            let settings = self.stepping(key, is_staged)?;
+            let rule = settings.rule;
+            self.bonds_per_iteration = Some(rule.bonds_per_iteration as u32);
+            self.order = Some(Word(rule.order));
+            self.max_iterations = Some(settings.round_limit as u32);
+            self.refine_first_break = Some(settings.refine_first_break as u32);
         }
         Ok(())
     }
@@ -157,19 +154,6 @@ impl Fracture {
         let (kind, key) = (default.word, || key.child("criterion"));
         let expected = format!("one criterion or more (without the key it is kind = \"{kind}\")");
         require(!criteria.is_empty(), key, &expected, [(); 0])
-    }
-
-    /// Refuses keys of load steps in an analysis without load steps, where they would have no effect.
-    fn refuse_stepping(&self, key: &KeyPath) -> Result<(), KeyFault> {
-        let given = [
-            ("steps", self.steps.is_some()),
-            ("bonds_per_iteration", self.bonds_per_iteration.is_some()),
-            ("order", self.order.is_some()),
-            ("max_iterations", self.max_iterations.is_some()),
-            ("refine_first_break", self.refine_first_break.is_some()),
-        ];
-        let reason = "the path goes from breakage to breakage without load steps";
-        refuse(key, given, "control = \"event\"", reason)
     }
 
     pub(super) fn setup(&self, key: &KeyPath, is_staged: bool) -> Result<Analysis, KeyFault> {
@@ -201,11 +185,6 @@ impl Fracture {
 
     fn stepping(&self, key: &KeyPath, is_staged: bool) -> Result<SteppedSettings, KeyFault> {
         let load_factors = match &self.steps {
-            Some(_) if is_staged => {
-                let reason = "the load steps are those of the stages: each takes its `steps`";
-                refuse(key, [("steps", true)], "[[stage]]", reason)?;
-                Vec::new()
-            }
             Some(steps) => steps.load_factors(),
             None if is_staged => Vec::new(),
             None => return Err(missing(key, "steps")),

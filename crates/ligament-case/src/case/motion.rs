@@ -11,7 +11,7 @@ use super::fault::KeyFault;
 use super::fracture::Fracture;
 use super::key_path::KeyPath;
 use super::region::{Corners, place};
-use super::values::{missing, refuse};
+use super::values::missing;
 
 /// Largest dissipation of implicit steps, beyond which they are less accurate than of second order.
 const MOST_DISSIPATION: f64 = 1.0 / 3.0;
@@ -129,13 +129,11 @@ impl Motion {
         fracture: Option<&Fracture>,
     ) -> Result<MotionSettings, KeyFault> {
         let scheme = match self.scheme {
-            Scheme::Explicit => self.explicit(key)?,
-            Scheme::Implicit => {
-                let given = [("statics", self.statics.is_some())];
-                let reason = "all implicit steps have inertia; those of the scheme \"auto\" have it where the body loses its balance";
-                refuse(key, given, "scheme = \"implicit\"", reason)?;
-                self.implicit(key, fracture, None)?
-            }
+            Scheme::Explicit => motion::Scheme::Explicit(ExplicitSettings {
+                step: self.step,
+                safety: self.safety.unwrap_or(explicit().safety),
+            }),
+            Scheme::Implicit => self.implicit(key, fracture, None)?,
             Scheme::Auto => {
                 let share = self.statics.unwrap_or(setup::STATICS);
                 self.implicit(key, fracture, Some(share))?
@@ -159,19 +157,6 @@ impl Motion {
 }
 
 impl Motion {
-    fn explicit(&self, key: &KeyPath) -> Result<motion::Scheme, KeyFault> {
-        let given = [
-            ("dissipation", self.dissipation.is_some()),
-            ("statics", self.statics.is_some()),
-        ];
-        let reason = "explicit steps take no energy and follow no equilibria";
-        refuse(key, given, "scheme = \"explicit\"", reason)?;
-        Ok(motion::Scheme::Explicit(ExplicitSettings {
-            step: self.step,
-            safety: self.safety.unwrap_or(explicit().safety),
-        }))
-    }
-
     /// Implicit steps, with the share of the work that steps without inertia may set free.
     fn implicit(
         &self,
@@ -179,13 +164,6 @@ impl Motion {
         fracture: Option<&Fracture>,
         statics: Option<f64>,
     ) -> Result<motion::Scheme, KeyFault> {
-        let given = [("safety", self.safety.is_some())];
-        let setting = match statics {
-            Some(_) => "scheme = \"auto\"",
-            None => "scheme = \"implicit\"",
-        };
-        let reason = "implicit steps are stable at any length";
-        refuse(key, given, setting, reason)?;
         let step = self.step.ok_or_else(|| missing(key, "step"))?;
         let default = setup::implicit(step);
         let settings = match fracture {

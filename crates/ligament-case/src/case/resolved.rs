@@ -1,24 +1,20 @@
 //! Writer of a checked case as TOML.
 
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
-use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, Value};
+use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
 
-use super::in_time::keys_of_statics;
+use super::not_with::keys_without_effect;
 use super::sections::Case;
 
 /// The case as TOML, with a header for each section and nested tables inline.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     let mut document: DocumentMut = toml_edit::ser::to_document(case)?;
-    // The section is refused in a modal case.
-    if case.modal.is_some() {
-        document.remove("output");
-    }
-    // So are these in a motion.
-    let fracture = document.get_mut("fracture");
-    if let (Some(motion), Some(keys)) = (&case.motion, fracture.and_then(Item::as_table_like_mut)) {
-        for key in keys_of_statics(motion.scheme) {
-            keys.remove(key);
-        }
+    for (section, key) in keys_without_effect(case) {
+        let table = match section {
+            "" => Some(document.as_table_mut() as &mut dyn TableLike),
+            name => document.get_mut(name).and_then(Item::as_table_like_mut),
+        };
+        table.and_then(|it| it.remove(key));
     }
     Exponents.visit_document_mut(&mut document);
     for (key, item) in document.iter_mut() {

@@ -20,7 +20,6 @@ use super::decode::decode;
 use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
 use super::fracture::{Control, Fracture};
-use super::in_time::refuse_statics;
 use super::key_path::KeyPath;
 use super::lattice_keys;
 use super::lattice_section::LatticeSection;
@@ -29,6 +28,7 @@ use super::material::{self, Material};
 use super::mesh_section::MeshSection;
 use super::model::ModelSection;
 use super::motion::{InitialVelocity, Motion, Quiet};
+use super::not_with::refuse_keys_without_effect;
 use super::output::{Output, StressField};
 use super::precrack::Precrack;
 use super::probe::Probe;
@@ -37,7 +37,7 @@ use super::solid_lattice_section::SolidLatticeSection;
 use super::solver::{self, Solver};
 use super::stage::Stage;
 use super::temperature::Temperature;
-use super::values::{exactly_one, metre, refuse};
+use super::values::{exactly_one, metre};
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -144,11 +144,9 @@ impl Case {
         if let Some(mesh) = &mut case.mesh {
             mesh.complete(&root().child("mesh"), folder, body)?;
         }
-        case.complete_analysis(document.get("output").is_some())?;
+        case.complete_analysis(document)?;
         if let Some(motion) = &mut case.motion {
             motion.complete();
-            let scheme = motion.scheme;
-            refuse_statics(document, scheme, &case.solver)?;
         }
         let is_idle = case.loads.is_empty()
             && case.temperatures.is_empty()
@@ -186,73 +184,30 @@ impl Case {
         Ok(case)
     }
 
-    /// Sets the analysis, as given by the case or implied by its sections; refuses sections that do not belong to it.
-    fn complete_analysis(&mut self, has_output: bool) -> Result<(), KeyFault> {
-        let (is_breaking, is_modal) = (self.fracture.is_some(), self.modal.is_some());
+    /// Sets the analysis, as given by the case or implied by its sections; refuses keys that do not apply in it.
+    fn complete_analysis(&mut self, document: &Node) -> Result<(), KeyFault> {
+        let is_breaking = self.fracture.is_some();
         let meant = match (&self.motion, is_breaking) {
             (Some(_), _) => Analysis::Motion,
             (None, true) => Analysis::Fracture,
             (None, false) => Analysis::Static,
         };
         let analysis = *self.analysis.get_or_insert(meant);
-        let refuse = |key, is_given, reason| {
-            let setting = format!("analysis = \"{}\"", analysis.word());
-            refuse(&root(), [(key, is_given)], &setting, reason)
-        };
-        if analysis != Analysis::Modal {
-            let reason = "it says which modes are wanted, and only analysis = \"modal\" finds any";
-            refuse("modal", is_modal, reason)?;
-        }
-        if analysis != Analysis::Motion {
-            let reason = "only a motion takes place in time";
-            let mut given = self.in_time().into_iter();
-            given.try_for_each(|(key, is_given)| refuse(key, is_given, reason))?;
-        }
+        refuse_keys_without_effect(document, self)?;
+        let needs = |reason| Err(KeyFault::new(root().child("analysis"), reason));
         match analysis {
-            Analysis::Motion if self.motion.is_none() => {
-                let reason = "\"motion\" needs a [motion] section, which says how long it lasts: `duration`, in s";
-                Err(KeyFault::new(root().child("analysis"), reason))
-            }
-            Analysis::Motion => {
-                let reason = "each load follows an `amplitude` of its own in time";
-                refuse("stage", !self.stages.is_empty(), reason)?;
-                let reason = "a change of temperature would act at once at time zero";
-                refuse("temperature", !self.temperatures.is_empty(), reason)
-            }
+            Analysis::Motion if self.motion.is_none() => needs(
+                "\"motion\" needs a [motion] section, which says how long it lasts: `duration`, in s",
+            ),
             Analysis::Fracture if !is_breaking => {
-                let reason =
-                    "\"fracture\" needs a [fracture] section, which says how the loads rise";
-                Err(KeyFault::new(root().child("analysis"), reason))
-            }
-            Analysis::Fracture => Ok(()),
-            Analysis::Static => {
-                let reason = "no bond breaks in an elastic solution";
-                refuse("fracture", is_breaking, reason)
+                needs("\"fracture\" needs a [fracture] section, which says how the loads rise")
             }
             Analysis::Modal => {
                 self.modal.get_or_insert_default();
-                let (loads, free) = (&self.loads, "modes are free vibrations without loads");
-                refuse("fracture", is_breaking, "no bond breaks in a mode")?;
-                let held = "modes are free vibrations without loads; supports hold";
-                refuse("load", !loads.is_empty(), held)?;
-                refuse("temperature", !self.temperatures.is_empty(), free)?;
-                refuse("stage", !self.stages.is_empty(), free)?;
-                refuse("curve", self.curve.is_some(), free)?;
-                let reason = "modes have no history to read";
-                refuse("probe", !self.probes.is_empty(), reason)?;
-                let reason = "every mode is written, to a file of its own";
-                refuse("output", has_output, reason)
+                Ok(())
             }
+            Analysis::Motion | Analysis::Fracture | Analysis::Static => Ok(()),
         }
-    }
-
-    /// Sections of a motion, each with whether it is given.
-    fn in_time(&self) -> [(&'static str, bool); 3] {
-        [
-            ("motion", self.motion.is_some()),
-            ("initial_velocity", !self.initial_velocities.is_empty()),
-            ("quiet", !self.quiet.is_empty()),
-        ]
     }
 
     fn require_one_body(&self) -> Result<(), KeyFault> {

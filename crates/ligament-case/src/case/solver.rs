@@ -44,18 +44,6 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Keys of the solution of equations, each with whether it is given.
-    pub(super) fn of_equations(&self) -> [(&'static str, bool); 6] {
-        [
-            ("method", self.method.0.is_some()),
-            ("tolerance", self.tolerance.is_some()),
-            ("factorisation", self.factorisation.0.is_some()),
-            ("ordering", self.ordering.0.is_some()),
-            ("update", self.update.0.is_some()),
-            ("rebuild_every", self.rebuild_every.is_some()),
-        ]
-    }
-
     pub(super) fn setup(&self, allows_unstable: bool) -> SolverSettings {
         let default = SolverSettings::default();
         let rebuild_every = self.rebuild_every.map(|bonds| bonds as usize);

@@ -43,6 +43,7 @@ impl Setup {
         self.check_scatter()?;
         self.check_dimension()?;
         self.check_correction()?;
+        self.check_exclusions()?;
         self.check_far_field()?;
         self.check_load_factors()?;
         self.check_motion()?;

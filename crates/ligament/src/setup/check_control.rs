@@ -1,15 +1,14 @@
 //! Checks of the control of stages.
 
 use super::check::{Checked, contradiction, require};
-use super::{Analysis, Control, Course, Quantity, Setup, Stage};
+use super::{Control, Course, Quantity, Setup, Stage};
 use crate::error::{Fault, Field};
 
 impl Setup {
     pub(super) fn check_control(&self, field: Field, stage: &Stage, control: &Control) -> Checked {
         let part = field.part("control");
-        match &control.quantity {
-            Quantity::Probes(probes) => self.check_probes_that_control(part, probes)?,
-            Quantity::DissipatedEnergy => self.check_dissipated(part)?,
+        if let Quantity::Probes(probes) = &control.quantity {
+            self.check_probes_that_control(part, probes)?;
         }
         let is_energy = control.quantity == Quantity::DissipatedEnergy;
         let is_value = control.to.is_finite() && (!is_energy || control.to > 0.0);
@@ -30,11 +29,6 @@ impl Setup {
 
     /// Refuses control by probes in other analyses than load steps, by unknown probes or ones that read no motion, and with weights of 0.
     fn check_probes_that_control(&self, part: Field, probes: &[(String, f64)]) -> Checked {
-        if !matches!(self.analysis, Analysis::Stepped(_)) {
-            let reason = "a probe controls load steps: the exact path passes peaks and snap-backs by itself, and an elastic solution has \
-                none";
-            return contradiction(part, reason);
-        }
         for (name, weight) in probes {
             let Some(probe) = self.probes.iter().find(|it| it.name == *name) else {
                 return Err(part.error(Fault::UnknownName {
@@ -53,22 +47,5 @@ impl Setup {
             require(weight.is_finite() && *weight != 0.0, part, expected, weight)?;
         }
         require(!probes.is_empty(), part, "one probe or more", probes)
-    }
-
-    /// Refuses control by dissipated energy in load steps without softening bonds, which dissipate it in jumps.
-    fn check_dissipated(&self, part: Field) -> Checked {
-        match &self.analysis {
-            Analysis::Event(_) => Ok(()),
-            Analysis::Stepped(_) if self.criteria.iter().any(|it| it.after.law.softens) => Ok(()),
-            Analysis::Stepped(_) => {
-                let reason = "brittle bonds take their energy all at once, so that load steps cannot follow it: let bonds soften \
-                    (`after`), or take the exact path, which goes from breakage to breakage";
-                contradiction(part, reason)
-            }
-            Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
-                let reason = "nothing is dissipated where bonds neither soften nor break";
-                contradiction(part, reason)
-            }
-        }
     }
 }

@@ -2,11 +2,10 @@
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{PointField, PointReading};
+use ligament_model::Advice;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
-use ligament_model::law::rotational::RotationalScale;
 use ligament_model::law::{BondLaw, listed, suited};
 use ligament_model::material::Space;
-use ligament_model::{Advice, Elasticity};
 
 use super::check::{Checked, contradiction, positive, require};
 use super::setting::Setting;
@@ -61,8 +60,7 @@ impl Setup {
         self.check_closing()?;
         self.check_readings()?;
         self.check_components()?;
-        self.check_positions()?;
-        self.check_elasticity()
+        self.check_positions()
     }
 
     fn check_law(&self) -> Checked {
@@ -81,29 +79,7 @@ impl Setup {
             let law = Setting::Law(vec![self.law.row]);
             return contradiction(field.part(option), Advice::new(text, [law]));
         }
-        match (self.rotational_scale, space) {
-            (RotationalScale::CosseratLength(_), Space::Solid) => {
-                let reason = "a Cosserat length is one of the plane: take a factor";
-                contradiction(Field::whole("rotational_scale").part("length"), reason)
-            }
-            (RotationalScale::CosseratLength(_) | RotationalScale::Factor(_), _) => Ok(()),
-        }
-    }
-
-    fn check_elasticity(&self) -> Checked {
-        if matches!(self.space(), Space::Plane(_)) {
-            return Ok(());
-        }
-        let axes = |elasticity: &Elasticity| elasticity.isotropic().is_none();
-        let mut materials = self.materials.iter();
-        match materials.position(|it| axes(&it.material.elasticity)) {
-            Some(index) => {
-                let reason = "solids take isotropic materials only: `young` and `poisson`";
-                let field = Field::element("materials", index).part("elasticity");
-                contradiction(field, reason)
-            }
-            None => Ok(()),
-        }
+        Ok(())
     }
 
     /// Refuses probes along axes, or of components, that the body does not have.

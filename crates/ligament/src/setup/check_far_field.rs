@@ -27,16 +27,6 @@ impl Setup {
                 Advice::new(text, [patch]),
             );
         }
-        let others = [
-            (self.closing, "faces that close"),
-            (self.has_contact(), "contact between surfaces"),
-            (!self.temperatures.is_empty(), "changes of temperature"),
-        ];
-        if let Some((_, what)) = others.into_iter().find(|(is_there, _)| *is_there) {
-            let reason =
-                format!("{what} are for bodies whose cells all have bonds: remove one of both");
-            return contradiction(field, reason);
-        }
         match far_field.strength_share {
             Some(share) => self.check_growth(share),
             None if far_field.near.is_empty() => {
@@ -52,10 +42,6 @@ impl Setup {
         let field = Field::whole("far_field").part("strength_share");
         if !(share > 0.0 && share <= 1.0) {
             let reason = format!("a share of the strength is above 0 and at most 1, found {share}");
-            return contradiction(field, reason);
-        }
-        if !self.analysis.is_fracture() {
-            let reason = "nothing breaks in this analysis, so that elements need not become bonds: remove it, and give places in `near`";
             return contradiction(field, reason);
         }
         let without = |it: &MaterialRegion| it.material.tensile_strength.is_none();

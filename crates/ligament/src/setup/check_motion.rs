@@ -4,17 +4,13 @@ use ligament_analysis::motion::{MotionSettings, Scheme};
 
 use super::check::{Checked, contradiction, missing, positive, require};
 use super::check_dimension::NO_Z;
-use super::{Action, Analysis, Load, Place, Setup, Support};
+use super::{Action, Analysis, Load, Place, Setup};
 use crate::error::Field;
-
-/// Reason why what depends on time is refused in an analysis without time.
-const NO_TIME: &str =
-    "there is no time in this analysis, only in a motion: remove it, or take a motion";
 
 impl Setup {
     pub(super) fn check_motion(&self) -> Checked {
         let Analysis::Motion(settings) = &self.analysis else {
-            return self.refuse_time();
+            return Ok(());
         };
         check_settings(settings)?;
         for (index, region) in self.materials.iter().enumerate() {
@@ -26,15 +22,6 @@ impl Setup {
                     "(in kg/m^3) because a motion needs masses",
                 );
             }
-        }
-        if !self.stages.is_empty() {
-            let reason = "a motion has no stages: let each load follow its `amplitude`";
-            return contradiction(Field::whole("stages"), reason);
-        }
-        if !self.temperatures.is_empty() {
-            let reason =
-                "a motion takes no changes of temperature, which would act at once at time zero";
-            return contradiction(Field::whole("temperatures"), reason);
         }
         let is_idle = self.loads.is_empty() && self.initial_velocities.is_empty();
         if is_idle && self.rigid_bodies.is_empty() {
@@ -54,48 +41,6 @@ impl Setup {
             if is_off || self.leaves_plane(&initial.velocity) {
                 return contradiction(field, NO_Z);
             }
-        }
-        match settings.is_explicit() {
-            true => self.refuse_rigid_restraints(),
-            false => Ok(()),
-        }
-    }
-
-    /// Refuses what depends on time in an analysis without time.
-    fn refuse_time(&self) -> Checked {
-        for (index, load) in self.loads.iter().enumerate() {
-            let field = Field::element("loads", index);
-            if load.amplitude.is_some() {
-                return contradiction(field.part("amplitude"), NO_TIME);
-            }
-            if matches!(
-                load.action,
-                Action::Velocity(_) | Action::BaseAcceleration(_)
-            ) {
-                return contradiction(field.part("action"), NO_TIME);
-            }
-        }
-        if !self.initial_velocities.is_empty() {
-            return contradiction(Field::element("initial_velocities", 0), NO_TIME);
-        }
-        match self.quiet.is_empty() {
-            true => Ok(()),
-            false => contradiction(Field::element("quiet", 0), NO_TIME),
-        }
-    }
-
-    /// Refuses inclined rollers and platens, whose springs are so stiff that explicit steps would be a thousand times shorter.
-    fn refuse_rigid_restraints(&self) -> Checked {
-        let is_rigid =
-            |it: &Support| it.restrained_normal().is_some() && it.stiffness.normal.is_none();
-        if let Some(index) = self.supports.iter().position(is_rigid) {
-            let reason = "an inclined roller is held by springs so stiff that explicit steps would be a thousand times shorter: give it a \
-                          `stiffness` along its normal, or an axis as its normal";
-            return contradiction(Field::element("supports", index).part("normal"), reason);
-        }
-        if let Some(index) = self.loads.iter().position(|it| it.tilts) {
-            let reason = "a platen is so stiff that explicit steps would be a thousand times shorter: leave `tilts` out";
-            return contradiction(Field::element("loads", index).part("tilts"), reason);
         }
         Ok(())
     }

@@ -17,10 +17,6 @@ impl Setup {
         if self.stages.is_empty() {
             return Ok(());
         }
-        if matches!(self.analysis, Analysis::Modal(_)) {
-            let reason = "modes are free vibrations without loads, so there are no stages";
-            return contradiction(Field::whole("stages"), reason);
-        }
         let is_temperature = |name: &str| name == TEMPERATURE;
         let called_so = self.loads.iter().position(|it| is_temperature(&it.name));
         if let Some(load) = called_so.filter(|_| !self.temperatures.is_empty()) {
@@ -80,38 +76,18 @@ impl Setup {
         Ok(())
     }
 
-    /// Refuses load steps of the analysis beside those of the stages.
+    /// Requires a number of load steps of each stage.
     fn check_steps_of_stages(&self) -> Checked {
-        let stepped = match &self.analysis {
-            Analysis::Stepped(settings) => Some(settings),
-            _ => None,
-        };
-        if let Some(settings) = stepped {
-            let list = Field::whole("analysis.load_factors");
-            if !settings.load_factors.is_empty() {
-                let reason = "the load steps are those of the stages: give each stage its `steps` in the place of these";
-                return contradiction(list, reason);
-            }
-            if settings.refine_first_break != 0 {
-                let reason = "the first breakage is not predicted for stages: give more `steps` to the stage in which it comes";
-                return contradiction(Field::whole("analysis").part("refine_first_break"), reason);
-            }
+        if !matches!(self.analysis, Analysis::Stepped(_)) {
+            return Ok(());
         }
         for (index, stage) in self.stages.iter().enumerate() {
             let field = Field::element("stages", index).part("steps");
-            match (stepped, stage.steps) {
-                (Some(_), Some(steps)) => require(steps > 0, field, "at least 1", steps)?,
-                (Some(_), None) => {
-                    let reason = "load steps are taken, and this stage has none: give it a number";
-                    return contradiction(field, reason);
-                }
-                (None, Some(_)) => {
-                    let reason = "only load steps have a number: the exact path goes from breakage to breakage, and an elastic solution is \
-                        taken at the end of each part of a stage; remove it";
-                    return contradiction(field, reason);
-                }
-                (None, None) => {}
-            }
+            let Some(steps) = stage.steps else {
+                let reason = "load steps are taken, and this stage has none: give it a number";
+                return contradiction(field, reason);
+            };
+            require(steps > 0, field, "at least 1", steps)?;
         }
         Ok(())
     }

@@ -1,11 +1,11 @@
-//! Checks of closing faces against law, correction and analysis.
+//! Checks of closing faces against law and correction.
 
 use ligament_model::law::{BondLaw, listed, suited};
 use ligament_model::{Advice, ElementKind};
 
 use super::check::{Checked, contradiction, require};
 use super::setting::Setting;
-use super::{Analysis, CorrectionDomain, Setup};
+use super::{CorrectionDomain, Setup};
 use crate::error::Field;
 
 impl Setup {
@@ -21,11 +21,6 @@ impl Setup {
         if !self.closing {
             return Ok(());
         }
-        if self.closing_friction > 0.0 && matches!(self.analysis, Analysis::Event(_)) {
-            let reason = "friction on closed faces depends on the way to a state and is not in proportion to the load between two breakages, so \
-                that the exact path does not follow it: take load steps";
-            return contradiction(friction, reason);
-        }
         let field = Field::whole("closing");
         let law = self.law.name();
         if self.law.element() != ElementKind::Beam {
@@ -40,15 +35,6 @@ impl Setup {
             let text = "the bonds that pre-cracks cut have the stiffness of the whole body when their faces close: take {}";
             let whole = Setting::Domain(CorrectionDomain::Whole);
             return contradiction(field, Advice::new(text, [whole]));
-        }
-        if matches!(self.analysis, Analysis::Modal(_)) {
-            let reason = "natural modes assume that crack faces do not close: remove it";
-            return contradiction(field, reason);
-        }
-        if matches!(self.analysis, Analysis::Event(_)) && !self.stages.is_empty() {
-            let reason = "with a part of the load that stays, faces open and close between two breakages, and the exact path does not \
-                follow that: take load steps, or let all loads grow with one factor";
-            return contradiction(field, reason);
         }
         Ok(())
     }

@@ -1,0 +1,227 @@
+//! Keys that do not apply with a setting, each with the reason.
+
+use super::analysis::Analysis;
+use super::document::{Node, Value};
+use super::fault::{Fault, KeyFault};
+use super::fracture::{Control, Fracture};
+use super::key_path::KeyPath;
+use super::motion::Scheme;
+use super::sections::Case;
+
+/// Keys that do not apply with a setting.
+struct NotWith {
+    /// Setting of the case with which they do not apply.
+    with: With,
+    /// Section of the keys; empty where they are those of the case.
+    section: &'static str,
+    keys: &'static [&'static str],
+    reason: &'static str,
+}
+
+/// Setting of a case.
+enum With {
+    /// One of some analyses.
+    Analysis(&'static [Analysis]),
+    /// Words of a setting, and whether a case has it.
+    Setting(&'static str, fn(&Case) -> bool),
+}
+
+const MODAL: With = With::Analysis(&[Analysis::Modal]);
+const MOTION: With = With::Analysis(&[Analysis::Motion]);
+const EVENT: With = With::Setting("control = \"event\"", |it| {
+    let is_event = |it: &Fracture| it.control == Control::Event;
+    it.motion.is_none() && it.fracture.as_ref().is_some_and(is_event)
+});
+const STAGES: With = With::Setting("[[stage]]", |it| {
+    it.motion.is_none() && !it.stages.is_empty()
+});
+const EXPLICIT: With = With::Setting("motion.scheme = \"explicit\"", |it| {
+    has(it, Scheme::Explicit)
+});
+
+const FREE: &str = "modes are free vibrations without loads";
+const STABLE: &str = "implicit steps are stable at any length";
+
+const NOT_WITH: [NotWith; 20] = [
+    row(
+        With::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Motion]),
+        ("", &["modal"]),
+        "it says which modes are wanted, and only analysis = \"modal\" finds any",
+    ),
+    row(
+        With::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Modal]),
+        ("", &["motion", "initial_velocity", "quiet"]),
+        "only a motion takes place in time",
+    ),
+    row(
+        With::Analysis(&[Analysis::Static]),
+        ("", &["fracture"]),
+        "no bond breaks in an elastic solution",
+    ),
+    row(MODAL, ("", &["fracture"]), "no bond breaks in a mode"),
+    row(
+        MODAL,
+        ("", &["load"]),
+        "modes are free vibrations without loads; supports hold",
+    ),
+    row(MODAL, ("", &["temperature", "stage", "curve"]), FREE),
+    row(MODAL, ("", &["probe"]), "modes have no history to read"),
+    row(
+        MODAL,
+        ("", &["output"]),
+        "every mode is written, to a file of its own",
+    ),
+    row(
+        MOTION,
+        ("", &["stage"]),
+        "each load follows an `amplitude` of its own in time",
+    ),
+    row(
+        MOTION,
+        ("", &["temperature"]),
+        "a change of temperature would act at once at time zero",
+    ),
+    row(
+        MOTION,
+        ("fracture", &["control", "steps", "refine_first_break"]),
+        "a motion has no load steps: bonds break at the time at which they reach their limits",
+    ),
+    row(
+        MOTION,
+        ("fracture", &["stop"]),
+        "a motion has a `stop` of its own, in [motion]",
+    ),
+    row(
+        EXPLICIT,
+        (
+            "fracture",
+            &[
+                "bonds_per_iteration",
+                "order",
+                "max_iterations",
+                "tie_tolerance",
+                "energy_tolerance",
+            ],
+        ),
+        "all bonds at their limits break in an explicit step",
+    ),
+    row(
+        EXPLICIT,
+        (
+            "solver",
+            &[
+                "method",
+                "tolerance",
+                "factorisation",
+                "ordering",
+                "update",
+                "rebuild_every",
+            ],
+        ),
+        "explicit steps solve no equations",
+    ),
+    row(
+        With::Setting("scheme = \"explicit\"", |it| has(it, Scheme::Explicit)),
+        ("motion", &["dissipation", "statics"]),
+        "explicit steps take no energy and follow no equilibria",
+    ),
+    row(
+        With::Setting("scheme = \"implicit\"", |it| has(it, Scheme::Implicit)),
+        ("motion", &["statics"]),
+        "all implicit steps have inertia; those of the scheme \"auto\" have it where the body loses its balance",
+    ),
+    row(
+        With::Setting("scheme = \"implicit\"", |it| has(it, Scheme::Implicit)),
+        ("motion", &["safety"]),
+        STABLE,
+    ),
+    row(
+        With::Setting("scheme = \"auto\"", |it| has(it, Scheme::Auto)),
+        ("motion", &["safety"]),
+        STABLE,
+    ),
+    row(
+        EVENT,
+        (
+            "fracture",
+            &[
+                "steps",
+                "bonds_per_iteration",
+                "order",
+                "max_iterations",
+                "refine_first_break",
+            ],
+        ),
+        "the path goes from breakage to breakage without load steps",
+    ),
+    row(
+        STAGES,
+        ("fracture", &["steps"]),
+        "the load steps are those of the stages: each takes its `steps`",
+    ),
+];
+
+const fn row(
+    with: With,
+    (section, keys): (&'static str, &'static [&'static str]),
+    reason: &'static str,
+) -> NotWith {
+    NotWith {
+        with,
+        section,
+        keys,
+        reason,
+    }
+}
+
+fn has(case: &Case, scheme: Scheme) -> bool {
+    case.motion.as_ref().is_some_and(|it| it.scheme == scheme)
+}
+
+impl With {
+    /// The words of the setting, if a case has it.
+    fn of_case(&self, case: &Case) -> Option<String> {
+        match self {
+            Self::Analysis(any) => {
+                let analysis = case.analysis.filter(|it| any.contains(it))?;
+                Some(format!("analysis = \"{}\"", analysis.word()))
+            }
+            Self::Setting(words, holds) => holds(case).then(|| (*words).to_owned()),
+        }
+    }
+}
+
+/// Refuses keys of a document that do not apply with a setting of its case.
+pub(super) fn refuse_keys_without_effect(document: &Node, case: &Case) -> Result<(), KeyFault> {
+    for row in &NOT_WITH {
+        let (section, table) = match row.section {
+            "" => (Some(document), KeyPath::default()),
+            name => (document.get(name), KeyPath::default().child(name)),
+        };
+        let is_given = |key: &&&'static str| {
+            let given = section.and_then(|it| it.get(key));
+            given.is_some_and(|it| !matches!(&it.value, Value::List(of) if of.is_empty()))
+        };
+        let Some(&key) = row.keys.iter().find(is_given) else {
+            continue;
+        };
+        if let Some(setting) = row.with.of_case(case) {
+            let reason = row.reason;
+            let fault = Fault::NotWith {
+                key,
+                setting,
+                reason,
+            };
+            return Err(KeyFault::new(table.child(key), fault));
+        }
+    }
+    Ok(())
+}
+
+/// Keys that do not apply in a case, each with its section.
+pub(super) fn keys_without_effect(
+    case: &Case,
+) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let rows = NOT_WITH.iter().filter(|it| it.with.of_case(case).is_some());
+    rows.flat_map(|it| it.keys.iter().map(|key| (it.section, *key)))
+}
