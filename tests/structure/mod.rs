@@ -5,6 +5,7 @@
 mod dimension;
 mod fields;
 mod functions;
+mod limits;
 mod matches;
 mod modules;
 mod ruler;
