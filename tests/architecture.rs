@@ -225,6 +225,9 @@ const TOP: [&str; 16] = [
     "tests",
 ];
 
+/// Packages of tests and benchmarks, which may depend on any crate.
+const OF_TESTS: [&str; 2] = [env!("CARGO_PKG_NAME"), "benchmarks"];
+
 /// Lines of a source file that one can still take in.
 const LONGEST_FILE: usize = 900;
 
@@ -242,7 +245,7 @@ fn dependencies() -> Dependencies {
     };
     for package in metadata["packages"].as_array().unwrap() {
         let name = package["name"].as_str().unwrap();
-        if name == env!("CARGO_PKG_NAME") {
+        if OF_TESTS.contains(&name) {
             continue;
         }
         for (of, is_wanted) in [

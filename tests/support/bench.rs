@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use ligament::Loading;
 use ligament::loading::contact_problem;
-use ligament::run::{NoObserver, Solution, follow};
+use ligament::run::{NoObserver, Solution, follow, on_pool};
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::driver::{self, Outcome, Problem};
@@ -165,9 +165,10 @@ impl Bench {
         self.watched(|watch| follow(&self.problem(), analysis, watch).unwrap())
     }
 
-    fn watched(&self, run: impl FnOnce(&mut dyn Observer) -> Outcome) -> Run {
+    fn watched(&self, run: impl FnOnce(&mut dyn Observer) -> Outcome + Send) -> Run {
         let mut watch = Watch::default();
-        let outcome = run(&mut watch);
+        let communicator = &*self.model.setup.solver.communicator;
+        let outcome = on_pool(communicator, || run(&mut watch));
         Run {
             outcome,
             breaks: watch.breaks,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 pub use ligament::Model;
-use ligament::run::on_threads;
+use ligament::run::{on_pool, on_threads};
 use ligament::stage::{Finding, StageWatcher};
 use ligament::warning::of_virial_stress;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
@@ -98,13 +98,14 @@ pub fn build_model_on(
     }
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
-    let setup = case.setup_on_processes(communicator, &mut preparation)?;
+    let setup = case.setup_on_processes(communicator.clone(), &mut preparation)?;
     memory::foresee_model(case, &setup)?;
     if let Some(words) = pace::of_preparation(memory::foreseen_bonds(&setup)) {
         progress.stage(&words);
     }
     let tasks = tasks_before.min(tasks_of_others());
-    let model = on_free_processors(tasks, || Model::build(setup, &mut preparation))?;
+    let build = || on_free_processors(tasks, || Model::build(setup, &mut preparation));
+    let model = on_pool(&*communicator, build)?;
     let mut model = model.map_err(|error| case.located(error))?;
     if case.case.output.stress.contains(&StressField::Virial) {
         let told = of_virial_stress(&model.body().origin());

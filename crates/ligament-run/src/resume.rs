@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use anyhow::{Context, bail, ensure};
-use ligament::run::{Posed, Restored, on_threads, restore};
+use ligament::run::{Posed, Restored, on_pool, on_threads, restore};
 use ligament::{Loading, Model};
 use ligament_analysis::distributed_matrix::MatrixCommunicator;
 use ligament_analysis::driver::Problem;
@@ -99,7 +99,8 @@ impl Request<'_> {
             ensure_unfinished(folder)?;
             progress.stage("the run has no checkpoint yet, so it starts from the beginning");
         }
-        match self.go_on((case, path), folder, found, progress) {
+        let go_on = || self.go_on((case, path), folder, found, progress);
+        match on_pool(&*self.communicator, go_on) {
             Ok(report) => Ok(report),
             Err(error) => {
                 let request = run::Request {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
 use ligament::near_growth::Growth;
-use ligament::run::on_threads;
+use ligament::run::{on_pool, on_threads};
 use ligament::setup::Analysis;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_output::folder::ResultFolder;
@@ -141,7 +141,8 @@ impl<'a> Request<'a> {
         let mut stages = Stages::default();
         let progress = Progress::on(&**communicator, mode).sent(self.steps.clone());
         let model = build_model_on(self.case, communicator.clone(), &mut stages, &progress)?;
-        let solved = self.solve(&model, stages, progress);
+        let solve = || self.solve(&model, stages, progress);
+        let solved = on_pool(&**communicator, solve);
         drop(model);
         match solved {
             Ok(report) => Ok(report),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use ligament_analysis::Observer;
 use ligament_analysis::checkpoint::CheckpointError;
+use ligament_analysis::distributed_matrix::Communicator;
 use ligament_analysis::driver::{self, Outcome, Problem, motion};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
@@ -38,7 +39,8 @@ impl Setup {
     ///
     /// Where the near field of the setup grows, the observer meets each run from its start.
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
-        on_threads(self.threads, || {
+        let (threads, communicator) = (self.threads, self.solver.communicator.clone());
+        let solve = || {
             let mut setup = self;
             loop {
                 let model = Model::build(setup, &mut ())?;
@@ -63,7 +65,8 @@ impl Setup {
                     }
                 }
             }
-        })?
+        };
+        on_threads(threads, || on_pool(&*communicator, solve))?
     }
 
     /// Builds the model and finds its natural modes on the threads of the setup.
@@ -75,12 +78,14 @@ impl Setup {
         let Analysis::Modal(settings) = self.analysis else {
             return Err(other_analysis(&self.analysis, "natural modes"));
         };
-        on_threads(self.threads, || {
+        let (threads, communicator) = (self.threads, self.solver.communicator.clone());
+        let find = || {
             let model = Model::build(self, &mut ())?;
             let vibration = Vibration::new(&model)?;
             let analysis = ModalAnalysis::new(&vibration.problem(&model), settings)?;
             Ok(analysis.find()?)
-        })?
+        };
+        on_threads(threads, || on_pool(&*communicator, find))?
     }
 }
 
@@ -252,6 +257,15 @@ pub fn on_threads<T: Send>(
             let pool = ThreadPoolBuilder::new().num_threads(count);
             Ok(pool.build()?.install(work))
         }
+    }
+}
+
+/// Runs `work` on a thread of the pool where this process is alone: from a thread outside the pool, each short loop would wait for two changes of
+/// threads. One of several processes stays on the thread that exchanges messages.
+pub fn on_pool<T: Send>(communicator: &dyn Communicator, work: impl FnOnce() -> T + Send) -> T {
+    match communicator.size() {
+        1 => rayon::scope(|_| work()),
+        _ => work(),
     }
 }
 

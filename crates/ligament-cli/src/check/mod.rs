@@ -20,12 +20,13 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_analysis::connectivity::Fragments;
+use ligament_analysis::distributed_matrix::Solo;
 use ligament_output::results::fields::ModelPoints;
 use ligament_output::results::point_grid;
 
 use ligament::Model;
 use ligament::plausibility::notes;
-use ligament::run::on_threads;
+use ligament::run::{on_pool, on_threads};
 use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
 use ligament_output::summary::Stage;
@@ -58,12 +59,14 @@ fn check_here(
     case: &CaseFile,
     extent: Extent,
     fields: Option<&Path>,
-    out: &mut dyn Write,
+    out: &mut (dyn Write + Send),
 ) -> anyhow::Result<Option<String>> {
     let mut stages = Stages::default();
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut stages, &progress)?;
-    write_report(case, extent, fields, (&model, stages), out)
+    on_pool(&Solo, || {
+        write_report(case, extent, fields, (&model, stages), out)
+    })
 }
 
 /// Reports a model.

@@ -28,6 +28,9 @@ const UNNOTICED: f64 = 0.5;
 /// Distance of a place from a facet over the length of its longest edge, within which it lies on it.
 const ON_FACET: f64 = 1e-9;
 
+/// Relative rounding of a distance from the plane of a facet, generously.
+const ROUNDING: f64 = 1e-9;
+
 /// Divisions of the way of a step in the search for its deepest place, each into thirds: to 1e-7 of the way.
 const DIVISIONS: usize = 40;
 
@@ -200,6 +203,11 @@ impl<const D: usize> FacetPair<D> {
                 continue;
             }
             let corners = &present.now[other];
+            // No place of a facet is nearer than its plane, up to rounding.
+            let height = dot(minus(position, corners[0]), normal);
+            if height.abs() > nearest * (1.0 + ROUNDING) {
+                continue;
+            }
             let weights = nearest_weights(corners, position);
             let way = minus(position, weighted(corners, &weights));
             let distance = norm(way);
