@@ -163,7 +163,7 @@ fn what_is_wrong_is_refused() {
         (
             SQUARE,
             "model.closing=true",
-            "faces that close are for bodies whose cells all have bonds",
+            "elements of a far field do not take faces that close",
         ),
         (
             SQUARE,

@@ -3,10 +3,21 @@
 use super::analysis::Analysis;
 use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
-use super::fracture::{Control, Fracture};
+use super::fracture::Control;
 use super::key_path::KeyPath;
 use super::motion::Scheme;
-use super::sections::Case;
+
+/// Settings of a case that decide whether keys have an effect.
+pub(super) struct Settings {
+    /// Kind of analysis.
+    pub(super) analysis: Option<Analysis>,
+    /// Scheme of a motion.
+    pub(super) scheme: Option<Scheme>,
+    /// How loads rise in a fracture analysis.
+    pub(super) control: Option<Control>,
+    /// Whether the case has stages.
+    pub(super) has_stages: bool,
+}
 
 /// Keys that do not apply with a setting.
 struct NotWith {
@@ -23,20 +34,17 @@ enum With {
     /// One of some analyses.
     Analysis(&'static [Analysis]),
     /// Words of a setting, and whether a case has it.
-    Setting(&'static str, fn(&Case) -> bool),
+    Setting(&'static str, fn(&Settings) -> bool),
 }
 
 const MODAL: With = With::Analysis(&[Analysis::Modal]);
 const MOTION: With = With::Analysis(&[Analysis::Motion]);
 const EVENT: With = With::Setting("control = \"event\"", |it| {
-    let is_event = |it: &Fracture| it.control == Control::Event;
-    it.motion.is_none() && it.fracture.as_ref().is_some_and(is_event)
+    it.scheme.is_none() && it.control == Some(Control::Event)
 });
-const STAGES: With = With::Setting("[[stage]]", |it| {
-    it.motion.is_none() && !it.stages.is_empty()
-});
+const STAGES: With = With::Setting("[[stage]]", |it| it.scheme.is_none() && it.has_stages);
 const EXPLICIT: With = With::Setting("motion.scheme = \"explicit\"", |it| {
-    has(it, Scheme::Explicit)
+    it.scheme == Some(Scheme::Explicit)
 });
 
 const FREE: &str = "modes are free vibrations without loads";
@@ -121,22 +129,28 @@ const NOT_WITH: [NotWith; 20] = [
         "explicit steps solve no equations",
     ),
     row(
-        With::Setting("scheme = \"explicit\"", |it| has(it, Scheme::Explicit)),
+        With::Setting("scheme = \"explicit\"", |it| {
+            it.scheme == Some(Scheme::Explicit)
+        }),
         ("motion", &["dissipation", "statics"]),
         "explicit steps take no energy and follow no equilibria",
     ),
     row(
-        With::Setting("scheme = \"implicit\"", |it| has(it, Scheme::Implicit)),
+        With::Setting("scheme = \"implicit\"", |it| {
+            it.scheme == Some(Scheme::Implicit)
+        }),
         ("motion", &["statics"]),
         "all implicit steps have inertia; those of the scheme \"auto\" have it where the body loses its balance",
     ),
     row(
-        With::Setting("scheme = \"implicit\"", |it| has(it, Scheme::Implicit)),
+        With::Setting("scheme = \"implicit\"", |it| {
+            it.scheme == Some(Scheme::Implicit)
+        }),
         ("motion", &["safety"]),
         STABLE,
     ),
     row(
-        With::Setting("scheme = \"auto\"", |it| has(it, Scheme::Auto)),
+        With::Setting("scheme = \"auto\"", |it| it.scheme == Some(Scheme::Auto)),
         ("motion", &["safety"]),
         STABLE,
     ),
@@ -174,25 +188,24 @@ const fn row(
     }
 }
 
-fn has(case: &Case, scheme: Scheme) -> bool {
-    case.motion.as_ref().is_some_and(|it| it.scheme == scheme)
-}
-
 impl With {
-    /// The words of the setting, if a case has it.
-    fn of_case(&self, case: &Case) -> Option<String> {
+    /// The words of the setting, if it is among those of a case.
+    fn among(&self, settings: &Settings) -> Option<String> {
         match self {
             Self::Analysis(any) => {
-                let analysis = case.analysis.filter(|it| any.contains(it))?;
+                let analysis = settings.analysis.filter(|it| any.contains(it))?;
                 Some(format!("analysis = \"{}\"", analysis.word()))
             }
-            Self::Setting(words, holds) => holds(case).then(|| (*words).to_owned()),
+            Self::Setting(words, holds) => holds(settings).then(|| (*words).to_owned()),
         }
     }
 }
 
 /// Refuses keys of a document that do not apply with a setting of its case.
-pub(super) fn refuse_keys_without_effect(document: &Node, case: &Case) -> Result<(), KeyFault> {
+pub(super) fn refuse_keys_without_effect(
+    document: &Node,
+    settings: &Settings,
+) -> Result<(), KeyFault> {
     for row in &NOT_WITH {
         let (section, table) = match row.section {
             "" => (Some(document), KeyPath::default()),
@@ -205,7 +218,7 @@ pub(super) fn refuse_keys_without_effect(document: &Node, case: &Case) -> Result
         let Some(&key) = row.keys.iter().find(is_given) else {
             continue;
         };
-        if let Some(setting) = row.with.of_case(case) {
+        if let Some(setting) = row.with.among(settings) {
             let reason = row.reason;
             let fault = Fault::NotWith {
                 key,
@@ -220,8 +233,10 @@ pub(super) fn refuse_keys_without_effect(document: &Node, case: &Case) -> Result
 
 /// Keys that do not apply in a case, each with its section.
 pub(super) fn keys_without_effect(
-    case: &Case,
+    settings: &Settings,
 ) -> impl Iterator<Item = (&'static str, &'static str)> {
-    let rows = NOT_WITH.iter().filter(|it| it.with.of_case(case).is_some());
+    let rows = NOT_WITH
+        .iter()
+        .filter(|it| it.with.among(settings).is_some());
     rows.flat_map(|it| it.keys.iter().map(|key| (it.section, *key)))
 }

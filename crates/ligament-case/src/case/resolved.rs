@@ -9,7 +9,7 @@ use super::sections::Case;
 /// The case as TOML, with a header for each section and nested tables inline.
 pub(super) fn to_toml(case: &Case) -> Result<String, toml_edit::ser::Error> {
     let mut document: DocumentMut = toml_edit::ser::to_document(case)?;
-    for (section, key) in keys_without_effect(case) {
+    for (section, key) in keys_without_effect(&case.settings()) {
         let table = match section {
             "" => Some(document.as_table_mut() as &mut dyn TableLike),
             name => document.get_mut(name).and_then(Item::as_table_like_mut),

@@ -28,7 +28,7 @@ use super::material::{self, Material};
 use super::mesh_section::MeshSection;
 use super::model::ModelSection;
 use super::motion::{InitialVelocity, Motion, Quiet};
-use super::not_with::refuse_keys_without_effect;
+use super::not_with::{Settings, refuse_keys_without_effect};
 use super::output::{Output, StressField};
 use super::precrack::Precrack;
 use super::probe::Probe;
@@ -193,7 +193,7 @@ impl Case {
             (None, false) => Analysis::Static,
         };
         let analysis = *self.analysis.get_or_insert(meant);
-        refuse_keys_without_effect(document, self)?;
+        refuse_keys_without_effect(document, &self.settings())?;
         let needs = |reason| Err(KeyFault::new(root().child("analysis"), reason));
         match analysis {
             Analysis::Motion if self.motion.is_none() => needs(
@@ -207,6 +207,16 @@ impl Case {
                 Ok(())
             }
             Analysis::Motion | Analysis::Fracture | Analysis::Static => Ok(()),
+        }
+    }
+
+    /// Settings that decide whether keys have an effect.
+    pub(super) fn settings(&self) -> Settings {
+        Settings {
+            analysis: self.analysis,
+            scheme: self.motion.as_ref().map(|it| it.scheme),
+            control: self.fracture.as_ref().map(|it| it.control),
+            has_stages: !self.stages.is_empty(),
         }
     }
 

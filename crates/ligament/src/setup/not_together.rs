@@ -13,7 +13,7 @@ use crate::error::Field;
 /// A feature that another one may exclude.
 #[derive(Debug)]
 pub struct Feature {
-    /// Its name, as pages print it.
+    /// Name, as pages print it.
     pub name: &'static str,
     /// The field of a setup that has the feature, if one has it.
     field: fn(&Setup) -> Option<Field>,
@@ -233,8 +233,7 @@ const WITHOUT_TIME: &str =
 const RIGID_WITHOUT_TIME: &str = "there is no time in this analysis, only in a motion: give a `displacement`, which grows with the load factor";
 
 /// Reason why a far field excludes what needs bonds everywhere.
-const BONDS_EVERYWHERE: &str =
-    "{beside} are for bodies whose cells all have bonds: remove one of both";
+const BONDS_EVERYWHERE: &str = "elements of a far field do not take {beside}: remove one of both";
 
 macro_rules! pairs {
     ($($refused:ident, $beside:ident, $page:literal, $reason:expr;)*) => {
