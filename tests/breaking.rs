@@ -9,7 +9,6 @@ use ligament_analysis::Observer;
 use ligament_analysis::State;
 use ligament_analysis::Termination;
 use ligament_analysis::fields;
-use ligament_analysis::history::Notice;
 use ligament_analysis::history::ObserverError;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::history::View;
@@ -24,7 +23,7 @@ use verification::problems::DISK;
 use verification::problems::SQUARE;
 use verification::table::Table;
 
-/// A body that is loaded, unloaded to nothing and loaded the other way has given its work back at zero load, without a notice that
+/// A body that is loaded, unloaded to nothing and loaded the other way has given its work back at zero load, without a message that
 /// energies do not balance, and ends with its last load step.
 #[test]
 fn unloading_to_nothing_keeps_the_balance() {
@@ -36,8 +35,7 @@ fn unloading_to_nothing_keeps_the_balance() {
     assert!(run.breaks.is_empty());
     assert_eq!(run.outcome.history.len(), 7);
     assert_eq!(run.outcome.termination, Termination::StepsDone);
-    let told = |notice: &Notice| matches!(notice, Notice::EnergyUnbalanced { .. });
-    assert!(!run.notices.iter().any(told), "{:?}", run.notices);
+    assert!(!run.told("energy-unbalanced"), "{:?}", run.messages);
     // Equal load factors are equal states, 1e-9 of the work by the tolerance of the residual.
     let [loaded, again] = [2, 6].map(|step| run.outcome.history[step].external_work);
     assert!(loaded > 0.0 && relative_error(again, loaded) < 1e-9);

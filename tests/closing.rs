@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::Component;
-use ligament_analysis::history::Notice;
+use ligament_analysis::user_message::Place;
 use ligament_model::contact::ContactPair;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Run};
@@ -314,23 +314,19 @@ probe = [{ name = "x", between = [[0.0005, -0.0005], [-0.0005, 0.0005]], compone
     println!("open: slides {slid_open:.4}, opens {gap_open:.4}");
     assert!((slid.abs() / slid_open.abs() - 1.0).abs() < 0.05);
     assert!((-1.3..-1.0).contains(&gap_open), "{gap_open}");
-    let told = open.notices.iter().find_map(|it| match it {
-        Notice::Overlap(overlap) => Some(*overlap),
-        _ => None,
-    });
     let overlap = open.outcome.overlap.unwrap();
-    assert_eq!(told, Some(overlap));
+    let told = open.messages.iter().find(|it| it.kind == "overlap");
+    let told = told.unwrap();
+    assert_eq!(told.place, Place::Step(overlap.step));
+    assert_eq!(told.points, overlap.ends);
+    let depth = format!("{:.2e}", overlap.depth);
+    assert!(told.text.contains(&depth), "{told} {depth}");
     let at_middle = -(gap_open - gap) * 4.0 * 0.5 * open.last().reaction.abs() / 8e-4 * 0.01 / 15e9;
     assert!(
         (overlap.depth / at_middle - 1.0).abs() < 0.15,
         "{overlap:?}"
     );
-    assert!(
-        !closed
-            .notices
-            .iter()
-            .any(|it| matches!(it, Notice::Overlap(_)))
-    );
+    assert!(!closed.told("overlap"));
 }
 
 /// The exact path of a plate that is pressed while wing cracks grow from a closed crack: all is in proportion to the load between two

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use ligament::run;
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::{Outcome, Problem};
-use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
 use ligament_analysis::solver::{DirectChoice, FactorKind, Method, Ordering, SolverChoice, Update};
 use ligament_analysis::{Attempt, Balanced, Unbalanced};
 use ligament_analysis::{
@@ -90,9 +90,9 @@ fn assert_same(name: &str, (outcome, watch): &Run, (expected, its_watch): &Run) 
     };
     assert_eq!(bonds(watch), bonds(its_watch), "{name}");
     assert_eq!(watch.held, its_watch.held, "{name}");
-    // Numbers in the notices are known up to rounding, which their words leave out.
+    // Numbers in the messages are known up to rounding, which their words leave out.
     let words =
-        |watch: &Watch| -> Vec<String> { watch.notices.iter().map(ToString::to_string).collect() };
+        |watch: &Watch| -> Vec<String> { watch.messages.iter().map(ToString::to_string).collect() };
     assert_eq!(words(watch), words(its_watch), "{name}");
     // Energies of an unstable body are in the message, with all their digits.
     assert_eq!(outcome.termination.name(), expected.termination.name());
@@ -581,8 +581,7 @@ fn a_held_rotation_is_no_sign_of_instability() {
     assert_eq!(of_rotation.count(), 1, "a rotation is held");
     let stability = run.outcome.stability.unwrap();
     assert_eq!((stability.negative, stability.expected), (137, 137));
-    let unstable = |notice: &Notice| matches!(notice, Notice::Unstable { .. });
-    assert!(!run.notices.is_empty() && !run.notices.iter().any(unstable));
+    assert!(!run.messages.is_empty() && !run.told("unstable"));
 }
 
 /// 2,000 breakages on the disk of 2998 points with one factor: the forces at every free point, added up here from the

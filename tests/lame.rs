@@ -1,7 +1,6 @@
 //! Bodies under pressure against closed forms: Lame's ring on a mesh and on a lattice, and the same pressure all round.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
-use ligament_analysis::history::Notice;
 use verification::bench::{Bench, Run};
 use verification::numbers::{by_point, gradient, relative_error};
 
@@ -47,6 +46,12 @@ impl Ring {
 
 /// The case `pressure-annulus`, 4995 points: within 3 % of Lame at every point (measured 2.9 %, at the inner rim), within 1 %
 /// in the mean of each of ten rings (measured 0.4 to 0.8 %), and twice as near as on 1270 points.
+/// Whether a run tells of a free body whose loads balance, and of nothing else.
+fn is_balanced(run: &Run) -> bool {
+    let balance = "this changes nothing, because the loads balance";
+    matches!(&run.messages[..], [told] if told.kind == "free-body" && told.text.ends_with(balance))
+}
+
 #[test]
 fn lame_in_a_ring() {
     let mut worst = Vec::new();
@@ -57,7 +62,7 @@ fn lame_in_a_ring() {
         let file = format!("mesh.file=../meshes/{mesh}.msh");
         let bench = Bench::new(&text.unwrap(), &[&file]);
         let run = bench.solve();
-        assert!(matches!(&run.notices[..], [Notice::FreeBody(body)] if body.is_balanced()));
+        assert!(is_balanced(&run), "{:?}", run.messages);
         let ring = Ring {
             inner: 0.1,
             outer: 0.2,
@@ -112,7 +117,7 @@ fn lame_on_a_staircase() {
             let bench = Bench::new(&text, &settings);
             assert_eq!(bench.points(), points);
             let run = bench.solve();
-            assert!(matches!(&run.notices[..], [Notice::FreeBody(body)] if body.is_balanced()));
+            assert!(is_balanced(&run), "{:?}", run.messages);
             let ring = Ring {
                 inner: 1.5,
                 outer: 2.2,

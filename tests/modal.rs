@@ -7,12 +7,12 @@ use std::sync::Arc;
 
 use std::f64::consts::PI;
 
+use ligament_analysis::balanced::Stability;
 use ligament_analysis::load_program::ControlKind;
 use ligament_analysis::modal::{
-    ModalAnalysis, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, Mode, ModeKind,
-    Rotations,
+    ModalAnalysis, ModalOutcome, ModalProblem, ModalSettings, Mode, ModeKind, Rotations,
 };
-use ligament_analysis::{Component, SolverSettings, Supports};
+use ligament_analysis::{Component, Message, SolverSettings, Supports};
 use ligament_model::element::StiffnessFactors;
 use ligament_model::{BondSystem, LumpedMass};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -263,7 +263,7 @@ fn modes_are_those_of_a_dense_decomposition() {
         let rigid = if support == HELD { 0 } else { 3 };
         assert_eq!((outcome.modes.len(), outcome.rigid_motions), (20, rigid));
         assert_eq!(
-            (outcome.complete, &outcome.notices),
+            (outcome.complete, &outcome.messages),
             (Some(true), &Vec::new())
         );
         for (k, (mode, expected)) in outcome.modes.iter().zip(expected).enumerate() {
@@ -291,11 +291,8 @@ fn all_modes_are_orthogonal_and_move_all_of_the_mass() {
     let dofs = bench.unknown_masses(Rotations::Inertia);
     let n = dofs.len();
     assert_eq!(outcome.modes.len(), n);
-    let fewer = ModalNotice::FewerModes {
-        found: n,
-        wanted: 1000,
-    };
-    assert_eq!(outcome.notices, [fewer]);
+    let fewer = format!("the body has {n} modes with mass, 1000 were asked for");
+    assert_eq!(outcome.messages, [Message::new("fewer-modes", fewer)]);
     let shapes = DMatrix::from_fn(n, n, |row, k| outcome.modes[k].shape[dofs[row].0]);
     let mass = DMatrix::from_diagonal(&DVector::from_iterator(n, dofs.iter().map(|it| it.1)));
     let highest = outcome.modes[n - 1].eigenvalue;
@@ -389,7 +386,7 @@ fn equal_bodies_have_equal_modes() {
     let one = ModalBench::new(&lattice(1), &["modal.modes=6"]).find();
     let five = ModalBench::new(&lattice(5), &["modal.modes=30"]).find();
     assert_eq!(five.rigid_motions, 15);
-    assert_eq!(five.complete, Some(true), "{:?}", five.notices);
+    assert_eq!(five.complete, Some(true), "{:?}", five.messages);
     for (k, mode) in five.modes.iter().enumerate().skip(15) {
         let expected = one.modes[k / 5].eigenvalue;
         let error = relative_error(mode.eigenvalue, expected);
@@ -403,7 +400,7 @@ fn many_modes_are_as_exact_as_few() {
     let outcome = ModalBench::new(BEAM, &["modal.modes=60"]).find();
     assert_eq!((outcome.modes.len(), outcome.complete), (60, Some(true)));
     assert!(largest(outcome.modes.iter().map(|mode| mode.residual)) < 1e-10);
-    assert_eq!(outcome.notices, []);
+    assert_eq!(outcome.messages, []);
 }
 
 /// An unstable model is told of: nu = 0.45 with a horizon factor of 4 has more negative eigenvalues than rotations.
@@ -412,11 +409,13 @@ fn an_unstable_model_is_told_of() {
     let settings = ["material.poisson=0.45", "model.horizon_factor=4"];
     let outcome = ModalBench::new(SQUARE, &settings).find();
     assert_eq!(outcome.rotations, Rotations::Massless);
-    assert_eq!(outcome.notices[0], ModalNotice::MasslessRotations);
-    let is_unstable = |notice: &ModalNotice| matches!(notice, ModalNotice::Unstable { negative, expected } if negative > expected);
+    assert_eq!(outcome.messages[0].kind, "massless-rotations");
+    let Stability { negative, expected } = outcome.stability.unwrap();
+    assert!(negative > expected);
+    let told = format!("{negative} negative eigenvalues, {expected} expected");
     assert!(
-        outcome.notices.iter().any(is_unstable),
+        outcome.messages.iter().any(|it| it.text.contains(&told)),
         "{:?}",
-        outcome.notices
+        outcome.messages
     );
 }

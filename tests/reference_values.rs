@@ -7,7 +7,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_analysis::Termination;
-use ligament_analysis::history::Notice;
+use ligament_analysis::user_message::Place;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Run, domain};
 use verification::numbers::{component, deviation, largest, relative_error, short};
@@ -291,20 +291,11 @@ fn separation_of_the_square() {
     let run = bench.break_up();
     compare_path(&bench, &run, "square-separation", 4);
     assert_eq!(run.outcome.termination, Termination::FellApart);
-    let loose: Vec<&Notice> = (run.notices.iter())
-        .filter(|notice| matches!(notice, Notice::PartsDetached { .. }))
-        .collect();
-    assert!(
-        matches!(
-            loose[..],
-            [Notice::PartsDetached {
-                step: 4,
-                motions: 1,
-                ..
-            }]
-        ),
-        "one motion of one part is held: {loose:?}"
-    );
+    let loose = run.messages.iter().filter(|it| it.kind == "parts-detached");
+    let places: Vec<Place> = loose.map(|it| it.place).collect();
+    assert_eq!(places, [Place::Step(4)], "one part is held");
+    let held = run.state().held.iter().filter(|it| **it);
+    assert_eq!(held.count(), 1, "one motion is held");
 }
 
 /// Brazilian disk: all 100 steps (the stop rule never applies), 922 breakages, through the split at step 45.

@@ -76,7 +76,7 @@ fn a_block_slides_down_inclined_rollers_onto_a_spring() {
     // Bonds shorten by some 1e-7 m under 5 MPa.
     assert!(largest < 1e-12, "{largest:e}");
     assert!(
-        run.notices.is_empty() && run.held[0] == 0,
+        run.messages.is_empty() && run.held[0] == 0,
         "nothing else holds"
     );
 }
@@ -211,7 +211,7 @@ fn springs_alone_hold_a_block() {
     let (bench, run) = solved(supports, load);
     let springs = run.group_force(&bench, "bottom");
     assert!(relative_error(springs[0], -300.0) < 1e-9 && relative_error(springs[1], 1000.0) < 1e-9);
-    assert!(run.notices.is_empty() && run.held[0] == 0);
+    assert!(run.messages.is_empty() && run.held[0] == 0);
     let bottom = bench.group("bottom");
     let mean = |place: usize| {
         let moved = bottom

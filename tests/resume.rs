@@ -3,12 +3,12 @@
 
 use std::time::Duration;
 
-use ligament::{Error, run};
+use ligament::{Error, Message, run};
 use ligament_analysis::checkpoint::CheckpointError;
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+    BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, View,
 };
 use ligament_analysis::serial::Damaged;
 use ligament_analysis::{SetupError, Termination};
@@ -62,8 +62,8 @@ impl Observer for Recorder {
         Ok(())
     }
 
-    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        self.lines.push(format!("{notice:?}"));
+    fn message(&mut self, message: Message) -> Result<(), ObserverError> {
+        self.lines.push(format!("{message:?}"));
         Ok(())
     }
 

@@ -3,12 +3,12 @@
 
 use std::sync::Arc;
 
-use ligament::Loading;
 use ligament::run::{follow, restore, resume};
+use ligament::{Loading, Message};
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+    BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, View,
 };
 use ligament_analysis::result_fields::{FieldValues, STRESS_PRINCIPAL};
 use ligament_analysis::state::State;
@@ -81,7 +81,7 @@ fracture = { control = "event", tie_tolerance = 1e-6, stop = { bonds = 30 } }
 #[derive(Default)]
 struct Seen {
     breaks: Vec<BreakRecord>,
-    notices: Vec<Notice>,
+    messages: Vec<Message>,
     parts: Vec<Vec<usize>>,
     softened: Vec<usize>,
     /// Damage, energy density and largest principal stress of the own points after each step, without a stress 0.
@@ -100,8 +100,8 @@ impl Observer for Seen {
         Ok(())
     }
 
-    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        self.notices.push(notice.clone());
+    fn message(&mut self, message: Message) -> Result<(), ObserverError> {
+        self.messages.push(message);
         Ok(())
     }
 
@@ -284,8 +284,10 @@ fn compare((text, settings): (&str, &[&str]), (alone, expected): (Outcome, Seen)
         assert_eq!(outcome.termination.name(), alone.termination.name());
         assert_eq!(outcome.broken_bonds, alone.broken_bonds);
         assert_eq!(outcome.softened_bonds, alone.softened_bonds);
-        let kind = std::mem::discriminant::<Notice>;
-        let kinds = |seen: &Seen| seen.notices.iter().map(kind).collect::<Vec<_>>();
+        let kinds = |seen: &Seen| -> Vec<_> {
+            let kinds = seen.messages.iter().map(|it| it.kind.clone());
+            kinds.collect()
+        };
         assert_eq!(kinds(seen), kinds(&expected));
         assert_eq!(outcome.history, first.history);
         assert!(outcome.state.intact.len() < alone.state.intact.len());

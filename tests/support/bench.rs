@@ -3,13 +3,13 @@
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 
-use ligament::Loading;
 use ligament::loading::contact_problem;
 use ligament::run::{NoObserver, Solution, follow, on_pool};
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
+use ligament::{Loading, Message};
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::driver::{self, Outcome, Problem};
-use ligament_analysis::history::{BreakRecord, Notice, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
 use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
@@ -43,8 +43,8 @@ pub struct Run {
     pub outcome: Outcome,
     /// Bonds in the order in which they broke.
     pub breaks: Vec<BreakRecord>,
-    /// Notices.
-    pub notices: Vec<Notice>,
+    /// Messages.
+    pub messages: Vec<Message>,
     /// Number of unknowns held because nothing else would hold them, at the end of each load step.
     pub held: Vec<usize>,
     /// Largest residual (relative) of a load step.
@@ -172,7 +172,7 @@ impl Bench {
         Run {
             outcome,
             breaks: watch.breaks,
-            notices: watch.notices,
+            messages: watch.messages,
             held: watch.held,
             largest_residual: watch.largest_residual,
             smallest_part: watch.smallest_part,
@@ -232,6 +232,11 @@ impl Bench {
 }
 
 impl Run {
+    /// Whether a message of a kind was told.
+    pub fn told(&self, kind: &str) -> bool {
+        self.messages.iter().any(|it| it.kind == kind)
+    }
+
     /// Displacements and rotations of the last state, shape (n_degrees_of_freedom).
     pub fn displacement(&self) -> &[f64] {
         &self.outcome.state.displacement
@@ -264,8 +269,8 @@ pub struct Watch {
     pub breaks: Vec<BreakRecord>,
     /// Displacements at the end of each load step, where they are wanted.
     pub displacements: Option<Vec<Vec<f64>>>,
-    /// Notices.
-    pub notices: Vec<Notice>,
+    /// Messages.
+    pub messages: Vec<Message>,
     /// Number of unknowns held because nothing else would hold them, at the end of each load step.
     pub held: Vec<usize>,
     /// Largest residual (relative) of a load step.
@@ -280,8 +285,8 @@ impl Observer for Watch {
         Ok(())
     }
 
-    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        self.notices.push(notice.clone());
+    fn message(&mut self, message: Message) -> Result<(), ObserverError> {
+        self.messages.push(message);
         Ok(())
     }
 

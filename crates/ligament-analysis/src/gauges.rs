@@ -10,6 +10,7 @@ pub use ligament_model::rigid_motions::FreeMotion;
 use crate::connectivity::{AddedSupport, Fragments};
 use crate::load_program::LoadProgram;
 use crate::unknowns::{Component, Unknowns};
+use crate::user_message::Message;
 
 /// A connected part of the intact body that can move rigidly.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +31,73 @@ impl FreeBody {
     /// Whether the loads are balanced without supports, so that gauges have no reactions.
     pub fn is_balanced(&self) -> bool {
         self.motions.iter().all(FreeMotion::is_balanced)
+    }
+
+    /// Message about the free motions, the points fixed instead, and the equilibrium of the loads without these; `faces_close`: whether faces of
+    /// cracks may carry loads.
+    pub fn message(&self, faces_close: bool) -> Message {
+        let (part, first) = match self.is_whole {
+            true => ("the body".to_owned(), None),
+            false => (
+                format!("{} points (around {{}})", self.points),
+                Some(self.first),
+            ),
+        };
+        let motions: Vec<&str> = self.motions.iter().map(motion).collect();
+        let gauges = self.gauges.iter();
+        let gauges = gauges.map(|(_, component)| format!("{} of {{at}}", component.name()));
+        let gauges: Vec<String> = gauges.collect();
+        let loads = self.motions.iter().filter(|it| !it.is_balanced());
+        let loads = loads.map(load).collect::<Vec<_>>().join(", ");
+        let (balance, advice) = if self.is_balanced() {
+            (
+                "this changes nothing, because the loads balance".to_owned(),
+                None,
+            )
+        } else if faces_close && !self.is_whole {
+            let carried = format!("crack faces that close must carry the loads ({loads})");
+            (carried, None)
+        } else {
+            let unbalanced =
+                format!("the loads do NOT balance ({loads}), so there is no equilibrium");
+            (
+                unbalanced,
+                Some("add a support, or balance the loads".to_owned()),
+            )
+        };
+        let text = format!(
+            "the supports leave {part} free in {}; fixed automatically: {}; {balance}",
+            motions.join(", "),
+            gauges.join(", ")
+        );
+        let points = first.into_iter().chain(self.gauges.iter().map(|it| it.0));
+        let message = Message::new("free-body", text).of_points(points.collect::<Vec<_>>());
+        Message { advice, ..message }
+    }
+}
+
+fn motion(motion: &FreeMotion) -> &'static str {
+    match motion.component {
+        Component::X => "translation along x",
+        Component::Y => "translation along y",
+        Component::Z => "translation along z",
+        Component::Rotation => "rotation",
+        Component::RotationX => "rotation about x",
+        Component::RotationY => "rotation about y",
+        Component::RotationZ => "rotation about z",
+    }
+}
+
+fn load(motion: &FreeMotion) -> String {
+    let load = motion.load;
+    match motion.component {
+        Component::X | Component::Y | Component::Z => {
+            format!("along {} {load:.3e} N", motion.component.name())
+        }
+        Component::Rotation => format!("moment {load:.3e} N m"),
+        Component::RotationX => format!("moment about x {load:.3e} N m"),
+        Component::RotationY => format!("moment about y {load:.3e} N m"),
+        Component::RotationZ => format!("moment about z {load:.3e} N m"),
     }
 }
 

@@ -1,21 +1,20 @@
-//! Records and notices of a run, and the observer that receives them.
+//! Records of a run, and the observer that receives them with messages to the user.
 
 use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::Criteria;
 use thiserror::Error;
 
-use crate::at_once::AtOnce;
 use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
-use crate::gauges::FreeBody;
 use crate::load_program::LoadProgram;
 use crate::motion::contact::{ContactReading, RigidState};
 use crate::serial;
 use crate::serial::Sink;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
+use crate::user_message::Message;
 
 pub use crate::ahead::Ahead;
 pub use crate::termination::Termination;
@@ -239,139 +238,6 @@ pub struct LargestOverlap {
 
 serial!(LargestOverlap { depth, ends, step });
 
-/// Notice to the user.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Notice {
-    /// Supports and loads do not fix the intact body or a part of it, so that gauges do.
-    #[error(
-        "the supports leave a part of {} points free: {} rigid motions (first at point {})",
-        .0.points, .0.motions.len(), .0.first
-    )]
-    FreeBody(FreeBody),
-    /// Points became detached, and their rigid motions are fixed.
-    #[error(
-        "step {step}: {points} points (around point {first}) broke off; {motions} rigid motions are fixed"
-    )]
-    PartsDetached {
-        /// Load step.
-        step: usize,
-        /// Number of points of the detached parts.
-        points: usize,
-        /// Number of fixed motions.
-        motions: usize,
-        /// First point of the first detached part.
-        first: u32,
-    },
-    /// Points without stiffness in some direction are fixed there.
-    #[error("step {step}: fixed {} mechanism(s), first at point {}", points.len(), points[0])]
-    Mechanisms {
-        /// Load step.
-        step: usize,
-        /// Points of the fixed degrees of freedom.
-        points: Vec<u32>,
-    },
-    /// The stored energy became negative, and the stop rules let the run continue.
-    #[error(
-        "step {step}: the stored energy is negative: from here on the body is unstable and the results are not valid"
-    )]
-    NegativeEnergy {
-        /// Load step.
-        step: usize,
-    },
-    /// Work and energies do not balance.
-    #[error(
-        "step {step}: work, stored and released energy differ by {error:.1e} of the work: do not trust the results from here on"
-    )]
-    EnergyUnbalanced {
-        /// Load step.
-        step: usize,
-        /// Energy imbalance, relative to the work.
-        error: f64,
-    },
-    /// Bonds have dissipated more than the work on the body minus its stored energy.
-    #[error(
-        "step {step}: bonds have dissipated more than the work minus the stored energy, by {share:.1e} of the work: the load steps are too \
-         coarse for the softening; take smaller steps"
-    )]
-    DissipatedBeyondWork {
-        /// Load step.
-        step: usize,
-        /// Excess of the dissipated energy, relative to the largest work.
-        share: f64,
-    },
-    /// A force has exceeded the peak load of the body.
-    #[error(
-        "step {step}: there is no equilibrium at a larger force; to follow the body past its peak, let a probe control a stage (its \
-         `control`), or follow the exact path"
-    )]
-    PastPeak {
-        /// The last load step.
-        step: usize,
-    },
-    /// The intact model has more negative eigenvalues than its rotations explain.
-    #[error(
-        "the intact model is unstable: {negative} negative eigenvalues where {expected} are expected; \
-         results are not to be trusted (Poisson's ratio too large for this horizon factor)"
-    )]
-    Unstable {
-        /// Number of negative eigenvalues.
-        negative: usize,
-        /// Expected number of negative eigenvalues.
-        expected: usize,
-    },
-    /// Faces of cracks pass through each other.
-    #[error(
-        "step {}: the faces of a crack overlap by {:.2e} m between points {} and {}, because they carry no pressure; `closing` lets \
-         them", .0.step, .0.depth, .0.ends[0], .0.ends[1]
-    )]
-    Overlap(LargestOverlap),
-    /// A part of a body has turned so far that forces linear in the motions are in error.
-    #[error(
-        "step {step}: a part of {points} points (around point {first}) has turned by {angle:.2} rad; forces are linear in the motions, so that turning \
-         strains it by {:.1e} and costs energy", .angle * .angle / 2.0
-    )]
-    Turned {
-        /// Load step, or row of a motion.
-        step: usize,
-        /// Number of points.
-        points: usize,
-        /// First point.
-        first: u32,
-        /// Angle, rad.
-        angle: f64,
-    },
-    /// The body breaks in the first load step.
-    #[error(transparent)]
-    AtOnce(AtOnce),
-    /// The equilibria ended, and the body moves.
-    #[error(
-        "time {time:.6e} s: the body loses its balance: a step without inertia would set free more than {share:.1e} of the work, or let a part slip \
-         off another one, so that it moves from here on"
-    )]
-    LostBalance {
-        /// Time of the last equilibrium, s.
-        time: f64,
-        /// Share of the work so far.
-        share: f64,
-    },
-    /// The body came to rest after a motion, and equilibria follow each other again.
-    #[error("time {time:.6e} s: the body is at rest again, after a motion of {:.3e} s in which {broken} bonds broke", time - since)]
-    AtRest {
-        /// Time of the first equilibrium, s.
-        time: f64,
-        /// Time at which the motion began, s.
-        since: f64,
-        /// Number of bonds broken in the motion.
-        broken: usize,
-    },
-    /// The loads move the body as a whole, without deformation.
-    #[error(
-        "nothing resists the loads: they move the body as a whole and do not deform it, so that all forces are rounding; hold a \
-         part of it by a support"
-    )]
-    Undeformed,
-}
-
 /// Equilibrium state, for observers that read fields.
 ///
 /// On a divided body ([`BondTopology::subdomain`](ligament_model::BondTopology::subdomain)), displacements and forces are given at
@@ -488,8 +354,8 @@ pub trait Observer {
         Ok(())
     }
 
-    /// Called with a notice to the user.
-    fn notice(&mut self, _notice: &Notice) -> Result<(), ObserverError> {
+    /// Called with a message to the user.
+    fn message(&mut self, _message: Message) -> Result<(), ObserverError> {
         Ok(())
     }
 

@@ -8,7 +8,6 @@
 
 mod ahead;
 pub mod assembly;
-pub mod at_once;
 pub mod balanced;
 pub mod bond_numbers;
 pub mod breakage;
@@ -55,6 +54,7 @@ mod tangent;
 pub mod termination;
 pub mod unbalanced;
 pub mod unknowns;
+pub mod user_message;
 mod vectors;
 
 pub use balanced::{Attempt, Balanced};
@@ -76,3 +76,4 @@ pub use state::State;
 pub use supports::Supports;
 pub use unbalanced::Unbalanced;
 pub use unknowns::{Component, Layout, Unknowns};
+pub use user_message::Message;

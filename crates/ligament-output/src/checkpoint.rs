@@ -5,7 +5,7 @@
 //! | 19 | `ligament checkpoint` |
 //! | 4 | [`FORMAT`] |
 //! | 8 | length of the content |
-//! | ... | content: version of the program, inputs, results, notices, solution |
+//! | ... | content: version of the program, inputs, results, messages, solution |
 //! | 8 | XXH64 of the content |
 //!
 //! Numbers are little-endian. The solution goes into the file as it is written and is read from there, so that it is never in memory as
@@ -17,6 +17,7 @@ use std::hash::Hasher;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
+use ligament_analysis::Message;
 use ligament_analysis::serial;
 use ligament_analysis::serial::{Serial, Sink};
 use twox_hash::XxHash64;
@@ -28,7 +29,7 @@ use crate::atomic::{open_regular, remove_file, rotate_file};
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
 
 /// Number of the format, which changes with every change of the content.
-pub const FORMAT: u32 = 9;
+pub const FORMAT: u32 = 10;
 
 const BEGINNING: &[u8; 19] = b"ligament checkpoint";
 
@@ -50,15 +51,15 @@ pub struct Checkpoint {
     pub inputs: String,
     /// State of the written results.
     pub results: Vec<u8>,
-    /// Notices for the user so far.
-    pub notices: Vec<String>,
+    /// Messages to the user so far.
+    pub messages: Vec<Message>,
 }
 
 serial!(Checkpoint {
     version,
     inputs,
     results,
-    notices
+    messages
 });
 
 /// Place of the solution and of the state of the driver in the file of a checkpoint.
@@ -260,7 +261,7 @@ mod tests {
             version: "1.2.3".to_owned(),
             inputs: "title = \"a case\"".to_owned(),
             results: vec![number; 20],
-            notices: vec!["step 3: a notice".to_owned()],
+            messages: vec![Message::new("kind", "a message").in_step(3)],
         }
     }
 

@@ -2,8 +2,8 @@
 
 use std::time::{Duration, Instant};
 
-use ligament_analysis::Termination;
 use ligament_analysis::serial::{Serial, Sink};
+use ligament_analysis::{Message, Termination};
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::OutputState;
@@ -85,7 +85,7 @@ impl<'a> Checkpoints<'a> {
         begun: Instant,
         solution: &dyn Fn(&mut dyn Sink),
         results: &OutputState,
-        notices: &[String],
+        messages: &[Message],
     ) -> Result<(), ligament_output::Error> {
         let mut of_results = Vec::new();
         results.write(&mut of_results);
@@ -93,7 +93,7 @@ impl<'a> Checkpoints<'a> {
             version: VERSION.to_owned(),
             inputs: self.inputs.clone(),
             results: of_results,
-            notices: notices.to_vec(),
+            messages: messages.to_vec(),
         };
         checkpoint.write(self.folder.path(), solution)?;
         self.last = Instant::now();

@@ -1,7 +1,7 @@
 //! Runs a body under loads, from its first state or from a checkpoint, and writes the results into a folder.
 
 use ligament::run::{Posed, Restored, follow, resume};
-use ligament::{Loading, Model};
+use ligament::{Loading, Message, Model};
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_model::BodyGrid;
@@ -32,7 +32,7 @@ pub(crate) struct LoadedBody<'a> {
 pub(crate) struct Kept {
     pub(crate) restored: Restored,
     pub(crate) results: OutputState,
-    pub(crate) notices: Vec<String>,
+    pub(crate) messages: Vec<Message>,
 }
 
 impl LoadedBody<'_> {
@@ -65,7 +65,7 @@ impl LoadedBody<'_> {
         provenance.resumed = kept.is_some();
         let every = case.case.output.checkpoint_every;
         let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
-        let (writer, notices, restored) = match kept {
+        let (writer, messages, restored) = match kept {
             None => {
                 let writer = ResultWriter::new(folder, &grid, fixed, rule, &problem)?;
                 (writer, Vec::new(), None)
@@ -73,18 +73,18 @@ impl LoadedBody<'_> {
             Some(kept) => {
                 let results = kept.results;
                 let writer = ResultWriter::cut_back(folder, &grid, fixed, rule, &problem, results)?;
-                (writer, kept.notices, Some(kept.restored))
+                (writer, kept.messages, Some(kept.restored))
             }
         };
         let watched = (writer, checkpoints);
-        let mut watch = Watch::new(watched, requests, progress, model, notices);
+        let mut watch = Watch::new(watched, requests, progress, model, messages);
         let outcome = stages.time("solution", || self.outcome(posed, restored, &mut watch))?;
 
-        let (notices, first, checkpoints) = watch.into_parts();
+        let (messages, first, checkpoints) = watch.into_parts();
         let noted = Noted {
             of_points,
             provenance,
-            notices,
+            messages,
             first,
             certificate: certificate(folder.path(), model, &outcome)?,
             stages: stages.done().to_vec(),

@@ -285,7 +285,7 @@ fn kept(
     Ok(Kept {
         restored,
         results,
-        notices: checkpoint.notices,
+        messages: checkpoint.messages,
     })
 }
 

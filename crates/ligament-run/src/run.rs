@@ -18,9 +18,9 @@ use crate::end::{End, StoppedBeforeSolution};
 use crate::inputs::{Contents, unread};
 use crate::loading::LoadedBody;
 use crate::memory;
+use crate::messages::counted;
 use crate::model::{Model, build_model_on};
 use crate::modes::find_modes;
-use crate::notices::counted;
 use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode, StepLine};
 use crate::provenance::provenance;
@@ -176,7 +176,7 @@ impl<'a> Request<'a> {
         stages: Stages,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
-        for warning in counted(model.warnings.iter().map(ToString::to_string)) {
+        for warning in counted(model.warnings.iter().cloned()) {
             progress.stage(&format!("warning: {warning}"));
         }
         if let Analysis::Modal(settings) = model.setup.analysis {

@@ -12,7 +12,7 @@ use std::io::{self, Write};
 use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::StepRecord;
-use ligament_analysis::{ProportionalLoading, Termination};
+use ligament_analysis::{Message, ProportionalLoading, Termination};
 use ligament_output::quantity::{between, quantity, settled};
 use ligament_output::summary::{
     CertificateSummary, OverlapSummary, PathPoint, Provenance, Spread, StabilitySummary, Stage,
@@ -20,7 +20,7 @@ use ligament_output::summary::{
 };
 
 use crate::end::End;
-use crate::notices::counted;
+use crate::messages::counted;
 use crate::stability;
 use ligament::Model;
 use ligament_case::case::CaseFile;
@@ -63,8 +63,8 @@ pub struct Noted {
     pub of_points: OfPoints,
     /// Origin of the results.
     pub provenance: Provenance,
-    /// Messages for the notices of the run.
-    pub notices: Vec<String>,
+    /// Messages of the run.
+    pub messages: Vec<Message>,
     /// First bonds that softened and broke.
     pub first: FirstBonds,
     /// Certificate of a run in statics.
@@ -93,8 +93,8 @@ pub fn summary(
     let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
     let last_state_not_at_rest = history.last().is_some_and(|last| !last.at_rest);
     let end = (outcome.termination.row().verdict).end(without_equilibrium, last_state_not_at_rest);
-    let of_end = (end == End::NoEquilibrium).then(|| UP_TO_THERE.to_owned());
-    let warnings = model.warnings.iter().map(ToString::to_string);
+    let of_end = (end == End::NoEquilibrium).then(|| Message::new("no-equilibrium", UP_TO_THERE));
+    let warnings = model.warnings.iter().cloned();
     Summary {
         model: model::model_summary(case, model, noted.of_points),
         temperature_change: temperature_change(boundary),
@@ -131,7 +131,7 @@ pub fn summary(
         solver: solver_summary(&outcome.costs, &outcome.solver),
         provenance: Some(noted.provenance),
         stages: noted.stages,
-        warnings: counted(warnings.chain(noted.notices).chain(of_end)),
+        warnings: counted(warnings.chain(noted.messages).chain(of_end)),
     }
 }
 

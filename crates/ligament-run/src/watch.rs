@@ -1,22 +1,22 @@
-//! Observer of a run that writes its results, shows its progress and collects its notices.
+//! Observer of a run that writes its results, shows its progress and collects its messages.
 
 use std::time::Instant;
 
 use ligament::setup::Setup;
-use ligament::{Body, Model};
+use ligament::{Body, Message, Model};
 use ligament_analysis::Termination;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
-    Ahead, BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, View,
+    Ahead, BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, View,
 };
 use ligament_output::results::ResultWriter;
 
 use crate::checkpoints::{Checkpoints, Stops};
-use crate::notices::{bare, words};
+use crate::messages::named;
 use crate::pace;
 use crate::progress::{Progress, StepLine, noun};
 
-/// Largest number of notices shown during the run; all are in `summary.json`.
+/// Largest number of messages shown during the run; all are in `summary.json`.
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
@@ -27,7 +27,7 @@ pub(crate) struct Watch<'a> {
     /// Whether the run stops in the next state.
     stops: bool,
     progress: &'a mut Progress,
-    notices: Vec<String>,
+    messages: Vec<Message>,
     last: StepLine,
     /// The points of the whole body.
     names: &'a dyn Body,
@@ -37,13 +37,13 @@ pub(crate) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// The observer of a run of a model, with a writer, checkpoints, a progress display and the notices of an earlier part of the run.
+    /// The observer of a run of a model, with a writer, checkpoints, a progress display and the messages of an earlier part of the run.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
         requests: Stops<'a>,
         progress: &'a mut Progress,
         model: &'a Model,
-        notices: Vec<String>,
+        messages: Vec<Message>,
     ) -> Self {
         let setup = &model.setup;
         let in_time = setup.analysis.is_motion();
@@ -65,7 +65,7 @@ impl<'a> Watch<'a> {
             requests,
             stops: false,
             progress,
-            notices,
+            messages,
             last,
             names: &*model.names,
             setup,
@@ -73,9 +73,9 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Notices, first broken and softened bonds, and checkpoints of the run.
-    pub(crate) fn into_parts(self) -> (Vec<String>, FirstBonds, Checkpoints<'a>) {
-        (self.notices, self.writer.first_bonds(), self.checkpoints)
+    /// Messages, first broken and softened bonds, and checkpoints of the run.
+    pub(crate) fn into_parts(self) -> (Vec<Message>, FirstBonds, Checkpoints<'a>) {
+        (self.messages, self.writer.first_bonds(), self.checkpoints)
     }
 
     fn unless_aborted(&self) -> Result<(), ObserverError> {
@@ -127,13 +127,13 @@ impl Observer for Watch<'_> {
         self.writer.broke(records)
     }
 
-    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        let words = words(notice, self.names, self.setup);
-        let is_new = |it: &String| bare(it) != bare(&words);
-        if self.notices.len() < SHOWN && self.notices.iter().all(is_new) {
-            self.progress.stage(&words);
+    fn message(&mut self, message: Message) -> Result<(), ObserverError> {
+        let message = named(message, self.names, self.setup);
+        let is_new = |it: &Message| !it.tells_the_same(&message);
+        if self.messages.len() < SHOWN && self.messages.iter().all(is_new) {
+            self.progress.stage(&message.to_string());
         }
-        self.notices.push(words);
+        self.messages.push(message);
         Ok(())
     }
 
@@ -149,7 +149,7 @@ impl Observer for Watch<'_> {
             let begun = Instant::now();
             let results = self.writer.so_far().map_err(failed)?;
             let (checkpoints, solution) = (&mut self.checkpoints, moment.checkpoint);
-            let written = checkpoints.write(begun, solution, &results, &self.notices);
+            let written = checkpoints.write(begun, solution, &results, &self.messages);
             written.map_err(failed)?;
         }
         Ok(if self.stops { Onward::Stop } else { Onward::Go })

@@ -189,8 +189,8 @@ impl Trial {
     pub(super) fn modes(&self) -> anyhow::Result<Vec<Mode>> {
         self.with_setup(|case, setup| {
             let found = setup.modes().map_err(|error| case.explained(error))?;
-            match found.notices.first() {
-                Some(notice) => Err(anyhow::anyhow!("{notice}")),
+            match found.messages.first() {
+                Some(message) => Err(anyhow::anyhow!("{message}")),
                 None => Ok(found.modes),
             }
         })

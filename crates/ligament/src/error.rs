@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
+use ligament_analysis::Message;
 use ligament_analysis::modal::ModalError;
 use ligament_model::Advice;
 use ligament_model::failure::{NoLimit, Unfit};
@@ -11,7 +12,6 @@ use thiserror::Error;
 
 use crate::body::OffOutline;
 use crate::coordinates::coordinates;
-use crate::implausible::Implausible;
 use crate::setup::setting::Setting;
 use crate::suggestion::hint;
 
@@ -101,8 +101,8 @@ pub enum Fault {
     NoLimit {
         /// Reason why there is no limit.
         reason: NoLimit,
-        /// Implausible constant of a material that may be the cause.
-        cause: Option<Box<Implausible>>,
+        /// Message about an implausible constant of a material that may be the cause.
+        cause: Option<Box<Message>>,
     },
     /// Points without a neighbour, which have no stiffness under any correction.
     #[error(

@@ -9,7 +9,7 @@ use crate::setup::Analysis;
 
 /// Predicts the first bond at its limit under an analysis of loads; `None` for an elastic analysis, in which no bond breaks.
 ///
-/// The observer receives the notices of a run before its first load step.
+/// The observer receives the messages of a run before its first load step.
 ///
 /// # Errors
 ///

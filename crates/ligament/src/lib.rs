@@ -13,7 +13,7 @@
 //! ([`direction`] gives it over the direction of a bond), [`loading`] supports and loads into forces and constraints on the points.
 //! [`patch_test`] and [`bending_test`] measure the stiffness of the discrete body, [`crack_energy`] the energy that a crack dissipates,
 //! [`foresight`] predicts the first bond at its limit, [`stability`] finds the largest Poisson's ratio of a stable body, and [`plausibility`] finds implausible values. The error of a setup is a
-//! [`SetupError`] that names the field; remarks about a model are [`Warning`]s.
+//! [`SetupError`] that names the field; what else the user should know about a model is a [`Message`].
 //!
 //! ```
 //! use ligament::prelude::*;
@@ -61,7 +61,6 @@ mod extent;
 mod faces;
 pub mod foresight;
 pub mod formulation;
-pub mod implausible;
 pub mod loading;
 mod local;
 pub mod model;
@@ -84,6 +83,7 @@ pub mod units;
 pub mod warning;
 
 pub use ligament_analysis as analysis;
+pub use ligament_analysis::Message;
 pub use ligament_mesh as mesh;
 pub use ligament_model as mechanics;
 
@@ -92,4 +92,3 @@ pub use error::{Error, Fault, Field, SetupError, Torn};
 pub use loading::{Loading, Vibration};
 pub use model::Model;
 pub use setup::Setup;
-pub use warning::Warning;

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use ligament_analysis::Message;
 use ligament_model::bonds::precrack::Crack;
 use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
@@ -30,7 +31,7 @@ use crate::setup::{CorrectionDomain, Position, Setup};
 use crate::soundness::{require_connected, require_factors, require_finite_rigidities};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::system::{AnySystem, over_dimension};
-use crate::warning::{self, Warning};
+use crate::warning;
 
 /// The discrete model: everything before the equations.
 #[derive(Debug)]
@@ -52,7 +53,7 @@ pub struct Model {
     /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
     /// Warnings for the user.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Message>,
 }
 
 impl Model {
@@ -449,13 +450,11 @@ fn warnings<const D: usize>(
     fixed: &ConstantFields,
     criteria: &Criteria,
     crossed: Precracked,
-) -> Vec<Warning> {
-    let implausible = plausibility::of_model(described, cloud, criteria, crossed.idle).into_iter();
+) -> Vec<Message> {
+    let implausible = plausibility::of_model(described, cloud, criteria, crossed.idle);
     let points = (&cloud.subdomain, cloud.spacing.as_slice());
     let of_model = warning::of_model(described, points, report, fixed, crossed.touched);
-    implausible
-        .map(Warning::Implausible)
-        .chain(of_model)
+    (implausible.into_iter().chain(of_model))
         .chain(warning::of_criteria(criteria))
         .collect()
 }

@@ -1,10 +1,10 @@
 //! Growth of a near field: where the stress of elements reaches a share of the strength, bonds take their place and the run begins anew.
 
 use ligament_analysis::history::{
-    Ahead, BreakRecord, Moment, Notice, ObserverError, Onward, StepRecord, View,
+    Ahead, BreakRecord, Moment, ObserverError, Onward, StepRecord, View,
 };
 use ligament_analysis::material_stress::MaterialStress;
-use ligament_analysis::{Observer, Termination};
+use ligament_analysis::{Message, Observer, Termination};
 use ligament_model::scatter::Scattered;
 use ligament_model::stress::principal;
 use ligament_model::{Material, PointCloud};
@@ -223,8 +223,8 @@ impl Observer for Guarded<'_> {
         self.observer.broke(records)
     }
 
-    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        self.observer.notice(notice)
+    fn message(&mut self, message: Message) -> Result<(), ObserverError> {
+        self.observer.message(message)
     }
 
     fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {

@@ -1,8 +1,9 @@
-//! Warnings about a model that concern the trust in its results.
+//! Messages about a model that concern the trust in its results.
 
 mod correction;
 mod criteria;
 
+use ligament_analysis::Message;
 use ligament_model::correction::{CorrectionReport, DomainReport};
 use ligament_model::failure::softening::linear;
 use ligament_model::failure::{Choice, Criteria};
@@ -10,13 +11,11 @@ use ligament_model::law::stability::NegativeShear;
 use ligament_model::material::Space;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::{ConstantFields, ElementKind, Isotropic};
-use thiserror::Error;
 
 use self::correction::{Worst, off_energies};
 use self::criteria::{below_strength, rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
 use crate::described::Described;
-use crate::implausible::Implausible;
 use crate::plausibility::corners;
 use crate::setup::{Horizon, Setup};
 
@@ -35,210 +34,6 @@ pub const SUSPICIOUSLY_LARGE: f64 = 20.0;
 /// Tolerance of the Poisson's ratio that a law fixes: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
 
-/// Warning about a model that concerns the trust in its results.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum Warning {
-    /// Remark about the body.
-    #[error("{0}")]
-    Body(String),
-    /// An implausible value or choice.
-    #[error(transparent)]
-    Implausible(Implausible),
-    /// A body whose coordinates are probably in millimetres.
-    #[error(
-        "the body is {length:.1} m across: is the mesh in mm? Lengths are in m, so scale it by 0.001 (in Gmsh: Mesh.ScalingFactor = 0.001)"
-    )]
-    LargeBody {
-        /// Longer side of the box around the body, m.
-        length: f64,
-    },
-    /// Horizons for which the domain correction may not converge.
-    #[error(
-        "{} less than {SMALLEST_SAFE_FACTOR}: the domain correction may have no fixed point, and peak loads then depend on the \
-         number of sweeps",
-        match is_given {
-            true => format!("model.horizon_factor = {factor} is"),
-            false => format!("the horizon is {factor:.4} times the distance to the nearest point for some points,"),
-        }
-    )]
-    SmallHorizon {
-        /// Horizon over the distance to the nearest point, the smallest one.
-        factor: f64,
-        /// Whether the setup gives this factor.
-        is_given: bool,
-    },
-    /// Horizons as large as the body.
-    #[error(
-        "the horizon of {place} is {horizon:.4e} m, more than half of the body's length of {length:.4e} m: nearly all points are bonded to \
-         each other, and the answer is not that of the material; a horizon factor of 3 is usual"
-    )]
-    LargeHorizon {
-        /// Description of a point with the smallest horizon.
-        place: String,
-        /// Horizon of the point, m.
-        horizon: f64,
-        /// Longer side of the box around the body, m.
-        length: f64,
-    },
-    /// A domain correction that did not converge.
-    #[error(
-        "the domain correction did not converge in {sweeps} sweeps (last change {last_change:.2e}): {off} of {n_points} points have \
-         energies off by more than {ENERGY_TOLERANCE}, the worst by {error:.1e} ({worst} at {}); more \
-         correction.max_sweeps may help",
-        place(position)
-    )]
-    NotConverged {
-        /// Number of sweeps.
-        sweeps: usize,
-        /// Change of the last sweep.
-        last_change: f64,
-        /// Number of points with an error above the tolerance.
-        off: usize,
-        /// Number of points.
-        n_points: usize,
-        /// Largest error of the energy.
-        error: f64,
-        /// Description of the point with the largest error.
-        worst: String,
-        /// Position of the point, m.
-        position: Vec<f64>,
-    },
-    /// A patch correction whose equations the bonds cannot satisfy.
-    #[error(
-        "the patch correction cannot make every uniform strain an equilibrium: forces of {:.2} % of the size of their terms are left in \
-         the mean, of {:.0} % at worst ({worst} at {}); {}, or take correction.surface = \"domain\"",
-        100.0 * left, 100.0 * largest, place(position), more_bonds(*factor)
-    )]
-    NotMet {
-        /// Root mean square of the residuals of the scaled equations.
-        left: f64,
-        /// Largest residual at a point.
-        largest: f64,
-        /// Description of the point.
-        worst: String,
-        /// Position of the point, m.
-        position: Vec<f64>,
-        /// The horizon factor with which most bodies satisfy the equations, if larger than that of the body.
-        factor: Option<f64>,
-    },
-    /// Bonds that only touch an end of a pre-crack.
-    #[error(
-        "{bonds} bonds only touch an end of a pre-crack and stay whole: if the crack begins at the outline, start it a little outside, or \
-         set `ends = \"included\"`"
-    )]
-    Touched {
-        /// Number of such bonds.
-        bonds: usize,
-    },
-    /// Virial stresses at irregular points.
-    #[error(
-        "virial stresses (output.stress, probes of stress_xx and so on) are right only in the mean over the body: at single points of an \
-         irregular mesh their error is 10 to 25 % inside the body and 30 % or more at its edges, also with the patch correction; take \
-         output.stress = [\"material\"] and probes of stress.xx instead"
-    )]
-    PointStress,
-    /// Random factors with a correlation length below the distance between points.
-    #[error(
-        "fracture.scatter.correlation_length = {length:.4e} m is less than the largest distance between points, {spacing:.4e} m: there the \
-         spacing of the points limits the correlation; take a finer body or a greater length (0: each point independent)"
-    )]
-    ScatterBelowSpacing {
-        /// Correlation length, m.
-        length: f64,
-        /// Largest distance of a point to its nearest neighbour, m.
-        spacing: f64,
-    },
-    /// The word "bilinear" for one straight line, which often means two.
-    #[error(
-        "after = \"bilinear\" is the older word for \"linear\", one straight line down; the two lines that concrete has, to a third of \
-         the force and then to zero, are \"two-branch\""
-    )]
-    OneLine,
-    /// A Poisson's ratio that the law does not use.
-    #[error(
-        "Poisson's ratio {poisson} has no effect: bonds that resist stretch alone have {limit:.4}"
-    )]
-    PoissonNotUsed {
-        /// Poisson's ratio of the material.
-        poisson: f64,
-        /// Poisson's ratio of central forces.
-        limit: f64,
-    },
-    /// A Poisson's ratio that makes shear stiffness negative.
-    #[error(
-        "Poisson's ratio {poisson} is greater than {limit:.4}: {}, the stability of the intact model is checked",
-        match turns {
-            true => "shear and rotational stiffness of the bonds are negative",
-            false => "the shear stiffness of the bonds is negative",
-        }
-    )]
-    NegativeShear {
-        /// Poisson's ratio of the material.
-        poisson: f64,
-        /// Poisson's ratio of central forces.
-        limit: f64,
-        /// Whether bonds resist rotations too.
-        turns: bool,
-    },
-    /// A Poisson's ratio that makes shear stiffness negative in space.
-    #[error("{0}")]
-    NegativeShearInSpace(NegativeShear),
-    /// A law without rotations of points, whose bonds resist rotations of the body.
-    #[error(
-        "law = \"{law}\": points have no rotations, so every rotation of the body costs energy: in bending, torsion and shear the body is \
-         up to tens of times too stiff, although Young's modulus is right; take \"mppd\" or \"nhpd\", which have rotations"
-    )]
-    RotationResisted {
-        /// The law.
-        law: &'static str,
-    },
-    /// A criterion that takes the rotation of the body for sliding.
-    #[error(
-        "criterion \"{criterion}\": under law = \"{law}\" points have no rotations, so a rotation of the body counts as sliding of the \
-         bonds; take \"mppd\", which separates the two"
-    )]
-    RotationAsSliding {
-        /// The criterion.
-        criterion: &'static str,
-        /// The law.
-        law: &'static str,
-    },
-    /// A criterion of stress where a uniform stress is no equilibrium.
-    #[error(
-        "criterion \"{criterion}\": without correction.surface = \"patch\" the bonds are not in equilibrium under a uniform stress, and \
-         the first one fails at about half of the strength"
-    )]
-    StressWithoutPatch {
-        /// The criterion.
-        criterion: &'static str,
-    },
-    /// Bonds that break before the stress comes to the strength at which others begin to soften.
-    #[error(
-        "{:.0} % of the bonds break before the stress comes to the strength, the first at {least:.2} of it: their horizon is several times \
-         E G_c/F_t^2, so that they spend the fracture energy before; take a finer mesh there, or `no_fail` where nothing cracks",
-        100.0 * share
-    )]
-    BelowStrength {
-        /// Share of the bonds.
-        share: f64,
-        /// Smallest stress at which one breaks over the strength.
-        least: f64,
-    },
-    /// A criterion of energy with a negative shear stiffness, so that bonds nearly along a crack never reach a limit.
-    #[error(
-        "criterion \"{criterion}\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and \
-         those nearly along a crack never fail; \"critical-stretch\" breaks them"
-    )]
-    EnergyGivenBack {
-        /// The criterion.
-        criterion: &'static str,
-        /// Poisson's ratio of the material.
-        poisson: f64,
-        /// Poisson's ratio of central forces.
-        limit: f64,
-    },
-}
-
 /// A position (m) as text for warnings.
 fn place(position: &[f64]) -> String {
     let coordinates = position.iter().map(|it| format!("{it:.4}"));
@@ -253,14 +48,11 @@ pub(crate) fn of_model(
     correction: Option<&CorrectionReport>,
     fixed: &ConstantFields,
     touched: usize,
-) -> Vec<Warning> {
+) -> Vec<Message> {
     let (subdomain, _) = points;
     let remarks = setup.body.remarks().into_iter();
-    let mut warnings: Vec<Warning> = remarks.map(Warning::Body).collect();
-    let length = length(body);
-    if length > SUSPICIOUSLY_LARGE {
-        warnings.push(Warning::LargeBody { length });
-    }
+    let mut warnings: Vec<Message> = remarks.map(|it| Message::new("mesh", it)).collect();
+    warnings.extend(large_body(length(body)));
     warnings.extend(large_horizon((body, subdomain), fixed));
     if let Some(CorrectionReport::Domain(_)) = correction {
         warnings.extend(small_horizon(setup, points, fixed));
@@ -279,7 +71,9 @@ pub(crate) fn of_model(
         _ => {}
     }
     if touched > 0 {
-        warnings.push(Warning::Touched { bonds: touched });
+        let text = format!("{touched} bonds only touch an end of a pre-crack and stay whole");
+        let advice = "if the crack begins at the outline, start it a little outside, or set `ends = \"included\"`";
+        warnings.push(Message::new("touched-bonds", text).with_advice(advice));
     }
     if setup.probes.iter().any(|it| it.reading.is_stress()) {
         warnings.extend(of_virial_stress(&setup.body.origin()));
@@ -287,26 +81,27 @@ pub(crate) fn of_model(
     warnings.extend(scatter_below_spacing(setup, points));
     let mut laws = setup.criteria.iter().map(|it| it.after.law);
     if laws.any(|law| law == linear::BILINEAR) {
-        warnings.push(Warning::OneLine);
+        warnings.push(Message::new(
+            "one-line",
+            "after = \"bilinear\" is the older word for \"linear\", one straight line down; the two lines that concrete has, to a third of the force \
+             and then to zero, are \"two-branch\"",
+        ));
     }
     warnings.extend(of_constants(setup));
     warnings
 }
 
 /// Warnings about the constants of the materials with the law and the criteria of a setup.
-fn of_constants(setup: &Setup) -> Vec<Warning> {
+fn of_constants(setup: &Setup) -> Vec<Message> {
     let materials = setup.materials.iter();
     let constants: Vec<Isotropic> = materials
         .filter_map(|it| it.material.elasticity.isotropic())
         .collect();
     let poisson = constants.iter().filter_map(|it| of_poisson(setup, it));
-    let mut warnings: Vec<Warning> = poisson.collect();
+    let mut warnings: Vec<Message> = poisson.collect();
     warnings.extend(constants.iter().find_map(|it| rotation_resisted(setup, it)));
-    let as_sliding = rotation_as_sliding(setup);
-    warnings
-        .extend(as_sliding.map(|[criterion, law]| Warning::RotationAsSliding { criterion, law }));
-    let without_patch = stress_without_patch(setup);
-    warnings.extend(without_patch.map(|criterion| Warning::StressWithoutPatch { criterion }));
+    warnings.extend(rotation_as_sliding(setup));
+    warnings.extend(stress_without_patch(setup));
     warnings.extend(
         constants
             .iter()
@@ -316,9 +111,14 @@ fn of_constants(setup: &Setup) -> Vec<Warning> {
 }
 
 /// Warning about virial stresses at irregular points, for all bodies but lattices.
-pub fn of_virial_stress(origin: &Origin<'_>) -> Option<Warning> {
+pub fn of_virial_stress(origin: &Origin<'_>) -> Option<Message> {
     let is_regular = matches!(origin, Origin::Lattice(_) | Origin::SolidLattice(_));
-    (!is_regular).then_some(Warning::PointStress)
+    (!is_regular).then(|| {
+        let text = "virial stresses (output.stress, probes of stress_xx and so on) are right only in the mean over the body: at single points of an \
+                    irregular mesh their error is 10 to 25 % inside the body and 30 % or more at its edges, also with the patch correction";
+        let advice = "take output.stress = [\"material\"] and probes of stress.xx instead";
+        Message::new("virial-stress", text).with_advice(advice)
+    })
 }
 
 /// Largest root mean square residual of the patch correction's scaled equations without a warning.
@@ -347,9 +147,21 @@ fn small_horizon(
     setup: &Setup,
     points: (&Subdomain, &[f64]),
     fixed: &ConstantFields,
-) -> Option<Warning> {
+) -> Option<Message> {
     let (factor, is_given) = smallest_factor(setup, points, fixed);
-    (factor < SMALLEST_SAFE_FACTOR).then_some(Warning::SmallHorizon { factor, is_given })
+    (factor < SMALLEST_SAFE_FACTOR).then(|| {
+        let small = match is_given {
+            true => format!("model.horizon_factor = {factor} is"),
+            false => format!(
+                "the horizon is {factor:.4} times the distance to the nearest point for some points,"
+            ),
+        };
+        let text = format!(
+            "{small} less than {SMALLEST_SAFE_FACTOR}: the domain correction may have no fixed point, and peak loads then depend on the number \
+             of sweeps"
+        );
+        Message::new("small-horizon", text)
+    })
 }
 
 /// The smallest horizon of a point over the distance to its nearest point, and whether the setup gives it.
@@ -372,12 +184,26 @@ fn smallest_factor(
 fn scatter_below_spacing(
     setup: &Setup,
     (subdomain, spacing): (&Subdomain, &[f64]),
-) -> Option<Warning> {
+) -> Option<Message> {
     let spacing = subdomain.max(spacing.iter().copied().fold(0.0, f64::max));
     let lengths = setup.scatter.iter().map(|it| it.correlation_length);
     let below = lengths.filter(|length| *length > 0.0 && *length < spacing);
     let length = below.reduce(f64::min)?;
-    Some(Warning::ScatterBelowSpacing { length, spacing })
+    let text = format!(
+        "fracture.scatter.correlation_length = {length:.4e} m is less than the largest distance between points, {spacing:.4e} m: there the \
+         spacing of the points limits the correlation"
+    );
+    let advice = "take a finer body or a greater length (0: each point independent)";
+    Some(Message::new("scatter-below-spacing", text).with_advice(advice))
+}
+
+/// Message about a body of this length, m, if its coordinates are probably in millimetres.
+pub fn large_body(length: f64) -> Option<Message> {
+    (length > SUSPICIOUSLY_LARGE).then(|| {
+        let text = format!("the body is {length:.1} m across");
+        let advice = "is the mesh in mm? Lengths are in m, so scale it by 0.001 (in Gmsh: Mesh.ScalingFactor = 0.001)";
+        Message::new("large-body", text).with_advice(advice)
+    })
 }
 
 /// Longest side of the box around a body, m.
@@ -390,16 +216,19 @@ fn length(body: &dyn Body) -> f64 {
 fn large_horizon(
     (body, subdomain): (&dyn Body, &Subdomain),
     fixed: &ConstantFields,
-) -> Option<Warning> {
+) -> Option<Message> {
     let length = length(body);
     let horizons = (0..).zip(&fixed.horizon);
     let smallest = horizons.min_by(|one, other| one.1.total_cmp(other.1));
     let numbered = smallest.map(|(point, &it)| [it, f64::from(subdomain.number(point))]);
     let [horizon, point] = subdomain.all_reduce_min(numbered)?;
-    (horizon > 0.5 * length).then(|| Warning::LargeHorizon {
-        place: body.place(point as u32),
-        horizon,
-        length,
+    (horizon > 0.5 * length).then(|| {
+        let text = format!(
+            "the horizon of {} is {horizon:.4e} m, more than half of the body's length of {length:.4e} m: nearly all points are bonded to each \
+             other, and the answer is not that of the material",
+            body.place(point as u32)
+        );
+        Message::new("large-horizon", text).with_advice("a horizon factor of 3 is usual")
     })
 }
 
@@ -407,33 +236,40 @@ fn not_met(
     (body, subdomain): (&dyn Body, &Subdomain),
     (left, residual): (f64, &[f64]),
     factor: Option<f64>,
-) -> Warning {
+) -> Message {
     let Worst { point, value } = Worst::new(subdomain, |point| residual[point as usize]);
-    Warning::NotMet {
-        left,
-        largest: value,
-        worst: body.label(point),
-        position: body.position(point),
-        factor,
-    }
+    let text = format!(
+        "the patch correction cannot make every uniform strain an equilibrium: forces of {:.2} % of the size of their terms are left in the mean, \
+         of {:.0} % at worst ({} at {})",
+        100.0 * left,
+        100.0 * value,
+        body.label(point),
+        place(&body.position(point))
+    );
+    let advice = format!(
+        "{}, or take correction.surface = \"domain\"",
+        more_bonds(factor)
+    );
+    Message::new("patch-not-met", text).with_advice(advice)
 }
 
 fn not_converged(
     (body, subdomain): (&dyn Body, &Subdomain),
     correction: &DomainReport,
     fixed: &ConstantFields,
-) -> Warning {
+) -> Message {
     let asked = (body.position(0).len(), ENERGY_TOLERANCE);
     let (off, Worst { point, value }) = off_energies(subdomain, fixed, asked);
-    Warning::NotConverged {
-        sweeps: correction.sweeps,
-        last_change: correction.last_change,
-        off,
-        n_points: subdomain.n_all(),
-        error: value,
-        worst: body.label(point),
-        position: body.position(point),
-    }
+    let text = format!(
+        "the domain correction did not converge in {} sweeps (last change {:.2e}): {off} of {} points have energies off by more than \
+         {ENERGY_TOLERANCE}, the worst by {value:.1e} ({} at {})",
+        correction.sweeps,
+        correction.last_change,
+        subdomain.n_all(),
+        body.label(point),
+        place(&body.position(point))
+    );
+    Message::new("domain-not-converged", text).with_advice("more correction.max_sweeps may help")
 }
 
 /// Advice for a body that does not satisfy the equations of the patch correction.
@@ -445,14 +281,21 @@ fn more_bonds(factor: Option<f64>) -> String {
 }
 
 /// Warning about bonds with a positive shear stiffness between points without rotations.
-fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Warning> {
+fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Message> {
     let (poisson, limit) = poisson_and_limit(setup, material);
     let resists = setup.law.row.resists_rotations() && poisson < limit - POISSON_TOLERANCE;
-    let law = setup.law.name();
-    resists.then_some(Warning::RotationResisted { law })
+    resists.then(|| {
+        let text = format!(
+            "law = \"{}\": points have no rotations, so every rotation of the body costs energy: in bending, torsion and shear the body is up to tens \
+             of times too stiff, although Young's modulus is right",
+            setup.law.name()
+        );
+        let advice = "take \"mppd\" or \"nhpd\", which have rotations";
+        Message::new("rotation-resisted", text).with_advice(advice)
+    })
 }
 
-fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
+fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Message> {
     // Bonds that begin to soften by the stress around them take a negative shear stiffness for none.
     let by_energy = |it: &&Choice| {
         let measures = it.kind.measures;
@@ -462,22 +305,29 @@ fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Warning> {
     let criterion = setup.criteria.iter().find(by_energy)?.kind.word;
     let (poisson, limit) = poisson_and_limit(setup, material);
     let gives_energy = poisson > limit && !setup.law.row.fixes_poisson;
-    gives_energy.then_some(Warning::EnergyGivenBack {
-        criterion,
-        poisson,
-        limit,
+    gives_energy.then(|| {
+        let text = format!(
+            "criterion \"{criterion}\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and those nearly \
+             along a crack never fail"
+        );
+        Message::new("energy-given-back", text).with_advice("\"critical-stretch\" breaks them")
     })
 }
 
-fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
+fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Message> {
     let (poisson, limit) = poisson_and_limit(setup, material);
     if setup.law.row.fixes_poisson {
         let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
-        return differs.then_some(Warning::PoissonNotUsed { poisson, limit });
+        return differs.then(|| {
+            let text = format!(
+                "Poisson's ratio {poisson} has no effect: bonds that resist stretch alone have {limit:.4}"
+            );
+            Message::new("poisson-not-used", text)
+        });
     }
-    let turns = match setup.law.element() {
-        ElementKind::Beam => true,
-        ElementKind::Spring => false,
+    let stiffness = match setup.law.element() {
+        ElementKind::Beam => "shear and rotational stiffness of the bonds are negative",
+        ElementKind::Spring => "the shear stiffness of the bonds is negative",
         ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => return None,
     };
     let horizon_factor = match setup.horizon {
@@ -485,16 +335,17 @@ fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Warning> {
         // A horizon of one length has no factor: the usual one is assumed.
         Horizon::Length(_) => USUAL_FACTOR,
     };
-    (poisson > limit).then(|| match setup.space() {
-        Space::Plane(_) => Warning::NegativeShear {
-            poisson,
-            limit,
-            turns,
-        },
-        Space::Solid => {
-            let form = setup.law.row.shear_form.map(|of| of(Space::Solid));
-            Warning::NegativeShearInSpace(NegativeShear::new(poisson, form, horizon_factor))
-        }
+    (poisson > limit).then(|| {
+        let text = match setup.space() {
+            Space::Plane(_) => format!(
+                "Poisson's ratio {poisson} is greater than {limit:.4}: {stiffness}, the stability of the intact model is checked"
+            ),
+            Space::Solid => {
+                let form = setup.law.row.shear_form.map(|of| of(Space::Solid));
+                NegativeShear::new(poisson, form, horizon_factor).to_string()
+            }
+        };
+        Message::new("negative-shear", text)
     })
 }
 
@@ -504,6 +355,14 @@ fn poisson_and_limit(setup: &Setup, material: &Isotropic) -> (f64, f64) {
 }
 
 /// Warning about bonds that break below the strength at which others begin to soften.
-pub(crate) fn of_criteria(criteria: &Criteria) -> Option<Warning> {
-    below_strength(criteria).map(|[share, least]| Warning::BelowStrength { share, least })
+pub(crate) fn of_criteria(criteria: &Criteria) -> Option<Message> {
+    below_strength(criteria).map(|[share, least]| {
+        let text = format!(
+            "{:.0} % of the bonds break before the stress comes to the strength, the first at {least:.2} of it: their horizon is several times \
+             E G_c/F_t^2, so that they spend the fracture energy before",
+            100.0 * share
+        );
+        let advice = "take a finer mesh there, or `no_fail` where nothing cracks";
+        Message::new("below-strength", text).with_advice(advice)
+    })
 }

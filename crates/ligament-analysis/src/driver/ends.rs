@@ -5,10 +5,11 @@ use super::recorder::StepCounters;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::error::SetupError;
-use crate::history::{Notice, ObserverError, Termination};
+use crate::history::{ObserverError, Termination};
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::termination::Verdict;
 use crate::unbalanced::Unbalanced;
+use crate::user_message::Message;
 
 /// Fraction of the peak load below which a body carries no load, only rounding.
 pub(super) const NO_LOAD: f64 = 1e-9;
@@ -155,6 +156,9 @@ impl Path<'_> {
             return Ok(());
         }
         let step = self.course.history.last().map_or(0, |it| it.step);
-        self.observer.notice(&Notice::PastPeak { step })
+        let message = Message::new("past-peak", "there is no equilibrium at a larger force");
+        let advice = "to follow the body past its peak, let a probe control a stage (its `control`), or follow the exact path";
+        self.observer
+            .message(message.in_step(step).with_advice(advice))
     }
 }

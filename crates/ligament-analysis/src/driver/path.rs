@@ -24,7 +24,7 @@ use crate::connectivity::AddedSupport;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{
-    BreakRecord, Moment, Notice, Observer, ObserverError, Onward, StepRecord, Termination, View,
+    BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, Termination, View,
 };
 use crate::load_program::{ControlKind, LoadCourse};
 use crate::problem::Problem;
@@ -33,6 +33,7 @@ use crate::softened::SoftenedOfAll;
 use crate::softening::Softening;
 use crate::state::{Solution, State};
 use crate::unbalanced::Unbalanced;
+use crate::user_message::Message;
 
 /// State of a run.
 pub(super) struct Path<'a> {
@@ -176,7 +177,9 @@ impl<'a> Path<'a> {
             return Ok(attempt);
         }
         if is_negative && !std::mem::replace(&mut self.course.energy_was_negative, true) {
-            self.observer.notice(&Notice::NegativeEnergy { step })?;
+            let text = "the stored energy is negative: from here on the body is unstable and the results are not valid";
+            let message = Message::new("negative-energy", text);
+            self.observer.message(message.in_step(step))?;
         }
         self.course.solves[0] = self.equilibrium.costs().solves;
         self.course.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
@@ -396,10 +399,10 @@ impl<'a> Path<'a> {
         let record = self.show(balanced, counters, [is_last, true])?;
         let fragments = self.equilibrium.fragments();
         let Course { overlap, .. } = &mut self.course;
-        if let Some(notice) =
+        if let Some(message) =
             remarks::overlap(&self.problem, &self.state, fragments, record.step, overlap)
         {
-            self.observer.notice(&notice)?;
+            self.observer.message(message)?;
         }
         self.keep(record)
     }
@@ -456,14 +459,14 @@ impl<'a> Path<'a> {
         Ok(record)
     }
 
-    /// Adds a record to the history, with notices about its energies.
+    /// Adds a record to the history, with messages about its energies.
     fn keep(&mut self, record: StepRecord) -> Result<(), SetupError> {
         let history = &mut self.course.history;
-        if let Some(notice) = remarks::energies(&self.problem, &record, history.last()) {
-            self.observer.notice(&notice)?;
+        if let Some(message) = remarks::energies(&self.problem, &record, history.last()) {
+            self.observer.message(message)?;
         }
-        if let Some(notice) = remarks::dissipation(&record, history) {
-            self.observer.notice(&notice)?;
+        if let Some(message) = remarks::dissipation(&record, history) {
+            self.observer.message(message)?;
         }
         history.push(record);
         Ok(())

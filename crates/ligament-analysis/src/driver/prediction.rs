@@ -13,15 +13,15 @@ use super::outcome::LoadPoint;
 use super::path::Path;
 use super::recorder::largest_ratio;
 use super::start::NoObserver;
-use crate::at_once::AtOnce;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;
 use crate::error::SetupError;
-use crate::history::{Notice, ObserverError, Termination};
+use crate::history::{ObserverError, Termination};
 use crate::load_program::{LoadCourse, Part, PartControl, Programme};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
+use crate::user_message::Message;
 
 /// Utilisation of a bond that counts as at its limit, since a load step that ends exactly at the first breakage is subject to
 /// rounding.
@@ -144,12 +144,15 @@ impl Path<'_> {
         let of_bonds = deformations.iter().enumerate();
         let of_bonds = of_bonds.map(|it| f64::from(u8::from(is_beyond(it))));
         let system = &*self.problem.system;
-        let at_once = AtOnce {
-            share,
-            beyond: sum_over_bonds(system, of_bonds) as usize,
-            bonds: sum_over_bonds(system, system.ends().iter().map(|_| 1.0)) as usize,
-        };
-        Ok(self.observer.notice(&Notice::AtOnce(at_once))?)
+        let text = format!(
+            "the body breaks at once: its first bond reaches its limit at {share:.4} of the first load step, at whose end {} of {} bonds would be \
+             beyond theirs",
+            sum_over_bonds(system, of_bonds),
+            sum_over_bonds(system, system.ends().iter().map(|_| 1.0))
+        );
+        let message = Message::new("breaks-at-once", text);
+        let advice = "the loads are too large, or the steps too few (SI units: m, N, Pa)";
+        Ok(self.observer.message(message.with_advice(advice))?)
     }
 
     /// Elastic equilibrium at the end of the first load step of a programme of stages, not counted as a solve; None where the step

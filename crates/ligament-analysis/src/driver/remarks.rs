@@ -1,13 +1,14 @@
-//! Notices to the user about records, each once a run.
+//! Messages to the user about records, each once a run.
 
 use ligament_model::contact::Overlap;
 use ligament_model::layout::Layout;
 use nalgebra::{Matrix3, Vector3};
 
 use crate::connectivity::Fragments;
-use crate::history::{LargestOverlap, Notice, StepRecord};
+use crate::history::{LargestOverlap, StepRecord};
 use crate::problem::Problem;
 use crate::state::State;
+use crate::user_message::Message;
 
 /// Largest imbalance of energies, relative to the work: energies are exact between two equilibria, whose residual is 1e-10.
 const ENERGY_ERROR: f64 = 1e-6;
@@ -29,13 +30,13 @@ const ROUNDING: f64 = 1e-12;
 /// Angle from which on a fragment counts as turned, rad: linear motions make it longer by half of its square, .5 %.
 const TURNED: f64 = 0.1;
 
-/// Notice for the first fragment of a motion that has turned so far that forces linear in the motions are in error.
+/// Message about the first fragment of a motion that has turned so far that forces linear in the motions are in error.
 pub(super) fn turned(
     problem: &Problem,
     state: &State,
     fragments: &Fragments,
     step: usize,
-) -> Option<Notice> {
+) -> Option<Message> {
     let system = &*problem.system;
     let motions = system.motions_about_centre(system.volumes()).motions;
     let angles = fragments.points.iter().map(|points| match points.len() {
@@ -44,11 +45,16 @@ pub(super) fn turned(
     });
     let most = |most: (usize, f64), it: (usize, f64)| if it.1 > most.1 { it } else { most };
     let (fragment, angle) = angles.enumerate().fold((0, TURNED), most);
-    (angle > TURNED).then(|| Notice::Turned {
-        step,
-        points: fragments.extents[fragment].n_points,
-        first: fragments.extents[fragment].first,
-        angle,
+    (angle > TURNED).then(|| {
+        let extent = fragments.extents[fragment];
+        let text = format!(
+            "a part of {} points (around {{}}) has turned by {angle:.2} rad; forces are linear in the motions, so that turning strains it by {:.1e} \
+             (half of the square of the angle) and costs energy: what it does from here on is not valid",
+            extent.n_points,
+            0.5 * angle * angle
+        );
+        let message = Message::new("turned", text).of_points([extent.first]);
+        message.in_step(step)
     })
 }
 
@@ -92,12 +98,12 @@ fn angle(layout: Layout, motions: &[Vec<f64>], points: &[u32], displacement: &[f
     matrix.try_inverse().map_or(0.0, |it| (it * sums).norm())
 }
 
-/// Notice for the first record whose energies do not balance, given the record before it; None for forces without an energy.
+/// Message about the first record whose energies do not balance, given the record before it; None for forces without an energy.
 pub(super) fn energies(
     problem: &Problem,
     record: &StepRecord,
     last: Option<&StepRecord>,
-) -> Option<Notice> {
+) -> Option<Message> {
     let system = &problem.system;
     if !system.is_linear() || !system.has_energy() {
         return None;
@@ -110,14 +116,17 @@ pub(super) fn energies(
     // An error that is not a number counts as an imbalance.
     let is_balanced = |it: &StepRecord| it.energy_error().abs() <= limit;
     let is_first = !is_balanced(record) && last.is_none_or(is_balanced);
-    is_first.then(|| Notice::EnergyUnbalanced {
-        step: record.step,
-        error: record.energy_error().abs(),
+    is_first.then(|| {
+        let text = format!(
+            "work, stored and released energy differ by {:.1e} of the work: do not trust the results from here on",
+            record.energy_error().abs()
+        );
+        Message::new("energy-unbalanced", text).in_step(record.step)
     })
 }
 
-/// Notice for the first record at which bonds have dissipated more than work minus stored energy.
-pub(super) fn dissipation(record: &StepRecord, before: &[StepRecord]) -> Option<Notice> {
+/// Message about the first record at which bonds have dissipated more than work minus stored energy.
+pub(super) fn dissipation(record: &StepRecord, before: &[StepRecord]) -> Option<Message> {
     let work = |it: &StepRecord| it.external_work.abs();
     let largest = before.iter().map(work).fold(work(record), f64::max);
     let beyond = |it: &StepRecord| it.dissipated_energy - (it.external_work - it.stored_energy);
@@ -125,27 +134,38 @@ pub(super) fn dissipation(record: &StepRecord, before: &[StepRecord]) -> Option<
     let is_beyond =
         |it: &StepRecord| it.dissipated_energy > 0.0 && beyond(it) > DISSIPATED_BEYOND * largest;
     let is_first = is_beyond(record) && !before.last().is_some_and(is_beyond);
-    is_first.then(|| Notice::DissipatedBeyondWork {
-        step: record.step,
-        share: beyond(record) / largest,
+    is_first.then(|| {
+        let text = format!(
+            "bonds have dissipated more than the work minus the stored energy, by {:.1e} of the work: the load steps are too coarse for the \
+             softening",
+            beyond(record) / largest
+        );
+        let message = Message::new("dissipated-beyond-work", text).in_step(record.step);
+        message.with_advice("take smaller steps")
     })
 }
 
-/// Notice for the first state with overlapping crack faces; updates the largest overlap so far.
+/// Message about the first state with overlapping crack faces; updates the largest overlap so far.
 pub(super) fn overlap(
     problem: &Problem,
     state: &State,
     fragments: &Fragments,
     step: usize,
     largest_so_far: &mut Option<LargestOverlap>,
-) -> Option<Notice> {
+) -> Option<Message> {
     let Overlap { depth, ends } = largest(problem, state, fragments)?;
     let now = LargestOverlap { depth, ends, step };
     let is_first = largest_so_far.is_none();
     if largest_so_far.is_none_or(|before| before.depth < depth) {
         *largest_so_far = Some(now);
     }
-    is_first.then_some(Notice::Overlap(now))
+    is_first.then(|| {
+        let text = format!(
+            "the faces of a crack overlap by {depth:.2e} m between {{all}}, because they carry no pressure"
+        );
+        let message = Message::new("overlap", text).of_points(ends).in_step(step);
+        message.with_advice("`closing` lets them")
+    })
 }
 
 /// Largest overlap of faces in a state, if it exceeds the limits.

@@ -7,10 +7,11 @@ use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::gauges;
-use crate::history::{Ahead, Notice, Observer, ObserverError, StepRecord, Termination, View};
+use crate::history::{Ahead, Observer, ObserverError, StepRecord, Termination, View};
 use crate::problem::Problem;
 use crate::serial;
 use crate::state::State;
+use crate::user_message::Message;
 
 /// State and elastic solution before the first load step.
 #[derive(Clone)]
@@ -83,7 +84,7 @@ fn begin_proportional(
     );
     // Contact may hold a free body.
     for body in free.into_iter().filter(|_| problem.contact.is_empty()) {
-        observer.notice(&Notice::FreeBody(body))?;
+        observer.message(body.message(problem.system.faces_close()))?;
     }
     let mut at_one = State {
         load_factor: 1.0,
@@ -111,7 +112,13 @@ fn begin_proportional(
         }
         match is_deformed(problem, &at_one, &balanced) {
             true => start.deformed = Some(balanced),
-            false => observer.notice(&Notice::Undeformed)?,
+            false => observer.message(
+                Message::new(
+                    "undeformed",
+                    "nothing resists the loads: they move the body as a whole and do not deform it, so that all forces are rounding",
+                )
+                .with_advice("hold a part of it by a support"),
+            )?,
         }
         start.at_one = Some(at_one);
         start.read_off(problem, equilibrium.fragments());
@@ -193,7 +200,11 @@ fn stability(
         && negative != expected
         && problem.solver.allows_unstable
     {
-        observer.notice(&Notice::Unstable { negative, expected })?;
+        let text = format!(
+            "the intact model is unstable: {negative} negative eigenvalues where {expected} are expected; results are not to be trusted \
+             (Poisson's ratio too large for this horizon factor)"
+        );
+        observer.message(Message::new("unstable", text))?;
     }
     Ok(stability)
 }
@@ -211,12 +222,12 @@ pub(super) fn report_detached_parts(
     let Some(first) = loose.first() else {
         return Ok(());
     };
-    observer.notice(&Notice::PartsDetached {
-        step,
-        points: loose.iter().map(|fragment| extent(fragment).n_points).sum(),
-        motions: holds.len(),
-        first: extent(first).first,
-    })
+    let points: usize = loose.iter().map(|fragment| extent(fragment).n_points).sum();
+    let text = format!(
+        "a part of {points} points (around {{}}) broke off; its rigid motion is fixed so that the equations stay solvable"
+    );
+    let message = Message::new("parts-detached", text).of_points([extent(first).first]);
+    observer.message(message.in_step(step))
 }
 
 /// Notifies the observer of mechanisms that the factorisation found.
@@ -225,11 +236,16 @@ pub(super) fn report_mechanisms(
     balanced: &Balanced,
     observer: &mut dyn Observer,
 ) -> Result<(), ObserverError> {
-    if balanced.mechanisms.is_empty() {
+    let points = &balanced.mechanisms;
+    if points.is_empty() {
         return Ok(());
     }
-    let points = balanced.mechanisms.clone();
-    observer.notice(&Notice::Mechanisms { step, points })
+    let text = format!(
+        "fixed {} mechanism(s), motions that no bond resists, at {{all}}",
+        points.len()
+    );
+    let message = Message::new("mechanisms", text).of_points(points.as_slice());
+    observer.message(message.in_step(step))
 }
 
 /// Observer without effect.

@@ -10,7 +10,7 @@ use ligament_linalg::{
 use super::masses::Masses;
 use super::mode::{Mode, ModeKind, RESIDUAL_TOLERANCE, Rotations};
 use super::participation::Moving;
-use super::{ModalError, ModalNotice, ModalOutcome, ModalProblem, ModalSettings, rigid, shape};
+use super::{ModalError, ModalOutcome, ModalProblem, ModalSettings, rigid, shape};
 use crate::balanced::Stability;
 use crate::costs::Costs;
 use crate::error::SetupError;
@@ -18,6 +18,7 @@ use crate::solver::{Method, Reason, Unfit};
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
+use crate::user_message::Message;
 
 /// Shift over the largest K_ii/M_ii, which is near the largest omega^2.
 ///
@@ -132,7 +133,7 @@ impl ModalAnalysis {
         let largest = self.largest_ratio(&matrix);
         let rigid_below = RIGID * largest;
         let wanted = self.settings.modes.min(self.massive.len());
-        let mut notices = self.notices_before(wanted);
+        let mut messages = self.messages_before(wanted);
 
         let ModalProblem {
             system,
@@ -149,11 +150,11 @@ impl ModalAnalysis {
         let is_rigid = |shape: &Vec<f64>| shape::eigenvalue(&*system, shape) <= rigid_below;
         found.shapes.retain(is_rigid);
         if found.shapes.len() < wanted {
-            self.find_elastic(&mut found, matrix, largest, wanted, &mut notices)?;
+            self.find_elastic(&mut found, matrix, largest, wanted, &mut messages)?;
         }
         let moving = Moving::new(&*system, &mass, &self.masses);
         let modes = self.modes(found.shapes, wanted, &moving, rigid_below);
-        notices.extend(notices_after(&modes, motions.count, found.stability));
+        messages.extend(messages_after(&modes, motions.count, found.stability));
         Ok(ModalOutcome {
             modes,
             rotations: self.rotations,
@@ -161,7 +162,7 @@ impl ModalAnalysis {
             moving,
             complete: found.complete,
             stability: found.stability,
-            notices,
+            messages,
             costs: self.costs,
             solver: *self.stiffness.choice(),
         })
@@ -174,7 +175,7 @@ impl ModalAnalysis {
         mut matrix: SymmetricMatrix,
         largest: f64,
         wanted: usize,
-        notices: &mut Vec<ModalNotice>,
+        messages: &mut Vec<Message>,
     ) -> Result<(), ModalError> {
         let (shift, rigid_below) = (SHIFT * largest, RIGID * largest);
         let kind = self.stiffness.choice().factorisation;
@@ -188,8 +189,11 @@ impl ModalAnalysis {
             }
             let pairs = self.search(factor.as_mut(), &found.shapes, missing, seed);
             if !pairs.converged {
-                let products = pairs.products;
-                notices.push(ModalNotice::NotConverged { products });
+                let text = format!(
+                    "the iteration ended after {} solutions before all modes were exact",
+                    pairs.products
+                );
+                messages.push(Message::new("modes-not-converged", text));
             }
             for vector in &pairs.vectors {
                 let shape = self.shape(factor.as_mut(), vector, &found.shapes);
@@ -217,7 +221,8 @@ impl ModalAnalysis {
                 return Ok(());
             }
         }
-        notices.push(ModalNotice::Missing { missing });
+        let text = format!("{missing} modes below the highest were not found");
+        messages.push(Message::new("missing-modes", text));
         Ok(())
     }
 
@@ -359,53 +364,74 @@ impl ModalAnalysis {
         Ok(Some(Stability { negative, expected }))
     }
 
-    fn notices_before(&self, wanted: usize) -> Vec<ModalNotice> {
-        let mut notices = Vec::new();
+    fn messages_before(&self, found: usize) -> Vec<Message> {
+        let mut messages = Vec::new();
         if self.settings.rotations.is_none() && self.rotations == Rotations::Massless {
-            notices.push(ModalNotice::MasslessRotations);
+            messages.push(Message::new(
+                "massless-rotations",
+                "bonds have a negative shear stiffness (large Poisson's ratio): the rotations of the points have no inertia, they follow the \
+                 displacements",
+            ));
         }
-        if wanted < self.settings.modes {
-            notices.push(ModalNotice::FewerModes {
-                found: wanted,
-                wanted: self.settings.modes,
-            });
+        let wanted = self.settings.modes;
+        if found < wanted {
+            let text = format!("the body has {found} modes with mass, {wanted} were asked for");
+            messages.push(Message::new("fewer-modes", text));
         }
-        notices
+        messages
     }
 }
 
-/// Notices that follow from the modes.
-fn notices_after(
+/// Messages that follow from the modes.
+fn messages_after(
     modes: &[Mode],
     rigid_motions: usize,
     stability: Option<Stability>,
-) -> Vec<ModalNotice> {
-    let mut notices = Vec::new();
+) -> Vec<Message> {
+    let mut messages = Vec::new();
     if let Some(Stability { negative, expected }) = stability
         && negative != expected
     {
-        notices.push(ModalNotice::Unstable { negative, expected });
+        let text = format!(
+            "the intact model is not stable: {negative} negative eigenvalues, {expected} expected from the rotations; motions with a negative \
+             omega^2 are left out"
+        );
+        messages.push(Message::new("unstable-modes", text));
     }
     let rigid = modes.iter().filter(|mode| mode.kind == ModeKind::Rigid);
     let found = rigid.count();
+    let has_mechanisms = found > rigid_motions;
     if found == modes.len() {
-        notices.push(ModalNotice::OnlyRigid {
-            modes: found,
-            expected: rigid_motions,
-        });
+        let why = if has_mechanisms {
+            "it has mechanisms"
+        } else {
+            "ask for more modes"
+        };
+        let text = format!(
+            "all {found} modes cost no energy, and the body has {rigid_motions} rigid motions: {why}"
+        );
+        messages.push(Message::new("rigid-modes-only", text));
     } else if found != rigid_motions {
-        notices.push(ModalNotice::RigidCount {
-            found,
-            expected: rigid_motions,
-        });
+        let why = match has_mechanisms {
+            true => "the body has mechanisms",
+            false => "some rigid motions cost energy in this model",
+        };
+        let text = format!(
+            "{found} modes cost no energy, {rigid_motions} rigid motions were expected: {why}"
+        );
+        messages.push(Message::new("rigid-motions", text));
     }
     let inexact = modes.iter().enumerate();
     let inexact = inexact.filter(|(_, mode)| mode.residual > RESIDUAL_TOLERANCE);
-    notices.extend(inexact.map(|(index, mode)| ModalNotice::Residual {
-        mode: index + 1,
-        residual: mode.residual,
+    messages.extend(inexact.map(|(index, mode)| {
+        let text = format!(
+            "mode {} has a residual of {:.1e}, more than {RESIDUAL_TOLERANCE:.0e}",
+            index + 1,
+            mode.residual
+        );
+        Message::new("inexact-mode", text)
     }));
-    notices
+    messages
 }
 
 /// Bound just below the highest of sorted eigenvalues and those within rounding of it; none where that is rigid.

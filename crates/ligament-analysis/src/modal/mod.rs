@@ -25,6 +25,7 @@ use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::solver::{DirectChoice, SolverSettings};
 use crate::supports::Supports;
+use crate::user_message::Message;
 
 pub use analysis::ModalAnalysis;
 pub use mode::{Mode, ModeKind, RESIDUAL_TOLERANCE, Rotations};
@@ -69,84 +70,12 @@ pub struct ModalOutcome {
     pub complete: Option<bool>,
     /// Inertia of the stiffness, where it may be indefinite.
     pub stability: Option<Stability>,
-    /// Notices to the user.
-    pub notices: Vec<ModalNotice>,
+    /// Messages to the user.
+    pub messages: Vec<Message>,
     /// Costs of the equations.
     pub costs: Costs,
     /// Solver that was chosen for the equations.
     pub solver: DirectChoice,
-}
-
-/// Notice to the user about the modes.
-#[derive(Debug, Clone, PartialEq, Error)]
-pub enum ModalNotice {
-    /// The rotations have no inertia because bonds have a negative shear stiffness.
-    #[error(
-        "bonds have a negative shear stiffness (large Poisson's ratio): the rotations of the points have no inertia, they \
-         follow the displacements"
-    )]
-    MasslessRotations,
-    /// The model has more negative eigenvalues than its rotations explain.
-    #[error(
-        "the intact model is not stable: {negative} negative eigenvalues, {expected} expected from the rotations; motions \
-         with a negative omega^2 are left out"
-    )]
-    Unstable {
-        /// Number of negative eigenvalues of the stiffness.
-        negative: usize,
-        /// Number of negative eigenvalues of the rotation block.
-        expected: usize,
-    },
-    /// The numbers of energy-free modes and of rigid motions differ.
-    #[error(
-        "{found} modes cost no energy, {expected} rigid motions were expected: {}",
-        if found > expected { "the body has mechanisms" } else { "some rigid motions cost energy in this model" }
-    )]
-    RigidCount {
-        /// Number of energy-free modes.
-        found: usize,
-        /// Number of rigid motions permitted by supports and connectivity.
-        expected: usize,
-    },
-    /// All requested modes are energy-free.
-    #[error(
-        "all {modes} modes cost no energy, and the body has {expected} rigid motions: {}",
-        if modes > expected { "it has mechanisms" } else { "ask for more modes" }
-    )]
-    OnlyRigid {
-        /// Number of requested modes.
-        modes: usize,
-        /// Number of rigid motions permitted by supports and connectivity.
-        expected: usize,
-    },
-    /// The body has fewer modes than requested.
-    #[error("the body has {found} modes with mass, {wanted} were asked for")]
-    FewerModes {
-        /// Number of modes with mass.
-        found: usize,
-        /// Number of requested modes.
-        wanted: usize,
-    },
-    /// The iteration ended before all modes converged.
-    #[error("the iteration ended after {products} solutions before all modes were exact")]
-    NotConverged {
-        /// Number of solutions with the factor.
-        products: usize,
-    },
-    /// A mode has too large a residual.
-    #[error("mode {mode} has a residual of {residual:.1e}, more than {RESIDUAL_TOLERANCE:.0e}")]
-    Residual {
-        /// Number of the mode, from 1.
-        mode: usize,
-        /// Residual of the mode.
-        residual: f64,
-    },
-    /// The count of the eigenvalues shows missing modes.
-    #[error("{missing} modes below the highest were not found")]
-    Missing {
-        /// Number of missing modes.
-        missing: usize,
-    },
 }
 
 /// Reason why modes cannot be computed.

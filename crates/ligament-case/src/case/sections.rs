@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use ligament::Message;
 use ligament::body::AnyBody;
-use ligament::implausible::Implausible;
 use ligament::near_growth::Growth;
+use ligament::plausibility::{of_angle, without_thickness};
 use ligament::setup::{self, Section, Setup};
 use ligament_mesh::{AnyMesh, Mesh, SolidMesh};
 use ligament_model::Plane;
@@ -277,16 +278,16 @@ impl Case {
     }
 
     /// Remarks on implausible values in the sections of a body in the plane.
-    fn remarks(&self) -> Vec<Implausible> {
+    fn remarks(&self) -> Vec<Message> {
         if self.is_solid() {
             return Vec::new();
         }
         // A long body in plane strain is computed per metre of its length.
         let is_missing = self.thickness().is_none() && self.plane() == Plane::Stress;
-        let missing = is_missing.then_some(Implausible::NoThickness);
+        let missing = is_missing.then(without_thickness);
         let angles = (self.precracks.iter().enumerate()).filter_map(|(index, crack)| {
             let what = format!("the angle of pre-crack {}", index + 1);
-            Implausible::of_angle(what, crack.angle?)
+            of_angle(&what, crack.angle?)
         });
         missing.into_iter().chain(angles).collect()
     }

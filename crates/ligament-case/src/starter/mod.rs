@@ -10,7 +10,7 @@ use ligament_mesh::{AnyMesh, Group};
 use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
 use groups::{Ends, LoadPlace, Named};
 use ligament::setup::Law;
-use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
+use ligament::warning::large_body;
 use ligament_model::law::{listed, suited};
 use ligament_model::material::Space;
 use text::{Body, Section};
@@ -131,11 +131,7 @@ fn of_parsed<const D: usize>(
     let extent = bounding_box(mesh.positions);
     let sides: [f64; D] = std::array::from_fn(|axis| extent[1][axis] - extent[0][axis]);
     let size = sides.into_iter().fold(0.0, f64::max);
-    let warnings = if size > SUSPICIOUSLY_LARGE {
-        vec![Warning::LargeBody { length: size }.to_string()]
-    } else {
-        Vec::new()
-    };
+    let warnings = large_body(size).iter().map(ToString::to_string).collect();
     let ends = mesh.ends(extent, spacing);
     let middle = std::array::from_fn(|axis| 0.5 * (extent[0][axis] + extent[1][axis]));
     let middle = on_body(mesh.positions, middle, spacing);

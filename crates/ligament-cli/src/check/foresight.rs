@@ -2,15 +2,16 @@
 
 use std::io::{self, Write};
 
+use ligament::Message;
 use ligament::foresight::predict;
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::{FirstFailure, Prediction, Problem};
-use ligament_analysis::history::{Notice, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
 use ligament_case::case::CaseFile;
 use ligament_output::quantity::{four_digits, place, quantity};
 use ligament_run::memory;
+use ligament_run::messages::named;
 use ligament_run::model::Model;
-use ligament_run::notices::words;
 use ligament_run::stability;
 use ligament_run::stages::Stages;
 
@@ -29,8 +30,8 @@ const MOST_UNKNOWNS: usize = 300_000;
 /// What a run would tell before its first load step.
 #[derive(Default)]
 pub(super) struct Foreseen {
-    /// Notices of the run.
-    pub(super) notices: Vec<String>,
+    /// Messages of the run.
+    pub(super) messages: Vec<Message>,
     /// Reason why the run would end there.
     pub(super) refused: Option<String>,
 }
@@ -57,9 +58,9 @@ pub(super) fn write(
         entry(out, name, format!("not computed: {reason}"))?;
         return Ok(Foreseen::default());
     }
-    let mut notices = Notices::default();
+    let mut messages = Messages::default();
     let prediction = stages.time("first solution", || {
-        predict(problem, analysis, &mut notices)
+        predict(problem, analysis, &mut messages)
     });
     let refused = match prediction.map_err(|it| case.explained(it))? {
         Some(Prediction::Refused(end)) => {
@@ -72,13 +73,10 @@ pub(super) fn write(
         None => None,
     };
     // Free rigid motions are reported with the supports.
-    let told = notices
-        .0
-        .iter()
-        .filter(|it| !matches!(it, Notice::FreeBody(_)));
-    let words = |it| words(it, model.body(), &model.setup);
+    let told = messages.0.into_iter().filter(|it| it.kind != "free-body");
+    let told = told.map(|it| named(it, model.body(), &model.setup));
     Ok(Foreseen {
-        notices: told.map(words).collect(),
+        messages: told.collect(),
         refused,
     })
 }
@@ -201,13 +199,13 @@ fn write_first(
     entry(out, "", bond)
 }
 
-/// Observer that collects the notices of a run.
+/// Observer that collects the messages of a run.
 #[derive(Default)]
-struct Notices(Vec<Notice>);
+struct Messages(Vec<Message>);
 
-impl Observer for Notices {
-    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        self.0.push(notice.clone());
+impl Observer for Messages {
+    fn message(&mut self, message: Message) -> Result<(), ObserverError> {
+        self.0.push(message);
         Ok(())
     }
 

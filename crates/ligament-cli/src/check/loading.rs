@@ -13,8 +13,8 @@ use ligament_analysis::{ControlKind, Equilibrium};
 use ligament_case::case::CaseFile;
 use ligament_output::quantity::quantity;
 use ligament_run::disk::{self, FieldsOnDisk};
-use ligament_run::gauges::words;
 use ligament_run::memory;
+use ligament_run::messages::named;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 use ligament_run::summary::temperature_change;
@@ -48,11 +48,12 @@ pub(super) fn check(
     // Contact may hold a free body.
     let free = gauges::of_intact_body(&*model.system, &*loading.boundary);
     for free in free.into_iter().filter(|_| !model.setup.has_contact()) {
-        writeln!(
-            out,
-            "  not held: {}",
-            words(&free, model.body(), model.setup.closing)
-        )?;
+        let message = named(
+            free.message(model.setup.closing),
+            model.body(),
+            &model.setup,
+        );
+        writeln!(out, "  not held: {message}")?;
     }
     write_loading(out, &model.setup)?;
     write_room(out, case, model)?;

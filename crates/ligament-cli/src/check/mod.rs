@@ -31,8 +31,8 @@ use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
 use ligament_output::summary::Stage;
 use ligament_run::disk;
+use ligament_run::messages::counted;
 use ligament_run::model::build_model;
-use ligament_run::notices::counted;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
@@ -77,7 +77,7 @@ fn write_report(
     (model, mut stages): (&Model, Stages),
     out: &mut dyn Write,
 ) -> anyhow::Result<Option<String>> {
-    let Foreseen { notices, refused } = match model.setup.analysis {
+    let Foreseen { messages, refused } = match model.setup.analysis {
         Analysis::Modal(settings) => {
             modal::check(case, settings, extent, model, &mut stages, out)?;
             Foreseen::default()
@@ -101,8 +101,7 @@ fn write_report(
             "warning: the body consists of {loose} parts with no bond between them"
         )?;
     }
-    let warnings = model.warnings.iter().map(ToString::to_string);
-    for warning in counted(warnings.chain(notices)) {
+    for warning in counted(model.warnings.iter().cloned().chain(messages)) {
         writeln!(out, "warning: {warning}")?;
     }
     if let Some(warning) = too_stiff {

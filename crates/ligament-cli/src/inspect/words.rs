@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use ligament::warning::{SUSPICIOUSLY_LARGE, Warning};
+use ligament::warning::large_body;
 use ligament_mesh::{NodeField, Remark};
 use ligament_output::quantity::{between, quantity};
 
@@ -73,8 +73,8 @@ pub(super) fn write_size_note<const D: usize>(
 ) -> io::Result<()> {
     let sides = (0..D).map(|axis| high[axis] - low[axis]);
     let length = sides.fold(0.0, f64::max);
-    if length > SUSPICIOUSLY_LARGE {
-        writeln!(out, "  note: {}", Warning::LargeBody { length })?;
+    if let Some(message) = large_body(length) {
+        writeln!(out, "  note: {message}")?;
     }
     Ok(())
 }

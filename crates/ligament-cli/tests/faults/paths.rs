@@ -4,6 +4,7 @@ use super::*;
 use std::io::Read;
 use std::os::unix::fs::symlink;
 
+use ligament_analysis::Message;
 use ligament_analysis::serial::Serial;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::results::OutputState;
@@ -316,10 +317,10 @@ fn escape_sequences_in_results_are_not_sent() {
     );
     fs::write(&resolved, probe).unwrap();
     shown(&place, &resume);
-    // A checkpoint with notices and inputs of somebody else.
+    // A checkpoint with messages and inputs of somebody else.
     let place = stopped();
     let (mut checkpoint, solution) = newest(&place.path("out"));
-    checkpoint.notices = vec![format!("step 1: {escape}")];
+    checkpoint.messages = vec![Message::new("kind", escape).in_step(1)];
     let write = |checkpoint: &Checkpoint, place: &Place| {
         let written = checkpoint.write(&place.path("out"), |it| it.put(&solution));
         written.unwrap();

@@ -9,7 +9,7 @@ use ligament_output::summary::{
     ModalSummary, ModeSummary, ModelSummary, Provenance, StabilitySummary, Stage,
 };
 
-use crate::notices::counted;
+use crate::messages::counted;
 
 use super::model::{OfPoints, heading, model_summary};
 use super::solver::solver_summary;
@@ -35,8 +35,7 @@ pub fn modal_summary(
         effective_shares: moving.shares(&mode.participation),
     };
     let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
-    let notices = outcome.notices.iter().map(ToString::to_string);
-    let warnings = counted((model.warnings.iter().map(ToString::to_string)).chain(notices));
+    let warnings = counted(model.warnings.iter().chain(&outcome.messages).cloned());
     ModalSummary {
         model: model_summary(case, model, OfPoints::new(model)),
         mass: moving.total,

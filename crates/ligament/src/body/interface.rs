@@ -6,6 +6,7 @@ use std::io::Read;
 use std::sync::Arc;
 
 use ligament_analysis::serial::{Damaged, Sink};
+use ligament_analysis::user_message::PointNames;
 use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
 use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
@@ -162,6 +163,20 @@ pub trait Body: Debug + Send + Sync {
     fn place(&self, point: u32) -> String {
         let position = coordinates(&self.position(point));
         format!("{} at ({position})", self.label(point))
+    }
+}
+
+impl PointNames for &dyn Body {
+    fn name(&self, point: u32) -> String {
+        self.label(point)
+    }
+
+    fn name_and_position(&self, point: u32) -> String {
+        self.place(point)
+    }
+
+    fn sorted(&self, points: &[u32]) -> Vec<u32> {
+        self.numbering().sorted(points).into_owned()
     }
 }
 

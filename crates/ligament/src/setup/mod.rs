@@ -26,14 +26,13 @@ pub mod setting;
 pub mod stage;
 mod temperature;
 
-use ligament_analysis::SolverSettings;
+use ligament_analysis::{Message, SolverSettings};
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::material::Space;
 use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointCloud, Scatter};
 
 use crate::body::AnyBody;
-use crate::implausible::Implausible;
 
 pub use analysis::{
     Analysis, ELASTIC_ENERGY_TOLERANCE, STATICS, event, explicit, implicit, modal, motion, stepped,
@@ -120,7 +119,7 @@ pub struct Setup {
     /// Number of threads; by default the caller's threads.
     pub threads: Option<usize>,
     /// Remarks on the input of the other fields, which become warnings of the model.
-    pub remarks: Vec<Implausible>,
+    pub remarks: Vec<Message>,
 }
 
 /// A material and the part of the body that it fills.

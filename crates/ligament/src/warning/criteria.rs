@@ -1,12 +1,13 @@
-//! What failure criteria are warned of.
+//! Messages about failure criteria.
 
+use ligament_analysis::Message;
 use ligament_model::ElementKind;
 use ligament_model::failure::{Criteria, Measure};
 
 use crate::setup::{Setup, Surface};
 
-/// The criterion of shear between points without rotations, and the law, where the shear of a bond includes the rotation of the body.
-pub(super) fn rotation_as_sliding(setup: &Setup) -> Option<[&'static str; 2]> {
+/// Message about a criterion of shear between points without rotations, where the shear of a bond includes the rotation of the body.
+pub(super) fn rotation_as_sliding(setup: &Setup) -> Option<Message> {
     let law = &setup.law;
     if law.element() != ElementKind::Spring {
         return None;
@@ -16,15 +17,30 @@ pub(super) fn rotation_as_sliding(setup: &Setup) -> Option<[&'static str; 2]> {
     let sees_rotations = |it: &Measure| it.takes_sliding() && counts(it);
     let mut kinds = setup.criteria.iter().map(|it| it.kind);
     let kind = kinds.find(|it| it.measures.iter().any(sees_rotations));
-    kind.map(|kind| [kind.word, law.name()])
+    kind.map(|kind| {
+        let text = format!(
+            "criterion \"{}\": under law = \"{}\" points have no rotations, so a rotation of the body counts as sliding of the bonds",
+            kind.word,
+            law.name()
+        );
+        let advice = "take \"mppd\", which separates the two";
+        Message::new("rotation-as-sliding", text).with_advice(advice)
+    })
 }
 
-/// The criterion of stress, where a uniform stress is no equilibrium.
-pub(super) fn stress_without_patch(setup: &Setup) -> Option<&'static str> {
+/// Message about a criterion of stress, where a uniform stress is no equilibrium.
+pub(super) fn stress_without_patch(setup: &Setup) -> Option<Message> {
     let mut kinds = setup.criteria.iter().map(|it| it.kind);
     let kind = kinds.find(|it| it.measures.iter().any(|it| it.takes_stress()))?;
     let is_patch = matches!(setup.correction.surface, Surface::Patch(_));
-    (!is_patch).then_some(kind.word)
+    (!is_patch).then(|| {
+        let text = format!(
+            "criterion \"{}\": without correction.surface = \"patch\" the bonds are not in equilibrium under a uniform stress, and the first one \
+             fails at about half of the strength",
+            kind.word
+        );
+        Message::new("stress-without-patch", text)
+    })
 }
 
 /// Share of the bonds that break below the strength at which others begin to soften, and the smallest stress at which one does over the

@@ -1,7 +1,9 @@
 //! Motions that follow equilibria until the body loses its balance, and again when it is at rest.
 
 use super::*;
-use ligament_analysis::history::{BreakRecord, Notice};
+use ligament::Message;
+use ligament_analysis::history::BreakRecord;
+use ligament_analysis::user_message::Place;
 use ligament_analysis::{Amplitude, Shape};
 
 /// Seconds in which the bar is drawn, 10^6 times as long as a wave takes through it.
@@ -64,10 +66,10 @@ fn posed(mut setup: Setup, settings: &MotionSettings) -> MotionProblem {
     loading.motion(&problem).unwrap()
 }
 
-/// Notices, bonds that broke and states of a motion.
+/// Messages, bonds that broke and states of a motion.
 #[derive(Default)]
 struct Course {
-    notices: Vec<Notice>,
+    messages: Vec<Message>,
     broken: Vec<BreakRecord>,
     states: States,
 }
@@ -85,8 +87,8 @@ impl Observer for Course {
         Ok(())
     }
 
-    fn notice(&mut self, notice: &Notice) -> Result<(), ObserverError> {
-        self.notices.push(notice.clone());
+    fn message(&mut self, message: Message) -> Result<(), ObserverError> {
+        self.messages.push(message);
         Ok(())
     }
 
@@ -139,14 +141,9 @@ fn a_bar_follows_equilibria_until_it_snaps() {
             "{name}: {first} {limit}"
         );
 
-        let starts = |it: &&Notice| matches!(it, Notice::LostBalance { .. });
-        let rests = |it: &&Notice| matches!(it, Notice::AtRest { .. });
-        let of = |kind: &dyn Fn(&&Notice) -> bool| course.notices.iter().filter(kind).count();
-        assert!(
-            of(&starts) > 0 && of(&starts) == of(&rests),
-            "{:?}",
-            course.notices
-        );
+        let of = |kind: &str| course.messages.iter().filter(|it| it.kind == kind).count();
+        let [starts, rests] = ["lost-balance", "at-rest"].map(of);
+        assert!(starts > 0 && starts == rests, "{:?}", course.messages);
         let last = history.last().unwrap();
         let motion = last.motion.unwrap();
         assert_eq!(motion.kinetic_energy, 0.0, "{name}");
@@ -200,10 +197,11 @@ fn a_load_that_jumps_sets_the_body_in_motion() {
     let problem = posed(setup, &settings);
     let mut course = Course::default();
     let outcome = motion::run(&problem, &settings, &mut course).unwrap();
-    let Some(Notice::LostBalance { time, .. }) = course.notices.first() else {
-        panic!("{:?}", course.notices);
-    };
-    assert_eq!(*time, 0.0);
+    let told = course.messages.first().unwrap();
+    assert_eq!(
+        (&*told.kind, told.place),
+        ("lost-balance", Place::Time(0.0))
+    );
     let last = outcome.history.last().unwrap();
     assert_eq!(last.motion.unwrap().kinetic_energy, 0.0);
     let half = 0.5 * last.external_work;

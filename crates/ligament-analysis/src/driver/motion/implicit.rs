@@ -22,11 +22,12 @@ use crate::checkpoint::CheckpointError;
 use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
-use crate::history::{Notice, Observer, Termination};
+use crate::history::{Observer, Termination};
 use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
 use crate::serial::Sink;
 use crate::softening::Softening;
 use crate::state::State;
+use crate::user_message::Message;
 
 /// Motion in implicit steps.
 struct Implicit<'a> {
@@ -236,7 +237,12 @@ impl Implicit<'_> {
         }
         let time = self.here.state.load_factor;
         let share = self.implicit.statics.unwrap_or_default();
-        self.observer.notice(&Notice::LostBalance { time, share })?;
+        let text = format!(
+            "the body loses its balance: a step without inertia would set free more than {share:.1e} of the work, or let a part slip off another \
+             one, so that it moves from here on"
+        );
+        self.observer
+            .message(Message::new("lost-balance", text).at_time(time))?;
         self.progress.moving_since = (time, self.here.broken);
         self.change_pace(Pace::MOTION)
     }
@@ -303,12 +309,12 @@ impl Implicit<'_> {
         self.progress.motion.damping_energy += kinetic + self.in_bonds() - before;
         let (since, before) = self.progress.moving_since;
         let broken = self.here.broken - before;
-        let notice = Notice::AtRest {
-            time,
-            since,
-            broken,
-        };
-        self.observer.notice(&notice)?;
+        let text = format!(
+            "the body is at rest again, after a motion of {:.3e} s in which {broken} bonds broke",
+            time - since
+        );
+        self.observer
+            .message(Message::new("at-rest", text).at_time(time))?;
         Ok(true)
     }
 

@@ -76,18 +76,18 @@ impl Now<'_> {
         let (problem, state) = (self.problem, self.state);
         let overlap = &mut progress.overlap;
         if record.at_rest
-            && let Some(notice) = remarks::overlap(problem, state, self.fragments, row, overlap)
+            && let Some(message) = remarks::overlap(problem, state, self.fragments, row, overlap)
         {
-            observer.notice(&notice)?;
+            observer.message(message)?;
         }
         if !progress.has_turned
-            && let Some(notice) = remarks::turned(problem, state, self.fragments, row)
+            && let Some(message) = remarks::turned(problem, state, self.fragments, row)
         {
             progress.has_turned = true;
-            observer.notice(&notice)?;
+            observer.message(message)?;
         }
-        if let Some(notice) = remarks::energies(problem, &record, progress.history.last()) {
-            observer.notice(&notice)?;
+        if let Some(message) = remarks::energies(problem, &record, progress.history.last()) {
+            observer.message(message)?;
         }
         progress.history.push(record);
         Ok(end)
