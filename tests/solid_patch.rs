@@ -2,10 +2,10 @@
 //! the material, a bar of two halves against its closed form, and what is refused or warned of.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
+use ligament::body::SolidMeshBody;
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament::prelude::*;
 use ligament::setup::{CorrectionDomain, Surface};
-use ligament::{Warning, body::SolidMeshBody};
 use ligament_case::case::CaseFile;
 use ligament_mesh::{Group, SolidCell, SolidMesh};
 use ligament_model::Canvas;
@@ -203,12 +203,10 @@ fn equations_that_cannot_be_met_are_told_with_a_remedy() {
         let bar = case("solid-bar/tension.toml", &[&setting]).unwrap();
         let model = built(bar.setup(&mut ()).unwrap());
         let mut warnings = model.warnings.into_iter();
-        warnings.find_map(|it| match it {
-            Warning::NotMet { factor, .. } => Some(factor),
-            _ => None,
-        })
+        warnings.find(|it| it.kind == "patch-not-met")?.advice
     };
-    assert_eq!(not_met("1.75"), Some(Some(2.5)));
+    let advice = not_met("1.75").unwrap();
+    assert!(advice.contains("model.horizon_factor = 2.5"), "{advice}");
     assert_eq!(not_met("2.5"), None);
 }
 

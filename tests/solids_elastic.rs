@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 
 use ligament::run::{NoObserver, Solution};
 use ligament::setup::Setup;
-use ligament::{Model, Warning};
+use ligament::{Message, Model};
 use ligament_analysis::Component;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::modal::{ModalOutcome, ModeKind};
@@ -40,7 +40,7 @@ fn probe(solution: &Solution, name: &str) -> f64 {
 }
 
 /// The free ball's modes, what the program warns of, and the radius of a ball of its mesh's volume.
-fn ball(settings: &[&str]) -> (ModalOutcome, Vec<Warning>, f64) {
+fn ball(settings: &[&str]) -> (ModalOutcome, Vec<Message>, f64) {
     let model = Model::build(solid("free-sphere/case.toml", settings), &mut ()).unwrap();
     let volume: f64 = model.solid().cloud.volumes.iter().sum();
     let modes = solid("free-sphere/case.toml", settings).modes().unwrap();
@@ -84,7 +84,7 @@ fn a_ball_with_negative_stiffnesses_is_warned_of() {
         "material.young=2.56",
         "modal.modes=11",
     ]);
-    let is_told = |all: &[Warning]| {
+    let is_told = |all: &[Message]| {
         all.iter()
             .any(|it| it.to_string().contains("negative stiffnesses"))
     };

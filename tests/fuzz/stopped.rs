@@ -3,6 +3,7 @@
 use std::fs;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use ligament_analysis::Message;
 use ligament_output::checkpoint::Checkpoint;
 use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
@@ -25,7 +26,7 @@ impl Checkpoints {
             version: "0.1.0".to_owned(),
             inputs: "lattice.cells = [8, 4]".to_owned(),
             results: vec![7; 90],
-            notices: vec!["3 points came loose".to_owned()],
+            messages: vec![Message::new("parts-detached", "3 points came loose")],
         };
         let solution: Vec<u8> = (0..=255).collect();
         (checkpoint.write(folder.path(), |out| out.put(&solution))).unwrap();

@@ -29,7 +29,7 @@ const ENERGY_TOLERANCE: f64 = 1e-4;
 const USUAL_FACTOR: f64 = 3.0;
 
 /// Length of a body, m, above which its coordinates are probably in millimetres.
-pub const SUSPICIOUSLY_LARGE: f64 = 20.0;
+const SUSPICIOUSLY_LARGE: f64 = 20.0;
 
 /// Tolerance of the Poisson's ratio that a law fixes: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;

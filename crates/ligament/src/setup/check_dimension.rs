@@ -1,17 +1,17 @@
-//! Checks that the settings of a setup exist in the dimension of its body.
+//! Checks that the settings of a setup exist in the dimension of its body and suit its law.
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{PointField, PointReading};
-use ligament_model::Advice;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::{BondLaw, listed, suited};
 use ligament_model::material::Space;
+use ligament_model::{Advice, ElementKind};
 
 use super::check::{Checked, contradiction, positive, require};
 use super::setting::Setting;
 use super::{
-    Action, Analysis, CrackShape, Displacement, Form, Place, Position, Profile, Reading, Section,
-    Setup, Strains, Support,
+    Action, Analysis, CorrectionDomain, CrackShape, Displacement, Form, Place, Position, Profile,
+    Reading, Section, Setup, Strains, Support,
 };
 use crate::body::Origin;
 use crate::error::Field;
@@ -78,6 +78,37 @@ impl Setup {
             let text = "{} leaves other options open: choose what its row has, and that alone";
             let law = Setting::Law(vec![self.law.row]);
             return contradiction(field.part(option), Advice::new(text, [law]));
+        }
+        Ok(())
+    }
+
+    /// Checks closing faces against law and correction.
+    fn check_closing(&self) -> Checked {
+        let friction = Field::whole("closing_friction");
+        let is_fit = self.closing_friction >= 0.0 && self.closing_friction.is_finite();
+        require(is_fit, friction, "at least 0", self.closing_friction)?;
+        if self.closing_friction > 0.0 && !self.closing {
+            let reason =
+                "faces that do not close carry no pressure, and so no friction: let them close";
+            return contradiction(friction, reason);
+        }
+        if !self.closing {
+            return Ok(());
+        }
+        let field = Field::whole("closing");
+        let law = self.law.name();
+        if self.law.element() != ElementKind::Beam {
+            let reason = format!(
+                "faces can slide on each other without turning moments only where points turn, and those of \"{law}\" do not: take {}",
+                listed(&suited(|it| it.shear_form.is_some()), BondLaw::quoted)
+            );
+            return contradiction(field, reason);
+        }
+        let cut_first = self.correction.domain == CorrectionDomain::Cracked;
+        if cut_first && !self.precracks.is_empty() {
+            let text = "the bonds that pre-cracks cut have the stiffness of the whole body when their faces close: take {}";
+            let whole = Setting::Domain(CorrectionDomain::Whole);
+            return contradiction(field, Advice::new(text, [whole]));
         }
         Ok(())
     }

@@ -3,12 +3,10 @@
 mod analysis;
 pub(crate) mod check;
 mod check_contact;
-mod check_control;
 mod check_dimension;
 mod check_far_field;
 mod check_motion;
 mod check_stages;
-mod closing;
 mod conditions;
 mod contact;
 mod correction;
