@@ -26,15 +26,14 @@ use ligament_cli::commands::output;
 use ligament_output::folder::{Kind, ResultFolder};
 
 mod anisotropy;
-mod contact;
 mod crack_path;
-mod cracks;
 mod cylinder;
 mod directions;
 pub mod entry;
 mod equations;
 mod experiment;
 pub mod experiment_file;
+mod fast_crack;
 pub mod finite_elements;
 mod frequencies;
 mod griffith;
@@ -43,25 +42,28 @@ mod lamina;
 mod lamina_elements;
 mod maps;
 pub mod measured;
-mod motion;
 mod named_modes;
 mod papers;
 mod patch_test;
 mod places;
 mod plates;
+mod pressed;
 mod printed;
 mod published;
 mod readings;
+mod record;
 mod report;
 mod ring;
+mod schemes;
 mod spread;
 mod square_elements;
 mod statics;
-mod strength;
+mod straightness;
 pub mod table;
 pub mod tally;
 mod tension;
 mod trial;
+mod uniform_stress;
 mod yielding;
 
 use Written::{Code, File};
@@ -103,34 +105,34 @@ static PUBLISHED: [Written; 46] = [
     File("softening"),
     Code(&plates::EXPERIMENT),
     Code(&cylinder::EXPERIMENT),
-    Code(&cracks::EXPERIMENT),
+    File("cracks"),
     File("cost"),
     File("patch_test"),
     File("bars"),
     File("ring"),
     File("hole"),
     File("disk_modes"),
-    Code(&strength::squares::EXPERIMENT),
+    File("strength_squares"),
     File("strength_hole"),
     File("strength_disk"),
     File("strength_crack"),
     File("strength_bar"),
-    Code(&strength::cube::EXPERIMENT),
-    Code(&strength::glass::EXPERIMENT),
-    Code(&motion::waves::EXPERIMENT),
-    Code(&motion::vibration::EXPERIMENT),
-    Code(&motion::lamb::EXPERIMENT),
-    Code(&motion::branching::EXPERIMENT),
-    Code(&motion::kalthoff::EXPERIMENT),
+    File("strength_cube"),
+    File("strength_glass"),
+    File("motion_waves"),
+    File("motion_vibration"),
+    File("motion_lamb"),
+    File("motion_branching"),
+    File("motion_kalthoff"),
     File("motion_spall"),
-    Code(&motion::stretching::EXPERIMENT),
-    Code(&motion::disk::EXPERIMENT),
-    Code(&motion::splitting::EXPERIMENT),
-    Code(&motion::contact::EXPERIMENT),
-    Code(&motion::schemes::EXPERIMENT),
-    Code(&contact::sliding::EXPERIMENT),
-    Code(&contact::hertz::EXPERIMENT),
-    Code(&contact::flaw::EXPERIMENT),
+    File("motion_stretching"),
+    File("motion_disk"),
+    File("motion_splitting"),
+    File("motion_contact"),
+    Code(&schemes::EXPERIMENT),
+    File("contact_sliding"),
+    File("contact_hertz"),
+    File("contact_flaw"),
 ];
 
 const EXAMPLES: &str = "\

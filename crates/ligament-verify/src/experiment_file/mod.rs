@@ -4,8 +4,8 @@
 //! | module | holds |
 //! |---|---|
 //! | `document` | the file as it is written |
-//! | `expression` | numbers, names, + - * / and statistics over runs |
-//! | `quantity` | what an expression can read from a run |
+//! | `expression` | numbers, names, + - * / ^ and functions of numbers, of runs and of the history of a run |
+//! | `quantity`, `history` | what an expression can read from a run, and from every row of its history |
 //! | `entry_runs` | the runs of an entry, each with its labels and its trial, and their memory |
 //! | `figure` | plots |
 
@@ -13,6 +13,7 @@ mod document;
 mod entry_runs;
 mod expression;
 mod figure;
+mod history;
 mod quantity;
 
 use std::path::Path;

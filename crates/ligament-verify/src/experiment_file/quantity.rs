@@ -2,29 +2,40 @@
 //!
 //! | name | quantity |
 //! |---|---|
-//! | `probe.NAME` | last value of a probe, whose `-` is `_` here |
+//! | those of [`history`](super::history) | in a row of the history, or in the last one |
+//! | `intact.NAME` | the same in the last row without a broken bond |
+//! | `end.NAME` | the same in the last equilibrium of a run that goes on until none follows |
 //! | `frequency.N` | frequency of the elastic mode N from one on, Hz; the case is one of natural modes |
 //! | `turn.N` | root mean square by which factors of bonds change where the mesh is turned by N degrees |
+//! | `phase_speed.N` | speed of waves with N points per wavelength from the probe `near` to `far`, over `speed` |
+//! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
 //! | others | the row of [`QUANTITIES`] |
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::f64::consts::FRAC_1_SQRT_2;
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament::run::Solution;
+use ligament_analysis::Termination;
 use ligament_analysis::driver::LoadPoint;
 use ligament_analysis::history::{BreakRecord, StepRecord};
 use ligament_analysis::modal::ModeKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_run::summary::DROP;
 
+use super::history::{self, Watch};
 use crate::crack_path::{Crack, Place, Segment, distance, ends, middle};
 use crate::equations::Equations;
+use crate::fast_crack::{Branches, Break, FromNotches, breaks};
 use crate::griffith;
 use crate::hole::concentrations;
 use crate::patch_test::{change_by_turn, poisson, scatter, young};
+use crate::pressed::{Pressed, pressed};
+use crate::record::{Record, phase_speed};
 use crate::ring::{RadialDisplacements, Ring, radial_displacements};
-use crate::trial::{Trial, probe};
+use crate::straightness::{asymmetry, beside};
+use crate::trial::Trial;
 
 /// Name of the curve of displacement and load among what is read.
 pub(super) const CURVE: &str = "curve";
@@ -53,17 +64,21 @@ pub(super) struct Numbers<'a> {
 #[derive(Clone, Copy)]
 enum Source {
     Run(fn(&LoadedRun<'_>) -> anyhow::Result<f64>),
+    /// With the number at the end of its name.
+    Numbered(fn(&LoadedRun<'_>, f64) -> anyhow::Result<f64>),
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
     Turn,
-    Probe,
+    Row,
+    Intact,
+    End,
     Curve,
     Frequency,
 }
 
 /// Quantities of runs and of equations.
-static QUANTITIES: [(&str, Source); 61] = [
+static QUANTITIES: &[(&str, Source)] = &[
     (
         "elastic_stiffness",
         Source::Run(|it| Ok(it.solution.outcome.elastic_stiffness)),
@@ -140,6 +155,79 @@ static QUANTITIES: [(&str, Source); 61] = [
     (
         "first_crack.horizon",
         Source::Run(|it| Ok(it.first_crack()?.horizon)),
+    ),
+    (
+        "first_break.y",
+        Source::Run(|it| Ok(it.first_break()?.at[1])),
+    ),
+    // Angle of the plane across it with a line at the angle `flaw` to the x axis, degrees, and the load at the first break.
+    (
+        "first_break.plane",
+        Source::Run(|it| {
+            let [a, b] = ends(&it.solution.model, it.first()?.bond as usize);
+            let plane = (b[1] - a[1]).atan2(b[0] - a[0]).to_degrees() + 90.0;
+            Ok((plane - it.number("flaw")?).rem_euclid(180.0))
+        }),
+    ),
+    (
+        "first_break.reaction",
+        Source::Run(|it| {
+            let first = it.solution.outcome.first_break;
+            Ok(first.context("no bond breaks")?.reaction)
+        }),
+    ),
+    (
+        "breaks.largest_x",
+        Source::Run(|it| Ok(it.broken().iter().map(|it| it.at[0]).fold(0.0, f64::max))),
+    ),
+    // Fast cracks.
+    (
+        "branches.cracks",
+        Source::Run(|it| Ok(it.branches()?.cracks)),
+    ),
+    (
+        "branches.time",
+        Source::Run(|it| Ok(it.branches()?.first.time)),
+    ),
+    (
+        "branches.x",
+        Source::Run(|it| Ok(it.branches()?.first.at[0])),
+    ),
+    ("branches.speed", Source::Run(|it| Ok(it.branches()?.speed))),
+    (
+        "notches.angle",
+        Source::Run(|it| Ok(it.from_notches()?.angle)),
+    ),
+    (
+        "notches.start",
+        Source::Run(|it| Ok(it.from_notches()?.start)),
+    ),
+    (
+        "notches.speed",
+        Source::Run(|it| Ok(it.from_notches()?.speed)),
+    ),
+    // Pressures under a rigid body, over `directions` along the surface and `side_points` integration points of a side.
+    ("pressed.force", Source::Run(|it| Ok(it.pressed()?.force))),
+    ("pressed.reach", Source::Run(|it| Ok(it.pressed()?.reach))),
+    (
+        "pressed.largest",
+        Source::Run(|it| Ok(it.pressed()?.largest[0])),
+    ),
+    (
+        "pressed.fit",
+        Source::Run(|it| Ok(it.pressed()?.largest[1])),
+    ),
+    // Share of the broken bonds that do not cross the lines y = `line` and -`line`, and the largest difference of damage between a point and its mirror images.
+    (
+        "crack.beside",
+        Source::Run(|it| {
+            let line = it.number("line")?;
+            Ok(beside(it.solution, [-line, line]))
+        }),
+    ),
+    (
+        "crack.asymmetry",
+        Source::Run(|it| Ok(asymmetry(it.solution))),
     ),
     // Share of the first 100 broken bonds that end on the circle of `radius` about the origin, %.
     ("breaks.at_rim", Source::Run(at_rim)),
@@ -270,28 +358,26 @@ pub(super) fn ensure_known(name: &str) -> anyhow::Result<()> {
 }
 
 fn source(name: &str) -> anyhow::Result<Source> {
-    if name.starts_with("probe.") {
-        return Ok(Source::Probe);
-    }
-    if name.starts_with("frequency.") {
-        return Ok(Source::Frequency);
-    }
-    if name.starts_with("turn.") {
-        return Ok(Source::Turn);
-    }
-    if name == CURVE {
-        return Ok(Source::Curve);
-    }
     let found = QUANTITIES.iter().find(|it| it.0 == name);
-    found
-        .map(|it| it.1)
-        .with_context(|| format!("no label, no number and no quantity is called `{name}`"))
+    let (first, _) = name.split_once('.').unwrap_or((name, ""));
+    Ok(match (found, first) {
+        (Some(it), _) => it.1,
+        (_, "frequency") => Source::Frequency,
+        (_, "turn") => Source::Turn,
+        (_, "intact") => Source::Intact,
+        (_, "end") => Source::End,
+        (_, "phase_speed") => Source::Numbered(|it, number| it.phase_speed(number)),
+        (_, "grown") => Source::Numbered(|it, number| it.grown(number)),
+        (_, CURVE) => Source::Curve,
+        _ if history::NAMES.contains(&first) => Source::Row,
+        _ => anyhow::bail!("no label, no number and no quantity is called `{name}`"),
+    })
 }
 
 /// What was read from a run.
 pub(super) struct RunResults {
-    /// Quantities by name; the reason why one has no value.
-    values: BTreeMap<String, Result<f64, String>>,
+    /// Quantities by name, in all rows of the history or once; the reason why one has no value.
+    values: BTreeMap<String, Result<Vec<f64>, String>>,
     /// Displacement and load up to the end, m and N; empty where nothing was loaded.
     pub(super) curve: Vec<[f64; 2]>,
 }
@@ -305,7 +391,8 @@ struct Found {
     /// Constants of the family of the point nearest to the origin.
     family: Option<EngineeringConstants>,
     patch: Option<PatchTest>,
-    run: Option<(Solution, Vec<BreakRecord>)>,
+    run: Option<(Solution, Watch)>,
+    to_the_end: Option<Solution>,
 }
 
 impl Found {
@@ -324,8 +411,16 @@ impl Found {
                 Source::Patch(_) if found.patch.is_none() => {
                     found.patch = Some(patch_test(&trial.model()?)?);
                 }
-                Source::Run(_) | Source::Probe | Source::Curve if found.run.is_none() => {
-                    found.run = Some(trial.solve_with_breakages()?);
+                Source::End => found.to_the_end = Some(trial.solve_to_the_end()?),
+                Source::Run(_)
+                | Source::Numbered(_)
+                | Source::Row
+                | Source::Intact
+                | Source::Curve
+                    if found.run.is_none() =>
+                {
+                    let mut watch = Watch::new(sources.iter().map(|it| &*it.0));
+                    found.run = Some((trial.solve_seen(&mut watch)?, watch));
                 }
                 _ => {}
             }
@@ -333,35 +428,51 @@ impl Found {
         Ok(found)
     }
 
-    fn value(
+    /// The value of a quantity, or its values in all rows.
+    fn values(
         &self,
         (name, source): &(String, Source),
         trial: &Trial,
         numbers: &Numbers<'_>,
-    ) -> anyhow::Result<f64> {
+    ) -> anyhow::Result<Vec<f64>> {
         let run = || self.run.as_ref().context("the case was not run");
-        match source {
-            Source::Frequency => frequency(&self.modes, name),
-            Source::Equations(of) => {
-                Ok(of(self.equations.as_ref().context("there is no model")?))
-            }
-            Source::Family(of) => Ok(of(self.family.as_ref().context("there is no family")?)),
-            Source::Patch(of) => of(self.patch.as_ref().context("there is no patch test")?),
-            Source::Turn => change_by_turn(trial, name.trim_start_matches("turn.").parse()?),
-            Source::Probe => probe(
-                &run()?.0,
-                &name.trim_start_matches("probe.").replace('_', "-"),
-            ),
+        let loaded = || {
+            let (solution, watch) = run()?;
+            anyhow::Ok(LoadedRun {
+                solution,
+                breaks: &watch.breaks,
+                numbers,
+            })
+        };
+        let (_, rest) = name.split_once('.').unwrap_or_default();
+        Ok(vec![match source {
+            Source::Frequency => frequency(&self.modes, rest)?,
+            Source::Equations(of) => of(self.equations.as_ref().context("there is no model")?),
+            Source::Family(of) => of(self.family.as_ref().context("there is no family")?),
+            Source::Patch(of) => of(self.patch.as_ref().context("there is no patch test")?)?,
+            Source::Turn => change_by_turn(trial, rest.parse()?)?,
             Source::Curve => anyhow::bail!("a curve is no number"),
-            Source::Run(of) => {
-                let (solution, breaks) = run()?;
-                of(&LoadedRun {
-                    solution,
-                    breaks,
-                    numbers,
-                })
+            Source::Run(of) => of(&loaded()?)?,
+            Source::Numbered(of) => of(&loaded()?, rest.parse()?)?,
+            Source::Row => {
+                let (solution, watch) = run()?;
+                return watch.values(solution, name, numbers.number);
             }
-        }
+            Source::Intact => {
+                let (solution, _) = run()?;
+                let mut rows = solution.outcome.history.iter();
+                let row = rows.rfind(|row| row.broken_bonds == 0);
+                history::value(solution, row.context("no row without a broken bond")?, rest)?
+            }
+            Source::End => {
+                let solution = self.to_the_end.as_ref().context("the case was not run")?;
+                let termination = &solution.outcome.termination;
+                let ends = matches!(termination, Termination::NoEquilibrium { .. });
+                ensure!(ends, "an equilibrium follows: {termination}");
+                let last = solution.outcome.history.last();
+                history::value(solution, last.context("no equilibrium")?, rest)?
+            }
+        }])
     }
 }
 
@@ -376,8 +487,8 @@ impl RunResults {
         let sources: Vec<(String, Source)> = sources.collect::<anyhow::Result<_>>()?;
         let found = Found::new(trial, &sources)?;
         let values = sources.iter().filter(|it| it.0 != CURVE).map(|it| {
-            let value = found.value(it, trial, numbers);
-            (it.0.clone(), value.map_err(|error| format!("{error:#}")))
+            let values = found.values(it, trial, numbers);
+            (it.0.clone(), values.map_err(|error| format!("{error:#}")))
         });
         let curve = found.run.as_ref().map(|it| it.0.outcome.envelope());
         let curve = curve.unwrap_or_default().into_iter();
@@ -389,11 +500,17 @@ impl RunResults {
         })
     }
 
-    /// The value of a quantity that was read.
-    pub(super) fn value(&self, name: &str) -> anyhow::Result<f64> {
-        let value = self.values.get(name);
-        let value = value.with_context(|| format!("`{name}` was not read"))?;
-        value.clone().map_err(anyhow::Error::msg)
+    /// The value of a quantity that was read, in a row of the history or at last.
+    pub(super) fn value(&self, name: &str, row: Option<usize>) -> anyhow::Result<f64> {
+        let values = self.values.get(name);
+        let values = values.with_context(|| format!("`{name}` was not read"))?;
+        let values = values
+            .as_ref()
+            .map_err(|it| anyhow::Error::msg(it.clone()))?;
+        let in_row = row.and_then(|row| values.get(row)).or(values.last());
+        in_row
+            .copied()
+            .with_context(|| format!("the run has no rows for `{name}`"))
     }
 }
 
@@ -411,8 +528,8 @@ fn frequencies(trial: &Trial) -> anyhow::Result<Vec<f64>> {
     Ok(elastic.map(|mode| mode.frequency()).collect())
 }
 
-fn frequency(modes: &[f64], name: &str) -> anyhow::Result<f64> {
-    let number: usize = name.trim_start_matches("frequency.").parse()?;
+fn frequency(modes: &[f64], number: &str) -> anyhow::Result<f64> {
+    let number: usize = number.parse()?;
     let found = number.checked_sub(1).and_then(|it| modes.get(it)).copied();
     found.with_context(|| format!("the body has no elastic mode {number}"))
 }
@@ -507,6 +624,60 @@ impl LoadedRun<'_> {
             self.number("young")?,
             self.number("traction")?,
         )
+    }
+
+    fn broken(&self) -> Vec<Break> {
+        breaks(&self.solution.model, self.breaks)
+    }
+
+    fn branches(&self) -> anyhow::Result<Branches> {
+        Branches::new(&self.broken(), self.numbers.number)
+    }
+
+    fn from_notches(&self) -> anyhow::Result<FromNotches> {
+        FromNotches::new(&self.broken(), self.numbers.number)
+    }
+
+    fn pressed(&self) -> anyhow::Result<Pressed> {
+        let (directions, points) = (self.number("directions")?, self.number("side_points")?);
+        pressed(self.solution, directions as usize, points as u32)
+    }
+
+    fn phase_speed(&self, points: f64) -> anyhow::Result<f64> {
+        let rows = &self.solution.outcome.history;
+        let times: Vec<f64> = rows.iter().map(|row| row.load_factor).collect();
+        let record = |name: &str| {
+            let values = rows
+                .iter()
+                .map(|row| history::value(self.solution, row, name));
+            anyhow::Ok(Record {
+                times: times.clone(),
+                values: values.collect::<anyhow::Result<_>>()?,
+            })
+        };
+        let (near, far) = (record("probe.near")?, record("probe.far")?);
+        let numbers = [
+            self.number("speed")?,
+            self.number("gauge")?,
+            self.number("spacing")?,
+        ];
+        phase_speed([&near, &far], points, numbers)
+    }
+
+    /// Load factor at which the cracks from both ends of a flaw through the origin at 45 degrees are `length` times `half_length` long in the mean, up
+    /// to their farthest broken bonds.
+    fn grown(&self, length: f64) -> anyhow::Result<f64> {
+        let half = self.number("half_length")?;
+        let tip = half * FRAC_1_SQRT_2;
+        let mut farthest = [0.0_f64; 2];
+        let long = self.broken().into_iter().find(|it| {
+            let [x, y] = it.at;
+            let (side, sign) = if x + y > 0.0 { (0, 1.0) } else { (1, -1.0) };
+            let reach = (x - sign * tip).hypot(y - sign * tip);
+            farthest[side] = farthest[side].max(reach);
+            0.5 * (farthest[0] + farthest[1]) >= length * half
+        });
+        Ok(long.context("the cracks do not become so long")?.time)
     }
 
     fn splits(&self, crack: &Crack) -> anyhow::Result<f64> {

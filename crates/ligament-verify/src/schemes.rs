@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use crate::experiment::{Compute, Experiment, Findings};
-use crate::published::published;
-use crate::table::{Extent, Labels};
-use crate::trial::{Memory, Template, template};
+use super::experiment::{Compute, Experiment, Findings};
+use super::published::published;
+use super::table::{Extent, Labels};
+use super::trial::{Memory, Template, template};
 
 /// The experiment.
-pub(crate) const EXPERIMENT: Experiment = Experiment {
+pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "motion_schemes",
     title: "Explicit against implicit steps",
     source: "two schemes for the same equations",
