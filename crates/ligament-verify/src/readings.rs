@@ -1,15 +1,14 @@
 //! Readings of the details that MPPD leaves open: number of its micropolar values that each reading meets (Tables 1 to 6).
 
 use anyhow::ensure;
+use ligament::run::Solution;
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::frequencies;
 use super::named_modes::{self, Frequencies};
-use super::published::published;
+use super::published::{Published, published};
 use super::square_elements::SquareLoad;
-use super::statics::{self, Reading, case_of};
 use super::table::{Extent, Labels, Row, Table};
-use super::trial::{Memory, Trial};
+use super::trial::{Memory, Template, Trial, displacement_at, largest_displacements, template};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -22,14 +21,24 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             of points or so many rows held, and displacements that are the largest of all points or those in the \
             middles of the sides. A reading is judged by the printed values it meets to the digits, and by the median \
             and the largest difference from them.",
-    cases: &[
-        &statics::TRACTION,
-        &statics::SHEAR,
-        &statics::BENDING,
-        &frequencies::CASE,
-    ],
+    cases: &[&TRACTION, &SHEAR, &BENDING, &MODES],
     compute: Compute::Code(compute),
 };
+
+pub(super) static TRACTION: Template = template!("verification/square-traction.toml");
+pub(super) static SHEAR: Template = template!("verification/square-shear.toml");
+pub(super) static BENDING: Template = template!("verification/square-bending.toml");
+static MODES: Template = template!("verification/square-modes.toml");
+
+/// Axis of the plate of the modes, which is supported at its base: y.
+const ALONG: usize = 1;
+
+/// Tables of natural frequencies.
+const TABLES: [Published; 3] = [
+    published!("mppd-table-4"),
+    published!("mppd-table-5"),
+    published!("mppd-table-6"),
+];
 
 /// Number of points along a side of the static plates.
 const POINTS: u32 = 61;
@@ -37,6 +46,9 @@ const POINTS: u32 = 61;
 /// Spacing of the points, and half-width of the plate including the cells of its outermost points, m.
 const SPACING: f64 = 0.01;
 const HALF_WIDTH: f64 = 0.305;
+
+/// Half-width between the outermost points, m.
+const MIDDLE: f64 = 0.3;
 
 /// Force on a point where the load is on one row, N.
 const FORCE: f64 = 100.0;
@@ -55,6 +67,38 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         plots: Vec::new(),
         ..Findings::default()
     })
+}
+
+/// Displacements of a run for the tables, m.
+#[derive(Debug, Clone, Copy)]
+struct Reading {
+    /// Largest |u_x| and |u_y| of all points.
+    largest: [f64; 2],
+    /// Values |u_x| and |u_y| in the middles of the right and the upper side.
+    middle: [f64; 2],
+    /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, which does not depend on a rigid rotation;
+    /// twice.
+    of_sides: [f64; 2],
+}
+
+impl Reading {
+    fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
+        let at = |x, y| displacement_at(solution, [x, y]);
+        Ok(Self {
+            largest: largest_displacements(solution)?,
+            middle: [at(MIDDLE, 0.0)[0].abs(), at(0.0, MIDDLE)[1].abs()],
+            of_sides: [0.5 * (at(0.0, MIDDLE)[0] + at(MIDDLE, 0.0)[1]); 2],
+        })
+    }
+}
+
+/// The case with a load.
+pub(super) fn case_of(load: SquareLoad) -> &'static Template {
+    match load {
+        SquareLoad::Traction => &TRACTION,
+        SquareLoad::Shear => &SHEAR,
+        SquareLoad::Bending => &BENDING,
+    }
 }
 
 /// Agreement of a reading with the printed values.
@@ -113,7 +157,7 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let is_largest = reading.text("point")? == "largest";
     let mut memory = Memory::default();
-    let mut table = |table: super::published::Published, load: SquareLoad| {
+    let mut table = |table: Published, load: SquareLoad| {
         table.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? {
                 return Ok(f64::NAN);
@@ -146,16 +190,14 @@ fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let none = Frequencies::NONE;
     let mut memory = Memory::default();
-    named_modes::tables(frequencies::TABLES, Extent::Full, |printed| {
+    named_modes::tables(TABLES, Extent::Full, |printed| {
         if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
             return Ok(none);
         }
-        let trial = with_law(frequencies::CASE.trial(), reading)?
+        let trial = with_law(MODES.trial(), reading)?
             .set("lattice.set.base.bottom", rows)
             .set("material.poisson", printed.number("nu")?);
-        memory.result(trial.command(), || {
-            Frequencies::from_trial(&trial, frequencies::ALONG)
-        })
+        memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
     })
 }
 

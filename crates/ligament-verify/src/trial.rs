@@ -244,16 +244,6 @@ fn run(
     }
 }
 
-/// The value of a probe in the last state of a run.
-pub(super) fn probe(solution: &Solution, name: &str) -> anyhow::Result<f64> {
-    let place = solution.probes.iter().position(|probe| probe.name == name);
-    let last = solution.outcome.history.last();
-    place
-        .zip(last)
-        .and_then(|(place, last)| last.probes.get(place).copied())
-        .with_context(|| format!("the run has no probe `{name}`"))
-}
-
 /// The displacement of the point nearest to a position, in the last state of a run, m.
 pub(super) fn displacement_at(solution: &Solution, place: [f64; 2]) -> [f64; 2] {
     let point = solution.model.plane().cloud.nearest_point(place);

@@ -70,11 +70,14 @@ pub(super) struct SettingsList {
     pub(super) item: String,
 }
 
-/// The value of a run with some labels of the entry replaced.
+/// The value of a run, or a known value of a table, with some labels of the entry replaced.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Reference {
-    pub(super) value: Choice,
+    /// Expression of the value.
+    pub(super) value: Option<Choice>,
+    /// Name of the table, with labels in braces.
+    pub(super) known: Option<String>,
     /// What runs, as in a table; without it what the entry runs.
     pub(super) run: Option<Run>,
     #[serde(default)]

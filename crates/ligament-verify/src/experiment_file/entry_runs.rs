@@ -7,6 +7,7 @@ use anyhow::{Context, bail};
 
 use super::document::{Choice, ExperimentFile, Over, Run, TableOfFile};
 use super::expression::{Expression, Place};
+use super::known;
 use super::quantity::{CURVE, Numbers, RunResults, ensure_known};
 use crate::places::repository;
 use crate::table::{Labels, number};
@@ -190,8 +191,13 @@ impl<'a> EntryRuns<'a> {
         if let Some(reference) = self.file.reference.get(name) {
             let mut labels = labels.clone();
             labels.extend(reference.labels.clone());
+            if let Some(table) = &reference.known {
+                return known_value(&with_labels(table, &labels), &labels).map(Meaning::Number);
+            }
+            let value = reference.value.as_ref();
+            let value = value.with_context(|| format!("reference `{name}` has no `value`"))?;
             let run = reference.run.as_ref().unwrap_or(self.run);
-            let runs = Self::new(self.file, run, &reference.value, vec![labels]);
+            let runs = Self::new(self.file, run, value, vec![labels]);
             return Ok(Meaning::Reference(runs?));
         }
         Ok(match name {
@@ -221,6 +227,24 @@ pub(super) fn with_each(
 /// A name of a key in expressions: what stands before a comma and its unit.
 fn name_of(key: &str) -> &str {
     key.split(',').next().unwrap_or(key)
+}
+
+/// The known value of the entry of a table that has some labels.
+fn known_value(table: &str, labels: &BTreeMap<String, String>) -> anyhow::Result<f64> {
+    let known = known(table)?;
+    let keys = known
+        .heading
+        .keys
+        .iter()
+        .map(|key| labels.get(name_of(key)));
+    let wanted: Option<Vec<&String>> = keys.collect();
+    let wanted = wanted.with_context(|| format!("{table}: no labels for all of its keys"))?;
+    let mut entries = known.entries.iter();
+    let entry = entries.find(|it| it.labels.iter().eq(wanted.iter().copied()));
+    Ok(entry
+        .with_context(|| format!("{table} has no {wanted:?}"))?
+        .known
+        .value())
 }
 
 /// The label of a key.

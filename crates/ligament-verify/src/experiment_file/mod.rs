@@ -25,8 +25,8 @@ use super::published::known_values;
 use super::table::{Extent, Known};
 use super::trial::Trial;
 
+use document::Choice;
 pub use document::ExperimentFile;
-use document::{Choice, TableOfFile};
 use entry_runs::{EntryRuns, RunMemory};
 
 impl ExperimentFile {
@@ -82,7 +82,7 @@ impl ExperimentFile {
     ///
     /// If a table cannot be read, a case cannot be run, or a value has no meaning for an entry.
     pub(super) fn compute(&self, extent: Extent) -> anyhow::Result<Findings> {
-        let known = self.table.iter().map(|table| table.known());
+        let known = self.table.iter().map(|table| known(&table.file));
         let known: Vec<Known> = known.collect::<anyhow::Result<_>>()?;
         let mut memory = RunMemory::default();
         for (table, known) in self.table.iter().zip(&known) {
@@ -116,12 +116,11 @@ impl ExperimentFile {
     }
 }
 
-impl TableOfFile {
-    fn known(&self) -> anyhow::Result<Known> {
-        let path = folder().join(format!("{}.csv", self.file));
-        let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-        Ok(known_values(&self.file, &text)?)
-    }
+/// The known values of a table.
+fn known(table: &str) -> anyhow::Result<Known> {
+    let path = folder().join(format!("{table}.csv"));
+    let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+    Ok(known_values(table, &text)?)
 }
 
 /// Folder of the experiments and their tables.

@@ -8,6 +8,11 @@
 //! | `frequency.N` | frequency of the elastic mode N from one on, Hz; the case is one of natural modes |
 //! | `turn.N` | root mean square by which factors of bonds change where the mesh is turned by N degrees |
 //! | `phase_speed.N` | speed of waves with N points per wavelength from the probe `near` to `far`, over `speed` |
+//! | `at_point.X.Y.u_x` | displacement of the point nearest to a place, whose coordinates are numbers of the experiment by their names, m |
+//! | `largest.u_x` | largest |u_x| of all points, m |
+//! | `loaded_elements.LOAD.u_x` | the same of a [square of finite elements](crate::square_elements), m |
+//! | `elements.PROBLEM.u_x` | [difference](crate::compared_points) of a plate from finite elements |
+//! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
 //! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
 //! | others | the row of [`QUANTITIES`] |
 
@@ -25,17 +30,21 @@ use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_run::summary::DROP;
 
 use super::history::{self, Watch};
+use crate::compared_points::difference;
 use crate::crack_path::{Crack, Place, Segment, distance, ends, middle};
 use crate::equations::Equations;
 use crate::fast_crack::{Branches, Break, FromNotches, breaks};
 use crate::griffith;
 use crate::hole::concentrations;
+use crate::named_modes::Frequencies;
 use crate::patch_test::{change_by_turn, poisson, scatter, young};
 use crate::pressed::{Pressed, pressed};
 use crate::record::{Record, phase_speed};
 use crate::ring::{RadialDisplacements, Ring, radial_displacements};
+use crate::square_elements::SquareLoad;
 use crate::straightness::{asymmetry, beside};
-use crate::trial::Trial;
+use crate::trial::{Trial, displacement_at, largest_displacements};
+use crate::{lamina_elements, square_elements};
 
 /// Name of the curve of displacement and load among what is read.
 pub(super) const CURVE: &str = "curve";
@@ -69,12 +78,25 @@ enum Source {
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
+    AtPoint,
+    Largest,
+    LoadedElements,
+    Elements,
+    Modes(Cantilever),
     Turn,
     Row,
     Intact,
     End,
     Curve,
     Frequency,
+}
+
+/// A cantilever whose modes have names.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Cantilever {
+    Case,
+    SquareOfElements,
+    LaminaOfElements,
 }
 
 /// Quantities of runs and of equations.
@@ -367,6 +389,13 @@ fn source(name: &str) -> anyhow::Result<Source> {
         (_, "intact") => Source::Intact,
         (_, "end") => Source::End,
         (_, "phase_speed") => Source::Numbered(|it, number| it.phase_speed(number)),
+        (_, "at_point") => Source::AtPoint,
+        (_, "largest") => Source::Largest,
+        (_, "loaded_elements") => Source::LoadedElements,
+        (_, "elements") => Source::Elements,
+        (_, "modes") => Source::Modes(Cantilever::Case),
+        (_, "square_elements") => Source::Modes(Cantilever::SquareOfElements),
+        (_, "lamina_elements") => Source::Modes(Cantilever::LaminaOfElements),
         (_, "grown") => Source::Numbered(|it, number| it.grown(number)),
         (_, CURVE) => Source::Curve,
         _ if history::NAMES.contains(&first) => Source::Row,
@@ -393,11 +422,16 @@ struct Found {
     patch: Option<PatchTest>,
     run: Option<(Solution, Watch)>,
     to_the_end: Option<Solution>,
+    cantilevers: BTreeMap<Cantilever, Frequencies>,
 }
 
 impl Found {
     /// Runs a trial in all ways that the sources need.
-    fn new(trial: &Trial, sources: &[(String, Source)]) -> anyhow::Result<Self> {
+    fn new(
+        trial: &Trial,
+        sources: &[(String, Source)],
+        numbers: &Numbers<'_>,
+    ) -> anyhow::Result<Self> {
         let mut found = Self::default();
         for (_, source) in sources {
             match source {
@@ -411,8 +445,15 @@ impl Found {
                 Source::Patch(_) if found.patch.is_none() => {
                     found.patch = Some(patch_test(&trial.model()?)?);
                 }
+                Source::Modes(of) if !found.cantilevers.contains_key(of) => {
+                    let frequencies = of.frequencies(trial, numbers.number)?;
+                    found.cantilevers.insert(*of, frequencies);
+                }
                 Source::End => found.to_the_end = Some(trial.solve_to_the_end()?),
-                Source::Run(_)
+                Source::AtPoint
+                | Source::Largest
+                | Source::Elements
+                | Source::Run(_)
                 | Source::Numbered(_)
                 | Source::Row
                 | Source::Intact
@@ -445,7 +486,39 @@ impl Found {
             })
         };
         let (_, rest) = name.split_once('.').unwrap_or_default();
+        let words: Vec<&str> = rest.split('.').collect();
+        let component = |name: &str| match name {
+            "u_x" => Ok(0),
+            "u_y" => Ok(1),
+            other => anyhow::bail!("no component `{other}`"),
+        };
         Ok(vec![match source {
+            Source::AtPoint => {
+                let [x, y, of] = words[..] else {
+                    anyhow::bail!("`{name}` is not `at_point.X.Y.u_x`");
+                };
+                let place = [(numbers.number)(x)?, (numbers.number)(y)?];
+                displacement_at(&run()?.0, place)[component(of)?]
+            }
+            Source::Largest => largest_displacements(&run()?.0)?[component(rest)?],
+            Source::LoadedElements => {
+                let [load, of] = words[..] else {
+                    anyhow::bail!("`{name}` is not `loaded_elements.LOAD.u_x`");
+                };
+                let (load, nu) = (SquareLoad::named(load)?, (numbers.number)("nu")?);
+                square_elements::largest_displacements(load, nu)?[component(of)?]
+            }
+            Source::Elements => {
+                let [problem, of] = words[..] else {
+                    anyhow::bail!("`{name}` is not `elements.PROBLEM.u_x`");
+                };
+                let problem = problem.replace('_', "-");
+                difference(&run()?.0, &problem, (numbers.number)("d")?, component(of)?)?
+            }
+            Source::Modes(of) => {
+                let frequencies = self.cantilevers.get(of).context("no modes were found")?;
+                frequencies.named(rest)?
+            }
             Source::Frequency => frequency(&self.modes, rest)?,
             Source::Equations(of) => of(self.equations.as_ref().context("there is no model")?),
             Source::Family(of) => of(self.family.as_ref().context("there is no family")?),
@@ -485,7 +558,7 @@ impl RunResults {
     ) -> anyhow::Result<Self> {
         let sources = wanted.iter().map(|name| Ok((name.clone(), source(name)?)));
         let sources: Vec<(String, Source)> = sources.collect::<anyhow::Result<_>>()?;
-        let found = Found::new(trial, &sources)?;
+        let found = Found::new(trial, &sources, numbers)?;
         let values = sources.iter().filter(|it| it.0 != CURVE).map(|it| {
             let values = found.values(it, trial, numbers);
             (it.0.clone(), values.map_err(|error| format!("{error:#}")))
@@ -511,6 +584,22 @@ impl RunResults {
         in_row
             .copied()
             .with_context(|| format!("the run has no rows for `{name}`"))
+    }
+}
+
+impl Cantilever {
+    fn frequencies(
+        self,
+        trial: &Trial,
+        number: &dyn Fn(&str) -> anyhow::Result<f64>,
+    ) -> anyhow::Result<Frequencies> {
+        match self {
+            Self::Case => Frequencies::from_trial(trial, number("along")? as usize),
+            Self::SquareOfElements => {
+                square_elements::frequencies(number("nu")?, number("density")?)
+            }
+            Self::LaminaOfElements => lamina_elements::frequencies(number("turned")?),
+        }
     }
 }
 

@@ -6,9 +6,9 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 
 use super::Motion;
 use super::drawing::maps_of_component;
+use crate::cylinder;
 use crate::finite_elements::{Body, Degree, Mesh};
-use crate::trial::Template;
-use crate::{cylinder, plates};
+use crate::trial::Trial;
 
 const YOUNG: f64 = 65.8e9;
 
@@ -32,13 +32,16 @@ type Prescribed = Vec<[Option<f64>; 2]>;
 /// All maps of intact bodies.
 pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     let mut maps = Vec::new();
-    for (axis, name, template) in [(1, "y", &plates::TENSION_Y), (0, "x", &plates::TENSION_X)] {
-        let motions = beside(pulled(axis)?, template, 0.2)?;
+    for (axis, name, case) in [
+        (1, "y", "mbb-plate/tension"),
+        (0, "x", "mbb-plate/tension-x"),
+    ] {
+        let motions = beside(pulled(axis)?, case, 0.2)?;
         let title = format!("Plate in tension along {name}, nu = 0.2");
         let file = format!("mbb-figure-9-tension-{name}");
         maps.push(maps_of_component(file, &title, &motions, axis));
     }
-    let motions = beside(sheared()?, &plates::SHEAR, 0.3)?;
+    let motions = beside(sheared()?, "mbb-plate/shear", 0.3)?;
     let file = "mbb-figure-9-shear".to_owned();
     maps.push(maps_of_component(
         file,
@@ -46,15 +49,15 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
         &motions,
         0,
     ));
-    for (edges, template, title) in [
-        (2, &plates::THERMAL, "Heated plate, two edges clamped"),
+    for (edges, case, title) in [
+        (2, "thermal-plates/case", "Heated plate, two edges clamped"),
         (
             3,
-            &plates::THERMAL_LEFT,
+            "thermal-plates/three-edges",
             "Heated plate, three edges clamped",
         ),
     ] {
-        let motions = beside(heated(edges)?, template, 0.4)?;
+        let motions = beside(heated(edges)?, case, 0.4)?;
         for axis in [1, 0] {
             let file = format!("mbb-figure-10-{edges}-edges");
             maps.push(maps_of_component(file, title, &motions, axis));
@@ -65,12 +68,8 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 }
 
 /// The motions of finite elements and of the lattice of a case.
-fn beside(
-    elements: Motion,
-    template: &'static Template,
-    ratio: f64,
-) -> anyhow::Result<[(String, Motion); 2]> {
-    let trial = template.trial().set("material.poisson", ratio);
+fn beside(elements: Motion, case: &str, ratio: f64) -> anyhow::Result<[(String, Motion); 2]> {
+    let trial = Trial::of_file(&format!("cases/{case}.toml"))?.set("material.poisson", ratio);
     let solution = trial.solve()?;
     let lattice = Motion::of_lattice(
         &**solution.model.plane(),

@@ -6,7 +6,7 @@ use super::Motion;
 use super::drawing::{Quantity, maps_of_component, maps_of_modes};
 use crate::lamina_elements;
 use crate::named_modes::in_named_order;
-use crate::{lamina, tension};
+use crate::tension;
 
 /// Axis of the cantilevers: x.
 const ALONG: usize = 0;
@@ -68,7 +68,7 @@ fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
 }
 
 fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
-    let trial = lamina::CASE
+    let trial = super::LAMINA_MODES
         .trial()
         .set("material.angle", angle.to_radians());
     let model = trial.model()?;

@@ -9,10 +9,14 @@ mod squares;
 
 use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
-use super::statics::{BENDING, SHEAR, TRACTION};
+use super::readings::{BENDING, SHEAR, TRACTION};
 use super::table::Extent;
-use super::{frequencies, lamina, tension};
+use super::tension;
+use super::trial::{Template, template};
 use drawing::Motion;
+
+static SQUARE_MODES: Template = template!("verification/square-modes.toml");
+static LAMINA_MODES: Template = template!("verification/lamina-modes.toml");
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -30,9 +34,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         &TRACTION,
         &SHEAR,
         &BENDING,
-        &frequencies::CASE,
+        &SQUARE_MODES,
         &tension::CASE,
-        &lamina::CASE,
+        &LAMINA_MODES,
     ],
     compute: Compute::Code(compute),
 };
