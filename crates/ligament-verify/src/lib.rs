@@ -28,7 +28,6 @@ use ligament_output::folder::{Kind, ResultFolder};
 mod anisotropy;
 mod compared_points;
 mod crack_path;
-mod cylinder;
 mod directions;
 pub mod entry;
 mod equations;
@@ -66,7 +65,6 @@ mod yielding;
 use Written::{Code, File};
 pub use experiment::{Compute, Experiment, Findings};
 pub use measured::experiments;
-pub use trial::Template;
 
 use entry::Verdict;
 use experiment_file::ExperimentFile;
@@ -90,18 +88,18 @@ static PUBLISHED: [Written; 46] = [
     File("lamina"),
     Code(&tension::EXPERIMENT),
     Code(&maps::EXPERIMENT),
-    Code(&directions::EXPERIMENT),
+    File("directions"),
     File("moduli"),
     File("poisson"),
     Code(&yielding::EXPERIMENT),
-    Code(&anisotropy::EXPERIMENT),
+    File("anisotropy"),
     File("disk"),
     File("slots"),
     File("inclined"),
     File("griffith"),
     File("softening"),
     File("plates"),
-    Code(&cylinder::EXPERIMENT),
+    File("cylinder"),
     File("cracks"),
     File("cost"),
     File("patch_test"),

@@ -8,7 +8,7 @@ use super::named_modes::{self, Frequencies};
 use super::published::{Published, published};
 use super::square_elements::SquareLoad;
 use super::table::{Extent, Labels, Row, Table};
-use super::trial::{Memory, Template, Trial, displacement_at, largest_displacements, template};
+use super::trial::{Memory, Trial, displacement_at, largest_displacements};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -21,14 +21,14 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             of points or so many rows held, and displacements that are the largest of all points or those in the \
             middles of the sides. A reading is judged by the printed values it meets to the digits, and by the median \
             and the largest difference from them.",
-    cases: &[&TRACTION, &SHEAR, &BENDING, &MODES],
+    cases: &[TRACTION, SHEAR, BENDING, MODES],
     compute: Compute::Code(compute),
 };
 
-pub(super) static TRACTION: Template = template!("verification/square-traction.toml");
-pub(super) static SHEAR: Template = template!("verification/square-shear.toml");
-pub(super) static BENDING: Template = template!("verification/square-bending.toml");
-static MODES: Template = template!("verification/square-modes.toml");
+pub(super) const TRACTION: &str = "cases/verification/square-traction.toml";
+pub(super) const SHEAR: &str = "cases/verification/square-shear.toml";
+pub(super) const BENDING: &str = "cases/verification/square-bending.toml";
+const MODES: &str = "cases/verification/square-modes.toml";
 
 /// Axis of the plate of the modes, which is supported at its base: y.
 const ALONG: usize = 1;
@@ -93,11 +93,11 @@ impl Reading {
 }
 
 /// The case with a load.
-pub(super) fn case_of(load: SquareLoad) -> &'static Template {
+pub(super) fn case_of(load: SquareLoad) -> &'static str {
     match load {
-        SquareLoad::Traction => &TRACTION,
-        SquareLoad::Shear => &SHEAR,
-        SquareLoad::Bending => &BENDING,
+        SquareLoad::Traction => TRACTION,
+        SquareLoad::Shear => SHEAR,
+        SquareLoad::Bending => BENDING,
     }
 }
 
@@ -162,7 +162,7 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
             if !is_micropolar(printed)? {
                 return Ok(f64::NAN);
             }
-            let trial = loaded_on(case_of(load).trial(), load, rows);
+            let trial = loaded_on(Trial::of_file(case_of(load))?, load, rows);
             let trial = with_law(trial, reading)?.set("material.poisson", printed.number("nu")?);
             let found = memory.reading(&trial, Reading::from_solution)?;
             let [x, y] = match load {
@@ -194,7 +194,7 @@ fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
         if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
             return Ok(none);
         }
-        let trial = with_law(MODES.trial(), reading)?
+        let trial = with_law(Trial::of_file(MODES)?, reading)?
             .set("lattice.set.base.bottom", rows)
             .set("material.poisson", printed.number("nu")?);
         memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG))

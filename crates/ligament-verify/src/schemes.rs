@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use super::experiment::{Compute, Experiment, Findings};
 use super::published::published;
 use super::table::{Extent, Labels};
-use super::trial::{Memory, Template, template};
+use super::trial::{Memory, Trial};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -14,11 +14,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     source: "two schemes for the same equations",
     setup: "The plate of `motion_branching` (Borden) with 100 x 40 points of 1 mm, bbpd, both schemes with steps of 0.1 us. Bonds that are broken by both up to a \
             time over those that one of them broke more of.",
-    cases: &[&CASE],
+    cases: &[CASE],
     compute: Compute::Code(compute),
 };
 
-static CASE: Template = template!("branching/case.toml");
+const CASE: &str = "cases/branching/case.toml";
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
@@ -33,7 +33,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
 fn common(labels: Labels<'_>, memory: &mut Memory<Vec<(u32, f64)>>) -> anyhow::Result<f64> {
     let until = 1e-6 * labels.number("time, us")?;
     let mut broken = |scheme: &str| {
-        let trial = (CASE.trial())
+        let trial = (Trial::of_file(CASE)?)
             .on_lattice([100, 40], 1e-3)
             .set("motion.duration", 30e-6)
             .set("motion.rows", 30)

@@ -7,7 +7,7 @@ use ligament_post::yielding::{Family, PrincipalStretches, lattice, printed_orien
 use super::experiment::{Compute, Experiment, Findings};
 use super::published::{Published, published};
 use super::table::{Extent, Labels, Table};
-use super::trial::{Template, template};
+use super::trial::Trial;
 use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
@@ -21,11 +21,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             times the tensile one. The error is the one of the orientation that yields last, as `ligament yield` computes \
             it. A bar: the strains of a bar of E = 70 GPa, F_t = 1 MPa, F_c = 3 MPa, on the criteria that a case gives the \
             bonds of a lattice, in the worst direction of a bond.",
-    cases: &[&CASE],
+    cases: &[CASE],
     compute: Compute::Code(compute),
 };
 
-static CASE: Template = template!("verification/lattice.toml");
+const CASE: &str = "cases/verification/lattice.toml";
 
 /// Strengths as in the paper's tables.
 const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
@@ -98,7 +98,7 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
         _ => vec![frictional(Calibration::Printed)],
     };
     let nu = labels.number("nu")?;
-    let trial = CASE.trial().set("material.poisson", nu);
+    let trial = Trial::of_file(CASE)?.set("material.poisson", nu);
     let trial = trial
         .set("material.tensile_strength", TENSILE_STRENGTH)
         .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)

@@ -237,7 +237,7 @@ pub(super) struct TableSeries {
     pub(super) file: String,
     /// Key of the numbers along x.
     pub(super) x: String,
-    /// Labels of the rows, such as `law=pds, of=lattice`.
+    /// Labels of the rows, such as `law=pds, of=lattice`, with labels of the plot in braces.
     #[serde(default)]
     pub(super) of: String,
     pub(super) colour: String,

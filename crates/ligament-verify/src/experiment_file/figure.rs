@@ -49,7 +49,7 @@ impl Figure {
                 series.push(line.series(file, &labels)?);
             }
             for it in &self.table {
-                series.push(it.series(tables)?);
+                series.push(it.series(tables, &labels)?);
             }
             if let Some(of_runs) = &self.runs {
                 for (place, (label, points)) in self.lines(&labels).into_iter().enumerate() {
@@ -143,12 +143,13 @@ impl FixedLine {
 }
 
 impl TableSeries {
-    fn series(&self, tables: &[Table]) -> anyhow::Result<Series> {
+    fn series(&self, tables: &[Table], labels: &LabelsOfRun) -> anyhow::Result<Series> {
+        let of = with_labels(&self.of, labels);
         let table = tables.iter().find(|it| it.heading.name == self.file);
         let table = table.with_context(|| format!("no table `{}`", self.file))?;
         let mut points = match self.known {
-            true => table.known(&self.x, &self.of)?,
-            false => table.computed(&self.x, &self.of)?,
+            true => table.known(&self.x, &of)?,
+            false => table.computed(&self.x, &of)?,
         };
         if self.less_x {
             points.iter_mut().for_each(|point| point[1] -= point[0]);

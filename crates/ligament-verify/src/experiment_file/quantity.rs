@@ -9,6 +9,8 @@
 //! | `turn.N` | root mean square by which factors of bonds change where the mesh is turned by N degrees |
 //! | `phase_speed.N` | speed of waves with N points per wavelength from the probe `near` to `far`, over `speed` |
 //! | `at_point.X.Y.u_x` | displacement of the point nearest to a place, whose coordinates are numbers of the experiment by their names, m |
+//! | `direction.STIFFNESS.OF` | [stiffness of bonds](crate::directions) over their direction |
+//! | `first_yield.CRITERION.STRAIN.STATISTIC` | errors of [first yield](crate::anisotropy) on a mesh |
 //! | `largest.u_x` | largest |u_x| of all points, m |
 //! | `loaded_elements.LOAD.u_x` | the same of a [square of finite elements](crate::square_elements), m |
 //! | `elements.PROBLEM.u_x` | [difference](crate::compared_points) of a plate from finite elements |
@@ -30,8 +32,10 @@ use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 use ligament_run::summary::DROP;
 
 use super::history::{self, Watch};
+use crate::anisotropy::Anisotropy;
 use crate::compared_points::difference;
 use crate::crack_path::{Crack, Place, Segment, distance, ends, middle};
+use crate::directions::stiffness;
 use crate::equations::Equations;
 use crate::fast_crack::{Branches, Break, FromNotches, breaks};
 use crate::griffith;
@@ -78,6 +82,8 @@ enum Source {
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
+    Direction,
+    FirstYield,
     AtPoint,
     Largest,
     LoadedElements,
@@ -390,6 +396,8 @@ fn source(name: &str) -> anyhow::Result<Source> {
         (_, "end") => Source::End,
         (_, "phase_speed") => Source::Numbered(|it, number| it.phase_speed(number)),
         (_, "at_point") => Source::AtPoint,
+        (_, "direction") => Source::Direction,
+        (_, "first_yield") => Source::FirstYield,
         (_, "largest") => Source::Largest,
         (_, "loaded_elements") => Source::LoadedElements,
         (_, "elements") => Source::Elements,
@@ -423,6 +431,8 @@ struct Found {
     run: Option<(Solution, Watch)>,
     to_the_end: Option<Solution>,
     cantilevers: BTreeMap<Cantilever, Frequencies>,
+    /// Errors of first yield, by the name of the quantity up to its statistic.
+    first_yields: BTreeMap<String, Anisotropy>,
 }
 
 impl Found {
@@ -433,8 +443,18 @@ impl Found {
         numbers: &Numbers<'_>,
     ) -> anyhow::Result<Self> {
         let mut found = Self::default();
-        for (_, source) in sources {
+        for (name, source) in sources {
             match source {
+                Source::FirstYield => {
+                    let (of, _) = name.rsplit_once('.').unwrap_or_default();
+                    if !found.first_yields.contains_key(of) {
+                        let mut words = of.split('.').skip(1);
+                        let (criterion, strain) =
+                            words.next().zip(words.next()).context("no strain")?;
+                        let anisotropy = Anisotropy::new(&trial.model()?, criterion, strain)?;
+                        found.first_yields.insert(of.to_owned(), anisotropy);
+                    }
+                }
                 Source::Frequency if found.modes.is_empty() => found.modes = frequencies(trial)?,
                 Source::Equations(_) if found.equations.is_none() => {
                     found.equations = Some(Equations::from_model(&trial.model()?)?);
@@ -493,6 +513,12 @@ impl Found {
             other => anyhow::bail!("no component `{other}`"),
         };
         Ok(vec![match source {
+            Source::Direction => stiffness(trial, rest)?,
+            Source::FirstYield => {
+                let (of, statistic) = name.rsplit_once('.').unwrap_or_default();
+                let anisotropy = self.first_yields.get(of).context("nothing yields")?;
+                anisotropy.named(statistic)?
+            }
             Source::AtPoint => {
                 let [x, y, of] = words[..] else {
                     anyhow::bail!("`{name}` is not `at_point.X.Y.u_x`");

@@ -6,8 +6,9 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 
 use super::Motion;
 use super::drawing::maps_of_component;
-use crate::cylinder;
+use crate::experiment_file::ExperimentFile;
 use crate::finite_elements::{Body, Degree, Mesh};
+use crate::ring::{Ring, radial};
 use crate::trial::Trial;
 
 const YOUNG: f64 = 65.8e9;
@@ -22,9 +23,6 @@ const ELEMENTS: [usize; 2] = [100, 99];
 
 /// Free strain of the heated plates: 23e-6/K times 50 K.
 const FREE_STRAIN: f64 = 23e-6 * 50.0;
-
-/// Spacing of the cylinder's points, m.
-const COARSE: f64 = 0.05;
 
 /// Prescribed displacements of the nodes of elements, shape (n_nodes, 2), m.
 type Prescribed = Vec<[Option<f64>; 2]>;
@@ -147,18 +145,24 @@ fn heated(edges: usize) -> anyhow::Result<Motion> {
 
 /// The radial displacement of the cylinder, by Lame and by the lattice, at both ratios of the paper.
 fn cylinder() -> anyhow::Result<Maps> {
+    let file = ExperimentFile::read("cylinder")?;
     let mut bodies = Vec::new();
     for ratio in [0.1, -0.1] {
-        let solution = cylinder::trial(COARSE, ratio).solve()?;
+        let solution = file
+            .trial(&[("d", "50"), ("nu", &ratio.to_string())])?
+            .solve()?;
+        let ring = Ring {
+            inner: 1.5,
+            outer: 2.2,
+            young: YOUNG,
+            poisson: ratio,
+            pressure: 400e6,
+        };
         let cloud = &solution.model.plane().cloud;
         let [spacing, _] = cloud.lattice_cell.context("the cylinder is no lattice")?;
-        let points = cylinder::radial(&solution, ratio);
-        let places: Vec<[f64; 2]> = points.iter().map(|it| it.place).collect();
-        for (title, value) in [
-            ("Lame", (|it| it.exact) as fn(&cylinder::Radial) -> f64),
-            ("MBB-PD", |it| it.found),
-        ] {
-            let values: Vec<f64> = points.iter().map(value).collect();
+        let (places, found): (Vec<[f64; 2]>, Vec<f64>) = radial(&solution).into_iter().unzip();
+        let exact = places.iter().map(|[x, y]| ring.lame(x.hypot(*y)));
+        for (title, values) in [("Lame", exact.collect()), ("MBB-PD", found)] {
             let moved = |(place, value): (&[f64; 2], &f64)| {
                 place.map(|it| value * it / place[0].hypot(place[1]))
             };

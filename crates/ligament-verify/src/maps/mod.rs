@@ -12,11 +12,10 @@ use super::published::published;
 use super::readings::{BENDING, SHEAR, TRACTION};
 use super::table::Extent;
 use super::tension;
-use super::trial::{Template, template};
 use drawing::Motion;
 
-static SQUARE_MODES: Template = template!("verification/square-modes.toml");
-static LAMINA_MODES: Template = template!("verification/lamina-modes.toml");
+const SQUARE_MODES: &str = "cases/verification/square-modes.toml";
+const LAMINA_MODES: &str = "cases/verification/lamina-modes.toml";
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -31,12 +30,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             after shares of the breakages of the tests of `disk`, `slots`, `inclined` and `cracks`, on the bodies without their \
             displacements.",
     cases: &[
-        &TRACTION,
-        &SHEAR,
-        &BENDING,
-        &SQUARE_MODES,
-        &tension::CASE,
-        &LAMINA_MODES,
+        TRACTION,
+        SHEAR,
+        BENDING,
+        SQUARE_MODES,
+        tension::CASE,
+        LAMINA_MODES,
     ],
     compute: Compute::Code(compute),
 };

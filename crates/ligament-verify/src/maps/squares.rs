@@ -8,7 +8,7 @@ use super::drawing::{Quantity, maps_of_component, maps_of_modes};
 use crate::named_modes::{NAMES, in_named_order};
 use crate::readings::case_of;
 use crate::square_elements::{self, SquareLoad};
-use crate::trial::Memory;
+use crate::trial::{Memory, Trial};
 
 const DENSITY: f64 = 2500.0;
 
@@ -47,7 +47,7 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Motion> {
-        let trial = (case_of(SquareLoad::named(load)?).trial())
+        let trial = Trial::of_file(case_of(SquareLoad::named(load)?))?
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.motions.reading(&trial, |it| {
@@ -72,7 +72,7 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Vec<Motion>> {
-        let trial = (super::SQUARE_MODES.trial())
+        let trial = (Trial::of_file(super::SQUARE_MODES)?)
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.modes.result(trial.command(), || {
