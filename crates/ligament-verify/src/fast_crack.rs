@@ -5,6 +5,7 @@ use ligament::Model;
 use ligament_analysis::history::BreakRecord;
 
 use crate::crack_path::middle;
+use crate::trial::Number;
 
 /// A bond that broke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,9 +25,6 @@ pub(super) fn breaks(model: &Model, records: &[BreakRecord]) -> Vec<Break> {
     })
     .collect()
 }
-
-/// Number of the experiment by its name.
-type Number<'a> = &'a dyn Fn(&str) -> anyhow::Result<f64>;
 
 /// Branches of a crack from a notch.
 pub(super) struct Branches {

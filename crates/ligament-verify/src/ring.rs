@@ -44,14 +44,18 @@ pub(super) fn radial(solution: &Solution) -> Vec<([f64; 2], f64)> {
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
     let moved: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();
-    // Lame's field has a zero mean over the volume, and a rotation has no u_r.
-    let volume: f64 = cloud.volumes.iter().sum();
+    // Lame's field has a zero mean over the volume, and a rotation has no u_r. Points of a lattice have equal volumes.
+    let weights = match cloud.lattice_cell {
+        Some(_) => vec![1.0; cloud.len()],
+        None => cloud.volumes.clone(),
+    };
+    let whole: f64 = weights.iter().sum();
     let mean = [0, 1].map(|axis| {
-        let weighted = moved.iter().zip(&cloud.volumes);
+        let weighted = moved.iter().zip(&weights);
         weighted
-            .map(|((_, u), volume)| volume * u[axis])
+            .map(|((_, u), weight)| weight * u[axis])
             .sum::<f64>()
-            / volume
+            / whole
     });
     let radial = moved.into_iter().map(|([x, y], [u, v])| {
         let found = ((u - mean[0]) * x + (v - mean[1]) * y) / x.hypot(y);

@@ -15,6 +15,10 @@ use ligament_case::case::CaseFile;
 use super::crack_path::Breakages;
 use super::places::repository;
 
+/// A number of an experiment by its name, such as the radius of a disk. Entries of one run share what is read from it: numbers that differ between them
+/// belong to the name of a quantity.
+pub(super) type Number<'a> = &'a dyn Fn(&str) -> anyhow::Result<f64>;
+
 /// A case with settings (`key=value`, as with `--set`) for a run.
 #[derive(Clone)]
 pub(super) struct Trial {

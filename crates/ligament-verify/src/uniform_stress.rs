@@ -64,3 +64,33 @@ fn tractions<const D: usize>(key: &str, stress: &[[f64; D]; D], sides: &[[&str; 
     }
     format!("[{}]", loads.join(", "))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_pull_has_half_of_it_as_shear() {
+        let found = loads(&[2.0, 0.0], 90.0).unwrap();
+        assert_eq!(
+            found,
+            "[{ group = \"bottom\", force_per_length = { y = -2e0 } }, { group = \"top\", force_per_length = { y = 2e0 } }]"
+        );
+        let found = loads(&[2.0, 0.0], 45.0).unwrap();
+        assert_eq!(found.matches("group").count(), 4);
+        let [_, x] = [0, 1].map(|place| found.split("x = ").nth(place).unwrap());
+        let x: f64 = x.split([' ', ',']).next().unwrap().parse().unwrap();
+        assert!((x + 1.0).abs() < 1e-12, "{found}");
+    }
+
+    /// A stress that is equal in all directions stays what it is under any turn.
+    #[test]
+    fn a_pressure_loads_each_face_along_its_normal() {
+        let found = loads(&[-3.0; 3], 30.0).unwrap();
+        assert_eq!(found.matches("force_per_area").count(), 6);
+        for axis in ["x", "y", "z"] {
+            assert_eq!(found.matches(&format!("{axis} = ")).count(), 2, "{found}");
+        }
+        assert!(loads(&[1.0], 0.0).is_err());
+    }
+}

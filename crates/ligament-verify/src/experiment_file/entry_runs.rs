@@ -8,7 +8,7 @@ use anyhow::{Context, bail};
 use super::document::{Choice, ExperimentFile, Over, Run, TableOfFile};
 use super::expression::{Expression, Place};
 use super::known;
-use super::quantity::{CURVE, Numbers, RunResults, ensure_known};
+use super::quantity::{CURVE, RunResults, ensure_known};
 use crate::places::repository;
 use crate::table::{Labels, number};
 use crate::trial::Trial;
@@ -351,7 +351,7 @@ impl RunMemory {
             let wanted = self.wanted.get(command).cloned().unwrap_or_default();
             let number = |name: &str| runs.number(run, name);
             let trial = runs.trial(run)?;
-            let results = RunResults::of_trial(&trial, &wanted, &Numbers { number: &number })?;
+            let results = RunResults::of_trial(&trial, &wanted, &number)?;
             self.found.insert(command.to_owned(), results);
         }
         self.found.get(command).context("the run has no results")

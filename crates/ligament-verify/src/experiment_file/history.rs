@@ -17,6 +17,8 @@ use ligament::run::Solution;
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 use ligament_analysis::{Component, Observer};
 
+use crate::trial::Number;
+
 /// First words of the names.
 pub(super) const NAMES: [&str; 10] = [
     "probe",
@@ -96,7 +98,7 @@ impl Watch {
         &self,
         solution: &Solution,
         name: &str,
-        number: &dyn Fn(&str) -> anyhow::Result<f64>,
+        number: Number<'_>,
     ) -> anyhow::Result<Vec<f64>> {
         let Some(part) = name.strip_prefix("velocity.") else {
             let rows = solution.outcome.history.iter();

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `document` | the file as it is written |
 //! | `expression` | numbers, names, + - * / ^ and functions of numbers, of runs and of the history of a run |
-//! | `quantity`, `history` | what an expression can read from a run, and from every row of its history |
+//! | `quantity`, `loaded_run`, `history` | what an expression can read from a run, and from every row of its history |
 //! | `entry_runs` | the runs of an entry, each with its labels and its trial, and their memory |
 //! | `figure` | plots |
 
@@ -14,6 +14,7 @@ mod entry_runs;
 mod expression;
 mod figure;
 mod history;
+mod loaded_run;
 mod quantity;
 
 use std::path::Path;

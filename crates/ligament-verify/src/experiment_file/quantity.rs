@@ -19,59 +19,33 @@
 //! | others | the row of [`QUANTITIES`] |
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::FRAC_1_SQRT_2;
 
 use anyhow::{Context, ensure};
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament::run::Solution;
 use ligament_analysis::Termination;
-use ligament_analysis::driver::LoadPoint;
-use ligament_analysis::history::{BreakRecord, StepRecord};
 use ligament_analysis::modal::ModeKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
-use ligament_run::summary::DROP;
 
 use super::history::{self, Watch};
+use super::loaded_run::{
+    LoadedRun, area, at_rim, between_cuts, extent, half_turn, is_symmetric, leads_left, mean,
+    radius, to_platens, towards_left,
+};
 use crate::anisotropy::Anisotropy;
 use crate::compared_points::difference;
-use crate::crack_path::{Crack, Place, Segment, distance, ends, middle};
+use crate::crack_path::ends;
 use crate::directions::stiffness;
 use crate::equations::Equations;
-use crate::fast_crack::{Branches, Break, FromNotches, breaks};
-use crate::griffith;
-use crate::hole::concentrations;
 use crate::named_modes::Frequencies;
 use crate::patch_test::{change_by_turn, poisson, scatter, young};
-use crate::pressed::{Pressed, pressed};
-use crate::record::{Record, phase_speed};
-use crate::ring::{RadialDisplacements, Ring, radial_displacements};
 use crate::square_elements::SquareLoad;
 use crate::straightness::{asymmetry, beside};
-use crate::trial::{Trial, displacement_at, largest_displacements};
-use crate::{lamina_elements, square_elements};
+use crate::trial::{Number, Trial, displacement_at, largest_displacements};
+use crate::{griffith, lamina_elements, square_elements};
 
 /// Name of the curve of displacement and load among what is read.
 pub(super) const CURVE: &str = "curve";
-
-/// Distance from a circle within which a point lies on it, m: coordinates of a mesh are rounded.
-const ON_CIRCLE: f64 = 1e-9;
-
-/// Number of first breakages among which those at the rim are counted.
-const EARLY: usize = 100;
-
-/// A run with its breakages in their order, and the numbers of the experiment.
-struct LoadedRun<'a> {
-    solution: &'a Solution,
-    breaks: &'a [BreakRecord],
-    numbers: &'a Numbers<'a>,
-}
-
-/// What quantities need beside the run.
-pub(super) struct Numbers<'a> {
-    /// A number of the experiment, such as the radius of a disk. Entries of one run share what is read from it: numbers that differ between them belong
-    /// to the name of a quantity.
-    pub(super) number: &'a dyn Fn(&str) -> anyhow::Result<f64>,
-}
 
 /// Way to a quantity.
 #[derive(Clone, Copy)]
@@ -224,15 +198,15 @@ static QUANTITIES: &[(&str, Source)] = &[
     ("branches.speed", Source::Run(|it| Ok(it.branches()?.speed))),
     (
         "notches.angle",
-        Source::Run(|it| Ok(it.from_notches()?.angle)),
+        Source::Run(|it| Ok(it.notches()?.angle)),
     ),
     (
         "notches.start",
-        Source::Run(|it| Ok(it.from_notches()?.start)),
+        Source::Run(|it| Ok(it.notches()?.start)),
     ),
     (
         "notches.speed",
-        Source::Run(|it| Ok(it.from_notches()?.speed)),
+        Source::Run(|it| Ok(it.notches()?.speed)),
     ),
     // Pressures under a rigid body, over `directions` along the surface and `side_points` integration points of a side.
     ("pressed.force", Source::Run(|it| Ok(it.pressed()?.force))),
@@ -341,23 +315,23 @@ static QUANTITIES: &[(&str, Source)] = &[
     // Cracks driven by the fracture energy.
     (
         "griffith.strength",
-        Source::Run(|it| griffith::relative_strength(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::relative_strength(it.solution, it.numbers)),
     ),
     (
         "griffith.crossing",
-        Source::Run(|it| griffith::crossing_energy(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::crossing_energy(it.solution, it.numbers)),
     ),
     (
         "griffith.released",
-        Source::Run(|it| griffith::released(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::released(it.solution, it.numbers)),
     ),
     (
         "griffith.separation",
-        Source::Run(|it| griffith::separation_energy(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::separation_energy(it.solution, it.numbers)),
     ),
     (
         "griffith.deviation",
-        Source::Run(|it| griffith::deviation(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::deviation(it.solution, it.numbers)),
     ),
     // Constants of the family of the point nearest to the origin.
     ("family.young", Source::Family(|it| it.young[0])),
@@ -440,7 +414,7 @@ impl Found {
     fn new(
         trial: &Trial,
         sources: &[(String, Source)],
-        numbers: &Numbers<'_>,
+        numbers: Number<'_>,
     ) -> anyhow::Result<Self> {
         let mut found = Self::default();
         for (name, source) in sources {
@@ -466,7 +440,7 @@ impl Found {
                     found.patch = Some(patch_test(&trial.model()?)?);
                 }
                 Source::Modes(of) if !found.cantilevers.contains_key(of) => {
-                    let frequencies = of.frequencies(trial, numbers.number)?;
+                    let frequencies = of.frequencies(trial, numbers)?;
                     found.cantilevers.insert(*of, frequencies);
                 }
                 Source::End => found.to_the_end = Some(trial.solve_to_the_end()?),
@@ -494,7 +468,7 @@ impl Found {
         &self,
         (name, source): &(String, Source),
         trial: &Trial,
-        numbers: &Numbers<'_>,
+        numbers: Number<'_>,
     ) -> anyhow::Result<Vec<f64>> {
         let run = || self.run.as_ref().context("the case was not run");
         let loaded = || {
@@ -523,7 +497,7 @@ impl Found {
                 let [x, y, of] = words[..] else {
                     anyhow::bail!("`{name}` is not `at_point.X.Y.u_x`");
                 };
-                let place = [(numbers.number)(x)?, (numbers.number)(y)?];
+                let place = [numbers(x)?, numbers(y)?];
                 displacement_at(&run()?.0, place)[component(of)?]
             }
             Source::Largest => largest_displacements(&run()?.0)?[component(rest)?],
@@ -531,7 +505,7 @@ impl Found {
                 let [load, of] = words[..] else {
                     anyhow::bail!("`{name}` is not `loaded_elements.LOAD.u_x`");
                 };
-                let (load, nu) = (SquareLoad::named(load)?, (numbers.number)("nu")?);
+                let (load, nu) = (SquareLoad::named(load)?, numbers("nu")?);
                 square_elements::largest_displacements(load, nu)?[component(of)?]
             }
             Source::Elements => {
@@ -539,7 +513,7 @@ impl Found {
                     anyhow::bail!("`{name}` is not `elements.PROBLEM.u_x`");
                 };
                 let problem = problem.replace('_', "-");
-                difference(&run()?.0, &problem, (numbers.number)("d")?, component(of)?)?
+                difference(&run()?.0, &problem, numbers("d")?, component(of)?)?
             }
             Source::Modes(of) => {
                 let frequencies = self.cantilevers.get(of).context("no modes were found")?;
@@ -555,7 +529,7 @@ impl Found {
             Source::Numbered(of) => of(&loaded()?, rest.parse()?)?,
             Source::Row => {
                 let (solution, watch) = run()?;
-                return watch.values(solution, name, numbers.number);
+                return watch.values(solution, name, numbers);
             }
             Source::Intact => {
                 let (solution, _) = run()?;
@@ -580,7 +554,7 @@ impl RunResults {
     pub(super) fn of_trial(
         trial: &Trial,
         wanted: &BTreeSet<String>,
-        numbers: &Numbers<'_>,
+        numbers: Number<'_>,
     ) -> anyhow::Result<Self> {
         let sources = wanted.iter().map(|name| Ok((name.clone(), source(name)?)));
         let sources: Vec<(String, Source)> = sources.collect::<anyhow::Result<_>>()?;
@@ -614,11 +588,7 @@ impl RunResults {
 }
 
 impl Cantilever {
-    fn frequencies(
-        self,
-        trial: &Trial,
-        number: &dyn Fn(&str) -> anyhow::Result<f64>,
-    ) -> anyhow::Result<Frequencies> {
+    fn frequencies(self, trial: &Trial, number: Number<'_>) -> anyhow::Result<Frequencies> {
         match self {
             Self::Case => Frequencies::from_trial(trial, number("along")? as usize),
             Self::SquareOfElements => {
@@ -647,256 +617,4 @@ fn frequency(modes: &[f64], number: &str) -> anyhow::Result<f64> {
     let number: usize = number.parse()?;
     let found = number.checked_sub(1).and_then(|it| modes.get(it)).copied();
     found.with_context(|| format!("the body has no elastic mode {number}"))
-}
-
-impl LoadedRun<'_> {
-    fn number(&self, name: &str) -> anyhow::Result<f64> {
-        (self.numbers.number)(name)
-    }
-
-    fn last(&self) -> anyhow::Result<&StepRecord> {
-        self.solution
-            .outcome
-            .history
-            .last()
-            .context("the run has no history")
-    }
-
-    fn peak(&self) -> anyhow::Result<LoadPoint> {
-        self.solution
-            .outcome
-            .peak()
-            .context("the run has no state at rest")
-    }
-
-    fn first_peak(&self) -> anyhow::Result<LoadPoint> {
-        let peak = self.solution.outcome.first_peak(DROP);
-        peak.context("the run has no state at rest")
-    }
-
-    fn first(&self) -> anyhow::Result<&BreakRecord> {
-        self.breaks.first().context("no bond breaks")
-    }
-
-    fn first_break(&self) -> anyhow::Result<Place> {
-        Ok(middle(&self.solution.model, self.first()?.bond as usize))
-    }
-
-    fn first_crack(&self) -> anyhow::Result<Place> {
-        let found = Crack::first_point(&self.solution.model, self.breaks);
-        found.context("no point is cracked")
-    }
-
-    fn crack(&self) -> Crack {
-        Crack::from_breakages(&self.solution.model, self.breaks)
-    }
-
-    /// The crack when the load first falls.
-    fn at_peak(&self) -> anyhow::Result<Crack> {
-        let peak = self.first_peak()?.load_factor;
-        let until = self.breaks.partition_point(|it| it.load_factor <= peak);
-        Ok(Crack::from_breakages(
-            &self.solution.model,
-            &self.breaks[..until],
-        ))
-    }
-
-    /// The straight cuts of the body, from their first to their last places.
-    fn cuts(&self) -> Vec<Segment> {
-        let cuts = self.solution.model.setup.precracks.iter();
-        let lines = cuts.map(|cut| cut.line());
-        lines.map(|line| [line[0], line[line.len() - 1]]).collect()
-    }
-
-    /// Distance of a place from the nearest end of a cut, m.
-    fn distance_from_tip(&self, place: Place) -> anyhow::Result<f64> {
-        let cuts = self.cuts();
-        let tips = cuts.iter().flatten();
-        let distances = tips.map(|&tip| distance(place.at, [tip; 2]));
-        distances.reduce(f64::min).context("the body has no cut")
-    }
-
-    /// The platens: segments of the half-width `platen` above and below the origin, `radius` away.
-    fn platens(&self) -> anyhow::Result<[Segment; 2]> {
-        let (radius, half) = (self.number("radius")?, self.number("platen")?);
-        Ok([radius, -radius].map(|y| [[-half, y], [half, y]]))
-    }
-
-    fn ring(&self) -> anyhow::Result<RadialDisplacements> {
-        let ring = Ring {
-            inner: self.number("inner")?,
-            outer: self.number("outer")?,
-            young: self.number("young")?,
-            poisson: self.number("poisson")?,
-            pressure: self.number("pressure")?,
-        };
-        Ok(radial_displacements(self.solution, &ring))
-    }
-
-    fn hole(&self) -> anyhow::Result<[[f64; 2]; 3]> {
-        concentrations(
-            self.solution,
-            self.number("young")?,
-            self.number("traction")?,
-        )
-    }
-
-    fn broken(&self) -> Vec<Break> {
-        breaks(&self.solution.model, self.breaks)
-    }
-
-    fn branches(&self) -> anyhow::Result<Branches> {
-        Branches::new(&self.broken(), self.numbers.number)
-    }
-
-    fn from_notches(&self) -> anyhow::Result<FromNotches> {
-        FromNotches::new(&self.broken(), self.numbers.number)
-    }
-
-    fn pressed(&self) -> anyhow::Result<Pressed> {
-        let (directions, points) = (self.number("directions")?, self.number("side_points")?);
-        pressed(self.solution, directions as usize, points as u32)
-    }
-
-    fn phase_speed(&self, points: f64) -> anyhow::Result<f64> {
-        let rows = &self.solution.outcome.history;
-        let times: Vec<f64> = rows.iter().map(|row| row.load_factor).collect();
-        let record = |name: &str| {
-            let values = rows
-                .iter()
-                .map(|row| history::value(self.solution, row, name));
-            anyhow::Ok(Record {
-                times: times.clone(),
-                values: values.collect::<anyhow::Result<_>>()?,
-            })
-        };
-        let (near, far) = (record("probe.near")?, record("probe.far")?);
-        let numbers = [
-            self.number("speed")?,
-            self.number("gauge")?,
-            self.number("spacing")?,
-        ];
-        phase_speed([&near, &far], points, numbers)
-    }
-
-    /// Load factor at which the cracks from both ends of a flaw through the origin at 45 degrees are `length` times `half_length` long in the mean, up
-    /// to their farthest broken bonds.
-    fn grown(&self, length: f64) -> anyhow::Result<f64> {
-        let half = self.number("half_length")?;
-        let tip = half * FRAC_1_SQRT_2;
-        let mut farthest = [0.0_f64; 2];
-        let long = self.broken().into_iter().find(|it| {
-            let [x, y] = it.at;
-            let (side, sign) = if x + y > 0.0 { (0, 1.0) } else { (1, -1.0) };
-            let reach = (x - sign * tip).hypot(y - sign * tip);
-            farthest[side] = farthest[side].max(reach);
-            0.5 * (farthest[0] + farthest[1]) >= length * half
-        });
-        Ok(long.context("the cracks do not become so long")?.time)
-    }
-
-    fn splits(&self, crack: &Crack) -> anyhow::Result<f64> {
-        let [upper, lower] = self.platens()?;
-        Ok(f64::from(u8::from(crack.joins(upper, lower))))
-    }
-}
-
-/// Work under a curve, J.
-fn area(curve: &[LoadPoint]) -> f64 {
-    let of_pair = |pair: &[LoadPoint]| {
-        0.5 * (pair[0].reaction + pair[1].reaction) * (pair[1].displacement - pair[0].displacement)
-    };
-    curve.windows(2).map(of_pair).sum()
-}
-
-fn radius(place: Place) -> f64 {
-    place.at[0].hypot(place.at[1])
-}
-
-/// Mean of a function of the cracked points; 0 without points.
-fn mean(crack: &Crack, of: impl Fn([f64; 2]) -> f64) -> f64 {
-    let count = crack.points.len().max(1) as f64;
-    crack.points.iter().map(|point| of(point.at)).sum::<f64>() / count
-}
-
-fn extent(crack: &Crack) -> f64 {
-    let heights = || crack.points.iter().map(|point| point.at[1]);
-    let [low, high] = [
-        heights().fold(f64::INFINITY, f64::min),
-        heights().fold(f64::NEG_INFINITY, f64::max),
-    ];
-    (high - low).max(0.0)
-}
-
-fn at_rim(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let radius = ran.number("radius")?;
-    ran.first()?;
-    let is_on_rim = |[x, y]: [f64; 2]| x.hypot(y) > radius - ON_CIRCLE;
-    let ends_there = |it: &&BreakRecord| {
-        let ends = ends(&ran.solution.model, it.bond as usize);
-        ends.into_iter().any(is_on_rim)
-    };
-    let early = &ran.breaks[..EARLY.min(ran.breaks.len())];
-    Ok(100.0 * early.iter().filter(ends_there).count() as f64 / early.len() as f64)
-}
-
-fn to_platens(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let parts: Vec<Crack> = ran.cuts().iter().map(|&cut| crack.part_from(cut)).collect();
-    let to_platen = |platen: Segment| {
-        let gaps = parts.iter().map(|part| part.gap_to(platen));
-        gaps.fold(f64::INFINITY, f64::min)
-    };
-    Ok(ran
-        .platens()?
-        .map(to_platen)
-        .into_iter()
-        .fold(0.0, f64::max))
-}
-
-fn between_cuts(ran: &LoadedRun<'_>) -> f64 {
-    let (crack, cuts) = (ran.crack(), ran.cuts());
-    let parts: Vec<Crack> = cuts.iter().map(|&cut| crack.part_from(cut)).collect();
-    let pairs = (1..cuts.len()).map(|second| {
-        let [one, other] = [&parts[second - 1], &parts[second]];
-        let to_cuts = one.gap_to(cuts[second]).min(other.gap_to(cuts[second - 1]));
-        to_cuts.min(one.gap_between(other))
-    });
-    pairs.fold(0.0, f64::max)
-}
-
-/// NaN where the crack has no part on one side.
-fn half_turn(crack: &Crack, along: [f64; 2]) -> f64 {
-    crack.half_turn(along).map_or(f64::NAN, |it| it.mean)
-}
-
-fn is_symmetric(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let mismatch = half_turn(&crack, [1.0, 0.0]) / crack.mean_horizon();
-    Ok(f64::from(u8::from(mismatch <= 1.0)))
-}
-
-fn leads_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let reach = |sign: f64| {
-        let tip = crack.part(|[x, _]| sign * x > 0.0).tip();
-        tip.map_or(0.0, radius)
-    };
-    Ok(f64::from(u8::from(reach(-1.0) > reach(1.0))))
-}
-
-/// Angle to the x axis of the mean direction of the crack from the right end of the first cut, minus that from the left end, degrees, over their
-/// common length; NaN where there is no crack at an end.
-fn towards_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let [left, right] = *ran.cuts().first().context("the body has no cut")?;
-    let angle = |end: [f64; 2], sign: f64| {
-        let common = crack.common_part([1.0, 0.0])?;
-        let [x, y] = common.part(|[x, _]| sign * x > sign * end[0]).centre()?;
-        Some((y - end[1]).abs().atan2(sign * (x - end[0])))
-    };
-    Ok(match (angle(left, -1.0), angle(right, 1.0)) {
-        (Some(left), Some(right)) => (right - left).to_degrees(),
-        _ => f64::NAN,
-    })
 }
