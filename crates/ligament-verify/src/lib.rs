@@ -6,7 +6,8 @@
 //! | [`table`], [`entry`], `printed` | tables, verdicts on entries, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | [`experiment_file`] | experiments that are files beside their tables, and what expressions there can read |
-//! | `cracks`, `poisson`, ... | the other experiments, one module each |
+//! | `fast_crack`, `griffith`, `hole`, `record`, ... | what they read from a run, one subject each |
+//! | `readings`, `tension`, `maps`, `yielding`, `schemes` | the other experiments, one module each |
 //! | [`finite_elements`] | classical elasticity, for comparison with the lattices of the papers |
 //! | [`measured`] | measured tests with bands of acceptance, from a table |
 //! | `papers` | the papers' tables and figures, and the tables of this report that compare them |
@@ -26,7 +27,6 @@ use ligament_cli::commands::output;
 use ligament_output::folder::{Kind, ResultFolder};
 
 mod anisotropy;
-mod compared_points;
 mod crack_path;
 mod directions;
 pub mod entry;
@@ -52,9 +52,7 @@ mod record;
 mod report;
 mod ring;
 mod schemes;
-mod spread;
 mod square_elements;
-mod straightness;
 pub mod table;
 pub mod tally;
 mod tension;

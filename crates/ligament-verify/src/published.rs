@@ -14,6 +14,9 @@
 //! The columns before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the unit of the table,
 //! two differences such as `-0.02 to 0.005`, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or `missed`.
 
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
 use ligament_output::csv::read::{StringRecord, records};
 
 use super::entry::{Entry, Reliability};
@@ -64,6 +67,18 @@ impl Published {
     ) -> anyhow::Result<Table> {
         known_values(self.name, self.text)?.judge(extent, compute)
     }
+}
+
+/// The known values of a table, by the name of its file.
+pub(super) fn known(table: &str) -> anyhow::Result<Known> {
+    let path = folder().join(format!("{table}.csv"));
+    let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+    Ok(known_values(table, &text)?)
+}
+
+/// Folder of the experiments and their tables.
+pub(super) fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src/published")
 }
 
 /// Error of a table, with its line.

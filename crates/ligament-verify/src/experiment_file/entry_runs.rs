@@ -7,9 +7,9 @@ use anyhow::{Context, bail};
 
 use super::document::{Choice, ExperimentFile, Over, Run, TableOfFile};
 use super::expression::{Expression, Place};
-use super::known;
 use super::quantity::{CURVE, RunResults, ensure_known};
 use crate::places::repository;
+use crate::published::known;
 use crate::table::{Labels, number};
 use crate::trial::Trial;
 use crate::uniform_stress::loads;

@@ -11,7 +11,6 @@ use ligament_study::line_fit::LineFit;
 
 use crate::fast_crack::rayleigh;
 use crate::record::Record;
-use crate::spread::spread;
 
 /// An expression.
 #[derive(Debug, Clone, PartialEq)]
@@ -178,6 +177,14 @@ static FUNCTIONS: [Function; 30] = [
 /// The last values of all runs.
 fn lasts(all: &[[f64; 2]]) -> impl Iterator<Item = f64> {
     all.iter().map(|it| it[1])
+}
+
+/// Largest minus smallest value over the mean, %.
+fn spread(values: &[f64]) -> f64 {
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    100.0 * (largest - smallest) / mean
 }
 
 /// Names of the number of rows of a run and of the time in a row.

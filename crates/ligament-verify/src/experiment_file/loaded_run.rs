@@ -2,26 +2,31 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use ligament::run::Solution;
 use ligament_analysis::driver::LoadPoint;
 use ligament_analysis::history::{BreakRecord, StepRecord};
+use ligament_output::csv::read::Sheet;
 use ligament_run::summary::DROP;
 
 use super::history;
 use crate::crack_path::{Crack, Place, Segment, distance, ends, middle};
 use crate::fast_crack::{Branches, Break, FromNotches, breaks};
 use crate::hole::concentrations;
+use crate::places::repository;
 use crate::pressed::{Pressed, pressed};
 use crate::record::{Record, phase_speed};
 use crate::ring::{RadialDisplacements, Ring, radial_displacements};
-use crate::trial::Number;
+use crate::trial::{Number, displacement_at, largest_displacements};
 
 /// Distance from a circle within which a point lies on it, m: coordinates of a mesh are rounded.
 const ON_CIRCLE: f64 = 1e-9;
 
 /// Number of first breakages among which those at the rim are counted.
 const EARLY: usize = 100;
+
+/// Table of problem, d, x, y (mm), u_x, u_y (um) of plates by finite elements.
+const ELEMENTS: &str = "tests/reference/mbb-pd-elements.csv";
 
 /// A run with its breakages in their order, and the numbers of the experiment.
 pub(super) struct LoadedRun<'a> {
@@ -176,9 +181,60 @@ impl LoadedRun<'_> {
         Ok(long.context("the cracks do not become so long")?.time)
     }
 
+    /// The value of a quantity of a row in the last row without a broken bond.
+    pub(super) fn intact(&self, name: &str) -> anyhow::Result<f64> {
+        let mut rows = self.solution.outcome.history.iter();
+        let row = rows.rfind(|row| row.broken_bonds == 0);
+        let row = row.context("no row without a broken bond")?;
+        history::value(self.solution, row, name)
+    }
+
+    /// The displacement at `X.Y.u_x`, m.
+    pub(super) fn at_point(&self, name: &str) -> anyhow::Result<f64> {
+        let [x, y, of] = name.split('.').collect::<Vec<_>>()[..] else {
+            bail!("`{name}` is not `X.Y.u_x`");
+        };
+        let place = [self.number(x)?, self.number(y)?];
+        Ok(displacement_at(self.solution, place)[axis(of)?])
+    }
+
+    /// The largest displacement of all points, m.
+    pub(super) fn largest(&self, of: &str) -> anyhow::Result<f64> {
+        Ok(largest_displacements(self.solution)?[axis(of)?])
+    }
+
+    /// The difference of `PROBLEM.u_x` from finite elements at all points, for a spacing of `d` mm.
+    pub(super) fn difference_from_elements(&self, name: &str) -> anyhow::Result<f64> {
+        let (problem, of) = name.split_once('.').context("no component is named")?;
+        let (problem, spacing, axis) = (problem.replace('_', "-"), self.number("d")?, axis(of)?);
+        let text = std::fs::read_to_string(repository().join(ELEMENTS)).context(ELEMENTS)?;
+        let sheet = Sheet::parse(ELEMENTS, &text)?;
+        let problems = sheet.values::<String>("problem")?.into_iter();
+        let numbers = sheet.numbers(["d_mm", "x_mm", "y_mm", "ux_um", "uy_um"])?;
+        let (mut apart, mut size) = (0.0, 0.0);
+        for (of, [d, x, y, along, across]) in problems.zip(numbers) {
+            if of == problem && d == spacing {
+                let element = [along, across][axis] / 1e6;
+                let found = displacement_at(self.solution, [1e-3 * x, 1e-3 * y])[axis];
+                apart += (found - element).powi(2);
+                size += element.powi(2);
+            }
+        }
+        Ok((apart / size).sqrt())
+    }
+
     pub(super) fn splits(&self, crack: &Crack) -> anyhow::Result<f64> {
         let [upper, lower] = self.platens()?;
         Ok(f64::from(u8::from(crack.joins(upper, lower))))
+    }
+}
+
+/// The axis of a component of the displacement.
+pub(super) fn axis(component: &str) -> anyhow::Result<usize> {
+    match component {
+        "u_x" => Ok(0),
+        "u_y" => Ok(1),
+        other => bail!("no component `{other}`"),
     }
 }
 

@@ -17,12 +17,10 @@ mod history;
 mod loaded_run;
 mod quantity;
 
-use std::path::Path;
-
 use anyhow::{Context, ensure};
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::known_values;
+use super::published::{folder, known};
 use super::table::{Extent, Known};
 use super::trial::Trial;
 
@@ -115,18 +113,6 @@ impl ExperimentFile {
             ..Findings::default()
         })
     }
-}
-
-/// The known values of a table.
-fn known(table: &str) -> anyhow::Result<Known> {
-    let path = folder().join(format!("{table}.csv"));
-    let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-    Ok(known_values(table, &text)?)
-}
-
-/// Folder of the experiments and their tables.
-fn folder() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src/published")
 }
 
 #[cfg(test)]

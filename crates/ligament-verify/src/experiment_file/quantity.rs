@@ -13,7 +13,7 @@
 //! | `first_yield.CRITERION.STRAIN.STATISTIC` | errors of [first yield](crate::anisotropy) on a mesh |
 //! | `largest.u_x` | largest |u_x| of all points, m |
 //! | `loaded_elements.LOAD.u_x` | the same of a [square of finite elements](crate::square_elements), m |
-//! | `elements.PROBLEM.u_x` | [difference](crate::compared_points) of a plate from finite elements |
+//! | `elements.PROBLEM.u_x` | difference of a plate from finite elements: L2 norm over all points, over that by the elements |
 //! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
 //! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
 //! | others | the row of [`QUANTITIES`] |
@@ -29,19 +29,17 @@ use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 
 use super::history::{self, Watch};
 use super::loaded_run::{
-    LoadedRun, area, at_rim, between_cuts, extent, half_turn, is_symmetric, leads_left, mean,
+    LoadedRun, area, at_rim, axis, between_cuts, extent, half_turn, is_symmetric, leads_left, mean,
     radius, to_platens, towards_left,
 };
 use crate::anisotropy::Anisotropy;
-use crate::compared_points::difference;
-use crate::crack_path::ends;
+use crate::crack_path::{asymmetry, beside, ends};
 use crate::directions::stiffness;
 use crate::equations::Equations;
 use crate::named_modes::Frequencies;
 use crate::patch_test::{change_by_turn, poisson, scatter, young};
 use crate::square_elements::SquareLoad;
-use crate::straightness::{asymmetry, beside};
-use crate::trial::{Number, Trial, displacement_at, largest_displacements};
+use crate::trial::{Number, Trial};
 use crate::{griffith, lamina_elements, square_elements};
 
 /// Name of the curve of displacement and load among what is read.
@@ -51,21 +49,16 @@ pub(super) const CURVE: &str = "curve";
 #[derive(Clone, Copy)]
 enum Source {
     Run(fn(&LoadedRun<'_>) -> anyhow::Result<f64>),
-    /// With the number at the end of its name.
-    Numbered(fn(&LoadedRun<'_>, f64) -> anyhow::Result<f64>),
+    /// Of a run, with the rest of the name.
+    Named(fn(&LoadedRun<'_>, &str) -> anyhow::Result<f64>),
+    /// Of the trial, with the rest of the name.
+    Trial(fn(&Trial, &str, Number<'_>) -> anyhow::Result<f64>),
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
-    Direction,
     FirstYield,
-    AtPoint,
-    Largest,
-    LoadedElements,
-    Elements,
     Modes(Cantilever),
-    Turn,
     Row,
-    Intact,
     End,
     Curve,
     Frequency,
@@ -196,18 +189,9 @@ static QUANTITIES: &[(&str, Source)] = &[
         Source::Run(|it| Ok(it.branches()?.first.at[0])),
     ),
     ("branches.speed", Source::Run(|it| Ok(it.branches()?.speed))),
-    (
-        "notches.angle",
-        Source::Run(|it| Ok(it.notches()?.angle)),
-    ),
-    (
-        "notches.start",
-        Source::Run(|it| Ok(it.notches()?.start)),
-    ),
-    (
-        "notches.speed",
-        Source::Run(|it| Ok(it.notches()?.speed)),
-    ),
+    ("notches.angle", Source::Run(|it| Ok(it.notches()?.angle))),
+    ("notches.start", Source::Run(|it| Ok(it.notches()?.start))),
+    ("notches.speed", Source::Run(|it| Ok(it.notches()?.speed))),
     // Pressures under a rigid body, over `directions` along the surface and `side_points` integration points of a side.
     ("pressed.force", Source::Run(|it| Ok(it.pressed()?.force))),
     ("pressed.reach", Source::Run(|it| Ok(it.pressed()?.reach))),
@@ -365,20 +349,20 @@ fn source(name: &str) -> anyhow::Result<Source> {
     Ok(match (found, first) {
         (Some(it), _) => it.1,
         (_, "frequency") => Source::Frequency,
-        (_, "turn") => Source::Turn,
-        (_, "intact") => Source::Intact,
+        (_, "turn") => Source::Trial(|trial, angle, _| change_by_turn(trial, angle.parse()?)),
+        (_, "direction") => Source::Trial(|trial, name, _| stiffness(trial, name)),
+        (_, "loaded_elements") => Source::Trial(|_, name, number| loaded_elements(name, number)),
+        (_, "intact") => Source::Named(|it, name| it.intact(name)),
         (_, "end") => Source::End,
-        (_, "phase_speed") => Source::Numbered(|it, number| it.phase_speed(number)),
-        (_, "at_point") => Source::AtPoint,
-        (_, "direction") => Source::Direction,
+        (_, "phase_speed") => Source::Named(|it, points| it.phase_speed(points.parse()?)),
+        (_, "at_point") => Source::Named(|it, name| it.at_point(name)),
         (_, "first_yield") => Source::FirstYield,
-        (_, "largest") => Source::Largest,
-        (_, "loaded_elements") => Source::LoadedElements,
-        (_, "elements") => Source::Elements,
+        (_, "largest") => Source::Named(|it, name| it.largest(name)),
+        (_, "elements") => Source::Named(|it, name| it.difference_from_elements(name)),
         (_, "modes") => Source::Modes(Cantilever::Case),
         (_, "square_elements") => Source::Modes(Cantilever::SquareOfElements),
         (_, "lamina_elements") => Source::Modes(Cantilever::LaminaOfElements),
-        (_, "grown") => Source::Numbered(|it, number| it.grown(number)),
+        (_, "grown") => Source::Named(|it, length| it.grown(length.parse()?)),
         (_, CURVE) => Source::Curve,
         _ if history::NAMES.contains(&first) => Source::Row,
         _ => anyhow::bail!("no label, no number and no quantity is called `{name}`"),
@@ -443,15 +427,10 @@ impl Found {
                     let frequencies = of.frequencies(trial, numbers)?;
                     found.cantilevers.insert(*of, frequencies);
                 }
-                Source::End => found.to_the_end = Some(trial.solve_to_the_end()?),
-                Source::AtPoint
-                | Source::Largest
-                | Source::Elements
-                | Source::Run(_)
-                | Source::Numbered(_)
-                | Source::Row
-                | Source::Intact
-                | Source::Curve
+                Source::End if found.to_the_end.is_none() => {
+                    found.to_the_end = Some(trial.solve_to_the_end()?);
+                }
+                Source::Run(_) | Source::Named(_) | Source::Row | Source::Curve
                     if found.run.is_none() =>
                 {
                     let mut watch = Watch::new(sources.iter().map(|it| &*it.0));
@@ -480,40 +459,13 @@ impl Found {
             })
         };
         let (_, rest) = name.split_once('.').unwrap_or_default();
-        let words: Vec<&str> = rest.split('.').collect();
-        let component = |name: &str| match name {
-            "u_x" => Ok(0),
-            "u_y" => Ok(1),
-            other => anyhow::bail!("no component `{other}`"),
-        };
         Ok(vec![match source {
-            Source::Direction => stiffness(trial, rest)?,
+            Source::Trial(of) => of(trial, rest, numbers)?,
+            Source::Named(of) => of(&loaded()?, rest)?,
             Source::FirstYield => {
                 let (of, statistic) = name.rsplit_once('.').unwrap_or_default();
                 let anisotropy = self.first_yields.get(of).context("nothing yields")?;
                 anisotropy.named(statistic)?
-            }
-            Source::AtPoint => {
-                let [x, y, of] = words[..] else {
-                    anyhow::bail!("`{name}` is not `at_point.X.Y.u_x`");
-                };
-                let place = [numbers(x)?, numbers(y)?];
-                displacement_at(&run()?.0, place)[component(of)?]
-            }
-            Source::Largest => largest_displacements(&run()?.0)?[component(rest)?],
-            Source::LoadedElements => {
-                let [load, of] = words[..] else {
-                    anyhow::bail!("`{name}` is not `loaded_elements.LOAD.u_x`");
-                };
-                let (load, nu) = (SquareLoad::named(load)?, numbers("nu")?);
-                square_elements::largest_displacements(load, nu)?[component(of)?]
-            }
-            Source::Elements => {
-                let [problem, of] = words[..] else {
-                    anyhow::bail!("`{name}` is not `elements.PROBLEM.u_x`");
-                };
-                let problem = problem.replace('_', "-");
-                difference(&run()?.0, &problem, numbers("d")?, component(of)?)?
             }
             Source::Modes(of) => {
                 let frequencies = self.cantilevers.get(of).context("no modes were found")?;
@@ -523,19 +475,11 @@ impl Found {
             Source::Equations(of) => of(self.equations.as_ref().context("there is no model")?),
             Source::Family(of) => of(self.family.as_ref().context("there is no family")?),
             Source::Patch(of) => of(self.patch.as_ref().context("there is no patch test")?)?,
-            Source::Turn => change_by_turn(trial, rest.parse()?)?,
             Source::Curve => anyhow::bail!("a curve is no number"),
             Source::Run(of) => of(&loaded()?)?,
-            Source::Numbered(of) => of(&loaded()?, rest.parse()?)?,
             Source::Row => {
                 let (solution, watch) = run()?;
                 return watch.values(solution, name, numbers);
-            }
-            Source::Intact => {
-                let (solution, _) = run()?;
-                let mut rows = solution.outcome.history.iter();
-                let row = rows.rfind(|row| row.broken_bonds == 0);
-                history::value(solution, row.context("no row without a broken bond")?, rest)?
             }
             Source::End => {
                 let solution = self.to_the_end.as_ref().context("the case was not run")?;
@@ -597,6 +541,13 @@ impl Cantilever {
             Self::LaminaOfElements => lamina_elements::frequencies(number("turned")?),
         }
     }
+}
+
+/// The largest displacement of a square of finite elements, m, from a name such as `traction.u_x`.
+fn loaded_elements(name: &str, number: Number<'_>) -> anyhow::Result<f64> {
+    let (load, of) = name.split_once('.').context("no component is named")?;
+    let (load, nu) = (SquareLoad::named(load)?, number("nu")?);
+    Ok(square_elements::largest_displacements(load, nu)?[axis(of)?])
 }
 
 fn family_in_the_middle(trial: &Trial) -> anyhow::Result<EngineeringConstants> {

@@ -9,6 +9,9 @@ use crate::named_modes::in_named_order;
 use crate::tension;
 use crate::trial::Trial;
 
+/// Case of the natural modes.
+pub(super) const MODES: &str = "cases/verification/lamina-modes.toml";
+
 /// Axis of the cantilevers: x.
 const ALONG: usize = 0;
 
@@ -67,7 +70,7 @@ fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
 }
 
 fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
-    let trial = Trial::of_file(super::LAMINA_MODES)?.set("material.angle", angle.to_radians());
+    let trial = Trial::of_file(MODES)?.set("material.angle", angle.to_radians());
     let model = trial.model()?;
     let system = model.plane();
     let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;

@@ -14,9 +14,6 @@ use super::table::Extent;
 use super::tension;
 use drawing::Motion;
 
-const SQUARE_MODES: &str = "cases/verification/square-modes.toml";
-const LAMINA_MODES: &str = "cases/verification/lamina-modes.toml";
-
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "maps",
@@ -33,9 +30,9 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
         TRACTION,
         SHEAR,
         BENDING,
-        SQUARE_MODES,
+        squares::MODES,
         tension::CASE,
-        LAMINA_MODES,
+        laminas::MODES,
     ],
     compute: Compute::Code(compute),
 };

@@ -10,6 +10,9 @@ use crate::readings::case_of;
 use crate::square_elements::{self, SquareLoad};
 use crate::trial::{Memory, Trial};
 
+/// Case of the natural modes.
+pub(super) const MODES: &str = "cases/verification/square-modes.toml";
+
 const DENSITY: f64 = 2500.0;
 
 /// Axis of the plates, which are supported at their base: y.
@@ -72,7 +75,7 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Vec<Motion>> {
-        let trial = (Trial::of_file(super::SQUARE_MODES)?)
+        let trial = (Trial::of_file(MODES)?)
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.modes.result(trial.command(), || {
