@@ -3,13 +3,7 @@
 use anyhow::{anyhow, bail, ensure};
 use ligament_analysis::modal::Mode;
 
-use super::published::Published;
-use super::table::{Extent, Labels, Table};
 use super::trial::Trial;
-
-/// Frequencies of the three tables in the papers.
-const MODES: [fn(Frequencies) -> f64; 3] =
-    [|it| it.flexural, |it| it.axial, |it| it.second_flexural];
 
 /// Names of the modes of the three tables, as in the papers.
 pub(super) const NAMES: [&str; 3] = ["flexural I", "axial I", "flexural II"];
@@ -26,13 +20,6 @@ pub(super) struct Frequencies {
 }
 
 impl Frequencies {
-    /// Frequencies of an entry that is not computed: NaN.
-    pub(super) const NONE: Self = Self {
-        flexural: f64::NAN,
-        axial: f64::NAN,
-        second_flexural: f64::NAN,
-    };
-
     /// The frequency of a mode by its name.
     pub(super) fn named(self, name: &str) -> anyhow::Result<f64> {
         match name {
@@ -83,16 +70,4 @@ pub(super) fn in_named_order<T>(
         1 => [first, second, third],
         _ => [first, third, second],
     })
-}
-
-/// Tables of the first flexural, the axial and the second flexural mode, from the frequencies of each entry.
-pub(super) fn tables(
-    published: [Published; 3],
-    extent: Extent,
-    mut frequencies: impl FnMut(Labels<'_>) -> anyhow::Result<Frequencies>,
-) -> anyhow::Result<Vec<Table>> {
-    let table = |(table, frequency): (Published, fn(Frequencies) -> f64)| {
-        table.judge(extent, |labels| frequencies(labels).map(frequency))
-    };
-    published.into_iter().zip(MODES).map(table).collect()
 }

@@ -21,53 +21,12 @@ use ligament_output::csv::read::{StringRecord, records};
 
 use super::entry::{Entry, Reliability};
 use super::printed::{Allowed, Printed};
-use super::table::{Extent, Heading, Known, Labels, Table};
+use super::table::{Heading, Known};
 
 /// Columns of every table, after those of its labels.
 const COLUMNS: [&str; 6] = [
     "known", "allowed", "subset", "standing", "instead", "reason",
 ];
-
-/// A file of `published/`, embedded in the program.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Published {
-    /// Name of the file, without `.csv`.
-    pub(super) name: &'static str,
-    /// Text of the file.
-    pub(super) text: &'static str,
-}
-
-/// Embeds a file of `published/`, given by its name without `.csv`.
-macro_rules! published {
-    ($name:literal) => {
-        $crate::published::Published {
-            name: $name,
-            text: include_str!(concat!(
-                env!("CARGO_MANIFEST_DIR"),
-                "/src/published/",
-                $name,
-                ".csv"
-            )),
-        }
-    };
-}
-
-pub(super) use published;
-
-impl Published {
-    /// The table, or its fast subset, with the results of `compute` for the labels of each entry.
-    ///
-    /// # Errors
-    ///
-    /// If the file is not a table of known values, or `compute` fails, with the labels of the entry.
-    pub(super) fn judge(
-        self,
-        extent: Extent,
-        compute: impl FnMut(Labels<'_>) -> anyhow::Result<f64>,
-    ) -> anyhow::Result<Table> {
-        known_values(self.name, self.text)?.judge(extent, compute)
-    }
-}
 
 /// The known values of a table, by the name of its file.
 pub(super) fn known(table: &str) -> anyhow::Result<Known> {
@@ -234,7 +193,7 @@ fn unknown_columns() -> String {
 #[cfg(test)]
 mod tests {
     use super::super::entry::Verdict;
-    use super::super::table::LabelError;
+    use super::super::table::{Extent, LabelError, Labels};
     use super::*;
 
     const HEAD: &str = "\

@@ -4,8 +4,8 @@ use anyhow::ensure;
 use ligament::run::Solution;
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::named_modes::{self, Frequencies};
-use super::published::{Published, published};
+use super::named_modes::Frequencies;
+use super::published::known;
 use super::square_elements::SquareLoad;
 use super::table::{Extent, Labels, Row, Table};
 use super::trial::{Memory, Trial, displacement_at, largest_displacements};
@@ -33,13 +33,6 @@ const MODES: &str = "cases/verification/square-modes.toml";
 /// Axis of the plate of the modes, which is supported at its base: y.
 const ALONG: usize = 1;
 
-/// Tables of natural frequencies.
-const TABLES: [Published; 3] = [
-    published!("mppd-table-4"),
-    published!("mppd-table-5"),
-    published!("mppd-table-6"),
-];
-
 /// Number of points along a side of the static plates.
 const POINTS: u32 = 61;
 
@@ -55,11 +48,11 @@ const FORCE: f64 = 100.0;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
-    let statics = published!("mppd-readings-statics").judge(extent, |labels| {
+    let statics = known("mppd-readings-statics")?.judge(extent, |labels| {
         score(labels, &mut memory, || static_tables(labels))
     })?;
     let mut memory = Memory::default();
-    let frequencies = published!("mppd-readings-frequencies").judge(extent, |labels| {
+    let frequencies = known("mppd-readings-frequencies")?.judge(extent, |labels| {
         score(labels, &mut memory, || modal_tables(labels))
     })?;
     Ok(Findings {
@@ -157,8 +150,8 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let is_largest = reading.text("point")? == "largest";
     let mut memory = Memory::default();
-    let mut table = |table: Published, load: SquareLoad| {
-        table.judge(Extent::Full, |printed| {
+    let mut table = |table: &str, load: SquareLoad| {
+        known(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? {
                 return Ok(f64::NAN);
             }
@@ -179,26 +172,33 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
         })
     };
     Ok(vec![
-        table(published!("mppd-table-1"), SquareLoad::Traction)?,
-        table(published!("mppd-table-2"), SquareLoad::Shear)?,
-        table(published!("mppd-table-3"), SquareLoad::Bending)?,
+        table("mppd-table-1", SquareLoad::Traction)?,
+        table("mppd-table-2", SquareLoad::Shear)?,
+        table("mppd-table-3", SquareLoad::Bending)?,
     ])
 }
 
 /// Tables 4 to 6 under a reading.
 fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
-    let none = Frequencies::NONE;
     let mut memory = Memory::default();
-    named_modes::tables(TABLES, Extent::Full, |printed| {
-        if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
-            return Ok(none);
-        }
-        let trial = with_law(Trial::of_file(MODES)?, reading)?
-            .set("lattice.set.base.bottom", rows)
-            .set("material.poisson", printed.number("nu")?);
-        memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG))
-    })
+    let mut table = |table: &str, mode: &str| {
+        known(table)?.judge(Extent::Full, |printed| {
+            if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
+                return Ok(f64::NAN);
+            }
+            let trial = with_law(Trial::of_file(MODES)?, reading)?
+                .set("lattice.set.base.bottom", rows)
+                .set("material.poisson", printed.number("nu")?);
+            let found = memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG));
+            found?.named(mode)
+        })
+    };
+    Ok(vec![
+        table("mppd-table-4", "flexural")?,
+        table("mppd-table-5", "axial")?,
+        table("mppd-table-6", "second_flexural")?,
+    ])
 }
 
 /// A trial with the model of a reading.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::published;
+use super::published::known;
 use super::table::{Extent, Labels};
 use super::trial::{Memory, Trial};
 
@@ -22,7 +22,7 @@ const CASE: &str = "cases/branching/case.toml";
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
-    let table = published!("motion-schemes").judge(extent, |labels| common(labels, &mut memory))?;
+    let table = known("motion-schemes")?.judge(extent, |labels| common(labels, &mut memory))?;
     Ok(Findings {
         tables: vec![table],
         ..Findings::default()

@@ -1,7 +1,7 @@
 //! An orthotropic lamina with a hole in tension, compared with finite elements (OMPPD Figs 16, 17).
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::published;
+use super::published::known;
 use super::table::Extent;
 use super::trial::{Memory, Trial, displacement_at, displacements};
 use ligament::run::Solution;
@@ -44,7 +44,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let elements = elements.numbers(["zeta", "x", "y", "ux", "uy"])?;
     let mut memory = Memory::default();
     let mut edges: Vec<Edge> = Vec::new();
-    let table = published!("omppd-tension").judge(extent, |labels| {
+    let table = known("omppd-tension")?.judge(extent, |labels| {
         let angle = labels.number("angle")?;
         let trial = Trial::of_file(CASE)?.set("material.angle", angle.to_radians());
         let edge = memory.reading(&trial, |it| {

@@ -5,7 +5,7 @@ use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch}
 use ligament_post::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::{Published, published};
+use super::published::known;
 use super::table::{Extent, Labels, Table};
 use super::trial::Trial;
 use ligament_plot::plots::{Colour, Plot, Series};
@@ -43,16 +43,16 @@ const RATIOS: [(f64, Colour); 5] = [
 ];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let printed = |table: Published, criterion: &str| -> anyhow::Result<Table> {
+    let printed = |table: &str, criterion: &str| -> anyhow::Result<Table> {
         let combination = named(criterion)?;
-        table.judge(extent, |labels| {
+        known(table)?.judge(extent, |labels| {
             let directions = lattice::directions(labels.number("m")?);
             let worst = combination.printed_measure(&STRENGTHS, &directions, path(labels)?)?;
             Ok(100.0 * worst.context("nothing yields")?.error)
         })
     };
     let frictional = named("frictional")?;
-    let first_yield = published!("first-yield-frictional").judge(extent, |labels| {
+    let first_yield = known("first-yield-frictional")?.judge(extent, |labels| {
         let directions = lattice::directions(labels.number("m")?);
         let criteria = frictional.criteria(&STRENGTHS, directions.len())?;
         let family = Family::of_directions(&directions, &criteria);
@@ -60,11 +60,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         Ok(100.0 * worst.context("nothing yields")?.error)
     })?;
     let tables = vec![
-        printed(published!("mppd-table-7"), "stretch")?,
-        printed(published!("mppd-table-8"), "sliding")?,
-        printed(published!("mppd-table-9"), "frictional")?,
+        printed("mppd-table-7", "stretch")?,
+        printed("mppd-table-8", "sliding")?,
+        printed("mppd-table-9", "frictional")?,
         first_yield,
-        published!("bar-yield").judge(extent, bar_yield)?,
+        known("bar-yield")?.judge(extent, bar_yield)?,
     ];
     let plots = ["stretch", "sliding", "frictional"].map(over_orientation);
     Ok(Findings {
