@@ -7,7 +7,7 @@
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | [`experiment_file`] | experiments that are files beside their tables, and what expressions there can read |
 //! | `fast_crack`, `griffith`, `hole`, `record`, ... | what they read from a run, one subject each |
-//! | `readings`, `tension`, `maps`, `yielding`, `schemes` | the other experiments, one module each |
+//! | `readings`, `tension`, `maps`, `yielding` | the other experiments, one module each |
 //! | [`finite_elements`] | classical elasticity, for comparison with the lattices of the papers |
 //! | [`measured`] | measured tests with bands of acceptance, from a table |
 //! | `papers` | the papers' tables and figures, and the tables of this report that compare them |
@@ -51,7 +51,6 @@ mod readings;
 mod record;
 mod report;
 mod ring;
-mod schemes;
 mod square_elements;
 pub mod table;
 pub mod tally;
@@ -122,7 +121,7 @@ static PUBLISHED: [Written; 46] = [
     File("motion_disk"),
     File("motion_splitting"),
     File("motion_contact"),
-    Code(&schemes::EXPERIMENT),
+    File("motion_schemes"),
     File("contact_sliding"),
     File("contact_hertz"),
     File("contact_flaw"),

@@ -53,12 +53,6 @@ impl Trial {
         self
     }
 
-    /// The trial on a lattice of `cells` cells along x and y, with a spacing (m).
-    pub(super) fn on_lattice(self, cells: [u32; 2], spacing: f64) -> Self {
-        self.set("lattice.cells", cells)
-            .set("lattice.spacing", spacing)
-    }
-
     /// The trial on a mesh file.
     pub(super) fn on_mesh_file(self, path: PathBuf) -> Self {
         Self {
@@ -217,18 +211,6 @@ impl<T: Clone> Memory<T> {
         read: impl FnOnce(&Solution) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
         self.result(trial.command(), || read(&trial.solve()?))
-    }
-
-    /// The reading from the run of a trial and its breakages, computed on its first use.
-    pub(super) fn reading_with_breakages(
-        &mut self,
-        trial: &Trial,
-        read: impl FnOnce(&Solution, &[BreakRecord]) -> anyhow::Result<T>,
-    ) -> anyhow::Result<T> {
-        self.result(trial.command(), || {
-            let (solution, breaks) = trial.solve_with_breakages()?;
-            read(&solution, &breaks)
-        })
     }
 }
 

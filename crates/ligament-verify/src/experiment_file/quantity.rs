@@ -11,10 +11,11 @@
 //! | `at_point.X.Y.u_x` | displacement of the point nearest to a place, whose coordinates are numbers of the experiment by their names, m |
 //! | `direction.STIFFNESS.OF` | [stiffness of bonds](crate::directions) over their direction |
 //! | `first_yield.CRITERION.STRAIN.STATISTIC` | errors of [first yield](crate::anisotropy) on a mesh |
-//! | `largest.u_x` | largest |u_x| of all points, m |
+//! | `largest.u_x` | largest size of a displacement of all points, m |
 //! | `loaded_elements.LOAD.u_x` | the same of a [square of finite elements](crate::square_elements), m |
 //! | `elements.PROBLEM.u_x` | difference of a plate from finite elements: L2 norm over all points, over that by the elements |
 //! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
+//! | `common_breaks.N` | bonds that break up to N us with explicit and implicit steps alike, over those that one of them breaks more of |
 //! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
 //! | others | the row of [`QUANTITIES`] |
 
@@ -24,6 +25,7 @@ use anyhow::{Context, ensure};
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament::run::Solution;
 use ligament_analysis::Termination;
+use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::ModeKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 
@@ -56,6 +58,7 @@ enum Source {
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
+    CommonBreaks,
     FirstYield,
     Modes(Cantilever),
     Row,
@@ -356,6 +359,7 @@ fn source(name: &str) -> anyhow::Result<Source> {
         (_, "end") => Source::End,
         (_, "phase_speed") => Source::Named(|it, points| it.phase_speed(points.parse()?)),
         (_, "at_point") => Source::Named(|it, name| it.at_point(name)),
+        (_, "common_breaks") => Source::CommonBreaks,
         (_, "first_yield") => Source::FirstYield,
         (_, "largest") => Source::Named(|it, name| it.largest(name)),
         (_, "elements") => Source::Named(|it, name| it.difference_from_elements(name)),
@@ -389,6 +393,8 @@ struct Found {
     run: Option<(Solution, Watch)>,
     to_the_end: Option<Solution>,
     cantilevers: BTreeMap<Cantilever, Frequencies>,
+    /// Breakages with explicit and with implicit steps.
+    schemes: Vec<Vec<BreakRecord>>,
     /// Errors of first yield, by the name of the quantity up to its statistic.
     first_yields: BTreeMap<String, Anisotropy>,
 }
@@ -411,6 +417,12 @@ impl Found {
                             words.next().zip(words.next()).context("no strain")?;
                         let anisotropy = Anisotropy::new(&trial.model()?, criterion, strain)?;
                         found.first_yields.insert(of.to_owned(), anisotropy);
+                    }
+                }
+                Source::CommonBreaks if found.schemes.is_empty() => {
+                    for scheme in ["explicit", "implicit"] {
+                        let trial = trial.clone().set("motion.scheme", scheme);
+                        found.schemes.push(trial.solve_with_breakages()?.1);
                     }
                 }
                 Source::Frequency if found.modes.is_empty() => found.modes = frequencies(trial)?,
@@ -462,6 +474,7 @@ impl Found {
         Ok(vec![match source {
             Source::Trial(of) => of(trial, rest, numbers)?,
             Source::Named(of) => of(&loaded()?, rest)?,
+            Source::CommonBreaks => common_breaks(&self.schemes, 1e-6 * rest.parse::<f64>()?),
             Source::FirstYield => {
                 let (of, statistic) = name.rsplit_once('.').unwrap_or_default();
                 let anisotropy = self.first_yields.get(of).context("nothing yields")?;
@@ -541,6 +554,18 @@ impl Cantilever {
             Self::LaminaOfElements => lamina_elements::frequencies(number("turned")?),
         }
     }
+}
+
+/// Share of the bonds that break up to a time in all runs, of the largest number of them in one.
+fn common_breaks(runs: &[Vec<BreakRecord>], until: f64) -> f64 {
+    let early = |run: &Vec<BreakRecord>| -> BTreeSet<u32> {
+        let early = run.iter().filter(|it| it.load_factor <= until);
+        early.map(|it| it.bond).collect()
+    };
+    let broken: Vec<BTreeSet<u32>> = runs.iter().map(early).collect();
+    let most = broken.iter().map(BTreeSet::len).max().unwrap_or_default();
+    let common = broken.into_iter().reduce(|one, other| &one & &other);
+    common.unwrap_or_default().len() as f64 / most as f64
 }
 
 /// The largest displacement of a square of finite elements, m, from a name such as `traction.u_x`.
