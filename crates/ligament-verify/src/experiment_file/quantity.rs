@@ -2,7 +2,7 @@
 //!
 //! | name | quantity |
 //! |---|---|
-//! | those of [`history`](super::history) | in a row of the history, or in the last one |
+//! | those of [`history`] | in a row of the history, or in the last one |
 //! | `intact.NAME` | the same in the last row without a broken bond |
 //! | `end.NAME` | the same in the last equilibrium of a run that goes on until none follows |
 //! | `frequency.N` | frequency of the elastic mode N from one on, Hz; the case is one of natural modes |
