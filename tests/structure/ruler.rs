@@ -24,7 +24,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-report", 18_514),
     ("ligament-run", 29_864),
     ("ligament-study", 63_782),
-    ("ligament-verify", 94_219),
+    ("ligament-verify", 74_204),
 ];
 
 /// Short files of the crates. The numbers may fall.
@@ -44,7 +44,7 @@ const SHORT_FILES: [(&str, usize); 16] = [
     ("ligament-report", 2),
     ("ligament-run", 11),
     ("ligament-study", 0),
-    ("ligament-verify", 6),
+    ("ligament-verify", 4),
 ];
 
 /// Share of its number by which a crate may be smaller, so that a gain is written down before it is used up.

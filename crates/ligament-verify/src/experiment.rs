@@ -8,7 +8,6 @@ use super::experiment_file::ExperimentFile;
 use super::measured::MeasuredTest;
 use super::measured::scoreboard::Scores;
 use super::table::{Extent, Table};
-use super::trial::Template;
 
 /// One or several related published cases, or a measured test.
 #[derive(Debug, Clone, Copy)]
@@ -21,8 +20,8 @@ pub struct Experiment {
     pub source: &'static str,
     /// Description of the computation.
     pub setup: &'static str,
-    /// Cases that are run, with settings of each entry. An experiment that is a file names its cases there.
-    pub cases: &'static [&'static Template],
+    /// Paths of the cases that are run, with settings of each entry. An experiment that is a file names its cases there.
+    pub cases: &'static [&'static str],
     /// Way to the tables.
     pub compute: Compute,
 }
@@ -43,7 +42,7 @@ impl Experiment {
     pub fn case_files(&self) -> Vec<&'static str> {
         match self.compute {
             Compute::File(file) => file.cases(),
-            _ => self.cases.iter().map(|it| it.path).collect(),
+            _ => self.cases.to_vec(),
         }
     }
 

@@ -1,4 +1,7 @@
 //! Cracks controlled by the fracture energy: failure stress of a plate with a central crack, energy and straightness of a crack.
+//!
+//! Numbers of the experiment: `half_width` of the plate and `half_length` of the central crack, `thickness`, `edge_tip` of the edge crack (m), `young` (Pa) and
+//! `fracture_energy` (J/m^2).
 
 use std::f64::consts::PI;
 
@@ -6,10 +9,7 @@ use anyhow::{Context, ensure};
 use ligament::run::Solution;
 
 use super::crack_path::ends;
-
-/// Numbers of the experiment by their names: the halves of the plate's width and of the central crack, its thickness, the tip of the edge crack (m),
-/// Young's modulus (Pa) and the fracture energy (J/m^2).
-type Number<'a> = &'a dyn Fn(&str) -> anyhow::Result<f64>;
+use super::trial::Number;
 
 /// Shift of the part of the line whose crossings are counted, m. Bonds of a lattice cross at the points of the lattice, and the ends of
 /// that part should be between them.

@@ -3,6 +3,7 @@
 use ligament_model::material::{Elasticity, Orthotropic};
 
 use super::finite_elements::{Body, Degree, Mesh, Mode};
+use super::named_modes::Frequencies;
 
 const HEIGHT: f64 = 0.2;
 
@@ -45,6 +46,13 @@ pub(super) fn modes(angle: f64) -> anyhow::Result<(Mesh, Vec<Mode>)> {
         .collect();
     let modes = body.modes(&held, DENSITY, 3)?;
     Ok((body.mesh, modes))
+}
+
+/// The named frequencies of the lamina with a fixed left end, Hz.
+pub(super) fn frequencies(angle: f64) -> anyhow::Result<Frequencies> {
+    let (_, modes) = modes(angle)?;
+    let named = |mode: &Mode| (mode.frequency, mode.participation[0]);
+    Frequencies::from_modes(modes.iter().map(named))
 }
 
 /// The displacements of the nodes under tension by the layers at both ends along x, m.

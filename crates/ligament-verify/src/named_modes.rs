@@ -1,15 +1,9 @@
 //! The modes of a cantilever by name.
 
-use anyhow::{Context, anyhow, ensure};
+use anyhow::{anyhow, bail, ensure};
 use ligament_analysis::modal::Mode;
 
-use super::published::Published;
-use super::table::{Extent, LabelError, Labels, Table};
 use super::trial::Trial;
-
-/// Frequencies of the three tables in the papers.
-const MODES: [fn(Frequencies) -> f64; 3] =
-    [|it| it.flexural, |it| it.axial, |it| it.second_flexural];
 
 /// Names of the modes of the three tables, as in the papers.
 pub(super) const NAMES: [&str; 3] = ["flexural I", "axial I", "flexural II"];
@@ -26,12 +20,15 @@ pub(super) struct Frequencies {
 }
 
 impl Frequencies {
-    /// Frequencies of an entry that is not computed: NaN.
-    pub(super) const NONE: Self = Self {
-        flexural: f64::NAN,
-        axial: f64::NAN,
-        second_flexural: f64::NAN,
-    };
+    /// The frequency of a mode by its name.
+    pub(super) fn named(self, name: &str) -> anyhow::Result<f64> {
+        match name {
+            "flexural" => Ok(self.flexural),
+            "axial" => Ok(self.axial),
+            "second_flexural" => Ok(self.second_flexural),
+            other => bail!("no mode `{other}`"),
+        }
+    }
 
     /// The named frequencies of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
     ///
@@ -72,39 +69,5 @@ pub(super) fn in_named_order<T>(
         0 => [second, first, third],
         1 => [first, second, third],
         _ => [first, third, second],
-    })
-}
-
-/// Tables of the first flexural, the axial and the second flexural mode, from the frequencies of each entry.
-pub(super) fn tables(
-    published: [Published; 3],
-    extent: Extent,
-    mut frequencies: impl FnMut(Labels<'_>) -> anyhow::Result<Frequencies>,
-) -> anyhow::Result<Vec<Table>> {
-    let table = |(table, frequency): (Published, fn(Frequencies) -> f64)| {
-        table.judge(extent, |labels| frequencies(labels).map(frequency))
-    };
-    published.into_iter().zip(MODES).map(table).collect()
-}
-
-/// A table of the differences of the lattice from finite elements, %: each entry has the index of a table, and `rows` returns the labels of
-/// the lattice's and the elements' row there.
-pub(super) fn errors(
-    published: Published,
-    extent: Extent,
-    tables: &[Table],
-    rows: impl Fn(Labels<'_>) -> Result<[String; 2], LabelError>,
-) -> anyhow::Result<Table> {
-    published.judge(extent, |labels| {
-        let name = format!("-table-{}", labels.text("table")?);
-        let table = (tables.iter())
-            .find(|table| table.heading.name.ends_with(&name))
-            .context("no such table")?;
-        let frequency = |of: &str| {
-            let found = table.computed(&table.heading.keys[0], of)?;
-            found.first().map(|it| it[1]).context("no such frequency")
-        };
-        let [lattice, elements] = rows(labels)?;
-        Ok(100.0 * (frequency(&lattice)? / frequency(&elements)? - 1.0).abs())
     })
 }

@@ -14,56 +14,30 @@
 //! The columns before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the unit of the table,
 //! two differences such as `-0.02 to 0.005`, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or `missed`.
 
+use std::path::{Path, PathBuf};
+
+use anyhow::Context;
 use ligament_output::csv::read::{StringRecord, records};
 
 use super::entry::{Entry, Reliability};
 use super::printed::{Allowed, Printed};
-use super::table::{Extent, Heading, Known, Labels, Table};
+use super::table::{Heading, Known};
 
 /// Columns of every table, after those of its labels.
 const COLUMNS: [&str; 6] = [
     "known", "allowed", "subset", "standing", "instead", "reason",
 ];
 
-/// A file of `published/`, embedded in the program.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Published {
-    /// Name of the file, without `.csv`.
-    pub(super) name: &'static str,
-    /// Text of the file.
-    pub(super) text: &'static str,
+/// The known values of a table, by the name of its file.
+pub(super) fn known(table: &str) -> anyhow::Result<Known> {
+    let path = folder().join(format!("{table}.csv"));
+    let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
+    Ok(known_values(table, &text)?)
 }
 
-/// Embeds a file of `published/`, given by its name without `.csv`.
-macro_rules! published {
-    ($name:literal) => {
-        $crate::published::Published {
-            name: $name,
-            text: include_str!(concat!(
-                env!("CARGO_MANIFEST_DIR"),
-                "/src/published/",
-                $name,
-                ".csv"
-            )),
-        }
-    };
-}
-
-pub(super) use published;
-
-impl Published {
-    /// The table, or its fast subset, with the results of `compute` for the labels of each entry.
-    ///
-    /// # Errors
-    ///
-    /// If the file is not a table of known values, or `compute` fails, with the labels of the entry.
-    pub(super) fn judge(
-        self,
-        extent: Extent,
-        compute: impl FnMut(Labels<'_>) -> anyhow::Result<f64>,
-    ) -> anyhow::Result<Table> {
-        known_values(self.name, self.text)?.judge(extent, compute)
-    }
+/// Folder of the experiments and their tables.
+pub(super) fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src/published")
 }
 
 /// Error of a table, with its line.
@@ -219,7 +193,7 @@ fn unknown_columns() -> String {
 #[cfg(test)]
 mod tests {
     use super::super::entry::Verdict;
-    use super::super::table::LabelError;
+    use super::super::table::{Extent, LabelError, Labels};
     use super::*;
 
     const HEAD: &str = "\

@@ -1,15 +1,14 @@
 //! Readings of the details that MPPD leaves open: number of its micropolar values that each reading meets (Tables 1 to 6).
 
 use anyhow::ensure;
+use ligament::run::Solution;
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::frequencies;
-use super::named_modes::{self, Frequencies};
-use super::published::published;
+use super::named_modes::Frequencies;
+use super::published::known;
 use super::square_elements::SquareLoad;
-use super::statics::{self, Reading, case_of};
 use super::table::{Extent, Labels, Row, Table};
-use super::trial::{Memory, Trial};
+use super::trial::{Memory, Trial, displacement_at, largest_displacements};
 
 /// The experiment.
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -22,14 +21,17 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             of points or so many rows held, and displacements that are the largest of all points or those in the \
             middles of the sides. A reading is judged by the printed values it meets to the digits, and by the median \
             and the largest difference from them.",
-    cases: &[
-        &statics::TRACTION,
-        &statics::SHEAR,
-        &statics::BENDING,
-        &frequencies::CASE,
-    ],
+    cases: &[TRACTION, SHEAR, BENDING, MODES],
     compute: Compute::Code(compute),
 };
+
+pub(super) const TRACTION: &str = "cases/verification/square-traction.toml";
+pub(super) const SHEAR: &str = "cases/verification/square-shear.toml";
+pub(super) const BENDING: &str = "cases/verification/square-bending.toml";
+const MODES: &str = "cases/verification/square-modes.toml";
+
+/// Axis of the plate of the modes, which is supported at its base: y.
+const ALONG: usize = 1;
 
 /// Number of points along a side of the static plates.
 const POINTS: u32 = 61;
@@ -38,16 +40,19 @@ const POINTS: u32 = 61;
 const SPACING: f64 = 0.01;
 const HALF_WIDTH: f64 = 0.305;
 
+/// Half-width between the outermost points, m.
+const MIDDLE: f64 = 0.3;
+
 /// Force on a point where the load is on one row, N.
 const FORCE: f64 = 100.0;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut memory = Memory::default();
-    let statics = published!("mppd-readings-statics").judge(extent, |labels| {
+    let statics = known("mppd-readings-statics")?.judge(extent, |labels| {
         score(labels, &mut memory, || static_tables(labels))
     })?;
     let mut memory = Memory::default();
-    let frequencies = published!("mppd-readings-frequencies").judge(extent, |labels| {
+    let frequencies = known("mppd-readings-frequencies")?.judge(extent, |labels| {
         score(labels, &mut memory, || modal_tables(labels))
     })?;
     Ok(Findings {
@@ -55,6 +60,38 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         plots: Vec::new(),
         ..Findings::default()
     })
+}
+
+/// Displacements of a run for the tables, m.
+#[derive(Debug, Clone, Copy)]
+struct Reading {
+    /// Largest |u_x| and |u_y| of all points.
+    largest: [f64; 2],
+    /// Values |u_x| and |u_y| in the middles of the right and the upper side.
+    middle: [f64; 2],
+    /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, which does not depend on a rigid rotation;
+    /// twice.
+    of_sides: [f64; 2],
+}
+
+impl Reading {
+    fn from_solution(solution: &Solution) -> anyhow::Result<Self> {
+        let at = |x, y| displacement_at(solution, [x, y]);
+        Ok(Self {
+            largest: largest_displacements(solution)?,
+            middle: [at(MIDDLE, 0.0)[0].abs(), at(0.0, MIDDLE)[1].abs()],
+            of_sides: [0.5 * (at(0.0, MIDDLE)[0] + at(MIDDLE, 0.0)[1]); 2],
+        })
+    }
+}
+
+/// The case with a load.
+pub(super) fn case_of(load: SquareLoad) -> &'static str {
+    match load {
+        SquareLoad::Traction => TRACTION,
+        SquareLoad::Shear => SHEAR,
+        SquareLoad::Bending => BENDING,
+    }
 }
 
 /// Agreement of a reading with the printed values.
@@ -113,12 +150,12 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let is_largest = reading.text("point")? == "largest";
     let mut memory = Memory::default();
-    let mut table = |table: super::published::Published, load: SquareLoad| {
-        table.judge(Extent::Full, |printed| {
+    let mut table = |table: &str, load: SquareLoad| {
+        known(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? {
                 return Ok(f64::NAN);
             }
-            let trial = loaded_on(case_of(load).trial(), load, rows);
+            let trial = loaded_on(Trial::of_file(case_of(load))?, load, rows);
             let trial = with_law(trial, reading)?.set("material.poisson", printed.number("nu")?);
             let found = memory.reading(&trial, Reading::from_solution)?;
             let [x, y] = match load {
@@ -135,28 +172,33 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
         })
     };
     Ok(vec![
-        table(published!("mppd-table-1"), SquareLoad::Traction)?,
-        table(published!("mppd-table-2"), SquareLoad::Shear)?,
-        table(published!("mppd-table-3"), SquareLoad::Bending)?,
+        table("mppd-table-1", SquareLoad::Traction)?,
+        table("mppd-table-2", SquareLoad::Shear)?,
+        table("mppd-table-3", SquareLoad::Bending)?,
     ])
 }
 
 /// Tables 4 to 6 under a reading.
 fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
-    let none = Frequencies::NONE;
     let mut memory = Memory::default();
-    named_modes::tables(frequencies::TABLES, Extent::Full, |printed| {
-        if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
-            return Ok(none);
-        }
-        let trial = with_law(frequencies::CASE.trial(), reading)?
-            .set("lattice.set.base.bottom", rows)
-            .set("material.poisson", printed.number("nu")?);
-        memory.result(trial.command(), || {
-            Frequencies::from_trial(&trial, frequencies::ALONG)
+    let mut table = |table: &str, mode: &str| {
+        known(table)?.judge(Extent::Full, |printed| {
+            if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
+                return Ok(f64::NAN);
+            }
+            let trial = with_law(Trial::of_file(MODES)?, reading)?
+                .set("lattice.set.base.bottom", rows)
+                .set("material.poisson", printed.number("nu")?);
+            let found = memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG));
+            found?.named(mode)
         })
-    })
+    };
+    Ok(vec![
+        table("mppd-table-4", "flexural")?,
+        table("mppd-table-5", "axial")?,
+        table("mppd-table-6", "second_flexural")?,
+    ])
 }
 
 /// A trial with the model of a reading.

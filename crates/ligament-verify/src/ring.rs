@@ -30,7 +30,7 @@ pub(super) struct RadialDisplacements {
 
 impl Ring {
     /// Lame's solution u_r = (1 + nu)/E A ((1 - 2 nu) r + r_o^2/r), A = p r_i^2/(r_o^2 - r_i^2), m.
-    fn lame(&self, r: f64) -> f64 {
+    pub(super) fn lame(&self, r: f64) -> f64 {
         let (inner, outer) = (self.inner, self.outer);
         let constant = self.pressure * inner.powi(2) / (outer.powi(2) - inner.powi(2));
         let shape = (1.0 - 2.0 * self.poisson) * r + outer.powi(2) / r;
@@ -38,27 +38,36 @@ impl Ring {
     }
 }
 
-/// Radial displacements of a ring in the last state of a run, without its rigid motion.
-pub(super) fn radial_displacements(solution: &Solution, ring: &Ring) -> RadialDisplacements {
+/// Places and radial displacements of all points in the last state of a run, without the rigid motion of a ring, m.
+pub(super) fn radial(solution: &Solution) -> Vec<([f64; 2], f64)> {
     let cloud = &solution.model.plane().cloud;
     let places = cloud.positions.iter();
     let places = places.map(|[x, y]| [x + cloud.origin[0], y + cloud.origin[1]]);
     let moved: Vec<([f64; 2], [f64; 2])> = places.zip(displacements(solution)).collect();
-    // Lame's field has a zero mean over the volume, and a rotation has no u_r.
-    let volume: f64 = cloud.volumes.iter().sum();
+    // Lame's field has a zero mean over the volume, and a rotation has no u_r. Points of a lattice have equal volumes.
+    let weights = match cloud.lattice_cell {
+        Some(_) => vec![1.0; cloud.len()],
+        None => cloud.volumes.clone(),
+    };
+    let whole: f64 = weights.iter().sum();
     let mean = [0, 1].map(|axis| {
-        let weighted = moved.iter().zip(&cloud.volumes);
+        let weighted = moved.iter().zip(&weights);
         weighted
-            .map(|((_, u), volume)| volume * u[axis])
+            .map(|((_, u), weight)| weight * u[axis])
             .sum::<f64>()
-            / volume
+            / whole
     });
-    let radial: Vec<[f64; 2]> = (moved.iter())
-        .map(|([x, y], [u, v])| {
-            let r = x.hypot(*y);
-            [r, ((u - mean[0]) * x + (v - mean[1]) * y) / r]
-        })
-        .collect();
+    let radial = moved.into_iter().map(|([x, y], [u, v])| {
+        let found = ((u - mean[0]) * x + (v - mean[1]) * y) / x.hypot(y);
+        ([x, y], found)
+    });
+    radial.collect()
+}
+
+/// Radial displacements of a ring in the last state of a run.
+pub(super) fn radial_displacements(solution: &Solution, ring: &Ring) -> RadialDisplacements {
+    let radial = radial(solution).into_iter();
+    let radial: Vec<[f64; 2]> = radial.map(|([x, y], u)| [x.hypot(y), u]).collect();
     let on = |radius: f64| {
         let points = radial
             .iter()

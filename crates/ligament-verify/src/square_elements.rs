@@ -27,6 +27,18 @@ pub(super) enum SquareLoad {
     Bending,
 }
 
+impl SquareLoad {
+    /// The load of a name.
+    pub(super) fn named(name: &str) -> anyhow::Result<Self> {
+        match name {
+            "traction" => Ok(Self::Traction),
+            "shear" => Ok(Self::Shear),
+            "bending" => Ok(Self::Bending),
+            other => anyhow::bail!("no load `{other}`"),
+        }
+    }
+}
+
 /// A plate of `cells` elements with four nodes along each side.
 fn plate(poisson: f64, cells: usize) -> Body {
     let elasticity = Elasticity::Isotropic(Isotropic {

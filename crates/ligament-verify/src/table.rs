@@ -3,7 +3,6 @@
 use std::fmt;
 
 use anyhow::Context;
-use ligament_plot::plots::{Plot, Series};
 
 use super::entry::{Entry, Verdict};
 use super::printed::{Allowed, Difference};
@@ -151,11 +150,6 @@ impl Table {
             }
         }
         Ok(points)
-    }
-
-    /// A plot with the name and the title of the table.
-    pub(super) fn plot(&self, axes: [&str; 2], series: Vec<Series>) -> Plot {
-        Plot::new(&self.heading.name, &self.heading.title, axes, series)
     }
 
     /// Computed minus known value of a row: an amount in a table with absolute tolerances or where the known value is 0, otherwise a share

@@ -1,9 +1,9 @@
 //! An orthotropic lamina with a hole in tension, compared with finite elements (OMPPD Figs 16, 17).
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::published;
+use super::published::known;
 use super::table::Extent;
-use super::trial::{Memory, Template, displacement_at, displacements, template};
+use super::trial::{Memory, Trial, displacement_at, displacements};
 use ligament::run::Solution;
 use ligament_output::csv::read::Sheet;
 use ligament_plot::plots::{Colour, Plot, Series};
@@ -16,11 +16,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     setup: "The lamina of the natural frequencies (2,992 points, m = 3.2), u_x = -0.5 and 0.5 mm in the three \
             columns at its ends, free along y (u_y is given less its mean over all points). Displacements of the \
             upper row of cells against an independent solution by finite elements at the same points.",
-    cases: &[&CASE],
+    cases: &[CASE],
     compute: Compute::Code(compute),
 };
 
-pub(super) static CASE: Template = template!("verification/lamina-tension.toml");
+pub(super) const CASE: &str = "cases/verification/lamina-tension.toml";
 
 /// Table of angle (degrees), x, y (m), u_x, u_y (m) by finite elements along the upper edge.
 const ELEMENTS: &str = include_str!("../../../tests/reference/fem-hole-edge.csv");
@@ -44,9 +44,9 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let elements = elements.numbers(["zeta", "x", "y", "ux", "uy"])?;
     let mut memory = Memory::default();
     let mut edges: Vec<Edge> = Vec::new();
-    let table = published!("omppd-tension").judge(extent, |labels| {
+    let table = known("omppd-tension")?.judge(extent, |labels| {
         let angle = labels.number("angle")?;
-        let trial = CASE.trial().set("material.angle", angle.to_radians());
+        let trial = Trial::of_file(CASE)?.set("material.angle", angle.to_radians());
         let edge = memory.reading(&trial, |it| {
             let edge = Edge::from_solution(it, &elements, angle);
             edges.push(edge.clone());

@@ -1,95 +1,32 @@
 //! A case of the repository, run in memory with changed settings.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use ligament::body::AnyBody;
 use ligament::run::{NoObserver, Solution};
 use ligament::{Model, Setup};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::Mode;
 use ligament_analysis::{Component, Observer, Termination};
-use ligament_mesh::{AnyMesh, gmsh};
 
-use ligament_case::case::document::Node;
-use ligament_case::case::{BodyKind, CaseFile};
+use ligament_case::case::CaseFile;
 
 use super::crack_path::Breakages;
 use super::places::repository;
 
-/// A case file of the repository, embedded in the program.
-#[derive(Debug)]
-pub struct Template {
-    /// Path of the case in the repository.
-    pub path: &'static str,
-    /// Text of the case.
-    pub(super) text: &'static str,
-}
-
-/// Embeds a case file of `cases/`, given by its path there.
-macro_rules! template {
-    ($path:literal) => {
-        $crate::trial::Template {
-            path: concat!("cases/", $path),
-            text: include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../cases/", $path)),
-        }
-    };
-}
-
-/// Embeds a mesh of `meshes/`, given by its name.
-macro_rules! stored_mesh {
-    ($name:literal) => {
-        $crate::trial::StoredMesh {
-            path: concat!("../../meshes/", $name),
-            bytes: include_bytes!(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/", $name)),
-        }
-    };
-}
-
-pub(super) use {stored_mesh, template};
-
-/// A mesh of the repository, embedded in the program.
-pub(super) struct StoredMesh {
-    /// Path of the mesh from the folder of a case.
-    pub(super) path: &'static str,
-    /// Bytes of the mesh.
-    pub(super) bytes: &'static [u8],
-}
+/// A number of an experiment by its name, such as the radius of a disk. Entries of one run share what is read from it: numbers that differ between them
+/// belong to the name of a quantity.
+pub(super) type Number<'a> = &'a dyn Fn(&str) -> anyhow::Result<f64>;
 
 /// A case with settings (`key=value`, as with `--set`) for a run.
+#[derive(Clone)]
 pub(super) struct Trial {
     /// Path of the case in the repository.
-    path: Cow<'static, str>,
-    text: Cow<'static, str>,
+    path: String,
+    text: String,
     settings: Vec<String>,
-    mesh: Option<&'static StoredMesh>,
     mesh_file: Option<PathBuf>,
-}
-
-impl StoredMesh {
-    fn body(&self) -> anyhow::Result<(BodyKind, AnyBody)> {
-        let mesh = gmsh::parse_any(self.bytes)?;
-        let kind = match mesh {
-            AnyMesh::Plane(_) => BodyKind::Plane,
-            AnyMesh::Solid(_) => BodyKind::Solid,
-        };
-        Ok((kind, mesh.into()))
-    }
-}
-
-impl Template {
-    /// A trial of the case without settings.
-    pub(super) fn trial(&'static self) -> Trial {
-        Trial {
-            path: Cow::Borrowed(self.path),
-            text: Cow::Borrowed(self.text),
-            settings: Vec::new(),
-            mesh: None,
-            mesh_file: None,
-        }
-    }
 }
 
 impl Trial {
@@ -97,10 +34,9 @@ impl Trial {
     pub(super) fn of_file(path: &str) -> anyhow::Result<Self> {
         let text = std::fs::read_to_string(repository().join(path));
         Ok(Self {
-            path: Cow::Owned(path.to_owned()),
-            text: Cow::Owned(text.with_context(|| path.to_owned())?),
+            path: path.to_owned(),
+            text: text.with_context(|| path.to_owned())?,
             settings: Vec::new(),
-            mesh: None,
             mesh_file: None,
         })
     }
@@ -115,20 +51,6 @@ impl Trial {
     pub(super) fn set_toml(mut self, key: &str, value: &str) -> Self {
         self.settings.push(format!("{key}={value}"));
         self
-    }
-
-    /// The trial on a lattice of `cells` cells along x and y, with a spacing (m).
-    pub(super) fn on_lattice(self, cells: [u32; 2], spacing: f64) -> Self {
-        self.set("lattice.cells", cells)
-            .set("lattice.spacing", spacing)
-    }
-
-    /// The trial on a stored mesh, equivalent to `ligament run` with the file.
-    pub(super) fn on_mesh(self, mesh: &'static StoredMesh) -> Self {
-        Self {
-            mesh: Some(mesh),
-            ..self.set("mesh.file", mesh.path)
-        }
     }
 
     /// The trial on a mesh file.
@@ -202,17 +124,9 @@ impl Trial {
         work: impl FnOnce(&CaseFile, Setup) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
         let attempt = || {
-            let path = repository().join(&*self.path);
-            let (text, settings) = (&*self.text, &self.settings);
-            let Some(mesh) = self.mesh else {
-                let case = CaseFile::parse(&path, text.to_owned(), settings)?;
-                let setup = case.setup(&mut ())?;
-                return work(&case, setup);
-            };
-            let (kind, body) = mesh.body()?;
-            let document = Node::parse_document(text)?;
-            let case = CaseFile::on_body(&path, document, settings, kind)?;
-            let setup = case.setup_on(body)?;
+            let path = repository().join(&self.path);
+            let case = CaseFile::parse(&path, self.text.clone(), &self.settings)?;
+            let setup = case.setup(&mut ())?;
             work(&case, setup)
         };
         attempt().with_context(|| self.command())
@@ -242,16 +156,6 @@ fn run(
         }
         _ => Ok(solution),
     }
-}
-
-/// The value of a probe in the last state of a run.
-pub(super) fn probe(solution: &Solution, name: &str) -> anyhow::Result<f64> {
-    let place = solution.probes.iter().position(|probe| probe.name == name);
-    let last = solution.outcome.history.last();
-    place
-        .zip(last)
-        .and_then(|(place, last)| last.probes.get(place).copied())
-        .with_context(|| format!("the run has no probe `{name}`"))
 }
 
 /// The displacement of the point nearest to a position, in the last state of a run, m.
@@ -307,18 +211,6 @@ impl<T: Clone> Memory<T> {
         read: impl FnOnce(&Solution) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
         self.result(trial.command(), || read(&trial.solve()?))
-    }
-
-    /// The reading from the run of a trial and its breakages, computed on its first use.
-    pub(super) fn reading_with_breakages(
-        &mut self,
-        trial: &Trial,
-        read: impl FnOnce(&Solution, &[BreakRecord]) -> anyhow::Result<T>,
-    ) -> anyhow::Result<T> {
-        self.result(trial.command(), || {
-            let (solution, breaks) = trial.solve_with_breakages()?;
-            read(&solution, &breaks)
-        })
     }
 }
 

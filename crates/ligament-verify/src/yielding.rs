@@ -5,9 +5,9 @@ use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch}
 use ligament_post::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::{Published, published};
+use super::published::known;
 use super::table::{Extent, Labels, Table};
-use super::trial::{Template, template};
+use super::trial::Trial;
 use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
@@ -21,11 +21,11 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             times the tensile one. The error is the one of the orientation that yields last, as `ligament yield` computes \
             it. A bar: the strains of a bar of E = 70 GPa, F_t = 1 MPa, F_c = 3 MPa, on the criteria that a case gives the \
             bonds of a lattice, in the worst direction of a bond.",
-    cases: &[&CASE],
+    cases: &[CASE],
     compute: Compute::Code(compute),
 };
 
-static CASE: Template = template!("verification/lattice.toml");
+const CASE: &str = "cases/verification/lattice.toml";
 
 /// Strengths as in the paper's tables.
 const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
@@ -43,16 +43,16 @@ const RATIOS: [(f64, Colour); 5] = [
 ];
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let printed = |table: Published, criterion: &str| -> anyhow::Result<Table> {
+    let printed = |table: &str, criterion: &str| -> anyhow::Result<Table> {
         let combination = named(criterion)?;
-        table.judge(extent, |labels| {
+        known(table)?.judge(extent, |labels| {
             let directions = lattice::directions(labels.number("m")?);
             let worst = combination.printed_measure(&STRENGTHS, &directions, path(labels)?)?;
             Ok(100.0 * worst.context("nothing yields")?.error)
         })
     };
     let frictional = named("frictional")?;
-    let first_yield = published!("first-yield-frictional").judge(extent, |labels| {
+    let first_yield = known("first-yield-frictional")?.judge(extent, |labels| {
         let directions = lattice::directions(labels.number("m")?);
         let criteria = frictional.criteria(&STRENGTHS, directions.len())?;
         let family = Family::of_directions(&directions, &criteria);
@@ -60,11 +60,11 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         Ok(100.0 * worst.context("nothing yields")?.error)
     })?;
     let tables = vec![
-        printed(published!("mppd-table-7"), "stretch")?,
-        printed(published!("mppd-table-8"), "sliding")?,
-        printed(published!("mppd-table-9"), "frictional")?,
+        printed("mppd-table-7", "stretch")?,
+        printed("mppd-table-8", "sliding")?,
+        printed("mppd-table-9", "frictional")?,
         first_yield,
-        published!("bar-yield").judge(extent, bar_yield)?,
+        known("bar-yield")?.judge(extent, bar_yield)?,
     ];
     let plots = ["stretch", "sliding", "frictional"].map(over_orientation);
     Ok(Findings {
@@ -98,7 +98,7 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
         _ => vec![frictional(Calibration::Printed)],
     };
     let nu = labels.number("nu")?;
-    let trial = CASE.trial().set("material.poisson", nu);
+    let trial = Trial::of_file(CASE)?.set("material.poisson", nu);
     let trial = trial
         .set("material.tensile_strength", TENSILE_STRENGTH)
         .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)

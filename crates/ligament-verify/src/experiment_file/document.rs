@@ -17,9 +17,12 @@ pub struct ExperimentFile {
     pub source: String,
     /// Description of the computation.
     pub setup: String,
-    /// Numbers by name: a number, an expression, or one of these by labels.
+    /// Numbers by name: a number, an expression, or one of these by labels; quantities of the run stand in those alone that no setting needs.
     #[serde(default)]
     pub(super) numbers: BTreeMap<String, Choice>,
+    /// Values of other runs by name.
+    #[serde(default)]
+    pub(super) reference: BTreeMap<String, Reference>,
     /// The case of all tables.
     #[serde(default)]
     pub(super) run: Run,
@@ -42,6 +45,43 @@ pub(super) struct Run {
     pub(super) set: Vec<String>,
     /// Settings by labels.
     pub(super) set_by: Option<SettingsByLabels>,
+    /// Loads of a uniform stress.
+    pub(super) stress: Option<UniformStress>,
+    /// A list of settings.
+    pub(super) list: Option<SettingsList>,
+}
+
+/// A uniform stress, whose tractions load the sides of a rectangle or a box.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct UniformStress {
+    /// Expressions of the principal stresses with semicolons between them, Pa.
+    pub(super) principal: Choice,
+    /// Expression of the angle by which the axes are turned about z and then, in space, about x, degrees.
+    pub(super) angle: String,
+}
+
+/// A setting whose value is a list of so many items, in which `item` counts from 0.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct SettingsList {
+    pub(super) key: String,
+    pub(super) count: usize,
+    pub(super) item: String,
+}
+
+/// The value of a run, or a known value of a table, with some labels of the entry replaced.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Reference {
+    /// Expression of the value.
+    pub(super) value: Option<Choice>,
+    /// Name of the table, with labels in braces.
+    pub(super) known: Option<String>,
+    /// What runs, as in a table; without it what the entry runs.
+    pub(super) run: Option<Run>,
+    #[serde(default)]
+    pub(super) labels: BTreeMap<String, String>,
 }
 
 /// Settings by the label of a key; `else` for all labels that are not listed.
@@ -72,6 +112,7 @@ pub(super) struct TableOfFile {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Over {
+    /// Key, or several with a comma and a space between them, as between the labels of a member.
     pub(super) key: String,
     /// The label; empty where the table has no such key.
     #[serde(default)]
@@ -196,7 +237,7 @@ pub(super) struct TableSeries {
     pub(super) file: String,
     /// Key of the numbers along x.
     pub(super) x: String,
-    /// Labels of the rows, such as `law=pds, of=lattice`.
+    /// Labels of the rows, such as `law=pds, of=lattice`, with labels of the plot in braces.
     #[serde(default)]
     pub(super) of: String,
     pub(super) colour: String,
@@ -224,7 +265,7 @@ pub(super) enum MarkOfFile {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RunSeries {
-    /// Key of the lines, its labels, and their name with the label in braces.
+    /// Key of the lines, or several as in [`Over`], its labels, and their name with the label in braces.
     pub(super) line: String,
     pub(super) lines: Vec<String>,
     pub(super) name: String,

@@ -1,15 +1,18 @@
 //! The runs of an entry, and the memory of what came out of them.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context, bail};
 
 use super::document::{Choice, ExperimentFile, Over, Run, TableOfFile};
-use super::expression::Expression;
-use super::quantity::{CURVE, Numbers, RunResults, ensure_known};
+use super::expression::{Expression, Place};
+use super::quantity::{CURVE, RunResults, ensure_known};
 use crate::places::repository;
+use crate::published::known;
 use crate::table::{Labels, number};
 use crate::trial::Trial;
+use crate::uniform_stress::loads;
 
 /// What stands for doubled braces while the others are filled: characters that no setting has.
 const OPENING: &str = "\u{1}";
@@ -23,6 +26,16 @@ pub(super) struct EntryRuns<'a> {
     value: Expression,
     /// Labels of each run, by the beginning of their keys up to a comma.
     runs: Vec<BTreeMap<String, String>>,
+    /// Command of each run, once it is needed.
+    commands: Vec<OnceCell<String>>,
+}
+
+/// What a name stands for in a run.
+enum Meaning<'a> {
+    Number(f64),
+    Expression(Expression),
+    Reference(EntryRuns<'a>),
+    Quantity,
 }
 
 impl<'a> EntryRuns<'a> {
@@ -58,13 +71,26 @@ impl<'a> EntryRuns<'a> {
         runs: Vec<BTreeMap<String, String>>,
     ) -> anyhow::Result<Self> {
         let text = value.for_labels(|key| label(&runs[0], key))?;
-        let value = Expression::parse(&with_labels(text, &runs[0])?)?;
+        let value = Expression::parse(&with_labels(text, &runs[0]))?;
         Ok(Self {
             file,
             run,
             value,
+            commands: vec![OnceCell::new(); runs.len()],
             runs,
         })
+    }
+
+    /// The command of a run.
+    fn command(&self, run: usize) -> anyhow::Result<&str> {
+        if self.commands[run].get().is_none() {
+            let command = self.trial(run)?.command();
+            return Ok(self.commands[run].get_or_init(|| command));
+        }
+        self.commands[run]
+            .get()
+            .map(String::as_str)
+            .context("no command")
     }
 
     /// The trial of a run.
@@ -72,12 +98,11 @@ impl<'a> EntryRuns<'a> {
         let labels = &self.runs[run];
         let choice = |own: &'a Option<Choice>, of_file: &'a Option<Choice>| {
             let choice = own.as_ref().or(of_file.as_ref());
-            choice
-                .map(|it| it.for_labels(|key| label(labels, key)))
-                .transpose()
+            let text = choice.map(|it| it.for_labels(|key| label(labels, key)));
+            anyhow::Ok(text.transpose()?.map(|it| with_labels(it, labels)))
         };
         let case = choice(&self.run.case, &self.file.run.case)?.context("no `case` is named")?;
-        let mut trial = Trial::of_file(case)?;
+        let mut trial = Trial::of_file(&case)?;
         let mesh = choice(&self.run.mesh, &self.file.run.mesh)?;
         if let Some(mesh) = mesh.filter(|it| !it.is_empty()) {
             trial = trial.on_mesh_file(repository().join("meshes").join(mesh));
@@ -93,13 +118,36 @@ impl<'a> EntryRuns<'a> {
             let (key, value) = setting
                 .split_once('=')
                 .context("a setting is `key=value`")?;
-            trial = trial.set_toml(key, &self.filled(value, run)?);
+            trial = trial.set_toml(key, &self.filled(value, run, None)?);
+        }
+        for of in [&self.file.run, self.run] {
+            if let Some(list) = &of.list {
+                let items = (0..list.count).map(|it| self.filled(&list.item, run, Some(it)));
+                let items = items.collect::<anyhow::Result<Vec<_>>>()?;
+                trial = trial.set_toml(&list.key, &format!("[{}]", items.join(",")));
+            }
+            if let Some(stress) = &of.stress {
+                let number = |text: &str| self.constant(text, run, None);
+                let principal = stress.principal.for_labels(|key| label(labels, key))?;
+                let principal = principal.split(';').map(number);
+                let principal = principal.collect::<anyhow::Result<Vec<_>>>()?;
+                trial = trial.set_toml("load", &loads(&principal, number(&stress.angle)?)?);
+            }
         }
         Ok(trial)
     }
 
+    /// The value of an expression of labels and numbers of the file, in which `item` may count.
+    fn constant(&self, text: &str, run: usize, item: Option<usize>) -> anyhow::Result<f64> {
+        let place = Place { run, row: None };
+        Expression::parse(text)?.at(place, &mut |place, name| match item {
+            Some(item) if name == "item" => Ok(item as f64),
+            _ => self.number(place.run, name),
+        })
+    }
+
     /// A setting with its braces filled: in a text by labels, elsewhere by numbers. Braces that belong to the setting are doubled.
-    fn filled(&self, setting: &str, run: usize) -> anyhow::Result<String> {
+    fn filled(&self, setting: &str, run: usize, item: Option<usize>) -> anyhow::Result<String> {
         let setting = setting.replace("{{", OPENING).replace("}}", CLOSING);
         let mut filled = String::new();
         let mut left = &*setting;
@@ -110,9 +158,7 @@ impl<'a> EntryRuns<'a> {
             if is_in_text {
                 filled.push_str(&label(&self.runs[run], inner)?);
             } else {
-                let mut of = |run: usize, name: &str| self.number(run, name);
-                let number = Expression::parse(inner)?.value(run..run + 1, &mut of)?;
-                filled.push_str(&written(number));
+                filled.push_str(&written(self.constant(inner, run, item)?));
             }
             left = after;
         }
@@ -122,38 +168,56 @@ impl<'a> EntryRuns<'a> {
 
     /// The number of a name that is a label or a number of the file.
     pub(super) fn number(&self, run: usize, name: &str) -> anyhow::Result<f64> {
-        match self.number_if_any(run, name)? {
-            Some(number) => Ok(number),
-            None => bail!("no label and no number is called `{name}`"),
+        match self.meaning(run, name)? {
+            Meaning::Number(number) => Ok(number),
+            Meaning::Expression(expression) => {
+                let place = Place { run, row: None };
+                expression.at(place, &mut |place, name| self.number(place.run, name))
+            }
+            _ => bail!("no label and no number is called `{name}`"),
         }
     }
 
-    fn number_if_any(&self, run: usize, name: &str) -> anyhow::Result<Option<f64>> {
+    fn meaning(&self, run: usize, name: &str) -> anyhow::Result<Meaning<'a>> {
         let labels = &self.runs[run];
         if let Some(choice) = self.file.numbers.get(name) {
-            let text = choice.for_labels(|key| label(labels, key))?;
-            let expression = Expression::parse(text).with_context(|| format!("number `{name}`"))?;
-            let mut of = |run: usize, name: &str| self.number(run, name);
-            return expression.value(run..run + 1, &mut of).map(Some);
+            let text = with_labels(choice.for_labels(|key| label(labels, key))?, labels);
+            let expression = Expression::parse(&text).with_context(|| format!("number `{name}`"));
+            return Ok(Meaning::Expression(expression?));
         }
-        match labels.get(name) {
-            Some(label) => Ok(Some(number(name, label)?)),
-            None if name == "pi" => Ok(Some(std::f64::consts::PI)),
-            None => Ok(None),
+        if let Some(label) = labels.get(name) {
+            return Ok(Meaning::Number(number(name, label)?));
         }
+        if let Some(reference) = self.file.reference.get(name) {
+            let mut labels = labels.clone();
+            labels.extend(reference.labels.clone());
+            if let Some(table) = &reference.known {
+                return known_value(&with_labels(table, &labels), &labels).map(Meaning::Number);
+            }
+            let value = reference.value.as_ref();
+            let value = value.with_context(|| format!("reference `{name}` has no `value`"))?;
+            let run = reference.run.as_ref().unwrap_or(self.run);
+            let runs = Self::new(self.file, run, value, vec![labels]);
+            return Ok(Meaning::Reference(runs?));
+        }
+        Ok(match name {
+            "pi" => Meaning::Number(std::f64::consts::PI),
+            _ => Meaning::Quantity,
+        })
     }
 }
 
-/// Labels of runs, each with all labels of a key in turn.
+/// Labels of runs, each with all labels of a key, or of several, in turn.
 pub(super) fn with_each(
     runs: &[BTreeMap<String, String>],
     key: &str,
     labels: &[String],
 ) -> Vec<BTreeMap<String, String>> {
     let with = |run: &BTreeMap<String, String>, label: &String| {
-        let mut run = run.clone();
-        run.insert(key.to_owned(), label.clone());
-        run
+        let labels = label.splitn(key.split(", ").count(), ", ");
+        let pairs = key.split(", ").zip(labels);
+        let pairs = pairs.map(|(key, label)| (key.to_owned(), label.to_owned()));
+        run.clone().into_iter().chain(pairs).collect()
     };
     let all = runs.iter();
     all.flat_map(|run| labels.iter().map(move |label| with(run, label)))
@@ -165,6 +229,24 @@ fn name_of(key: &str) -> &str {
     key.split(',').next().unwrap_or(key)
 }
 
+/// The known value of the entry of a table that has some labels.
+fn known_value(table: &str, labels: &BTreeMap<String, String>) -> anyhow::Result<f64> {
+    let known = known(table)?;
+    let keys = known
+        .heading
+        .keys
+        .iter()
+        .map(|key| labels.get(name_of(key)));
+    let wanted: Option<Vec<&String>> = keys.collect();
+    let wanted = wanted.with_context(|| format!("{table}: no labels for all of its keys"))?;
+    let mut entries = known.entries.iter();
+    let entry = entries.find(|it| it.labels.iter().eq(wanted.iter().copied()));
+    Ok(entry
+        .with_context(|| format!("{table} has no {wanted:?}"))?
+        .known
+        .value())
+}
+
 /// The label of a key.
 fn label(labels: &BTreeMap<String, String>, key: &str) -> anyhow::Result<String> {
     let known = || labels.keys().cloned().collect::<Vec<_>>().join(", ");
@@ -173,12 +255,10 @@ fn label(labels: &BTreeMap<String, String>, key: &str) -> anyhow::Result<String>
 }
 
 /// A text with the labels in its braces.
-pub(super) fn with_labels(text: &str, labels: &BTreeMap<String, String>) -> anyhow::Result<String> {
-    let mut filled = text.to_owned();
-    for (key, label) in labels {
-        filled = filled.replace(&format!("{{{key}}}"), label);
-    }
-    Ok(filled)
+pub(super) fn with_labels(text: &str, labels: &BTreeMap<String, String>) -> String {
+    labels.iter().fold(text.to_owned(), |filled, (key, label)| {
+        filled.replace(&format!("{{{key}}}"), label)
+    })
 }
 
 /// A number as TOML has it; a whole one without a point, as lattices count their cells.
@@ -202,18 +282,24 @@ pub(super) struct RunMemory {
 impl RunMemory {
     /// Notes the quantities that the value of some runs needs, so that each run is read at once.
     pub(super) fn plan(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<()> {
-        for run in 0..runs.runs.len() {
-            let names = runs.value.names().into_iter();
-            let mut quantities = BTreeSet::new();
-            for name in names {
-                if runs.number_if_any(run, name)?.is_none() {
+        (0..runs.runs.len()).try_for_each(|run| self.plan_names(runs, run, &runs.value))
+    }
+
+    fn plan_names(
+        &mut self,
+        runs: &EntryRuns<'_>,
+        run: usize,
+        expression: &Expression,
+    ) -> anyhow::Result<()> {
+        for name in expression.names() {
+            match runs.meaning(run, name)? {
+                Meaning::Number(_) => {}
+                Meaning::Expression(expression) => self.plan_names(runs, run, &expression)?,
+                Meaning::Reference(other) => self.plan(&other)?,
+                Meaning::Quantity => {
                     ensure_known(name)?;
-                    quantities.insert(name.to_owned());
+                    self.want(runs, run, name)?;
                 }
-            }
-            if !quantities.is_empty() {
-                let command = runs.trial(run)?.command();
-                self.wanted.entry(command).or_default().extend(quantities);
             }
         }
         Ok(())
@@ -221,22 +307,37 @@ impl RunMemory {
 
     /// Notes that the curve of a run is needed.
     pub(super) fn plan_curve(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<()> {
-        let command = runs.trial(0)?.command();
-        self.wanted
-            .entry(command)
-            .or_default()
-            .insert(CURVE.to_owned());
+        self.want(runs, 0, CURVE)
+    }
+
+    fn want(&mut self, runs: &EntryRuns<'_>, run: usize, name: &str) -> anyhow::Result<()> {
+        let wanted = self.wanted.entry(runs.command(run)?.to_owned());
+        wanted.or_default().insert(name.to_owned());
         Ok(())
     }
 
     /// The value of some runs.
     pub(super) fn value(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<f64> {
         let all = 0..runs.runs.len();
-        runs.value
-            .value(all, &mut |run, name| match runs.number_if_any(run, name)? {
-                Some(number) => Ok(number),
-                None => self.results(runs, run)?.value(name),
-            })
+        (runs.value).value(all, &mut |place, name| {
+            self.value_of_name(runs, place, name)
+        })
+    }
+
+    fn value_of_name(
+        &mut self,
+        runs: &EntryRuns<'_>,
+        place: Place,
+        name: &str,
+    ) -> anyhow::Result<f64> {
+        match runs.meaning(place.run, name)? {
+            Meaning::Number(number) => Ok(number),
+            Meaning::Expression(expression) => expression.at(place, &mut |place, name| {
+                self.value_of_name(runs, place, name)
+            }),
+            Meaning::Reference(other) => self.value(&other),
+            Meaning::Quantity => self.results(runs, place.run)?.value(name, place.row),
+        }
     }
 
     /// The curve of displacement and load of a run, m and N.
@@ -245,14 +346,14 @@ impl RunMemory {
     }
 
     fn results(&mut self, runs: &EntryRuns<'_>, run: usize) -> anyhow::Result<&RunResults> {
-        let trial = runs.trial(run)?;
-        let command = trial.command();
-        if !self.found.contains_key(&command) {
-            let wanted = self.wanted.get(&command).cloned().unwrap_or_default();
+        let command = runs.command(run)?;
+        if !self.found.contains_key(command) {
+            let wanted = self.wanted.get(command).cloned().unwrap_or_default();
             let number = |name: &str| runs.number(run, name);
-            let results = RunResults::of_trial(&trial, &wanted, &Numbers { number: &number })?;
-            self.found.insert(command.clone(), results);
+            let trial = runs.trial(run)?;
+            let results = RunResults::of_trial(&trial, &wanted, &number)?;
+            self.found.insert(command.to_owned(), results);
         }
-        self.found.get(&command).context("the run has no results")
+        self.found.get(command).context("the run has no results")
     }
 }

@@ -1,11 +1,16 @@
-//! Expressions of an experiment: numbers, names, + - * /, parentheses, square roots, and statistics over the runs that an entry joins.
+//! Expressions of an experiment: numbers, names, + - * / ^, parentheses, and functions of numbers, of the runs that an entry joins, and of the
+//! history of a run.
 //!
-//! A name has letters, digits, `_` and `.`; a statistic is a name with expressions in parentheses, each of which is evaluated in every run.
+//! A name has letters, digits, `_` and `.`; a function is a name with expressions in parentheses. Those of a statistic are evaluated in every
+//! run, and the last one of a function of the history in every row.
+
+use std::ops::Range;
 
 use anyhow::{Context, bail, ensure};
 use ligament_study::line_fit::LineFit;
 
-use crate::spread::spread;
+use crate::fast_crack::rayleigh;
+use crate::record::Record;
 
 /// An expression.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,9 +18,8 @@ pub(super) enum Expression {
     Number(f64),
     Name(String),
     Negative(Box<Self>),
-    Root(Box<Self>),
     Both(Operator, Box<[Self; 2]>),
-    Statistic(&'static Statistic, Vec<Self>),
+    Call(&'static Function, Vec<Self>),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,94 +28,178 @@ pub(super) enum Operator {
     Minus,
     Times,
     Over,
+    Power,
 }
 
-/// A statistic of values of several runs.
+/// A function of expressions.
 #[derive(Debug)]
-pub(super) struct Statistic {
+pub(super) struct Function {
     name: &'static str,
-    /// Number of values of each run.
+    /// Number of expressions; 0 for one or more.
     n_values: usize,
-    /// Value of the statistic for the values of all runs; the only value of a run is the last one.
-    of: fn(&[[f64; 2]]) -> anyhow::Result<f64>,
+    of: Of,
 }
 
-impl PartialEq for Statistic {
+#[derive(Debug)]
+enum Of {
+    /// Numbers.
+    Numbers(fn(&[f64]) -> f64),
+    /// The values of all runs; the only value of a run is the last one.
+    Runs(fn(&[[f64; 2]]) -> anyhow::Result<f64>),
+    /// The last value in all rows of a run, and the values before it.
+    Rows(fn(&Record, &[f64]) -> anyhow::Result<f64>),
+}
+
+use Of::{Numbers, Rows, Runs};
+
+impl PartialEq for Function {
     fn eq(&self, other: &Self) -> bool {
         self.name == other.name
     }
 }
 
-static STATISTICS: [Statistic; 10] = [
-    Statistic {
-        name: "max",
-        n_values: 1,
-        of: |all| Ok(all.iter().map(|it| it[1]).fold(f64::NEG_INFINITY, f64::max)),
-    },
-    Statistic {
-        name: "sum",
-        n_values: 1,
-        of: |all| Ok(all.iter().map(|it| it[1]).sum()),
-    },
-    Statistic {
-        name: "mean",
-        n_values: 1,
-        of: |all| Ok(all.iter().map(|it| it[1]).sum::<f64>() / all.len() as f64),
-    },
+const fn function(name: &'static str, n_values: usize, of: Of) -> Function {
+    Function { name, n_values, of }
+}
+
+static FUNCTIONS: [Function; 30] = [
+    function("sqrt", 1, Numbers(|x| x[0].sqrt())),
+    function("cbrt", 1, Numbers(|x| x[0].cbrt())),
+    function("abs", 1, Numbers(|x| x[0].abs())),
+    function("ln", 1, Numbers(|x| x[0].ln())),
+    function("sin", 1, Numbers(|x| x[0].sin())),
+    function("cos", 1, Numbers(|x| x[0].cos())),
+    function("tan", 1, Numbers(|x| x[0].tan())),
+    function("asin", 1, Numbers(|x| x[0].asin())),
+    function("atan", 1, Numbers(|x| x[0].atan())),
+    function("hypot", 2, Numbers(|x| x[0].hypot(x[1]))),
+    // Speed of Rayleigh waves over that of shear waves, for Poisson's ratio in plane strain.
+    function("rayleigh", 1, Numbers(|x| rayleigh(x[0]))),
+    // The largest and the smallest of all values of all runs.
+    function(
+        "max",
+        0,
+        Runs(|all| Ok(lasts(all).fold(f64::NEG_INFINITY, f64::max))),
+    ),
+    function(
+        "min",
+        0,
+        Runs(|all| Ok(lasts(all).fold(f64::INFINITY, f64::min))),
+    ),
+    function("sum", 1, Runs(|all| Ok(lasts(all).sum()))),
+    function(
+        "mean",
+        1,
+        Runs(|all| Ok(lasts(all).sum::<f64>() / all.len() as f64)),
+    ),
     // Largest minus smallest value over the mean, %.
-    Statistic {
-        name: "spread",
-        n_values: 1,
-        of: |all| Ok(spread(&all.iter().map(|it| it[1]).collect::<Vec<_>>())),
-    },
+    function(
+        "spread",
+        1,
+        Runs(|all| Ok(spread(&lasts(all).collect::<Vec<_>>()))),
+    ),
     // Last minus first value over the first.
-    Statistic {
-        name: "change",
-        n_values: 1,
-        of: |all| Ok((all[all.len() - 1][1] - all[0][1]) / all[0][1]),
-    },
+    function(
+        "change",
+        1,
+        Runs(|all| Ok((all[all.len() - 1][1] - all[0][1]) / all[0][1])),
+    ),
     // First value over the last.
-    Statistic {
-        name: "ratio",
-        n_values: 1,
-        of: |all| Ok(all[0][1] / all[all.len() - 1][1]),
-    },
+    function(
+        "ratio",
+        1,
+        Runs(|all| Ok(all[0][1] / all[all.len() - 1][1])),
+    ),
+    // First minus last value.
+    function(
+        "difference",
+        1,
+        Runs(|all| Ok(all[0][1] - all[all.len() - 1][1])),
+    ),
     // Number of runs with a larger value than the one before.
-    Statistic {
-        name: "rises",
-        n_values: 1,
-        of: |all| {
+    function(
+        "rises",
+        1,
+        Runs(|all| {
             Ok(all
                 .windows(2)
                 .filter(|pair| pair[1][1] > pair[0][1])
                 .count() as f64)
-        },
-    },
+        }),
+    ),
     // Of the straight line through the second values over the first ones.
-    Statistic {
-        name: "slope",
-        n_values: 2,
-        of: |all| Ok(LineFit::through(all)?.slope),
-    },
-    Statistic {
-        name: "intercept",
-        n_values: 2,
-        of: |all| Ok(LineFit::through(all)?.intercept),
-    },
+    function("slope", 2, Runs(|all| Ok(LineFit::through(all)?.slope))),
+    function(
+        "intercept",
+        2,
+        Runs(|all| Ok(LineFit::through(all)?.intercept)),
+    ),
     // Largest distance of a value from the line, over that of the line.
-    Statistic {
-        name: "off_line",
-        n_values: 2,
-        of: |all| {
+    function(
+        "off_line",
+        2,
+        Runs(|all| {
             let line = LineFit::through(all)?;
             let off = |[x, y]: &[f64; 2]| (y / (line.slope * x + line.intercept) - 1.0).abs();
             Ok(all.iter().map(off).fold(0.0, f64::max))
-        },
-    },
+        }),
+    ),
+    // Value at a time, between rows by a straight line; in the first row from a time on.
+    function("at", 2, Rows(|record, time| record.at(time[0]))),
+    function("from", 2, Rows(|record, time| record.from(time[0]))),
+    // Time and size of the largest value between two times, by a parabola.
+    function(
+        "peak_time",
+        3,
+        Rows(|record, times| Ok(record.peak([times[0], times[1]])?[0])),
+    ),
+    function(
+        "peak",
+        3,
+        Rows(|record, times| Ok(record.peak([times[0], times[1]])?[1])),
+    ),
+    // First time after another at which the values fall through zero, and the frequency at which they do.
+    function("fall", 2, Rows(|record, time| record.fall(time[0]))),
+    function("falls", 2, Rows(|record, time| record.frequency(time[0]))),
+    function(
+        "largest",
+        1,
+        Rows(|record, _| {
+            Ok(record
+                .values
+                .iter()
+                .copied()
+                .fold(f64::NEG_INFINITY, f64::max))
+        }),
+    ),
 ];
 
-/// Value of a name in a run.
-pub(super) type Value<'a> = &'a mut dyn FnMut(usize, &str) -> anyhow::Result<f64>;
+/// The last values of all runs.
+fn lasts(all: &[[f64; 2]]) -> impl Iterator<Item = f64> {
+    all.iter().map(|it| it[1])
+}
+
+/// Largest minus smallest value over the mean, %.
+fn spread(values: &[f64]) -> f64 {
+    let largest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let smallest = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    100.0 * (largest - smallest) / mean
+}
+
+/// Names of the number of rows of a run and of the time in a row.
+pub(super) const ROWS: &str = "history.rows";
+pub(super) const TIME: &str = "history.time";
+
+/// A run, and a row of its history; without one its last state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    pub(super) run: usize,
+    pub(super) row: Option<usize>,
+}
+
+/// Value of a name at a place.
+pub(super) type Value<'a> = &'a mut dyn FnMut(Place, &str) -> anyhow::Result<f64>;
 
 impl Expression {
     /// Reads an expression.
@@ -130,49 +218,101 @@ impl Expression {
         match self {
             Self::Number(_) => Vec::new(),
             Self::Name(name) => vec![name],
-            Self::Negative(of) | Self::Root(of) => of.names(),
+            Self::Negative(of) => of.names(),
             Self::Both(_, both) => both.iter().flat_map(Self::names).collect(),
-            Self::Statistic(_, of) => of.iter().flat_map(Self::names).collect(),
+            Self::Call(function, of) => {
+                let mut names: Vec<&str> = of.iter().flat_map(Self::names).collect();
+                if matches!(function.of, Rows(_)) {
+                    names.extend([ROWS, TIME]);
+                }
+                names
+            }
         }
     }
 
     /// Value of the expression in `runs`; outside of statistics there must be one run.
-    pub(super) fn value(&self, runs: std::ops::Range<usize>, of: Value<'_>) -> anyhow::Result<f64> {
+    pub(super) fn value(&self, runs: Range<usize>, of: Value<'_>) -> anyhow::Result<f64> {
+        self.in_row(runs, None, of)
+    }
+
+    /// Value of the expression at a place.
+    pub(super) fn at(&self, place: Place, of: Value<'_>) -> anyhow::Result<f64> {
+        self.in_row(place.run..place.run + 1, place.row, of)
+    }
+
+    fn in_row(&self, runs: Range<usize>, row: Option<usize>, of: Value<'_>) -> anyhow::Result<f64> {
         Ok(match self {
             Self::Number(number) => *number,
-            Self::Name(name) => {
-                ensure!(
-                    runs.len() == 1,
-                    "`{name}` has {} values: it needs a statistic such as spread({name})",
-                    runs.len()
-                );
-                of(runs.start, name)?
-            }
-            Self::Negative(term) => -term.value(runs, of)?,
-            Self::Root(term) => term.value(runs, of)?.sqrt(),
+            Self::Name(name) => of(place_of(name, runs, row)?, name)?,
+            Self::Negative(term) => -term.in_row(runs, row, of)?,
             Self::Both(operator, both) => {
-                let one = both[0].value(runs.clone(), of)?;
-                let other = both[1].value(runs, of)?;
+                let one = both[0].in_row(runs.clone(), row, of)?;
+                let other = both[1].in_row(runs, row, of)?;
                 match operator {
                     Operator::Plus => one + other,
                     Operator::Minus => one - other,
                     Operator::Times => one * other,
                     Operator::Over => one / other,
+                    Operator::Power if other.fract() == 0.0 => one.powi(other as i32),
+                    Operator::Power => one.powf(other),
                 }
             }
-            Self::Statistic(statistic, terms) => {
-                let mut all = Vec::new();
-                for run in runs {
-                    let mut values = [0.0; 2];
-                    for (value, term) in values[2 - terms.len()..].iter_mut().zip(terms) {
-                        *value = term.value(run..run + 1, of)?;
+            Self::Call(function, terms) => match function.of {
+                Numbers(function) => {
+                    let values = terms.iter().map(|it| it.in_row(runs.clone(), row, of));
+                    function(&values.collect::<anyhow::Result<Vec<_>>>()?)
+                }
+                Runs(statistic) => {
+                    let mut all = Vec::new();
+                    for run in runs {
+                        let mut values = Vec::new();
+                        for term in terms {
+                            values.push(term.in_row(run..run + 1, row, of)?);
+                        }
+                        match (function.n_values, &*values) {
+                            (2, &[x, y]) => all.push([x, y]),
+                            _ => all.extend(values.iter().map(|value| [0.0, *value])),
+                        }
                     }
-                    all.push(values);
+                    statistic(&all)?
                 }
-                (statistic.of)(&all)?
-            }
+                Rows(function_of_rows) => {
+                    let (last, before) = terms.split_last().context("no values in the rows")?;
+                    let before = before.iter().map(|it| it.in_row(runs.clone(), row, of));
+                    let before = before.collect::<anyhow::Result<Vec<_>>>()?;
+                    let record = last.record(place_of(function.name, runs, None)?, of)?;
+                    function_of_rows(&record, &before)?
+                }
+            },
         })
     }
+
+    /// The values in all rows of a run.
+    fn record(&self, place: Place, of: Value<'_>) -> anyhow::Result<Record> {
+        let (mut times, mut values) = (Vec::new(), Vec::new());
+        for row in 0..of(place, ROWS)? as usize {
+            let row = Place {
+                row: Some(row),
+                ..place
+            };
+            times.push(of(row, TIME)?);
+            values.push(self.at(row, of)?);
+        }
+        Ok(Record { times, values })
+    }
+}
+
+/// The place of a name, which has one value.
+fn place_of(name: &str, runs: Range<usize>, row: Option<usize>) -> anyhow::Result<Place> {
+    ensure!(
+        runs.len() == 1,
+        "`{name}` has {} values: it needs a statistic such as spread({name})",
+        runs.len()
+    );
+    Ok(Place {
+        run: runs.start,
+        row,
+    })
 }
 
 /// Reader of an expression.
@@ -227,6 +367,15 @@ impl<'a> Reader<'a> {
         if self.takes('-') {
             return Ok(Expression::Negative(Box::new(self.term()?)));
         }
+        let base = self.base()?;
+        if !self.takes('^') {
+            return Ok(base);
+        }
+        let both = Box::new([base, self.term()?]);
+        Ok(Expression::Both(Operator::Power, both))
+    }
+
+    fn base(&mut self) -> anyhow::Result<Expression> {
         if self.takes('(') {
             let found = self.sum()?;
             ensure!(self.takes(')'), "a `)` is missing");
@@ -269,26 +418,21 @@ impl<'a> Reader<'a> {
         if !self.takes('(') {
             return Ok(Expression::Name(word.to_owned()));
         }
-        if word == "sqrt" {
-            let of = self.sum()?;
-            ensure!(self.takes(')'), "a `)` is missing");
-            return Ok(Expression::Root(Box::new(of)));
-        }
-        let statistic = STATISTICS.iter().find(|it| it.name == word);
-        let known = || STATISTICS.each_ref().map(|it| it.name).join(", ");
-        let statistic =
-            statistic.with_context(|| format!("no statistic `{word}`; there are {}", known()))?;
+        let function = FUNCTIONS.iter().find(|it| it.name == word);
+        let known = || FUNCTIONS.each_ref().map(|it| it.name).join(", ");
+        let function =
+            function.with_context(|| format!("no function `{word}`; there are {}", known()))?;
         let mut terms = vec![self.sum()?];
         while self.takes(',') {
             terms.push(self.sum()?);
         }
         ensure!(self.takes(')'), "a `)` is missing");
-        let (found, expected) = (terms.len(), statistic.n_values);
+        let (found, expected) = (terms.len(), function.n_values);
         ensure!(
-            found == expected,
+            expected == 0 || found == expected,
             "`{word}` takes {expected} expressions, not {found}"
         );
-        Ok(Expression::Statistic(statistic, terms))
+        Ok(Expression::Call(function, terms))
     }
 }
 
@@ -297,9 +441,13 @@ mod tests {
     use super::*;
 
     fn value(text: &str, runs: usize) -> anyhow::Result<f64> {
-        let mut of = |run: usize, name: &str| match name {
-            "x" => Ok(run as f64),
-            "crack.y_2" => Ok(3.0 * run as f64 + 1.0),
+        let mut of = |place: Place, name: &str| match name {
+            "x" => Ok(place.run as f64),
+            "crack.y_2" => Ok(3.0 * place.run as f64 + 1.0),
+            ROWS => Ok(4.0),
+            // 2, 1, 0, -1 in the rows, and -7 in the last state.
+            TIME => Ok(place.row.map_or(9.0, |row| 10.0 * row as f64)),
+            "falling" => Ok(place.row.map_or(-7.0, |row| 2.0 - row as f64)),
             other => bail!("no `{other}`"),
         };
         Expression::parse(text)?.value(0..runs, &mut of)
@@ -313,6 +461,9 @@ mod tests {
             ("sqrt(2*8)/2", 2.0),
             ("2*-3", -6.0),
             ("12/crack.y_2/2", 6.0),
+            ("-2^3*4^-0.5", -4.0),
+            ("hypot(3, 2^2)", 5.0),
+            ("max(1, 3, 2) - min(1, 3, -2)", 5.0),
         ] {
             assert_eq!(value(text, 1).unwrap(), expected, "{text}");
         }
@@ -339,15 +490,34 @@ mod tests {
     }
 
     #[test]
+    fn functions_of_the_history_read_every_row() {
+        for (text, expected) in [
+            ("at(15, 2*falling)", 1.0),
+            ("from(15, falling) + x", 0.0),
+            ("largest(-falling)", 1.0),
+            ("fall(0, falling + history.time/100)", 10.0 * 2.0 / 0.9),
+            ("at(largest(history.time - 15), falling)", 0.5),
+            ("falling", -7.0),
+        ] {
+            let found = value(text, 1).unwrap();
+            assert!((found - expected).abs() < 1e-12, "{text}: {found}");
+        }
+        assert_eq!(value("max(at(0, falling) + x)", 3).unwrap(), 4.0);
+        assert!(value("at(0, falling)", 2).is_err());
+        let names = Expression::parse("at(start, end.y)").unwrap();
+        assert_eq!(names.names(), ["start", "end.y", ROWS, TIME]);
+    }
+
+    #[test]
     fn what_is_no_expression_is_told() {
         for (text, expected) in [
             ("1 +", "a term is missing"),
             ("2 x", "`x` is left over"),
             ("(1", "a `)` is missing"),
-            ("median(x)", "no statistic `median`; there are max, sum"),
+            ("median(x)", "no function `median`; there are sqrt, cbrt"),
             ("slope(x)", "`slope` takes 2 expressions, not 1"),
             ("1.2.3", "`1.2.3` is no number"),
-            ("2^3", "`^3` is left over"),
+            ("2^", "a term is missing"),
         ] {
             let found = format!("{:#}", value(text, 1).unwrap_err());
             assert!(found.contains(expected), "{text}: {found}");

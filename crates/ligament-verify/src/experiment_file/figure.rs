@@ -9,7 +9,7 @@ use super::document::{
     Choice, ExperimentFile, Figure, FixedLine, MarkOfFile, Run, RunSeries, TableSeries,
 };
 use super::entry_runs::{EntryRuns, RunMemory, with_each, with_labels};
-use super::expression::Expression;
+use super::expression::{Expression, Place};
 use crate::table::{Extent, Table, number};
 
 type LabelsOfRun = BTreeMap<String, String>;
@@ -49,7 +49,7 @@ impl Figure {
                 series.push(line.series(file, &labels)?);
             }
             for it in &self.table {
-                series.push(it.series(tables)?);
+                series.push(it.series(tables, &labels)?);
             }
             if let Some(of_runs) = &self.runs {
                 for (place, (label, points)) in self.lines(&labels).into_iter().enumerate() {
@@ -65,8 +65,8 @@ impl Figure {
                 words.insert(key.clone(), choice.for_labels(label)?.to_owned());
             }
             plots.push(Plot::new(
-                with_labels(&self.name, &labels)?.replace(' ', ""),
-                with_labels(&self.title, &words)?,
+                with_labels(&self.name, &labels).replace(' ', ""),
+                with_labels(&self.title, &words),
                 self.axes.each_ref().map(String::as_str),
                 series,
             ));
@@ -115,6 +115,8 @@ pub(super) fn runs<'a>(
         mesh: None,
         set: Vec::new(),
         set_by: None,
+        stress: None,
+        list: None,
     };
     EntryRuns::new(
         file,
@@ -128,7 +130,7 @@ impl FixedLine {
     fn series(&self, file: &ExperimentFile, labels: &LabelsOfRun) -> anyhow::Result<Series> {
         let number = |text: &str| {
             let runs = runs(file, text, labels.clone())?;
-            let mut of = |run: usize, name: &str| runs.number(run, name);
+            let mut of = |place: Place, name: &str| runs.number(place.run, name);
             Expression::parse(text)?.value(0..1, &mut of)
         };
         let points = self
@@ -141,12 +143,13 @@ impl FixedLine {
 }
 
 impl TableSeries {
-    fn series(&self, tables: &[Table]) -> anyhow::Result<Series> {
+    fn series(&self, tables: &[Table], labels: &LabelsOfRun) -> anyhow::Result<Series> {
+        let of = with_labels(&self.of, labels);
         let table = tables.iter().find(|it| it.heading.name == self.file);
         let table = table.with_context(|| format!("no table `{}`", self.file))?;
         let mut points = match self.known {
-            true => table.known(&self.x, &self.of)?,
-            false => table.computed(&self.x, &self.of)?,
+            true => table.known(&self.x, &of)?,
+            false => table.computed(&self.x, &of)?,
         };
         if self.less_x {
             points.iter_mut().for_each(|point| point[1] -= point[0]);
@@ -182,10 +185,10 @@ impl RunSeries {
             let (x, y) = (x?, y?);
             let curve = memory.curve(&runs)?;
             let point = |[displacement, reaction]: &[f64; 2]| {
-                let mut of = |run: usize, name: &str| match name {
+                let mut of = |place: Place, name: &str| match name {
                     "displacement" => Ok(*displacement),
                     "reaction" => Ok(*reaction),
-                    other => runs.number(run, other),
+                    other => runs.number(place.run, other),
                 };
                 Ok([x.value(0..1, &mut of)?, y.value(0..1, &mut of)?])
             };

@@ -4,8 +4,8 @@
 //! | module | holds |
 //! |---|---|
 //! | `document` | the file as it is written |
-//! | `expression` | numbers, names, + - * / and statistics over runs |
-//! | `quantity` | what an expression can read from a run |
+//! | `expression` | numbers, names, + - * / ^ and functions of numbers, of runs and of the history of a run |
+//! | `quantity`, `loaded_run`, `history` | what an expression can read from a run, and from every row of its history |
 //! | `entry_runs` | the runs of an entry, each with its labels and its trial, and their memory |
 //! | `figure` | plots |
 
@@ -13,19 +13,19 @@ mod document;
 mod entry_runs;
 mod expression;
 mod figure;
+mod history;
+mod loaded_run;
 mod quantity;
-
-use std::path::Path;
 
 use anyhow::{Context, ensure};
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::known_values;
+use super::published::{folder, known};
 use super::table::{Extent, Known};
 use super::trial::Trial;
 
+use document::Choice;
 pub use document::ExperimentFile;
-use document::{Choice, TableOfFile};
 use entry_runs::{EntryRuns, RunMemory};
 
 impl ExperimentFile {
@@ -81,7 +81,7 @@ impl ExperimentFile {
     ///
     /// If a table cannot be read, a case cannot be run, or a value has no meaning for an entry.
     pub(super) fn compute(&self, extent: Extent) -> anyhow::Result<Findings> {
-        let known = self.table.iter().map(|table| table.known());
+        let known = self.table.iter().map(|table| known(&table.file));
         let known: Vec<Known> = known.collect::<anyhow::Result<_>>()?;
         let mut memory = RunMemory::default();
         for (table, known) in self.table.iter().zip(&known) {
@@ -113,19 +113,6 @@ impl ExperimentFile {
             ..Findings::default()
         })
     }
-}
-
-impl TableOfFile {
-    fn known(&self) -> anyhow::Result<Known> {
-        let path = folder().join(format!("{}.csv", self.file));
-        let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
-        Ok(known_values(&self.file, &text)?)
-    }
-}
-
-/// Folder of the experiments and their tables.
-fn folder() -> std::path::PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src/published")
 }
 
 #[cfg(test)]

@@ -2,68 +2,81 @@
 //!
 //! | name | quantity |
 //! |---|---|
-//! | `probe.NAME` | last value of a probe, whose `-` is `_` here |
+//! | those of [`history`] | in a row of the history, or in the last one |
+//! | `intact.NAME` | the same in the last row without a broken bond |
+//! | `end.NAME` | the same in the last equilibrium of a run that goes on until none follows |
 //! | `frequency.N` | frequency of the elastic mode N from one on, Hz; the case is one of natural modes |
 //! | `turn.N` | root mean square by which factors of bonds change where the mesh is turned by N degrees |
+//! | `phase_speed.N` | speed of waves with N points per wavelength from the probe `near` to `far`, over `speed` |
+//! | `at_point.X.Y.u_x` | displacement of the point nearest to a place, whose coordinates are numbers of the experiment by their names, m |
+//! | `direction.STIFFNESS.OF` | [stiffness of bonds](crate::directions) over their direction |
+//! | `first_yield.CRITERION.STRAIN.STATISTIC` | errors of [first yield](crate::anisotropy) on a mesh |
+//! | `largest.u_x` | largest size of a displacement of all points, m |
+//! | `loaded_elements.LOAD.u_x` | the same of a [square of finite elements](crate::square_elements), m |
+//! | `elements.PROBLEM.u_x` | difference of a plate from finite elements: L2 norm over all points, over that by the elements |
+//! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
+//! | `common_breaks.N` | bonds that break up to N us with explicit and implicit steps alike, over those that one of them breaks more of |
+//! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
 //! | others | the row of [`QUANTITIES`] |
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament::run::Solution;
-use ligament_analysis::driver::LoadPoint;
-use ligament_analysis::history::{BreakRecord, StepRecord};
+use ligament_analysis::Termination;
+use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::ModeKind;
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
-use ligament_run::summary::DROP;
 
-use crate::crack_path::{Crack, Place, Segment, distance, ends, middle};
+use super::history::{self, Watch};
+use super::loaded_run::{
+    LoadedRun, area, at_rim, axis, between_cuts, extent, half_turn, is_symmetric, leads_left, mean,
+    radius, to_platens, towards_left,
+};
+use crate::anisotropy::Anisotropy;
+use crate::crack_path::{asymmetry, beside, ends};
+use crate::directions::stiffness;
 use crate::equations::Equations;
-use crate::griffith;
-use crate::hole::concentrations;
+use crate::named_modes::Frequencies;
 use crate::patch_test::{change_by_turn, poisson, scatter, young};
-use crate::ring::{RadialDisplacements, Ring, radial_displacements};
-use crate::trial::{Trial, probe};
+use crate::square_elements::SquareLoad;
+use crate::trial::{Number, Trial};
+use crate::{griffith, lamina_elements, square_elements};
 
 /// Name of the curve of displacement and load among what is read.
 pub(super) const CURVE: &str = "curve";
-
-/// Distance from a circle within which a point lies on it, m: coordinates of a mesh are rounded.
-const ON_CIRCLE: f64 = 1e-9;
-
-/// Number of first breakages among which those at the rim are counted.
-const EARLY: usize = 100;
-
-/// A run with its breakages in their order, and the numbers of the experiment.
-struct LoadedRun<'a> {
-    solution: &'a Solution,
-    breaks: &'a [BreakRecord],
-    numbers: &'a Numbers<'a>,
-}
-
-/// What quantities need beside the run.
-pub(super) struct Numbers<'a> {
-    /// A number of the experiment, such as the radius of a disk. Entries of one run share what is read from it: numbers that differ between them belong
-    /// to the name of a quantity.
-    pub(super) number: &'a dyn Fn(&str) -> anyhow::Result<f64>,
-}
 
 /// Way to a quantity.
 #[derive(Clone, Copy)]
 enum Source {
     Run(fn(&LoadedRun<'_>) -> anyhow::Result<f64>),
+    /// Of a run, with the rest of the name.
+    Named(fn(&LoadedRun<'_>, &str) -> anyhow::Result<f64>),
+    /// Of the trial, with the rest of the name.
+    Trial(fn(&Trial, &str, Number<'_>) -> anyhow::Result<f64>),
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
-    Turn,
-    Probe,
+    CommonBreaks,
+    FirstYield,
+    Modes(Cantilever),
+    Row,
+    End,
     Curve,
     Frequency,
 }
 
+/// A cantilever whose modes have names.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Cantilever {
+    Case,
+    SquareOfElements,
+    LaminaOfElements,
+}
+
 /// Quantities of runs and of equations.
-static QUANTITIES: [(&str, Source); 61] = [
+static QUANTITIES: &[(&str, Source)] = &[
     (
         "elastic_stiffness",
         Source::Run(|it| Ok(it.solution.outcome.elastic_stiffness)),
@@ -140,6 +153,70 @@ static QUANTITIES: [(&str, Source); 61] = [
     (
         "first_crack.horizon",
         Source::Run(|it| Ok(it.first_crack()?.horizon)),
+    ),
+    (
+        "first_break.y",
+        Source::Run(|it| Ok(it.first_break()?.at[1])),
+    ),
+    // Angle of the plane across it with a line at the angle `flaw` to the x axis, degrees, and the load at the first break.
+    (
+        "first_break.plane",
+        Source::Run(|it| {
+            let [a, b] = ends(&it.solution.model, it.first()?.bond as usize);
+            let plane = (b[1] - a[1]).atan2(b[0] - a[0]).to_degrees() + 90.0;
+            Ok((plane - it.number("flaw")?).rem_euclid(180.0))
+        }),
+    ),
+    (
+        "first_break.reaction",
+        Source::Run(|it| {
+            let first = it.solution.outcome.first_break;
+            Ok(first.context("no bond breaks")?.reaction)
+        }),
+    ),
+    (
+        "breaks.largest_x",
+        Source::Run(|it| Ok(it.broken().iter().map(|it| it.at[0]).fold(0.0, f64::max))),
+    ),
+    // Fast cracks.
+    (
+        "branches.cracks",
+        Source::Run(|it| Ok(it.branches()?.cracks)),
+    ),
+    (
+        "branches.time",
+        Source::Run(|it| Ok(it.branches()?.first.time)),
+    ),
+    (
+        "branches.x",
+        Source::Run(|it| Ok(it.branches()?.first.at[0])),
+    ),
+    ("branches.speed", Source::Run(|it| Ok(it.branches()?.speed))),
+    ("notches.angle", Source::Run(|it| Ok(it.notches()?.angle))),
+    ("notches.start", Source::Run(|it| Ok(it.notches()?.start))),
+    ("notches.speed", Source::Run(|it| Ok(it.notches()?.speed))),
+    // Pressures under a rigid body, over `directions` along the surface and `side_points` integration points of a side.
+    ("pressed.force", Source::Run(|it| Ok(it.pressed()?.force))),
+    ("pressed.reach", Source::Run(|it| Ok(it.pressed()?.reach))),
+    (
+        "pressed.largest",
+        Source::Run(|it| Ok(it.pressed()?.largest[0])),
+    ),
+    (
+        "pressed.fit",
+        Source::Run(|it| Ok(it.pressed()?.largest[1])),
+    ),
+    // Share of the broken bonds that do not cross the lines y = `line` and -`line`, and the largest difference of damage between a point and its mirror images.
+    (
+        "crack.beside",
+        Source::Run(|it| {
+            let line = it.number("line")?;
+            Ok(beside(it.solution, [-line, line]))
+        }),
+    ),
+    (
+        "crack.asymmetry",
+        Source::Run(|it| Ok(asymmetry(it.solution))),
     ),
     // Share of the first 100 broken bonds that end on the circle of `radius` about the origin, %.
     ("breaks.at_rim", Source::Run(at_rim)),
@@ -225,23 +302,23 @@ static QUANTITIES: [(&str, Source); 61] = [
     // Cracks driven by the fracture energy.
     (
         "griffith.strength",
-        Source::Run(|it| griffith::relative_strength(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::relative_strength(it.solution, it.numbers)),
     ),
     (
         "griffith.crossing",
-        Source::Run(|it| griffith::crossing_energy(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::crossing_energy(it.solution, it.numbers)),
     ),
     (
         "griffith.released",
-        Source::Run(|it| griffith::released(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::released(it.solution, it.numbers)),
     ),
     (
         "griffith.separation",
-        Source::Run(|it| griffith::separation_energy(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::separation_energy(it.solution, it.numbers)),
     ),
     (
         "griffith.deviation",
-        Source::Run(|it| griffith::deviation(it.solution, it.numbers.number)),
+        Source::Run(|it| griffith::deviation(it.solution, it.numbers)),
     ),
     // Constants of the family of the point nearest to the origin.
     ("family.young", Source::Family(|it| it.young[0])),
@@ -270,28 +347,36 @@ pub(super) fn ensure_known(name: &str) -> anyhow::Result<()> {
 }
 
 fn source(name: &str) -> anyhow::Result<Source> {
-    if name.starts_with("probe.") {
-        return Ok(Source::Probe);
-    }
-    if name.starts_with("frequency.") {
-        return Ok(Source::Frequency);
-    }
-    if name.starts_with("turn.") {
-        return Ok(Source::Turn);
-    }
-    if name == CURVE {
-        return Ok(Source::Curve);
-    }
     let found = QUANTITIES.iter().find(|it| it.0 == name);
-    found
-        .map(|it| it.1)
-        .with_context(|| format!("no label, no number and no quantity is called `{name}`"))
+    let (first, _) = name.split_once('.').unwrap_or((name, ""));
+    Ok(match (found, first) {
+        (Some(it), _) => it.1,
+        (_, "frequency") => Source::Frequency,
+        (_, "turn") => Source::Trial(|trial, angle, _| change_by_turn(trial, angle.parse()?)),
+        (_, "direction") => Source::Trial(|trial, name, _| stiffness(trial, name)),
+        (_, "loaded_elements") => Source::Trial(|_, name, number| loaded_elements(name, number)),
+        (_, "intact") => Source::Named(|it, name| it.intact(name)),
+        (_, "end") => Source::End,
+        (_, "phase_speed") => Source::Named(|it, points| it.phase_speed(points.parse()?)),
+        (_, "at_point") => Source::Named(|it, name| it.at_point(name)),
+        (_, "common_breaks") => Source::CommonBreaks,
+        (_, "first_yield") => Source::FirstYield,
+        (_, "largest") => Source::Named(|it, name| it.largest(name)),
+        (_, "elements") => Source::Named(|it, name| it.difference_from_elements(name)),
+        (_, "modes") => Source::Modes(Cantilever::Case),
+        (_, "square_elements") => Source::Modes(Cantilever::SquareOfElements),
+        (_, "lamina_elements") => Source::Modes(Cantilever::LaminaOfElements),
+        (_, "grown") => Source::Named(|it, length| it.grown(length.parse()?)),
+        (_, CURVE) => Source::Curve,
+        _ if history::NAMES.contains(&first) => Source::Row,
+        _ => anyhow::bail!("no label, no number and no quantity is called `{name}`"),
+    })
 }
 
 /// What was read from a run.
 pub(super) struct RunResults {
-    /// Quantities by name; the reason why one has no value.
-    values: BTreeMap<String, Result<f64, String>>,
+    /// Quantities by name, in all rows of the history or once; the reason why one has no value.
+    values: BTreeMap<String, Result<Vec<f64>, String>>,
     /// Displacement and load up to the end, m and N; empty where nothing was loaded.
     pub(super) curve: Vec<[f64; 2]>,
 }
@@ -305,15 +390,41 @@ struct Found {
     /// Constants of the family of the point nearest to the origin.
     family: Option<EngineeringConstants>,
     patch: Option<PatchTest>,
-    run: Option<(Solution, Vec<BreakRecord>)>,
+    run: Option<(Solution, Watch)>,
+    to_the_end: Option<Solution>,
+    cantilevers: BTreeMap<Cantilever, Frequencies>,
+    /// Breakages with explicit and with implicit steps.
+    schemes: Vec<Vec<BreakRecord>>,
+    /// Errors of first yield, by the name of the quantity up to its statistic.
+    first_yields: BTreeMap<String, Anisotropy>,
 }
 
 impl Found {
     /// Runs a trial in all ways that the sources need.
-    fn new(trial: &Trial, sources: &[(String, Source)]) -> anyhow::Result<Self> {
+    fn new(
+        trial: &Trial,
+        sources: &[(String, Source)],
+        numbers: Number<'_>,
+    ) -> anyhow::Result<Self> {
         let mut found = Self::default();
-        for (_, source) in sources {
+        for (name, source) in sources {
             match source {
+                Source::FirstYield => {
+                    let (of, _) = name.rsplit_once('.').unwrap_or_default();
+                    if !found.first_yields.contains_key(of) {
+                        let mut words = of.split('.').skip(1);
+                        let (criterion, strain) =
+                            words.next().zip(words.next()).context("no strain")?;
+                        let anisotropy = Anisotropy::new(&trial.model()?, criterion, strain)?;
+                        found.first_yields.insert(of.to_owned(), anisotropy);
+                    }
+                }
+                Source::CommonBreaks if found.schemes.is_empty() => {
+                    for scheme in ["explicit", "implicit"] {
+                        let trial = trial.clone().set("motion.scheme", scheme);
+                        found.schemes.push(trial.solve_with_breakages()?.1);
+                    }
+                }
                 Source::Frequency if found.modes.is_empty() => found.modes = frequencies(trial)?,
                 Source::Equations(_) if found.equations.is_none() => {
                     found.equations = Some(Equations::from_model(&trial.model()?)?);
@@ -324,8 +435,18 @@ impl Found {
                 Source::Patch(_) if found.patch.is_none() => {
                     found.patch = Some(patch_test(&trial.model()?)?);
                 }
-                Source::Run(_) | Source::Probe | Source::Curve if found.run.is_none() => {
-                    found.run = Some(trial.solve_with_breakages()?);
+                Source::Modes(of) if !found.cantilevers.contains_key(of) => {
+                    let frequencies = of.frequencies(trial, numbers)?;
+                    found.cantilevers.insert(*of, frequencies);
+                }
+                Source::End if found.to_the_end.is_none() => {
+                    found.to_the_end = Some(trial.solve_to_the_end()?);
+                }
+                Source::Run(_) | Source::Named(_) | Source::Row | Source::Curve
+                    if found.run.is_none() =>
+                {
+                    let mut watch = Watch::new(sources.iter().map(|it| &*it.0));
+                    found.run = Some((trial.solve_seen(&mut watch)?, watch));
                 }
                 _ => {}
             }
@@ -333,35 +454,55 @@ impl Found {
         Ok(found)
     }
 
-    fn value(
+    /// The value of a quantity, or its values in all rows.
+    fn values(
         &self,
         (name, source): &(String, Source),
         trial: &Trial,
-        numbers: &Numbers<'_>,
-    ) -> anyhow::Result<f64> {
+        numbers: Number<'_>,
+    ) -> anyhow::Result<Vec<f64>> {
         let run = || self.run.as_ref().context("the case was not run");
-        match source {
-            Source::Frequency => frequency(&self.modes, name),
-            Source::Equations(of) => {
-                Ok(of(self.equations.as_ref().context("there is no model")?))
+        let loaded = || {
+            let (solution, watch) = run()?;
+            anyhow::Ok(LoadedRun {
+                solution,
+                breaks: &watch.breaks,
+                numbers,
+            })
+        };
+        let (_, rest) = name.split_once('.').unwrap_or_default();
+        Ok(vec![match source {
+            Source::Trial(of) => of(trial, rest, numbers)?,
+            Source::Named(of) => of(&loaded()?, rest)?,
+            Source::CommonBreaks => common_breaks(&self.schemes, 1e-6 * rest.parse::<f64>()?),
+            Source::FirstYield => {
+                let (of, statistic) = name.rsplit_once('.').unwrap_or_default();
+                let anisotropy = self.first_yields.get(of).context("nothing yields")?;
+                anisotropy.named(statistic)?
             }
-            Source::Family(of) => Ok(of(self.family.as_ref().context("there is no family")?)),
-            Source::Patch(of) => of(self.patch.as_ref().context("there is no patch test")?),
-            Source::Turn => change_by_turn(trial, name.trim_start_matches("turn.").parse()?),
-            Source::Probe => probe(
-                &run()?.0,
-                &name.trim_start_matches("probe.").replace('_', "-"),
-            ),
+            Source::Modes(of) => {
+                let frequencies = self.cantilevers.get(of).context("no modes were found")?;
+                frequencies.named(rest)?
+            }
+            Source::Frequency => frequency(&self.modes, rest)?,
+            Source::Equations(of) => of(self.equations.as_ref().context("there is no model")?),
+            Source::Family(of) => of(self.family.as_ref().context("there is no family")?),
+            Source::Patch(of) => of(self.patch.as_ref().context("there is no patch test")?)?,
             Source::Curve => anyhow::bail!("a curve is no number"),
-            Source::Run(of) => {
-                let (solution, breaks) = run()?;
-                of(&LoadedRun {
-                    solution,
-                    breaks,
-                    numbers,
-                })
+            Source::Run(of) => of(&loaded()?)?,
+            Source::Row => {
+                let (solution, watch) = run()?;
+                return watch.values(solution, name, numbers);
             }
-        }
+            Source::End => {
+                let solution = self.to_the_end.as_ref().context("the case was not run")?;
+                let termination = &solution.outcome.termination;
+                let ends = matches!(termination, Termination::NoEquilibrium { .. });
+                ensure!(ends, "an equilibrium follows: {termination}");
+                let last = solution.outcome.history.last();
+                history::value(solution, last.context("no equilibrium")?, rest)?
+            }
+        }])
     }
 }
 
@@ -370,14 +511,14 @@ impl RunResults {
     pub(super) fn of_trial(
         trial: &Trial,
         wanted: &BTreeSet<String>,
-        numbers: &Numbers<'_>,
+        numbers: Number<'_>,
     ) -> anyhow::Result<Self> {
         let sources = wanted.iter().map(|name| Ok((name.clone(), source(name)?)));
         let sources: Vec<(String, Source)> = sources.collect::<anyhow::Result<_>>()?;
-        let found = Found::new(trial, &sources)?;
+        let found = Found::new(trial, &sources, numbers)?;
         let values = sources.iter().filter(|it| it.0 != CURVE).map(|it| {
-            let value = found.value(it, trial, numbers);
-            (it.0.clone(), value.map_err(|error| format!("{error:#}")))
+            let values = found.values(it, trial, numbers);
+            (it.0.clone(), values.map_err(|error| format!("{error:#}")))
         });
         let curve = found.run.as_ref().map(|it| it.0.outcome.envelope());
         let curve = curve.unwrap_or_default().into_iter();
@@ -389,12 +530,49 @@ impl RunResults {
         })
     }
 
-    /// The value of a quantity that was read.
-    pub(super) fn value(&self, name: &str) -> anyhow::Result<f64> {
-        let value = self.values.get(name);
-        let value = value.with_context(|| format!("`{name}` was not read"))?;
-        value.clone().map_err(anyhow::Error::msg)
+    /// The value of a quantity that was read, in a row of the history or at last.
+    pub(super) fn value(&self, name: &str, row: Option<usize>) -> anyhow::Result<f64> {
+        let values = self.values.get(name);
+        let values = values.with_context(|| format!("`{name}` was not read"))?;
+        let values = values
+            .as_ref()
+            .map_err(|it| anyhow::Error::msg(it.clone()))?;
+        let in_row = row.and_then(|row| values.get(row)).or(values.last());
+        in_row
+            .copied()
+            .with_context(|| format!("the run has no rows for `{name}`"))
     }
+}
+
+impl Cantilever {
+    fn frequencies(self, trial: &Trial, number: Number<'_>) -> anyhow::Result<Frequencies> {
+        match self {
+            Self::Case => Frequencies::from_trial(trial, number("along")? as usize),
+            Self::SquareOfElements => {
+                square_elements::frequencies(number("nu")?, number("density")?)
+            }
+            Self::LaminaOfElements => lamina_elements::frequencies(number("turned")?),
+        }
+    }
+}
+
+/// Share of the bonds that break up to a time in all runs, of the largest number of them in one.
+fn common_breaks(runs: &[Vec<BreakRecord>], until: f64) -> f64 {
+    let early = |run: &Vec<BreakRecord>| -> BTreeSet<u32> {
+        let early = run.iter().filter(|it| it.load_factor <= until);
+        early.map(|it| it.bond).collect()
+    };
+    let broken: Vec<BTreeSet<u32>> = runs.iter().map(early).collect();
+    let most = broken.iter().map(BTreeSet::len).max().unwrap_or_default();
+    let common = broken.into_iter().reduce(|one, other| &one & &other);
+    common.unwrap_or_default().len() as f64 / most as f64
+}
+
+/// The largest displacement of a square of finite elements, m, from a name such as `traction.u_x`.
+fn loaded_elements(name: &str, number: Number<'_>) -> anyhow::Result<f64> {
+    let (load, of) = name.split_once('.').context("no component is named")?;
+    let (load, nu) = (SquareLoad::named(load)?, number("nu")?);
+    Ok(square_elements::largest_displacements(load, nu)?[axis(of)?])
 }
 
 fn family_in_the_middle(trial: &Trial) -> anyhow::Result<EngineeringConstants> {
@@ -411,206 +589,8 @@ fn frequencies(trial: &Trial) -> anyhow::Result<Vec<f64>> {
     Ok(elastic.map(|mode| mode.frequency()).collect())
 }
 
-fn frequency(modes: &[f64], name: &str) -> anyhow::Result<f64> {
-    let number: usize = name.trim_start_matches("frequency.").parse()?;
+fn frequency(modes: &[f64], number: &str) -> anyhow::Result<f64> {
+    let number: usize = number.parse()?;
     let found = number.checked_sub(1).and_then(|it| modes.get(it)).copied();
     found.with_context(|| format!("the body has no elastic mode {number}"))
-}
-
-impl LoadedRun<'_> {
-    fn number(&self, name: &str) -> anyhow::Result<f64> {
-        (self.numbers.number)(name)
-    }
-
-    fn last(&self) -> anyhow::Result<&StepRecord> {
-        self.solution
-            .outcome
-            .history
-            .last()
-            .context("the run has no history")
-    }
-
-    fn peak(&self) -> anyhow::Result<LoadPoint> {
-        self.solution
-            .outcome
-            .peak()
-            .context("the run has no state at rest")
-    }
-
-    fn first_peak(&self) -> anyhow::Result<LoadPoint> {
-        let peak = self.solution.outcome.first_peak(DROP);
-        peak.context("the run has no state at rest")
-    }
-
-    fn first(&self) -> anyhow::Result<&BreakRecord> {
-        self.breaks.first().context("no bond breaks")
-    }
-
-    fn first_break(&self) -> anyhow::Result<Place> {
-        Ok(middle(&self.solution.model, self.first()?.bond as usize))
-    }
-
-    fn first_crack(&self) -> anyhow::Result<Place> {
-        let found = Crack::first_point(&self.solution.model, self.breaks);
-        found.context("no point is cracked")
-    }
-
-    fn crack(&self) -> Crack {
-        Crack::from_breakages(&self.solution.model, self.breaks)
-    }
-
-    /// The crack when the load first falls.
-    fn at_peak(&self) -> anyhow::Result<Crack> {
-        let peak = self.first_peak()?.load_factor;
-        let until = self.breaks.partition_point(|it| it.load_factor <= peak);
-        Ok(Crack::from_breakages(
-            &self.solution.model,
-            &self.breaks[..until],
-        ))
-    }
-
-    /// The straight cuts of the body, from their first to their last places.
-    fn cuts(&self) -> Vec<Segment> {
-        let cuts = self.solution.model.setup.precracks.iter();
-        let lines = cuts.map(|cut| cut.line());
-        lines.map(|line| [line[0], line[line.len() - 1]]).collect()
-    }
-
-    /// Distance of a place from the nearest end of a cut, m.
-    fn distance_from_tip(&self, place: Place) -> anyhow::Result<f64> {
-        let cuts = self.cuts();
-        let tips = cuts.iter().flatten();
-        let distances = tips.map(|&tip| distance(place.at, [tip; 2]));
-        distances.reduce(f64::min).context("the body has no cut")
-    }
-
-    /// The platens: segments of the half-width `platen` above and below the origin, `radius` away.
-    fn platens(&self) -> anyhow::Result<[Segment; 2]> {
-        let (radius, half) = (self.number("radius")?, self.number("platen")?);
-        Ok([radius, -radius].map(|y| [[-half, y], [half, y]]))
-    }
-
-    fn ring(&self) -> anyhow::Result<RadialDisplacements> {
-        let ring = Ring {
-            inner: self.number("inner")?,
-            outer: self.number("outer")?,
-            young: self.number("young")?,
-            poisson: self.number("poisson")?,
-            pressure: self.number("pressure")?,
-        };
-        Ok(radial_displacements(self.solution, &ring))
-    }
-
-    fn hole(&self) -> anyhow::Result<[[f64; 2]; 3]> {
-        concentrations(
-            self.solution,
-            self.number("young")?,
-            self.number("traction")?,
-        )
-    }
-
-    fn splits(&self, crack: &Crack) -> anyhow::Result<f64> {
-        let [upper, lower] = self.platens()?;
-        Ok(f64::from(u8::from(crack.joins(upper, lower))))
-    }
-}
-
-/// Work under a curve, J.
-fn area(curve: &[LoadPoint]) -> f64 {
-    let of_pair = |pair: &[LoadPoint]| {
-        0.5 * (pair[0].reaction + pair[1].reaction) * (pair[1].displacement - pair[0].displacement)
-    };
-    curve.windows(2).map(of_pair).sum()
-}
-
-fn radius(place: Place) -> f64 {
-    place.at[0].hypot(place.at[1])
-}
-
-/// Mean of a function of the cracked points; 0 without points.
-fn mean(crack: &Crack, of: impl Fn([f64; 2]) -> f64) -> f64 {
-    let count = crack.points.len().max(1) as f64;
-    crack.points.iter().map(|point| of(point.at)).sum::<f64>() / count
-}
-
-fn extent(crack: &Crack) -> f64 {
-    let heights = || crack.points.iter().map(|point| point.at[1]);
-    let [low, high] = [
-        heights().fold(f64::INFINITY, f64::min),
-        heights().fold(f64::NEG_INFINITY, f64::max),
-    ];
-    (high - low).max(0.0)
-}
-
-fn at_rim(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let radius = ran.number("radius")?;
-    ran.first()?;
-    let is_on_rim = |[x, y]: [f64; 2]| x.hypot(y) > radius - ON_CIRCLE;
-    let ends_there = |it: &&BreakRecord| {
-        let ends = ends(&ran.solution.model, it.bond as usize);
-        ends.into_iter().any(is_on_rim)
-    };
-    let early = &ran.breaks[..EARLY.min(ran.breaks.len())];
-    Ok(100.0 * early.iter().filter(ends_there).count() as f64 / early.len() as f64)
-}
-
-fn to_platens(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let parts: Vec<Crack> = ran.cuts().iter().map(|&cut| crack.part_from(cut)).collect();
-    let to_platen = |platen: Segment| {
-        let gaps = parts.iter().map(|part| part.gap_to(platen));
-        gaps.fold(f64::INFINITY, f64::min)
-    };
-    Ok(ran
-        .platens()?
-        .map(to_platen)
-        .into_iter()
-        .fold(0.0, f64::max))
-}
-
-fn between_cuts(ran: &LoadedRun<'_>) -> f64 {
-    let (crack, cuts) = (ran.crack(), ran.cuts());
-    let parts: Vec<Crack> = cuts.iter().map(|&cut| crack.part_from(cut)).collect();
-    let pairs = (1..cuts.len()).map(|second| {
-        let [one, other] = [&parts[second - 1], &parts[second]];
-        let to_cuts = one.gap_to(cuts[second]).min(other.gap_to(cuts[second - 1]));
-        to_cuts.min(one.gap_between(other))
-    });
-    pairs.fold(0.0, f64::max)
-}
-
-/// NaN where the crack has no part on one side.
-fn half_turn(crack: &Crack, along: [f64; 2]) -> f64 {
-    crack.half_turn(along).map_or(f64::NAN, |it| it.mean)
-}
-
-fn is_symmetric(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let mismatch = half_turn(&crack, [1.0, 0.0]) / crack.mean_horizon();
-    Ok(f64::from(u8::from(mismatch <= 1.0)))
-}
-
-fn leads_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let reach = |sign: f64| {
-        let tip = crack.part(|[x, _]| sign * x > 0.0).tip();
-        tip.map_or(0.0, radius)
-    };
-    Ok(f64::from(u8::from(reach(-1.0) > reach(1.0))))
-}
-
-/// Angle to the x axis of the mean direction of the crack from the right end of the first cut, minus that from the left end, degrees, over their
-/// common length; NaN where there is no crack at an end.
-fn towards_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
-    let crack = ran.crack();
-    let [left, right] = *ran.cuts().first().context("the body has no cut")?;
-    let angle = |end: [f64; 2], sign: f64| {
-        let common = crack.common_part([1.0, 0.0])?;
-        let [x, y] = common.part(|[x, _]| sign * x > sign * end[0]).centre()?;
-        Some((y - end[1]).abs().atan2(sign * (x - end[0])))
-    };
-    Ok(match (angle(left, -1.0), angle(right, 1.0)) {
-        (Some(left), Some(right)) => (right - left).to_degrees(),
-        _ => f64::NAN,
-    })
 }

@@ -17,7 +17,7 @@ fn the_experiments_of_the_repository_are_right() {
             assert!(repository().join(case).is_file(), "{name}: {case}");
         }
         for table in &file.table {
-            let known = table.known().unwrap();
+            let known = known(&table.file).unwrap();
             let mut memory = RunMemory::default();
             known
                 .judge(Extent::Full, |labels| {
@@ -108,5 +108,89 @@ fn what_is_wrong_is_told() {
     ] {
         let found = toml::from_str::<ExperimentFile>(&TEXT.replacen(from, to, 1)).unwrap_err();
         assert!(found.to_string().contains(expected), "{found}");
+    }
+}
+
+/// The file with other settings, numbers and values than [`TEXT`] has.
+fn file_with(changes: &[(&str, &str)]) -> ExperimentFile {
+    let text = changes.iter().fold(TEXT.to_owned(), |text, (from, to)| {
+        assert!(text.contains(from), "{from}");
+        text.replacen(from, to, 1)
+    });
+    toml::from_str(&text).unwrap()
+}
+
+const SET: &str = r#"set = ['model.horizon_factor={lambda}', 'correction.surface="{correction}"', 'lattice.cells=[{60/lambda},{force/1e5}]', 'fracture={{ steps = 2 }}']"#;
+
+#[test]
+fn lists_and_stresses_become_settings() {
+    let settings = r#"
+list = { key = "fracture.steps", count = 3, item = "{item/2 + lambda}" }
+stress = { principal = "-2*area; 0", angle = "0*lambda" }"#;
+    let file = file_with(&[(SET, settings)]);
+    let command = runs(&file, ["4", "patch"]).unwrap().trial(0).unwrap();
+    assert_eq!(
+        command.command(),
+        "ligament run cases/plate-tension/case.toml --set fracture.steps=[4,4.5,5] --set \
+         load=[{ group = \"left\", force_per_length = { x = 6e0 } }, { group = \"right\", force_per_length = { x = -6e0 } }]"
+    );
+}
+
+/// Numbers may be made of other runs, and labels change together.
+#[test]
+fn references_and_joined_keys_are_other_runs() {
+    let references = r#"[reference.coarse]
+value = "10*lambda"
+labels = { lambda = "4" }
+[reference.printed]
+known = "omppd-table-{lambda}"
+labels = { angle = "0", of = "finite elements" }
+[numbers]
+sum = "lambda + coarse""#;
+    let file = file_with(&[
+        ("[numbers]", references),
+        ("last.stiffness/force", "sum"),
+        ("mean(area)", "sum(factor)/difference(printed)"),
+        (
+            r#"key = "lambda", label = "all", members = ["3", "4"]"#,
+            r#"key = "lambda, factor", members = ["3, 2", "4, 5"]"#,
+        ),
+    ]);
+    let value = |labels| RunMemory::default().value(&runs(&file, labels).unwrap());
+    assert_eq!(value(["3", "domain"]).unwrap(), 7.0 / (400.85 - 1403.0));
+    let several = format!("{:#}", value(["3", "patch"]).unwrap_err());
+    assert!(several.contains("`sum` has 2 values"), "{several}");
+    let file = file_with(&[
+        ("[numbers]", references),
+        ("\"last.stiffness/force\"", "\"max(sum)\""),
+    ]);
+    let value = |labels| RunMemory::default().value(&runs(&file, labels).unwrap());
+    assert_eq!(value(["3", "patch"]).unwrap(), 43.0);
+}
+
+/// Quantities within numbers and references are planned like those of the value.
+#[test]
+fn quantities_of_numbers_and_references_must_be_known() {
+    for (number, expected) in [
+        ("first_brake.x", "no quantity is called `first_brake.x`"),
+        ("coarse", "no quantity is called `peek.reaction`"),
+        ("printed", "omppd-table-3 has no [\"15\", \"lattice\"]"),
+    ] {
+        let references = format!(
+            r#"[reference.coarse]
+value = "peek.reaction"
+[reference.printed]
+known = "omppd-table-3"
+labels = {{ angle = "15", of = "lattice" }}
+[numbers]
+other = "1 + {number}""#
+        );
+        let file = file_with(&[
+            ("[numbers]", &references),
+            ("last.stiffness/force", "other"),
+        ]);
+        let planned = runs(&file, ["3", "patch"]).and_then(|it| RunMemory::default().plan(&it));
+        let found = format!("{:#}", planned.unwrap_err());
+        assert!(found.contains(expected), "{number}: {found}");
     }
 }

@@ -8,7 +8,6 @@ use ligament_analysis::history::BreakRecord;
 use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 
-use crate::cracks;
 use crate::experiment_file::ExperimentFile;
 use crate::trial::Trial;
 
@@ -41,8 +40,9 @@ const PLATES: [Figure; 3] = [("central", 14), ("three", 16), ("hole", 17)];
 /// All maps of damage.
 pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     let mut maps = Vec::new();
-    let [disk, slotted, inclined] = ["disk", "slots", "inclined"].map(ExperimentFile::read);
-    let [disk, slotted, inclined] = [disk?, slotted?, inclined?];
+    let files = ["disk", "slots", "inclined", "cracks"].map(ExperimentFile::read);
+    let [disk, slotted, inclined, plates] = files;
+    let [disk, slotted, inclined, plates] = [disk?, slotted?, inclined?, plates?];
     let of = |file: &ExperimentFile, correction: &str, labels: &[(&str, &str)]| {
         let all = [&[("correction", correction), ("lambda", "3")], labels].concat();
         file.trial(&all)
@@ -67,7 +67,8 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
         |correction| of(&inclined, correction, &[("theta", "62.5")]),
     )?);
     for (case, figure) in PLATES {
-        let trial = cracks::trial(case, 1.0, "mixed-mode")?.set("fracture.stop.load_fraction", END);
+        let labels = [("case", case), ("d", "1"), ("criterion", "mixed-mode")];
+        let trial = (plates.trial(&labels)?).set("fracture.stop.load_fraction", END);
         let run = trial.solve_with_breakages()?;
         maps.push(Maps {
             name: format!("mbb-figure-{figure}"),

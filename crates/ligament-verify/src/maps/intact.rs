@@ -6,9 +6,10 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 
 use super::Motion;
 use super::drawing::maps_of_component;
+use crate::experiment_file::ExperimentFile;
 use crate::finite_elements::{Body, Degree, Mesh};
-use crate::trial::Template;
-use crate::{cylinder, plates};
+use crate::ring::{Ring, radial};
+use crate::trial::Trial;
 
 const YOUNG: f64 = 65.8e9;
 
@@ -23,22 +24,22 @@ const ELEMENTS: [usize; 2] = [100, 99];
 /// Free strain of the heated plates: 23e-6/K times 50 K.
 const FREE_STRAIN: f64 = 23e-6 * 50.0;
 
-/// Spacing of the cylinder's points, m.
-const COARSE: f64 = 0.05;
-
 /// Prescribed displacements of the nodes of elements, shape (n_nodes, 2), m.
 type Prescribed = Vec<[Option<f64>; 2]>;
 
 /// All maps of intact bodies.
 pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     let mut maps = Vec::new();
-    for (axis, name, template) in [(1, "y", &plates::TENSION_Y), (0, "x", &plates::TENSION_X)] {
-        let motions = beside(pulled(axis)?, template, 0.2)?;
+    for (axis, name, case) in [
+        (1, "y", "mbb-plate/tension"),
+        (0, "x", "mbb-plate/tension-x"),
+    ] {
+        let motions = beside(pulled(axis)?, case, 0.2)?;
         let title = format!("Plate in tension along {name}, nu = 0.2");
         let file = format!("mbb-figure-9-tension-{name}");
         maps.push(maps_of_component(file, &title, &motions, axis));
     }
-    let motions = beside(sheared()?, &plates::SHEAR, 0.3)?;
+    let motions = beside(sheared()?, "mbb-plate/shear", 0.3)?;
     let file = "mbb-figure-9-shear".to_owned();
     maps.push(maps_of_component(
         file,
@@ -46,15 +47,15 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
         &motions,
         0,
     ));
-    for (edges, template, title) in [
-        (2, &plates::THERMAL, "Heated plate, two edges clamped"),
+    for (edges, case, title) in [
+        (2, "thermal-plates/case", "Heated plate, two edges clamped"),
         (
             3,
-            &plates::THERMAL_LEFT,
+            "thermal-plates/three-edges",
             "Heated plate, three edges clamped",
         ),
     ] {
-        let motions = beside(heated(edges)?, template, 0.4)?;
+        let motions = beside(heated(edges)?, case, 0.4)?;
         for axis in [1, 0] {
             let file = format!("mbb-figure-10-{edges}-edges");
             maps.push(maps_of_component(file, title, &motions, axis));
@@ -65,12 +66,8 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 }
 
 /// The motions of finite elements and of the lattice of a case.
-fn beside(
-    elements: Motion,
-    template: &'static Template,
-    ratio: f64,
-) -> anyhow::Result<[(String, Motion); 2]> {
-    let trial = template.trial().set("material.poisson", ratio);
+fn beside(elements: Motion, case: &str, ratio: f64) -> anyhow::Result<[(String, Motion); 2]> {
+    let trial = Trial::of_file(&format!("cases/{case}.toml"))?.set("material.poisson", ratio);
     let solution = trial.solve()?;
     let lattice = Motion::of_lattice(
         &**solution.model.plane(),
@@ -148,18 +145,24 @@ fn heated(edges: usize) -> anyhow::Result<Motion> {
 
 /// The radial displacement of the cylinder, by Lame and by the lattice, at both ratios of the paper.
 fn cylinder() -> anyhow::Result<Maps> {
+    let file = ExperimentFile::read("cylinder")?;
     let mut bodies = Vec::new();
     for ratio in [0.1, -0.1] {
-        let solution = cylinder::trial(COARSE, ratio).solve()?;
+        let solution = file
+            .trial(&[("d", "50"), ("nu", &ratio.to_string())])?
+            .solve()?;
+        let ring = Ring {
+            inner: 1.5,
+            outer: 2.2,
+            young: YOUNG,
+            poisson: ratio,
+            pressure: 400e6,
+        };
         let cloud = &solution.model.plane().cloud;
         let [spacing, _] = cloud.lattice_cell.context("the cylinder is no lattice")?;
-        let points = cylinder::radial(&solution, ratio);
-        let places: Vec<[f64; 2]> = points.iter().map(|it| it.place).collect();
-        for (title, value) in [
-            ("Lame", (|it| it.exact) as fn(&cylinder::Radial) -> f64),
-            ("MBB-PD", |it| it.found),
-        ] {
-            let values: Vec<f64> = points.iter().map(value).collect();
+        let (places, found): (Vec<[f64; 2]>, Vec<f64>) = radial(&solution).into_iter().unzip();
+        let exact = places.iter().map(|[x, y]| ring.lame(x.hypot(*y)));
+        for (title, values) in [("Lame", exact.collect()), ("MBB-PD", found)] {
             let moved = |(place, value): (&[f64; 2], &f64)| {
                 place.map(|it| value * it / place[0].hypot(place[1]))
             };

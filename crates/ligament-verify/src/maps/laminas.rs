@@ -6,7 +6,11 @@ use super::Motion;
 use super::drawing::{Quantity, maps_of_component, maps_of_modes};
 use crate::lamina_elements;
 use crate::named_modes::in_named_order;
-use crate::{lamina, tension};
+use crate::tension;
+use crate::trial::Trial;
+
+/// Case of the natural modes.
+pub(super) const MODES: &str = "cases/verification/lamina-modes.toml";
 
 /// Axis of the cantilevers: x.
 const ALONG: usize = 0;
@@ -53,9 +57,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 
 /// The lamina in tension, with or without its hole.
 fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
-    let mut trial = tension::CASE
-        .trial()
-        .set("material.angle", angle.to_radians());
+    let mut trial = Trial::of_file(tension::CASE)?.set("material.angle", angle.to_radians());
     if !has_hole {
         trial = trial.set("lattice.remove", Vec::<f64>::new());
     }
@@ -68,9 +70,7 @@ fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
 }
 
 fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
-    let trial = lamina::CASE
-        .trial()
-        .set("material.angle", angle.to_radians());
+    let trial = Trial::of_file(MODES)?.set("material.angle", angle.to_radians());
     let model = trial.model()?;
     let system = model.plane();
     let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;

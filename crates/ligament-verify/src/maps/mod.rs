@@ -8,10 +8,10 @@ mod laminas;
 mod squares;
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::published;
-use super::statics::{BENDING, SHEAR, TRACTION};
+use super::published::known;
+use super::readings::{BENDING, SHEAR, TRACTION};
 use super::table::Extent;
-use super::{frequencies, lamina, tension};
+use super::tension;
 use drawing::Motion;
 
 /// The experiment.
@@ -27,25 +27,25 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
             after shares of the breakages of the tests of `disk`, `slots`, `inclined` and `cracks`, on the bodies without their \
             displacements.",
     cases: &[
-        &TRACTION,
-        &SHEAR,
-        &BENDING,
-        &frequencies::CASE,
-        &tension::CASE,
-        &lamina::CASE,
+        TRACTION,
+        SHEAR,
+        BENDING,
+        squares::MODES,
+        tension::CASE,
+        laminas::MODES,
     ],
     compute: Compute::Code(compute),
 };
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut squares = squares::Squares::default();
-    let displacements = published!("maps-displacements").judge(extent, |labels| {
+    let displacements = known("maps-displacements")?.judge(extent, |labels| {
         let (load, ratio) = (labels.text("load")?, labels.number("nu")?);
         let elements = squares.elements(load, ratio)?;
         let lattice = squares.lattice(load, ratio, labels.text("model")?)?;
         Ok(100.0 * lattice.difference(&elements))
     })?;
-    let modes = published!("maps-modes").judge(extent, |labels| {
+    let modes = known("maps-modes")?.judge(extent, |labels| {
         let ratio = labels.number("nu")?;
         let place = squares::place_of_mode(labels.text("mode")?)?;
         let elements = squares.modes_of_elements(ratio)?;

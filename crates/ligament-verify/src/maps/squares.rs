@@ -1,15 +1,17 @@
 //! Maps of the square plates of MPPD (Figs 12 to 24).
 
-use anyhow::{Context, bail};
+use anyhow::Context;
 use ligament_plot::picture::maps::Maps;
 
 use super::Motion;
 use super::drawing::{Quantity, maps_of_component, maps_of_modes};
-use crate::frequencies;
 use crate::named_modes::{NAMES, in_named_order};
+use crate::readings::case_of;
 use crate::square_elements::{self, SquareLoad};
-use crate::statics::case_of;
-use crate::trial::Memory;
+use crate::trial::{Memory, Trial};
+
+/// Case of the natural modes.
+pub(super) const MODES: &str = "cases/verification/square-modes.toml";
 
 const DENSITY: f64 = 2500.0;
 
@@ -35,7 +37,8 @@ impl Squares {
     /// The plate under a load by finite elements.
     pub(super) fn elements(&mut self, load: &str, ratio: f64) -> anyhow::Result<Motion> {
         self.motions.result(format!("elements {load} {ratio}"), || {
-            let (mesh, displacements) = square_elements::displacements(load_of(load)?, ratio)?;
+            let (mesh, displacements) =
+                square_elements::displacements(SquareLoad::named(load)?, ratio)?;
             Ok(Motion::of_elements(mesh, displacements).without_rigid_motion())
         })
     }
@@ -47,7 +50,7 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Motion> {
-        let trial = (case_of(load_of(load)?).trial())
+        let trial = Trial::of_file(case_of(SquareLoad::named(load)?))?
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.motions.reading(&trial, |it| {
@@ -72,7 +75,7 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Vec<Motion>> {
-        let trial = (frequencies::CASE.trial())
+        let trial = (Trial::of_file(MODES)?)
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.modes.result(trial.command(), || {
@@ -123,15 +126,6 @@ impl Squares {
             maps.push(maps_of_modes(name, &title, &methods));
         }
         Ok(maps)
-    }
-}
-
-fn load_of(name: &str) -> anyhow::Result<SquareLoad> {
-    match name {
-        "traction" => Ok(SquareLoad::Traction),
-        "shear" => Ok(SquareLoad::Shear),
-        "bending" => Ok(SquareLoad::Bending),
-        other => bail!("no load `{other}`"),
     }
 }
 

@@ -81,7 +81,6 @@ mod tests {
     use crate::published::known_values;
     use crate::table::{Extent, Labels};
     use crate::tally::Tally;
-    use crate::trial::Template;
 
     const TABLE: &str = "\
 # title: First mode
@@ -95,23 +94,12 @@ nu,known,allowed,subset,standing,instead,reason
 0.25,1565.9,1 %,fast,,,
 ";
 
-    static CASES: [Template; 2] = [
-        Template {
-            path: "cases/a.toml",
-            text: "",
-        },
-        Template {
-            path: "cases/b.toml",
-            text: "",
-        },
-    ];
-
     const EXPERIMENT: Experiment = Experiment {
         name: "modes",
         title: "Modes",
         source: "Author 2019",
         setup: "A lamina.",
-        cases: &[&CASES[0], &CASES[1]],
+        cases: &["cases/a.toml", "cases/b.toml"],
         compute: Compute::Code(|_| findings()),
     };
 

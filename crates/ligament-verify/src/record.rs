@@ -1,10 +1,8 @@
-//! A quantity of the history of a motion over time: its extrema, zeros and phases.
+//! A quantity of the history of a run over time: its extrema, zeros and phases.
 
 use std::f64::consts::{PI, TAU};
 
 use anyhow::Context;
-use ligament::run::Solution;
-use ligament_analysis::history::StepRecord;
 
 /// Share of the duration after which a record fades out before its Fourier transform.
 const FADE: f64 = 0.8;
@@ -19,36 +17,6 @@ pub(crate) struct Record {
 }
 
 impl Record {
-    /// A quantity of every row of a motion.
-    pub(crate) fn of_rows(solution: &Solution, value: impl Fn(&StepRecord) -> f64) -> Self {
-        let rows = &solution.outcome.history;
-        Self {
-            times: rows.iter().map(|row| row.load_factor).collect(),
-            values: rows.iter().map(value).collect(),
-        }
-    }
-
-    /// The values of a probe.
-    pub(crate) fn of_probe(solution: &Solution, name: &str) -> anyhow::Result<Self> {
-        let place = solution.probes.iter().position(|probe| probe.name == name);
-        let place = place.with_context(|| format!("the run has no probe `{name}`"))?;
-        Ok(Self::of_rows(solution, |row| row.probes[place]))
-    }
-
-    /// The record with the weighted values of another one at the same times added.
-    pub(crate) fn plus(mut self, weight: f64, other: &Self) -> Self {
-        for (value, added) in self.values.iter_mut().zip(&other.values) {
-            *value += weight * added;
-        }
-        self
-    }
-
-    /// The record times a factor.
-    pub(crate) fn times_factor(mut self, factor: f64) -> Self {
-        self.values.iter_mut().for_each(|value| *value *= factor);
-        self
-    }
-
     /// Value at a time within the record, between rows by a straight line.
     pub(crate) fn at(&self, time: f64) -> anyhow::Result<f64> {
         let after = self.times.partition_point(|it| *it < time);
@@ -58,6 +26,13 @@ impl Record {
             return Ok(*end);
         };
         Ok(start + (end - start) * (time - early) / (late - early))
+    }
+
+    /// Value in the first row from a time on, which may be rounded.
+    pub(crate) fn from(&self, time: f64) -> anyhow::Result<f64> {
+        let place = self.times.partition_point(|it| *it < time * (1.0 - 1e-9));
+        let found = self.values.get(place).copied();
+        found.context("the motion ends before the time")
     }
 
     /// Time and size of the largest value within a window of time, by the parabola through it and its neighbours.
@@ -84,8 +59,15 @@ impl Record {
         self.falls(from).first().copied().context("no zero follows")
     }
 
+    /// Frequency at which the values fall through zero after `from`.
+    pub(crate) fn frequency(&self, from: f64) -> anyhow::Result<f64> {
+        let falls = self.falls(from);
+        let (first, last) = falls.first().zip(falls.last()).context("no vibration")?;
+        Ok(falls.len().saturating_sub(1) as f64 / (last - first))
+    }
+
     /// All times after `from` at which the values fall through zero.
-    pub(crate) fn falls(&self, from: f64) -> Vec<f64> {
+    fn falls(&self, from: f64) -> Vec<f64> {
         let pairs = self.times.windows(2).zip(self.values.windows(2));
         let falling =
             pairs.filter(|(times, values)| times[0] >= from && values[0] > 0.0 && values[1] <= 0.0);
@@ -112,7 +94,7 @@ impl Record {
     }
 
     /// Phases, rad, by which another record is behind this one at multiples of a small angular frequency.
-    pub(crate) fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
+    fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
         let mut last = 0.0;
         let mut delays = Vec::with_capacity(count);
         for place in 1..=count {
@@ -128,6 +110,35 @@ impl Record {
         }
         delays
     }
+}
+
+/// Number of angular frequencies of a spectrum, and the least number of points per wavelength of the fastest wave in it.
+const SPECTRUM: (usize, f64) = (400, 6.0);
+
+/// Phase speed of waves with so many points per wavelength over `speed` (m/s), between those of the spectra of two records by a straight line; the records
+/// are those of places `gauge` apart on a lattice with a `spacing`, m.
+pub(crate) fn phase_speed(
+    [near, far]: [&Record; 2],
+    points: f64,
+    [speed, gauge, spacing]: [f64; 3],
+) -> anyhow::Result<f64> {
+    let (count, shortest) = SPECTRUM;
+    let step = TAU * speed / (shortest * spacing) / count as f64;
+    let delays = near.delays(far, step, count).into_iter();
+    let spectrum = delays.map(|[omega, delay]| {
+        [
+            TAU * gauge / (delay * spacing),
+            omega * gauge / delay / speed,
+        ]
+    });
+    let spectrum: Vec<[f64; 2]> = spectrum.collect();
+    let around = spectrum
+        .windows(2)
+        .find(|pair| pair[0][0] >= points && points >= pair[1][0]);
+    let [[long, fast], [short, slow]] = around
+        .and_then(|pair| <[[f64; 2]; 2]>::try_from(pair).ok())
+        .context("no wave of this length was found")?;
+    Ok(fast + (slow - fast) * (points - long) / (short - long))
 }
 
 #[cfg(test)]

@@ -1,9 +1,11 @@
 //! Places, times and speeds of fast cracks, from the broken bonds alone.
 
+use anyhow::Context;
 use ligament::Model;
 use ligament_analysis::history::BreakRecord;
 
 use crate::crack_path::middle;
+use crate::trial::Number;
 
 /// A bond that broke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -24,13 +26,85 @@ pub(super) fn breaks(model: &Model, records: &[BreakRecord]) -> Vec<Break> {
     .collect()
 }
 
+/// Branches of a crack from a notch.
+pub(super) struct Branches {
+    /// Number of cracks: 2 with branches on both sides of the line of the notch, otherwise 1.
+    pub(super) cracks: f64,
+    /// First broken bond of the upper branch; without branches not a number.
+    pub(super) first: Break,
+    /// Largest speed of the broken bond farthest from the tip, m/s.
+    pub(super) speed: f64,
+}
+
+impl Branches {
+    /// Branches of a crack from (`tip_x`, `tip_y`), whose bonds break more than `beside` (m) from the line of the notch; speeds are over a `window` of
+    /// time (s).
+    pub(super) fn new(breaks: &[Break], number: Number<'_>) -> anyhow::Result<Self> {
+        let tip = [number("tip_x")?, number("tip_y")?];
+        let beside = number("beside")?;
+        let side = |sign: f64| {
+            let mut all = breaks.iter();
+            all.find(|it| sign * (it.at[1] - tip[1]) > beside)
+        };
+        let none = Break {
+            time: f64::NAN,
+            at: [f64::NAN; 2],
+        };
+        let branches = side(1.0).zip(side(-1.0));
+        Ok(Self {
+            cracks: if branches.is_some() { 2.0 } else { 1.0 },
+            first: branches.map_or(none, |(upper, _)| *upper),
+            speed: largest_speed(breaks.iter(), tip, number("window")?),
+        })
+    }
+}
+
+/// Cracks from two notches.
+pub(super) struct FromNotches {
+    /// Mean angle of the cracks with the x axis, degrees.
+    pub(super) angle: f64,
+    /// Time at which the first one is a `horizon` away from its tip, s.
+    pub(super) start: f64,
+    /// Largest speed, m/s.
+    pub(super) speed: f64,
+}
+
+impl FromNotches {
+    /// Cracks from the notches with tips at (`tip_x`, `upper_tip`) and (`tip_x`, `lower_tip`), on their outer sides and steeper than 45 degrees; `middle`
+    /// is between them.
+    pub(super) fn new(breaks: &[Break], number: Number<'_>) -> anyhow::Result<Self> {
+        let (middle, horizon) = (number("middle")?, number("horizon")?);
+        let [mut angle, mut start, mut speed] = [0.0, f64::INFINITY, 0.0_f64];
+        for (tip, sign) in [("upper_tip", 1.0), ("lower_tip", -1.0)] {
+            let tip = [number("tip_x")?, number(tip)?];
+            let is_outside =
+                |it: &&Break| sign * (it.at[1] - tip[1]) > (it.at[0] - tip[0]).max(0.0);
+            let is_away = |it: &&Break| distance(it.at, tip) > horizon;
+            let of_notch = || {
+                let half = breaks.iter().filter(|it| sign * (it.at[1] - middle) > 0.0);
+                half.filter(is_outside).filter(is_away)
+            };
+            let first = of_notch().next().context("no crack grows from a notch")?;
+            start = first.time.min(start);
+            let places: Vec<[f64; 2]> = of_notch().map(|it| it.at).collect();
+            angle += 0.5 * direction(&places).abs().to_degrees();
+            speed = largest_speed(of_notch(), tip, number("window")?).max(speed);
+        }
+        Ok(Self {
+            angle,
+            start,
+            speed,
+        })
+    }
+}
+
 /// Distance of two places, m.
-pub(super) fn distance([x, y]: [f64; 2], [u, v]: [f64; 2]) -> f64 {
+fn distance([x, y]: [f64; 2], [u, v]: [f64; 2]) -> f64 {
     (x - u).hypot(y - v)
 }
 
 /// Largest speed, m/s, of the bond farthest from an origin, over windows of a duration (s).
-pub(super) fn largest_speed<'a>(
+fn largest_speed<'a>(
     breaks: impl Iterator<Item = &'a Break>,
     origin: [f64; 2],
     window: f64,
@@ -59,7 +133,7 @@ pub(super) fn largest_speed<'a>(
 }
 
 /// Angle of the principal axis of places with the x axis, rad, from -pi/2 to pi/2.
-pub(super) fn direction(places: &[[f64; 2]]) -> f64 {
+fn direction(places: &[[f64; 2]]) -> f64 {
     let count = places.len() as f64;
     let mean = [0, 1].map(|axis| places.iter().map(|at| at[axis]).sum::<f64>() / count);
     let moment = |one: usize, other: usize| -> f64 {

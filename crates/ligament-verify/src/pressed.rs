@@ -1,0 +1,57 @@
+//! Pressures under a rigid body that is pressed into another.
+
+use std::collections::BTreeMap;
+
+use anyhow::Context;
+use ligament::run::Solution;
+
+/// Pressures of a contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pressed {
+    /// Force, N; of the cylinder for each length, N/m.
+    pub(super) force: f64,
+    /// Largest pressure of a side of a cell, and of the fit, Pa.
+    pub(super) largest: [f64; 2],
+    /// Half-width or radius by the second moment of the pressures, m.
+    pub(super) reach: f64,
+}
+
+/// Pressures under a rigid body from the sides of cells in contact, over so many directions along the surface and so many integration points of a side.
+pub(super) fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow::Result<Pressed> {
+    let touches = &solution.outcome.state.surfaces.touching().touches;
+    let all = touches.first().context("no contact")?.iter();
+    let all: Vec<_> = all.filter(|it| it.depth() > 0.0).collect();
+    let force: f64 = all.iter().map(|it| it.stiffness * it.depth()).sum();
+    let squares = |arm: &[f64]| -> f64 { arm.iter().take(along).map(|it| it * it).sum() };
+    let moments = all
+        .iter()
+        .map(|it| it.stiffness * it.depth() * squares(&it.arm));
+    let second = moments.sum::<f64>() / force;
+    // Of p_0 sqrt(1 - r^2/a^2) over a strip and over a disk.
+    let of_reach = if along == 1 { 0.25 } else { 0.4 };
+    let mut sides: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
+    for it in &all {
+        let reading = [squares(&it.arm), it.stiffness * it.depth() / it.area];
+        sides.entry(it.place / points).or_default().push(reading);
+    }
+    // Only sides of cells that are in contact as a whole.
+    let whole = sides.values().filter(|it| it.len() == points as usize);
+    let places = whole.map(|it| {
+        let mean = |axis: usize| it.iter().map(|it| it[axis]).sum::<f64>() / f64::from(points);
+        [mean(0), mean(1).powi(2)]
+    });
+    let places: Vec<[f64; 2]> = places.collect();
+    let count = places.len() as f64;
+    let mean = |axis: usize| places.iter().map(|it| it[axis]).sum::<f64>() / count;
+    let (x, y) = (mean(0), mean(1));
+    let products = places.iter().map(|it| (it[0] - x) * (it[1] - y));
+    let spread: f64 = places.iter().map(|it| (it[0] - x).powi(2)).sum();
+    let slope = products.sum::<f64>() / spread;
+    let square = y - slope * x;
+    let largest = places.iter().map(|it| it[1]).fold(0.0, f64::max);
+    Ok(Pressed {
+        force,
+        largest: [largest.sqrt(), square.sqrt()],
+        reach: (second / of_reach).sqrt(),
+    })
+}
