@@ -5,8 +5,9 @@ use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::fracture::{Control, Fracture};
 use super::key_path::KeyPath;
-use super::motion::Scheme;
 use super::sections::Case;
+use super::word::word_of;
+use ligament_analysis::motion::Scheme;
 
 /// Keys that do not apply with a setting.
 struct NotWith {
@@ -184,7 +185,7 @@ impl With {
         match self {
             Self::Analysis(any) => {
                 let analysis = case.analysis.filter(|it| any.contains(it))?;
-                Some(format!("analysis = \"{}\"", analysis.word()))
+                Some(format!("analysis = \"{}\"", word_of(&analysis)))
             }
             Self::Setting(words, holds) => holds(case).then(|| (*words).to_owned()),
         }
