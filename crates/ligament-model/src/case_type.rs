@@ -3,7 +3,7 @@
 /// A structure or a list of words that a case file reads as it is. With the feature `case` it derives what serde and schemars need: its documentation
 /// describes it to users, and `#[case(...)]` adds attributes of the two. Words are those of the variants in kebab case.
 ///
-/// ```
+/// ```text
 /// ligament_model::case_type! {
 ///     /// Damping in proportion to masses and stiffness.
 ///     #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -53,11 +53,8 @@ impl Dashpot {
     }
 }
 
-/// Largest number of rows.
-const MOST_ROWS: usize = 1_000_000;
-
 /// Largest dissipation of implicit steps, beyond which they are less accurate than of second order.
-pub const MOST_DISSIPATION: f64 = 1.0 / 3.0;
+pub const MOST_DISSIPATION: f64 = 3.0_f64.recip();
 
 case_type! {
     /// How the body moves in time under loads that depend on time.
@@ -67,7 +64,7 @@ case_type! {
         #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
         pub duration: f64,
         /// Rows of the history, at equal times.
-        #[case(serde(default = "rows"), schemars(range(min = 1, max = MOST_ROWS)))]
+        #[case(serde(default = "rows"), schemars(range(min = 1, max = 1_000_000)))]
         pub rows: usize,
         /// Scheme of the integration in time.
         #[case(serde(default))]
