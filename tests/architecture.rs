@@ -141,11 +141,22 @@ const RESERVED: [(&str, &[&str]); 17] = [
     ),
     ("numpy", &["ligament-python"]),
     ("pyo3", &["ligament-python"]),
-    ("schemars", &["ligament-case"]),
+    (
+        "schemars",
+        &[
+            "ligament",
+            "ligament-analysis",
+            "ligament-case",
+            "ligament-model",
+        ],
+    ),
     (
         "serde",
         &[
+            "ligament",
+            "ligament-analysis",
             "ligament-case",
+            "ligament-model",
             "ligament-output",
             "ligament-plot",
             "ligament-study",
@@ -182,6 +193,9 @@ const RESERVED: [(&str, &[&str]); 17] = [
     ("skrifa", &["ligament-plot"]),
     ("tiny-skia", &["ligament-plot"]),
 ];
+
+/// Crates that know serde and schemars by their feature `case` alone, for types that a case file reads as they are.
+const OF_CASES: [&str; 3] = ["ligament", "ligament-analysis", "ligament-model"];
 
 /// Crates that touch files.
 const WITH_FILES: [&str; 9] = [
@@ -334,6 +348,27 @@ fn packages_are_used_where_they_belong() {
         let users: Vec<&str> = normal.keys().filter(uses).map(String::as_str).collect();
         assert_eq!(users, allowed, "{package}");
     }
+}
+
+/// What computes reads no text: what describes its types to a case file is optional, and off where nobody asks for it. `tools/packages` compiles it without.
+#[test]
+fn what_computes_knows_case_files_by_a_feature_alone() {
+    let metadata = metadata(&["--no-deps"]);
+    let mut found = BTreeSet::new();
+    for package in metadata["packages"].as_array().unwrap() {
+        let name = package["name"].as_str().unwrap();
+        let Some(&name) = OF_CASES.iter().find(|it| **it == name) else {
+            continue;
+        };
+        assert!(package["features"]["default"].is_null(), "{name}");
+        for dependency in package["dependencies"].as_array().unwrap() {
+            if matches!(dependency["name"].as_str(), Some("serde" | "schemars")) {
+                assert_eq!(dependency["optional"], true, "{name}");
+                found.insert(name);
+            }
+        }
+    }
+    assert_eq!(found, BTreeSet::from(OF_CASES));
 }
 
 /// The libraries print nothing; what computes touches no files.

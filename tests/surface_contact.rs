@@ -6,12 +6,13 @@ use std::collections::BTreeMap;
 use ligament::body::{Cells, LatticeBody, MeshBody, SolidLatticeBody};
 use ligament::run::NoObserver;
 use ligament::setup::{
-    Analysis, Between, ContactLaw, InitialVelocity, Law, Place, Rigid, RigidForm, Section, Setup,
-    Support, SurfaceContact, motion,
+    Analysis, ContactLaw, InitialVelocity, Law, Place, Rigid, RigidForm, Section, Setup, Support,
+    SurfaceContact,
 };
 use ligament_analysis::Component;
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::load_program::{self, Amplitude};
+use ligament_analysis::motion::MotionSettings;
 use ligament_analysis::motion::contact::{ContactForces, ContactState};
 use ligament_analysis::serial::Serial;
 use ligament_mesh::{Cell, Group, Mesh};
@@ -50,8 +51,9 @@ fn parted(cells: [u32; 2], [from, to]: [f64; 2], law: Law, poisson: f64) -> Setu
 
 fn with_contact(setup: Setup, law: ContactLaw) -> Setup {
     let contact = SurfaceContact {
-        between: Between::Parts,
-        law,
+        between: None,
+        friction: law.friction,
+        stiffness: law.stiffness,
         cracks: false,
     };
     Setup {
@@ -180,8 +182,9 @@ fn groups_of_a_mesh_meet() {
     };
     let run = |groups: [&str; 2]| {
         let contact = SurfaceContact {
-            between: Between::Groups(groups.map(str::to_owned)),
-            law,
+            between: Some(groups.map(str::to_owned)),
+            friction: law.friction,
+            stiffness: law.stiffness,
             cracks: false,
         };
         let setup = Setup {
@@ -429,7 +432,7 @@ fn states_and_threads_keep_all_bits() {
 /// Rows of a motion of a setup with contact.
 fn history(setup: &Setup, duration: f64) -> Vec<StepRecord> {
     let setup = Setup {
-        analysis: Analysis::Motion(motion(duration)),
+        analysis: Analysis::Motion(MotionSettings::new(duration)),
         ..setup.clone()
     };
     setup.solve(&mut NoObserver).unwrap().outcome.history

@@ -7,9 +7,9 @@ use ligament::Loading;
 use ligament::body::SolidLatticeBody;
 use ligament::prelude::*;
 use ligament::run::on_threads;
-use ligament::setup::{InitialVelocity, motion};
+use ligament::setup::InitialVelocity;
 use ligament_analysis::driver;
-use ligament_analysis::motion::{MotionProblem, critical_step};
+use ligament_analysis::motion::{MotionProblem, MotionSettings, critical_step};
 
 /// Bonds times steps of a measurement.
 const WORK: usize = 400_000_000;
@@ -25,7 +25,7 @@ fn setup(body: impl Into<AnyBody>, law: Law) -> Setup {
         place: Place::Everywhere,
         velocity: [1e-3, 0.0, 0.0],
     }];
-    setup.analysis = Analysis::Motion(motion(1.0));
+    setup.analysis = Analysis::Motion(MotionSettings::new(1.0));
     setup
 }
 
@@ -37,7 +37,7 @@ fn problem(setup: &Setup) -> MotionProblem {
 
 /// Seconds for a number of steps with the critical step already known.
 fn seconds(problem: &MotionProblem, steps: usize, step: f64) -> f64 {
-    let mut settings = motion(steps as f64 * step);
+    let mut settings = MotionSettings::new(steps as f64 * step);
     settings.rows = 1;
     let start = Instant::now();
     driver::motion::run(problem, &settings, &mut NoObserver).unwrap();
@@ -47,7 +47,10 @@ fn seconds(problem: &MotionProblem, steps: usize, step: f64) -> f64 {
 fn measure(name: &str, setup: &Setup) {
     let problem = problem(setup);
     let n_bonds = problem.problem.system.ends().len();
-    let step = 0.8 * critical_step(&problem, &motion(1.0)).unwrap().step;
+    let step = 0.8
+        * critical_step(&problem, &MotionSettings::new(1.0))
+            .unwrap()
+            .step;
     let steps = WORK / n_bonds;
     for threads in [1, 2] {
         let rate = on_threads(Some(threads), || {

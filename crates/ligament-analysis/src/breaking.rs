@@ -11,17 +11,22 @@ use rayon::prelude::*;
 
 use crate::bond_numbers::BondNumbers;
 
+/// Bonds closer than this (relative) to the worst one break together with it.
+pub const TIE_TOLERANCE: f64 = 1e-8;
+
 /// Number of bonds of a parallel task.
 const TASK: usize = 4096;
 
-/// Quantity that orders the bonds beyond their limits.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BreakingOrder {
-    /// Excess of measure over limit, s - s_0 (the paper's).
-    #[default]
-    Excess,
-    /// Ratio of measure to limit, s/s_0 (the order in which proportional loading reaches the limits).
-    Ratio,
+ligament_model::case_type! {
+    /// Quantity that orders the bonds beyond their limits: s - s_0, or s/s_0, the order in which proportional loading reaches the limits.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum BreakingOrder {
+        /// Bonds with the largest excess of stretch over critical stretch (the paper's).
+        #[default]
+        Excess,
+        /// Bonds with the largest ratio of stretch to critical stretch.
+        Ratio,
+    }
 }
 
 /// Rule that selects the bonds to break.
@@ -33,6 +38,17 @@ pub struct BreakingRule {
     pub bonds_per_iteration: usize,
     /// Relative distance in measure (order by excess) or ratio from the leading bond within which bonds are tied with it.
     pub tie_tolerance: f64,
+}
+
+impl Default for BreakingRule {
+    /// At most five bonds break between two solutions.
+    fn default() -> Self {
+        Self {
+            order: BreakingOrder::default(),
+            bonds_per_iteration: 5,
+            tie_tolerance: TIE_TOLERANCE,
+        }
+    }
 }
 
 /// Bonds to break now, in order; empty where no intact bond is at its limit.

@@ -15,6 +15,9 @@ use crate::result_fields::Solution;
 use crate::solver::SolverSettings;
 use crate::state::State;
 
+/// Relative change of energy below which an elastic solution is in equilibrium (NHPD's value).
+pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
+
 /// Problem: bonds, loads, criteria, solver and probes. A copy shares its data.
 #[derive(Clone)]
 pub struct Problem {

@@ -35,7 +35,7 @@ fn the_section_is_read_with_its_defaults() {
         ([20, 12], Spacing([0.01; 2]))
     );
     assert_eq!((lattice.corner, lattice.thickness), ([0.0; 2], None));
-    assert_eq!(lattice.plane.0, Plane::Stress);
+    assert_eq!(lattice.plane, Plane::Stress);
     let circle = |centre, radius| Circle { centre, radius };
     let hole = |name: Option<&str>, circle, outside| Hole {
         name: name.map(str::to_owned),
@@ -108,7 +108,7 @@ fn the_section_is_read_with_its_defaults() {
         (Spacing([1e-3, 2.0]), [-1.0, 5.0])
     );
     assert_eq!(
-        (lattice.thickness, lattice.plane.0),
+        (lattice.thickness, lattice.plane),
         (Some(0.1), Plane::Strain)
     );
 }

@@ -23,7 +23,7 @@ fn profiles_and_couples_are_read_and_written_back() {
     let read = &case.case.loads[0];
     assert_eq!(read.moment, Some(Couple::InPlane(-2.5)));
     let profile = Profile {
-        along: Some(Word(Axis::X)),
+        along: Some(Axis::X),
         zero: Some(-0.01),
         one: Some(0.02),
         file: None,

@@ -4,8 +4,8 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament::setup::Iteration;
-use ligament_case::case::{CaseFile, Control, Displacement, Precrack, Region, Steps, Vector, Word};
+use ligament::setup::{Displacement, Iteration};
+use ligament_case::case::{CaseFile, Control, Precrack, Region, Steps, Vector, Word};
 use ligament_model::Plane;
 use ligament_model::bonds::precrack::Ends;
 
@@ -34,9 +34,7 @@ fn set(setting: &str) -> Result<CaseFile, String> {
 fn defaults_are_filled_in() {
     let case = with(SMALL, &[]).unwrap().case;
     assert_eq!(
-        case.mesh
-            .as_ref()
-            .map(|it| (it.thickness, it.plane.map(|it| it.0))),
+        case.mesh.as_ref().map(|it| (it.thickness, it.plane)),
         Some((None, Some(Plane::Stress)))
     );
     let mean = Some(Word(Some(Iteration::MEAN)));
@@ -79,7 +77,7 @@ fn the_case_is_read_as_it_is_written() {
             normal: None,
             radius: None,
             group: None,
-            ends: Word(Ends::Excluded),
+            ends: Ends::Excluded,
         }]
     );
     let held = Displacement {

@@ -2,23 +2,28 @@
 
 use std::ops::Range;
 
-/// A component of the motion of a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Component {
-    /// Displacement along x, m.
-    X,
-    /// Displacement along y, m.
-    Y,
-    /// Rotation in the plane, counter-clockwise, rad.
-    Rotation,
-    /// Displacement along z, m.
-    Z,
-    /// Rotation about x, right-handed, rad.
-    RotationX,
-    /// Rotation about y, right-handed, rad.
-    RotationY,
-    /// Rotation about z, right-handed, rad.
-    RotationZ,
+crate::case_type! {
+    /// A component of the motion of a point.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Component {
+        /// Displacement along x, m.
+        X,
+        /// Displacement along y, m.
+        Y,
+        /// Rotation in the plane, rad, counter-clockwise.
+        Rotation,
+        /// Displacement along z of a solid, m.
+        Z,
+        /// Rotation about x in a solid, rad, right-handed.
+        #[case(serde(rename = "rotation_x"))]
+        RotationX,
+        /// Rotation about y in a solid, rad, right-handed.
+        #[case(serde(rename = "rotation_y"))]
+        RotationY,
+        /// Rotation about z in a solid, rad, right-handed.
+        #[case(serde(rename = "rotation_z"))]
+        RotationZ,
+    }
 }
 
 impl Component {

@@ -5,7 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
-use ligament_case::case::{CaseFile, MotionStop, Stop};
+use ligament_analysis::driver::StopRules;
+use ligament_analysis::motion::MotionStop;
+use ligament_case::case::CaseFile;
 use ligament_case::input_file;
 use ligament_output::folder::{self, ResultFolder};
 use ligament_output::summary::Identity;
@@ -93,9 +95,9 @@ impl Inputs {
         if let Some(fracture) = &mut plain.case.fracture {
             fracture.max_iterations = None;
             fracture.steps = None;
-            fracture.stop = Stop {
+            fracture.stop = StopRules {
                 negative_energy: fracture.stop.negative_energy,
-                ..Stop::default()
+                ..StopRules::NONE
             };
         }
         if let Some(motion) = &mut plain.case.motion {

@@ -1,18 +1,25 @@
 //! Rules for the end of a run before the end of its loading.
 
-/// Rules that end a run early.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct StopRules {
-    /// Fraction of the largest load so far to which the load at rest falls after breakage, except by unloading.
-    pub load_fraction: Option<f64>,
-    /// Largest displacement of the control load, m.
-    pub displacement: Option<f64>,
-    /// Largest number of broken bonds.
-    pub bonds: Option<usize>,
-    /// Largest wall time, s.
-    pub wall_time: Option<f64>,
-    /// Whether the run ends at a negative stored energy, where the body has lost its stability.
-    pub negative_energy: bool,
+ligament_model::case_type! {
+    /// When to stop before the end of the loading; whichever comes first.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    #[case(serde(default))]
+    pub struct StopRules {
+        /// When the load has fallen to this share of its largest value; not where the load factor is below an earlier one.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
+        pub load_fraction: Option<f64>,
+        /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m")))]
+        pub displacement: Option<f64>,
+        /// When so many bonds are broken.
+        #[case(schemars(range(min = 1)))]
+        pub bonds: Option<usize>,
+        /// After so much time, s.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        pub wall_time: Option<f64>,
+        /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
+        pub negative_energy: bool,
+    }
 }
 
 impl StopRules {
@@ -24,4 +31,10 @@ impl StopRules {
         wall_time: None,
         negative_energy: true,
     };
+}
+
+impl Default for StopRules {
+    fn default() -> Self {
+        Self::NONE
+    }
 }

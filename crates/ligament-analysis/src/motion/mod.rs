@@ -11,12 +11,12 @@ pub mod contact;
 
 use std::sync::Arc;
 
-use ligament_model::LumpedMass;
+use ligament_model::{LumpedMass, case_type};
 use nalgebra::Matrix3;
 use thiserror::Error;
 
 use crate::breaking::BreakingRule;
-use crate::problem::Problem;
+use crate::problem::{ELASTIC_ENERGY_TOLERANCE, Problem};
 
 pub use crate::critical_step::CriticalStep;
 pub use stable_step::critical_step;
@@ -53,82 +53,158 @@ impl Dashpot {
     }
 }
 
-/// Settings of a motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MotionSettings {
-    /// Duration, s.
-    pub duration: f64,
-    /// Number of equal intervals after each of which the history has a row.
-    pub rows: usize,
-    /// Scheme of the integration.
-    pub scheme: Scheme,
-    /// Damping in proportion to mass and stiffness.
-    pub damping: Damping,
-    /// Factor on the rotational inertias of the points.
-    pub rotary_inertia: f64,
-    /// Rules for a stop before the end.
-    pub stop: MotionStop,
-}
+/// Largest dissipation of implicit steps, beyond which they are less accurate than of second order.
+pub const MOST_DISSIPATION: f64 = 3.0_f64.recip();
 
-impl MotionSettings {
-    /// Whether the scheme is explicit.
-    pub fn is_explicit(&self) -> bool {
-        matches!(self.scheme, Scheme::Explicit(_))
+case_type! {
+    /// How the body moves in time under loads that depend on time.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct MotionSettings {
+        /// Time at the end, s.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        pub duration: f64,
+        /// Rows of the history, at equal times.
+        #[case(serde(default = "rows"), schemars(range(min = 1, max = 1_000_000)))]
+        pub rows: usize,
+        /// Scheme of the integration in time.
+        #[case(serde(default))]
+        pub scheme: Scheme,
+        /// Time step, s; explicit steps without it are `safety` times the critical step of the body. It is shortened so that rows are at
+        /// multiples of it, and implicit steps are halved where bonds break fast.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        pub step: Option<f64>,
+        /// Share of the critical step, beyond which explicit steps are unstable.
+        #[case(serde(default = "safety"), schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
+        pub safety: f64,
+        /// Dissipation of fast motions by implicit steps, after Hilber, Hughes and Taylor: 0 takes no energy.
+        #[case(serde(default), schemars(range(min = 0), extend("maximum" = MOST_DISSIPATION)))]
+        pub dissipation: f64,
+        /// Share of the work so far that a step without inertia may set free beyond what its bonds dissipate, and that a motion may have left when
+        /// equilibria follow again; for the scheme `auto`.
+        #[case(serde(default = "statics"), schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
+        pub statics: f64,
+        /// Factor on the rotational inertia of the points; a larger one allows longer steps where rotations limit them.
+        #[case(serde(default = "rotary_inertia"), schemars(extend("exclusiveMinimum" = 0)))]
+        pub rotary_inertia: f64,
+        /// Damping C = `mass` M + `stiffness` K.
+        #[case(serde(default))]
+        pub damping: Damping,
+        /// When to stop before the end; whichever comes first.
+        #[case(serde(default))]
+        pub stop: MotionStop,
+        /// Breakages in implicit steps; of a case in `[fracture]`.
+        #[case(serde(skip))]
+        pub breakages: StepBreakages,
     }
 }
 
-/// Scheme of the integration in time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Scheme {
-    /// Velocity Verlet, which is stable below a critical step.
-    Explicit(ExplicitSettings),
-    /// Newmark's scheme with the averaging of Hilber, Hughes and Taylor, which is stable for any step.
-    Implicit(ImplicitSettings),
+case_type! {
+    /// Scheme of the integration in time.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Scheme {
+        /// Central differences: steps without equations to solve, shorter than a critical step.
+        #[default]
+        Explicit,
+        /// Newmark's scheme: steps of any length, each an equilibrium with inertia; of `[fracture]` the keys of a load step hold for each.
+        Implicit,
+        /// Equilibria without inertia from row to row until the body loses its balance, then implicit steps until it is at rest, then equilibria
+        /// again.
+        Auto,
+    }
 }
 
-/// Settings of implicit steps.
+case_type! {
+    /// Damping in proportion to masses and stiffness.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    #[case(serde(default))]
+    pub struct Damping {
+        /// alpha, 1/s: slow motions are damped most.
+        #[case(schemars(range(min = 0), extend("x-unit" = "1/s")))]
+        pub mass: f64,
+        /// beta, s: fast motions are damped most; it shortens the critical step.
+        #[case(schemars(range(min = 0), extend("x-unit" = "s")))]
+        pub stiffness: f64,
+    }
+}
+
+case_type! {
+    /// When to stop before the end of a motion; whichever comes first.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    #[case(serde(default))]
+    pub struct MotionStop {
+        /// When so many bonds are broken.
+        #[case(schemars(range(min = 1)))]
+        pub bonds: Option<usize>,
+        /// After so much time of the machine, s.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        pub wall_time: Option<f64>,
+    }
+}
+
+/// Breakages in implicit steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ImplicitSettings {
-    /// Largest time step, s.
-    pub step: f64,
-    /// Dissipation alpha of high frequencies after Hilber, Hughes and Taylor, 0 (Newmark's trapezoidal rule) to 1/3.
-    pub dissipation: f64,
+pub struct StepBreakages {
     /// Rule that selects the bonds that break in a round.
     pub rule: BreakingRule,
     /// Largest number of rounds of breaking in a step; beyond it the step is halved, ten times at most.
     pub rounds: usize,
     /// Relative change of the energy that ends the iteration of bonds that soften (NHPD eq. 21).
     pub energy_tolerance: f64,
-    /// Share of the work so far that a step without inertia may set free beyond what its bonds dissipate: equilibria follow each other up to
-    /// there, and again once the motion has no more energy than that. None: all steps have inertia.
-    pub statics: Option<f64>,
 }
 
-/// Settings of explicit steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ExplicitSettings {
-    /// Time step, s; open: `safety` times the critical step.
-    pub step: Option<f64>,
-    /// Fraction of the critical step, below 1.
-    pub safety: f64,
+impl Default for StepBreakages {
+    fn default() -> Self {
+        Self {
+            rule: BreakingRule::default(),
+            rounds: 20,
+            energy_tolerance: ELASTIC_ENERGY_TOLERANCE,
+        }
+    }
 }
 
-/// Damping C = alpha M + beta K.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Damping {
-    /// alpha, 1/s.
-    pub mass: f64,
-    /// beta, s.
-    pub stiffness: f64,
+impl MotionSettings {
+    /// Settings for a duration, s: explicit steps of 0.8 of the critical step, 200 rows of the history, no damping.
+    pub fn new(duration: f64) -> Self {
+        Self {
+            duration,
+            rows: rows(),
+            scheme: Scheme::default(),
+            step: None,
+            safety: safety(),
+            dissipation: 0.0,
+            statics: statics(),
+            rotary_inertia: rotary_inertia(),
+            damping: Damping::default(),
+            stop: MotionStop::default(),
+            breakages: StepBreakages::default(),
+        }
+    }
+
+    /// Whether the scheme is explicit.
+    pub fn is_explicit(&self) -> bool {
+        self.scheme == Scheme::Explicit
+    }
+
+    /// Share of the work that steps without inertia may set free, where there are such steps.
+    pub fn share_of_statics(&self) -> Option<f64> {
+        (self.scheme == Scheme::Auto).then_some(self.statics)
+    }
 }
 
-/// Rules that end a motion early.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MotionStop {
-    /// Largest number of broken bonds.
-    pub bonds: Option<usize>,
-    /// Largest wall time, s.
-    pub wall_time: Option<f64>,
+fn rows() -> usize {
+    200
+}
+
+fn safety() -> f64 {
+    0.8
+}
+
+fn statics() -> f64 {
+    1e-3
+}
+
+fn rotary_inertia() -> f64 {
+    1.0
 }
 
 /// Reason why a motion cannot be computed.

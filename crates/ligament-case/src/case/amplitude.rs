@@ -10,6 +10,7 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
 use super::values::{Point, exactly_one, missing, one_of, refuse, require};
+use super::word::word_of;
 
 /// A factor of a load as a function of time, in a motion: points, a table or a shape.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -107,10 +108,10 @@ impl Amplitude {
     fn shaped(&self, shape: Shape, key: &KeyPath) -> Result<Factor, KeyFault> {
         use load_program::Shape as S;
         let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing(key, name));
-        let of = |shape: S, word: &str| {
+        let of = |shape: S| {
             let is_sine = matches!(shape, S::Sine { .. });
             let reason = "it belongs to another shape";
-            let setting = format!("shape = \"{word}\"");
+            let setting = format!("shape = \"{}\"", word_of(&self.shape));
             self.refuse_others(key, &setting, reason, &["peak_time", "frequency"])?;
             if !is_sine {
                 self.refuse_others(key, &setting, reason, &["periods"])?;
@@ -123,13 +124,13 @@ impl Amplitude {
         match shape {
             Shape::Sine => {
                 let periods = self.periods.unwrap_or(1);
-                of(S::Sine { periods }, "sine")
+                of(S::Sine { periods })
             }
-            Shape::HalfSine => of(S::HalfSine, "half-sine"),
-            Shape::Triangle => of(S::Triangle, "triangle"),
-            Shape::Rectangle => of(S::Rectangle, "rectangle"),
-            Shape::Ramp => of(S::Ramp, "ramp"),
-            Shape::SmoothRamp => of(S::SmoothRamp, "smooth-ramp"),
+            Shape::HalfSine => of(S::HalfSine),
+            Shape::Triangle => of(S::Triangle),
+            Shape::Rectangle => of(S::Rectangle),
+            Shape::Ramp => of(S::Ramp),
+            Shape::SmoothRamp => of(S::SmoothRamp),
             Shape::Ricker => {
                 let reason = "a wavelet has a `peak_time` and a `frequency`";
                 let setting = "shape = \"ricker\"";

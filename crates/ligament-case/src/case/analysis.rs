@@ -8,7 +8,7 @@ use ligament::setup;
 use ligament_analysis::modal::{ModalSettings, Rotations};
 
 /// Largest number of modes: each needs three vectors of the search in memory.
-pub const MOST_MODES: u32 = 1000;
+pub const MOST_MODES: usize = 1000;
 
 /// What is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
@@ -30,7 +30,7 @@ pub enum Analysis {
 pub struct Modal {
     /// Number of modes, rigid ones included, lowest first.
     #[schemars(range(min = 1, max = MOST_MODES))]
-    pub modes: u32,
+    pub modes: usize,
     /// Inertia of the rotations of the points.
     pub rotations: Word<Option<Rotations>>,
     /// Residual of the search, relative to 1/omega^2.
@@ -46,7 +46,7 @@ impl Default for Modal {
             tolerance,
         } = setup::modal();
         Self {
-            modes: modes as u32,
+            modes,
             rotations: Word(rotations),
             tolerance,
         }
@@ -56,21 +56,9 @@ impl Default for Modal {
 impl Modal {
     pub(super) fn setup(&self) -> ModalSettings {
         ModalSettings {
-            modes: self.modes as usize,
+            modes: self.modes,
             rotations: self.rotations.0,
             tolerance: self.tolerance,
-        }
-    }
-}
-
-impl Analysis {
-    /// Word for the analysis.
-    pub(super) fn word(self) -> &'static str {
-        match self {
-            Self::Static => "static",
-            Self::Fracture => "fracture",
-            Self::Modal => "modal",
-            Self::Motion => "motion",
         }
     }
 }

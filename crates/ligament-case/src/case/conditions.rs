@@ -1,4 +1,4 @@
-//! `[[support]]`: supports of the body; and the vectors of supports and loads.
+//! `[[support]]` and `[[initial_velocity]]`: supports of the body, its velocities at time zero, and the vectors of both and of loads.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,92 +8,7 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::region::{Corners, place};
 use super::values::exactly_one;
-use ligament::setup::{self, Position};
-
-/// Prescribed displacements; a component that is not given is free.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend("minProperties" = 1))]
-pub struct Displacement {
-    /// Along x, m.
-    #[schemars(extend("x-unit" = "m"))]
-    pub x: Option<f64>,
-    /// Along y, m.
-    #[schemars(extend("x-unit" = "m"))]
-    pub y: Option<f64>,
-    /// Rotation in the plane, rad, counter-clockwise.
-    #[schemars(extend("x-unit" = "rad"))]
-    pub rotation: Option<f64>,
-    /// Along z of a solid, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m"))]
-    pub z: Option<f64>,
-    /// Rotation about x in a solid, rad, right-handed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "rad"))]
-    pub rotation_x: Option<f64>,
-    /// Rotation about y in a solid, rad, right-handed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "rad"))]
-    pub rotation_y: Option<f64>,
-    /// Rotation about z in a solid, rad, right-handed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "rad"))]
-    pub rotation_z: Option<f64>,
-}
-
-impl Displacement {
-    pub(super) fn setup(&self) -> setup::Displacement {
-        setup::Displacement {
-            x: self.x,
-            y: self.y,
-            rotation: self.rotation,
-            z: self.z,
-            rotation_x: self.rotation_x,
-            rotation_y: self.rotation_y,
-            rotation_z: self.rotation_z,
-        }
-    }
-}
-
-/// Prescribed velocities or accelerations; a component that is not given is free.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend("minProperties" = 1))]
-pub struct Rate {
-    /// Along x.
-    pub x: Option<f64>,
-    /// Along y.
-    pub y: Option<f64>,
-    /// Of the rotation in the plane, counter-clockwise, with rad in the place of m.
-    pub rotation: Option<f64>,
-    /// Along z of a solid.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub z: Option<f64>,
-    /// Of the rotation about x in a solid, right-handed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rotation_x: Option<f64>,
-    /// Of the rotation about y in a solid, right-handed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rotation_y: Option<f64>,
-    /// Of the rotation about z in a solid, right-handed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub rotation_z: Option<f64>,
-}
-
-impl Rate {
-    pub(super) fn setup(&self) -> setup::Displacement {
-        setup::Displacement {
-            x: self.x,
-            y: self.y,
-            rotation: self.rotation,
-            z: self.z,
-            rotation_x: self.rotation_x,
-            rotation_y: self.rotation_y,
-            rotation_z: self.rotation_z,
-        }
-    }
-}
+use ligament::setup::{self, Displacement, Place, Position, SpringStiffness};
 
 /// A vector; a component that is not given is zero.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -119,29 +34,6 @@ impl Vector {
         }
         Ok([self.x, self.y, self.z.unwrap_or(0.0)])
     }
-}
-
-/// Stiffness of springs to the ground in total over the points, shared out as a force is; a component that is not given has none.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend("minProperties" = 1))]
-pub struct SpringStiffness {
-    /// Along x, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
-    pub x: Option<f64>,
-    /// Along y, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
-    pub y: Option<f64>,
-    /// Against rotations of the points, in N m/rad.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub rotation: Option<f64>,
-    /// Along z of a solid, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub z: Option<f64>,
-    /// Along the `normal` of the support, N/m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
-    pub normal: Option<f64>,
 }
 
 /// A support: displacements held at zero, or resisted by springs.
@@ -171,7 +63,7 @@ impl Support {
         key: &KeyPath,
         dimensions: usize,
     ) -> Result<setup::Support, KeyFault> {
-        let given = self.displacement.unwrap_or_default().setup();
+        let given = self.displacement.unwrap_or_default();
         let moved = given.components().find(|(_, value)| *value != 0.0);
         if let Some((component, value)) = moved {
             let reason = format!(
@@ -180,16 +72,6 @@ impl Support {
             let key = key.child("displacement").child(component.name());
             return Err(KeyFault::new(key, reason));
         }
-        let stiffness = |it: SpringStiffness| setup::SpringStiffness {
-            components: setup::Displacement {
-                x: it.x,
-                y: it.y,
-                rotation: it.rotation,
-                z: it.z,
-                ..setup::Displacement::default()
-            },
-            normal: it.normal,
-        };
         let normal = self
             .normal
             .map(|it| it.for_body(&key.child("normal"), dimensions));
@@ -197,7 +79,41 @@ impl Support {
             place: place(key, dimensions, self.group.as_ref(), self.r#box, self.at)?,
             held: given.components().map(|(component, _)| component).collect(),
             normal: normal.transpose()?,
-            stiffness: self.stiffness.map(stiffness).unwrap_or_default(),
+            stiffness: self.stiffness.unwrap_or_default(),
+        })
+    }
+}
+
+/// A velocity at time zero. Where several reach, the last of them holds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InitialVelocity {
+    /// The points of this physical group of the mesh, or of this set or hole of the lattice; without a place the whole body moves.
+    pub group: Option<String>,
+    /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
+    #[schemars(extend("x-unit" = "m"))]
+    pub r#box: Option<Corners>,
+    /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
+    #[schemars(extend("x-unit" = "m"))]
+    pub at: Option<Coordinates>,
+    /// The velocity, m/s.
+    #[schemars(extend("x-unit" = "m/s"))]
+    pub velocity: Vector,
+}
+
+impl InitialVelocity {
+    pub(super) fn setup(
+        &self,
+        key: &KeyPath,
+        dimensions: usize,
+    ) -> Result<setup::InitialVelocity, KeyFault> {
+        let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
+        Ok(setup::InitialVelocity {
+            place: match is_placed {
+                true => place(key, dimensions, self.group.as_ref(), self.r#box, self.at)?,
+                false => Place::Everywhere,
+            },
+            velocity: self.velocity.for_body(&key.child("velocity"), dimensions)?,
         })
     }
 }

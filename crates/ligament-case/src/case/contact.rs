@@ -1,8 +1,8 @@
-//! `[[contact]]` and `[[rigid]]`: contact between parts of the body and with rigid bodies.
+//! `[[rigid]]`: rigid bodies.
 
 use std::path::Path;
 
-use ligament::setup::{self, Between, ContactLaw, RigidForm};
+use ligament::setup::{self, ContactLaw, RigidForm};
 use ligament_analysis::load_program;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -13,26 +13,7 @@ use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{missing, refuse, require_column_name};
-
-/// Contact between parts of the body, with friction.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Contact {
-    /// Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub between: Option<[String; 2]>,
-    /// Coefficient of Coulomb's friction.
-    #[serde(default)]
-    #[schemars(range(min = 0))]
-    pub friction: f64,
-    /// Stiffness of the contact over E'/h of the material, with the spacing h of the points.
-    #[serde(default = "one")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub stiffness: f64,
-    /// Whether the faces of cracks take part, also those that come about; without `between` all fragments then meet each other.
-    #[serde(default)]
-    pub cracks: bool,
-}
+use super::word::word_of;
 
 /// A rigid body that parts of the body meet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -113,19 +94,6 @@ fn one() -> f64 {
     ContactLaw::default().stiffness
 }
 
-impl Contact {
-    pub(super) fn setup(&self) -> setup::SurfaceContact {
-        setup::SurfaceContact {
-            between: self.between.clone().map_or(Between::Parts, Between::Groups),
-            law: ContactLaw {
-                friction: self.friction,
-                stiffness: self.stiffness,
-            },
-            cracks: self.cracks,
-        }
-    }
-}
-
 impl Rigid {
     /// Fills in missing keys; `folder` is that of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
@@ -172,8 +140,8 @@ impl Rigid {
         let of_ball = ("radius", self.radius.is_some());
         let of_wall = ("normal", self.normal.is_some());
         let of_box = ("size", self.size.is_some());
-        let refuse = |keys: [(&'static str, bool); 2], word: &str| {
-            let setting = format!("shape = \"{word}\"");
+        let refuse = |keys: [(&'static str, bool); 2]| {
+            let setting = format!("shape = \"{}\"", word_of(&self.shape));
             refuse(key, keys, &setting, "it belongs to another shape")
         };
         let along = |name: &str, given: Option<Coordinates>| {
@@ -182,7 +150,7 @@ impl Rigid {
         };
         match self.shape {
             RigidShape::Circle | RigidShape::Sphere => {
-                refuse([of_wall, of_box], self.shape.word())?;
+                refuse([of_wall, of_box])?;
                 if (self.shape == RigidShape::Circle) != (dimensions == 2) {
                     let reason = match dimensions {
                         2 => "a body in the plane meets a \"circle\"",
@@ -194,7 +162,7 @@ impl Rigid {
                 Ok(RigidForm::Ball { centre, radius })
             }
             RigidShape::Wall => {
-                refuse([of_ball, of_box], self.shape.word())?;
+                refuse([of_ball, of_box])?;
                 let normal = along("normal", self.normal)?;
                 Ok(RigidForm::Wall {
                     point: centre,
@@ -202,21 +170,10 @@ impl Rigid {
                 })
             }
             RigidShape::Box => {
-                refuse([of_ball, of_wall], self.shape.word())?;
+                refuse([of_ball, of_wall])?;
                 let size = along("size", self.size)?;
                 Ok(RigidForm::Box { centre, size })
             }
-        }
-    }
-}
-
-impl RigidShape {
-    fn word(self) -> &'static str {
-        match self {
-            Self::Circle => "circle",
-            Self::Sphere => "sphere",
-            Self::Wall => "wall",
-            Self::Box => "box",
         }
     }
 }

@@ -16,7 +16,7 @@ use ligament_model::correction::patch::{Reference, Settings};
 #[serde(deny_unknown_fields)]
 pub struct Correction {
     /// The factor alpha of each bond; without it as in the paper of the law.
-    pub alpha: Option<Word<Alpha>>,
+    pub alpha: Option<Alpha>,
     /// The correction of surfaces; without it as in the paper of the law.
     pub surface: Option<Word<Surface>>,
     /// How the change of a sweep of the domain correction is measured.
@@ -26,9 +26,9 @@ pub struct Correction {
     pub tolerance: Option<f64>,
     /// Sweeps of the domain correction at most.
     #[schemars(range(min = 1), extend("default" = Iteration::default().max_sweeps))]
-    pub max_sweeps: Option<u32>,
+    pub max_sweeps: Option<usize>,
     /// The factors that those of the patch correction are the nearest to; without it `body` in the plane and `families` in space.
-    pub reference: Option<Word<Reference>>,
+    pub reference: Option<Reference>,
     /// Smallest factor of the patch correction over the uncorrected one.
     #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = Settings::DEFAULT.lowest))]
     pub smallest_factor: Option<f64>,
@@ -43,14 +43,14 @@ pub struct Correction {
     pub regularisation: Option<f64>,
     /// The body that the correction sees.
     #[serde(default)]
-    pub domain: Word<CorrectionDomain>,
+    pub domain: CorrectionDomain,
 }
 
 impl Correction {
     /// Fills in missing keys, partly from the law.
     pub(super) fn complete(&mut self, key: &KeyPath, law: &Law) -> Result<(), KeyFault> {
         let of_paper = setup::Correction::of_paper(law);
-        self.alpha.get_or_insert(Word(of_paper.alpha));
+        self.alpha.get_or_insert(of_paper.alpha);
         let surface = self.surface.get_or_insert(Word(of_paper.surface));
         let of_domain = [
             ("rule", self.rule.is_some()),
@@ -87,7 +87,7 @@ impl Correction {
     fn patch(&mut self) -> Settings {
         let default = Settings::DEFAULT;
         Settings {
-            reference: self.reference.map(|it| it.0),
+            reference: self.reference,
             lowest: *self.smallest_factor.get_or_insert(default.lowest),
             highest: *self.largest_factor.get_or_insert(default.highest),
             moment_weight: *self.moment_weight.get_or_insert(default.moment_weight),
@@ -115,17 +115,17 @@ impl Correction {
         if let Some(StopRule::Sum(tolerance) | StopRule::Mean(tolerance)) = stop {
             self.tolerance = Some(tolerance);
         }
-        let default = Iteration::default().max_sweeps as u32;
-        let max_sweeps = *self.max_sweeps.get_or_insert(default) as usize;
+        let default = Iteration::default().max_sweeps;
+        let max_sweeps = *self.max_sweeps.get_or_insert(default);
         Ok(Iteration { stop, max_sweeps })
     }
 
     pub(super) fn setup(&self, law: &Law) -> setup::Correction {
         let of_paper = setup::Correction::of_paper(law);
         setup::Correction {
-            alpha: self.alpha.map_or(of_paper.alpha, |it| it.0),
+            alpha: self.alpha.unwrap_or(of_paper.alpha),
             surface: self.surface.map_or(of_paper.surface, |it| it.0),
-            domain: self.domain.0,
+            domain: self.domain,
         }
     }
 }

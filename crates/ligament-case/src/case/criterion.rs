@@ -25,8 +25,8 @@ pub struct Criterion {
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "rad"))]
     pub critical_angle: Option<f64>,
     /// How the limit of `frictional` comes from the strengths.
-    #[schemars(extend("default" = Word(Calibration::default())))]
-    pub calibration: Option<Word<Calibration>>,
+    #[schemars(extend("default" = Calibration::default()))]
+    pub calibration: Option<Calibration>,
     /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
     /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
     #[schemars(range(min = 0), extend("x-unit" = "rad"))]
@@ -85,7 +85,7 @@ impl Criterion {
             limit: self.limit,
             critical_stretch: self.critical_stretch,
             critical_angle: self.critical_angle,
-            calibration: self.calibration.map(|it| it.0),
+            calibration: self.calibration,
             friction_angle: self.friction_angle,
             cohesion: self.cohesion,
             fibre_distance: self.fibre_distance,

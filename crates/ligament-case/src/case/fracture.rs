@@ -7,7 +7,7 @@ use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
-use ligament_analysis::motion::ImplicitSettings;
+use ligament_analysis::motion::StepBreakages;
 use ligament_model::failure::Kind;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Error, Unexpected};
@@ -18,7 +18,6 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::scatter::Scatters;
 use super::values::{Numbers, missing, numbers, require};
-use super::word::Word;
 
 /// Largest number of equal load steps, and of parts of one: each has a row in the history.
 const MOST_STEPS: u32 = 1_000_000;
@@ -34,16 +33,16 @@ pub struct Fracture {
     pub steps: Option<Steps>,
     /// Bonds broken at most between two solutions.
     #[schemars(range(min = 1), extend("default" = stepped().rule.bonds_per_iteration))]
-    pub bonds_per_iteration: Option<u32>,
+    pub bonds_per_iteration: Option<usize>,
     /// Order in which the bonds beyond their limit break.
-    #[schemars(extend("default" = Word(stepped().rule.order)))]
-    pub order: Option<Word<BreakingOrder>>,
+    #[schemars(extend("default" = stepped().rule.order))]
+    pub order: Option<BreakingOrder>,
     /// Rounds of breaking at most in a load step.
     #[schemars(range(min = 1), extend("default" = stepped().round_limit))]
-    pub max_iterations: Option<u32>,
+    pub max_iterations: Option<usize>,
     /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
     #[schemars(range(max = MOST_STEPS), extend("default" = stepped().refine_first_break))]
-    pub refine_first_break: Option<u32>,
+    pub refine_first_break: Option<usize>,
     /// Bonds closer than this (relative) to the worst one break together with it.
     #[serde(default = "tie_tolerance")]
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -54,7 +53,7 @@ pub struct Fracture {
     pub energy_tolerance: f64,
     /// When to stop before the end of the loading; whichever comes first.
     #[serde(default)]
-    pub stop: Stop,
+    pub stop: StopRules,
     /// A strength or a fracture energy that varies over the body at random; both as a list of two tables.
     pub scatter: Option<Scatters>,
     /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
@@ -84,26 +83,6 @@ pub enum Steps {
     Factors(Vec<f64>),
 }
 
-/// When to stop before the end of the loading; whichever comes first.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct Stop {
-    /// When the load has fallen to this share of its largest value; not where the load factor is below an earlier one.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1))]
-    pub load_fraction: Option<f64>,
-    /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
-    pub displacement: Option<f64>,
-    /// When so many bonds are broken.
-    #[schemars(range(min = 1))]
-    pub bonds: Option<u64>,
-    /// After so much time, s.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s"))]
-    pub wall_time: Option<f64>,
-    /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
-    pub negative_energy: bool,
-}
-
 fn stepped() -> SteppedSettings {
     setup::stepped(Vec::new())
 }
@@ -116,28 +95,16 @@ fn energy_tolerance() -> f64 {
     setup::event().energy_tolerance
 }
 
-impl Default for Stop {
-    fn default() -> Self {
-        Self {
-            load_fraction: None,
-            displacement: None,
-            bonds: None,
-            wall_time: None,
-            negative_energy: StopRules::NONE.negative_energy,
-        }
-    }
-}
-
 impl Fracture {
     /// Fills in missing keys of the load steps; with stages, these are those of the stages.
     pub(super) fn complete(&mut self, key: &KeyPath, is_staged: bool) -> Result<(), KeyFault> {
         if self.control == Control::Stepped {
             let settings = self.stepping(key, is_staged)?;
             let rule = settings.rule;
-            self.bonds_per_iteration = Some(rule.bonds_per_iteration as u32);
-            self.order = Some(Word(rule.order));
-            self.max_iterations = Some(settings.round_limit as u32);
-            self.refine_first_break = Some(settings.refine_first_break as u32);
+            self.bonds_per_iteration = Some(rule.bonds_per_iteration);
+            self.order = Some(rule.order);
+            self.max_iterations = Some(settings.round_limit);
+            self.refine_first_break = Some(settings.refine_first_break);
         }
         Ok(())
     }
@@ -162,24 +129,27 @@ impl Fracture {
             Control::Event => Analysis::Event(EventSettings {
                 tie_tolerance: self.tie_tolerance,
                 energy_tolerance: self.energy_tolerance,
-                stop: self.stop.setup(),
+                stop: self.stop,
             }),
         })
     }
 
-    /// Settings of implicit steps of a motion, from others for the keys that are not given.
-    pub(super) fn implicit(&self, default: ImplicitSettings) -> ImplicitSettings {
-        let count = |given: Option<u32>, default: usize| given.map_or(default, |it| it as usize);
-        let ImplicitSettings { rule, rounds, .. } = default;
-        ImplicitSettings {
-            rule: BreakingRule {
-                order: self.order.map_or(rule.order, |it| it.0),
-                bonds_per_iteration: count(self.bonds_per_iteration, rule.bonds_per_iteration),
-                tie_tolerance: self.tie_tolerance,
-            },
-            rounds: count(self.max_iterations, rounds),
+    /// Breakages in implicit steps of a motion, from others for the keys that are not given.
+    pub(super) fn of_steps(&self, default: StepBreakages) -> StepBreakages {
+        StepBreakages {
+            rule: self.rule(default.rule),
+            rounds: self.max_iterations.unwrap_or(default.rounds),
             energy_tolerance: self.energy_tolerance,
-            ..default
+        }
+    }
+
+    fn rule(&self, default: BreakingRule) -> BreakingRule {
+        BreakingRule {
+            order: self.order.unwrap_or(default.order),
+            bonds_per_iteration: self
+                .bonds_per_iteration
+                .unwrap_or(default.bonds_per_iteration),
+            tie_tolerance: self.tie_tolerance,
         }
     }
 
@@ -190,32 +160,16 @@ impl Fracture {
             None => return Err(missing(key, "steps")),
         };
         let default = stepped();
-        let count = |given: Option<u32>, default: usize| given.map_or(default, |it| it as usize);
-        let bonds_per_iteration = count(self.bonds_per_iteration, default.rule.bonds_per_iteration);
         Ok(SteppedSettings {
             load_factors,
-            refine_first_break: count(self.refine_first_break, default.refine_first_break),
-            rule: BreakingRule {
-                order: self.order.map_or(default.rule.order, |it| it.0),
-                bonds_per_iteration,
-                tie_tolerance: self.tie_tolerance,
-            },
+            refine_first_break: self
+                .refine_first_break
+                .unwrap_or(default.refine_first_break),
+            rule: self.rule(default.rule),
             energy_tolerance: self.energy_tolerance,
-            round_limit: count(self.max_iterations, default.round_limit),
-            stop: self.stop.setup(),
+            round_limit: self.max_iterations.unwrap_or(default.round_limit),
+            stop: self.stop,
         })
-    }
-}
-
-impl Stop {
-    fn setup(&self) -> StopRules {
-        StopRules {
-            load_fraction: self.load_fraction,
-            displacement: self.displacement,
-            bonds: self.bonds.map(|bonds| bonds as usize),
-            wall_time: self.wall_time,
-            negative_energy: self.negative_energy,
-        }
     }
 }
 

@@ -12,7 +12,6 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::lattice_keys::{HoleKeys, LatticeKeys, SetKeys};
 use super::region::Rectangle;
 use super::values::{Numbers, Point, exactly_one, metre, numbers};
-use super::word::Word;
 
 /// A rectangle of equal cells, a point at the centre of each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -34,7 +33,7 @@ pub struct LatticeSection {
     pub thickness: Option<f64>,
     /// Plane stress or plane strain.
     #[serde(default)]
-    pub plane: Word<Plane>,
+    pub plane: Plane,
     /// Holes: cells whose centre lies in one are removed, and bonds across it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub remove: Vec<Hole>,

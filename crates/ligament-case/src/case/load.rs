@@ -2,11 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
+use serde_json::{Value as Json, json};
 
 use super::amplitude::Amplitude;
-use super::conditions::{Displacement, Rate, Vector};
+use super::conditions::Vector;
 use super::coordinates::Coordinates;
 use super::couple::Couple;
 use super::fault::KeyFault;
@@ -14,8 +15,7 @@ use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
 use super::region::{Corners, place};
 use super::values::{exactly_one, first_given, missing, one_of, refuse, require_column_name};
-use super::word::Word;
-use ligament::setup::{self, Action, Axis, Place, Position, begins_as_formula};
+use ligament::setup::{self, Action, Axis, Displacement, Place, Position, begins_as_formula};
 
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -37,12 +37,12 @@ pub struct Load {
     pub displacement: Option<Displacement>,
     /// Prescribed velocities in a motion, m/s, of the rotation rad/s.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m/s"))]
-    pub velocity: Option<Rate>,
+    #[schemars(transform = of_rates, extend("x-unit" = "m/s"))]
+    pub velocity: Option<Displacement>,
     /// Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m/s^2"))]
-    pub base_acceleration: Option<Rate>,
+    #[schemars(transform = of_rates, extend("x-unit" = "m/s^2"))]
+    pub base_acceleration: Option<Displacement>,
     /// A force in total over the points, N.
     #[schemars(extend("x-unit" = "N"))]
     pub force: Option<Vector>,
@@ -89,7 +89,7 @@ pub struct Load {
 #[schemars(extend("oneOf" = exactly_one(&["along", "file"])))]
 pub struct Profile {
     /// The coordinate.
-    pub along: Option<Word<Axis>>,
+    pub along: Option<Axis>,
     /// Coordinate in the mesh file at which the load is zero, m.
     #[schemars(extend("x-unit" = "m"))]
     pub zero: Option<f64>,
@@ -115,9 +115,9 @@ impl Profile {
     /// The variation; for a file still without its rows.
     fn setup(&self, key: &KeyPath) -> Result<setup::Profile, KeyFault> {
         let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing(key, name));
-        let linear = |along: Word<Axis>| {
+        let linear = |along: Axis| {
             Ok(setup::Profile::Linear {
-                along: along.0,
+                along,
                 zero: number("zero", self.zero)?,
                 one: number("one", self.one)?,
             })
@@ -184,10 +184,9 @@ impl Load {
     }
 
     fn actions(&self, key: &KeyPath, dimensions: usize) -> Actions {
-        let displacement = |it: Displacement| Ok(Action::Displacement(it.setup()));
-        let rate =
-            |name: &'static str, given: Option<Rate>, make: fn(setup::Displacement) -> Action| {
-                (name, given.map(|it| Ok(make(it.setup()))))
+        let motion =
+            |name: &'static str, given: Option<Displacement>, make: fn(Displacement) -> Action| {
+                (name, given.map(|it| Ok(make(it))))
             };
         let vector = |name: &'static str, given: Option<Vector>, make: fn(Position) -> Action| {
             let action = given.map(|it| it.for_body(&key.child(name), dimensions).map(make));
@@ -198,9 +197,9 @@ impl Load {
             (name, action)
         };
         [
-            ("displacement", self.displacement.map(displacement)),
-            rate("velocity", self.velocity, Action::Velocity),
-            rate(
+            motion("displacement", self.displacement, Action::Displacement),
+            motion("velocity", self.velocity, Action::Velocity),
+            motion(
                 "base_acceleration",
                 self.base_acceleration,
                 Action::BaseAcceleration,
@@ -224,6 +223,18 @@ impl Load {
     pub(crate) fn action_key(&self) -> &'static str {
         let actions = self.actions(&KeyPath::default(), 3);
         first_given(actions.map(|(key, action)| (key, action.is_some()))).unwrap_or("force")
+    }
+}
+
+/// Describes the components of velocities and accelerations, which have the unit of their key.
+fn of_rates(schema: &mut Schema) {
+    let components = schema.get_mut("properties").and_then(Json::as_object_mut);
+    for component in components.into_iter().flat_map(|it| it.values_mut()) {
+        let words = component["description"].as_str().unwrap_or_default();
+        let words = words.replace(", m.", ".").replace(", rad,", ",");
+        let words = words.replace("Rotation", "Of the rotation");
+        let words = words.replace("clockwise.", "clockwise, with rad in the place of m.");
+        *component = json!({ "description": words, "type": component["type"] });
     }
 }
 

@@ -9,7 +9,6 @@ use super::body_kind::BodyKind;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{refuse, require};
-use super::word::Word;
 use crate::mesh_file::holds_solid;
 use ligament_model::Plane;
 
@@ -27,7 +26,7 @@ pub struct MeshSection {
     /// Plane stress or plane strain of a body in the plane; a mesh of solid cells has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = "stress"))]
-    pub plane: Option<Word<Plane>>,
+    pub plane: Option<Plane>,
     /// Whether the cells of the mesh are solid; not if it cannot be read.
     #[serde(skip)]
     pub is_solid: bool,

@@ -42,10 +42,10 @@ pub struct ModelSection {
     pub allow_unstable: bool,
     /// Where the constants of the law come from.
     #[schemars(extend("description" = of_laws("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
-    pub calibration: Option<Word<Calibration>>,
+    pub calibration: Option<Calibration>,
     /// Stiffness against relative rotation.
     #[schemars(extend("description" = of_laws("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
-    pub rotational_stiffness: Option<Word<RotationalStiffness>>,
+    pub rotational_stiffness: Option<RotationalStiffness>,
     /// Stiffness against relative rotation over that of the law; 1 without the key.
     #[schemars(range(min = 0), extend("description" = of_laws("Stiffness against relative rotation over that of the law; 1 without the \
         key", |it| it.shear_form.is_some())))]
@@ -55,9 +55,9 @@ pub struct ModelSection {
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub cosserat_length: Option<f64>,
     /// How the bonds of `mbb-pd` resist their strains.
-    pub form: Option<Word<Form>>,
+    pub form: Option<Form>,
     /// What the strains of `mbb-pd` are taken over.
-    pub strains: Option<Word<Strains>>,
+    pub strains: Option<Strains>,
 }
 
 fn is_zero(value: &f64) -> bool {
@@ -68,10 +68,10 @@ impl ModelSection {
     /// Sets the options of the law from the case, and missing keys of the case from the law.
     pub(super) fn complete(&mut self, key: &KeyPath) -> Result<(), KeyFault> {
         let law = self.law.0.with(Options {
-            calibration: self.calibration.map(|it| it.0),
-            rotational_stiffness: self.rotational_stiffness.map(|it| it.0),
-            form: self.form.map(|it| it.0),
-            strains: self.strains.map(|it| it.0),
+            calibration: self.calibration,
+            rotational_stiffness: self.rotational_stiffness,
+            form: self.form,
+            strains: self.strains,
         });
         let reasons = [
             ("calibration", "its constants are those of the paper"),
@@ -90,10 +90,10 @@ impl ModelSection {
             return Err(KeyFault::new(key.child(name), fault));
         }
         self.law = Word(law);
-        self.calibration = law.options.calibration.map(Word);
-        self.rotational_stiffness = law.options.rotational_stiffness.map(Word);
-        self.form = law.options.form.map(Word);
-        self.strains = law.options.strains.map(Word);
+        self.calibration = law.options.calibration;
+        self.rotational_stiffness = law.options.rotational_stiffness;
+        self.form = law.options.form;
+        self.strains = law.options.strains;
         self.check_rotational_scale(key, &law)
     }
 

@@ -5,7 +5,8 @@ use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::fracture::Control;
 use super::key_path::KeyPath;
-use super::motion::Scheme;
+use super::word::word_of;
+use ligament_analysis::motion::Scheme;
 
 /// Settings of a case that decide whether keys have an effect.
 pub(super) struct Settings {
@@ -194,7 +195,7 @@ impl With {
         match self {
             Self::Analysis(any) => {
                 let analysis = settings.analysis.filter(|it| any.contains(it))?;
-                Some(format!("analysis = \"{}\"", analysis.word()))
+                Some(format!("analysis = \"{}\"", word_of(&analysis)))
             }
             Self::Setting(words, holds) => holds(settings).then(|| (*words).to_owned()),
         }

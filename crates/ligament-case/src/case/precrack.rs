@@ -10,7 +10,6 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Point, exactly_one, first_given, missing};
 use super::values::{not_exactly_one, one_of, refuse, require};
-use super::word::Word;
 use ligament::setup::{CrackShape, PreCrack};
 use ligament_model::bonds::precrack::Ends;
 
@@ -49,7 +48,7 @@ pub struct Precrack {
     pub group: Option<String>,
     /// Whether bonds that only touch the crack are cut.
     #[serde(default)]
-    pub ends: Word<Ends>,
+    pub ends: Ends,
 }
 
 impl Precrack {
@@ -60,7 +59,7 @@ impl Precrack {
                 2 => CrackShape::Line(self.line(key)?),
                 _ => self.surface(key)?,
             },
-            ends: self.ends.0,
+            ends: self.ends,
         })
     }
 

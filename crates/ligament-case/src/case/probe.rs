@@ -31,7 +31,7 @@ pub struct Probe {
     #[schemars(extend("x-unit" = "m"))]
     pub section: Option<[Coordinates; 2]>,
     /// The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
-    pub component: Option<Word<Component>>,
+    pub component: Option<Component>,
     /// The field that is read `at` the position.
     pub field: Option<Word<PointField>>,
 }
@@ -82,8 +82,8 @@ impl Probe {
             return Err(KeyFault::new(key.child("field"), reason));
         }
         let reason = "with `between` or `section`, to say what to read";
-        let component = self.component.map(|it| it.0);
-        component.ok_or_else(|| required(key, "component", reason))
+        self.component
+            .ok_or_else(|| required(key, "component", reason))
     }
 
     fn axis(&self, key: &KeyPath) -> Result<Axis, KeyFault> {

@@ -12,7 +12,6 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{missing, refuse};
-use super::word::Word;
 
 /// Properties that vary at random: one as a table, several as a list of tables.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +22,7 @@ pub struct Scatters(pub Vec<Scatter>);
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
     /// What varies.
-    pub of: Word<Scattered>,
+    pub of: Scattered,
     /// Distribution of the factors.
     #[serde(default)]
     pub distribution: Distribution,
@@ -74,7 +73,7 @@ impl Scatter {
             }
         };
         Ok(scatter::Scatter {
-            of: self.of.0,
+            of: self.of,
             distribution,
             seed: self.seed,
             correlation_length: self.correlation_length,

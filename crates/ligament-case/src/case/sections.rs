@@ -6,7 +6,8 @@ use ligament::Message;
 use ligament::body::AnyBody;
 use ligament::near_growth::Growth;
 use ligament::plausibility::{of_angle, without_thickness};
-use ligament::setup::{self, Section, Setup};
+use ligament::setup::{self, QuietEdge, Section, Setup, SurfaceContact};
+use ligament_analysis::motion::MotionSettings;
 use ligament_mesh::{AnyMesh, Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
@@ -14,8 +15,8 @@ use serde::{Deserialize, Serialize};
 
 use super::analysis::{Analysis, Modal};
 use super::body_kind::BodyKind;
-use super::conditions::Support;
-use super::contact::{Contact, Rigid};
+use super::conditions::{InitialVelocity, Support};
+use super::contact::Rigid;
 use super::correction::Correction;
 use super::decode::decode;
 use super::document::Node;
@@ -28,7 +29,6 @@ use super::load::Load;
 use super::material::{self, Material};
 use super::mesh_section::MeshSection;
 use super::model::ModelSection;
-use super::motion::{InitialVelocity, Motion, Quiet};
 use super::not_with::{Settings, refuse_keys_without_effect};
 use super::output::{Output, StressField};
 use super::precrack::Precrack;
@@ -38,7 +38,7 @@ use super::solid_lattice_section::SolidLatticeSection;
 use super::solver::{self, Solver};
 use super::stage::Stage;
 use super::temperature::Temperature;
-use super::values::{exactly_one, metre};
+use super::values::{exactly_one, metre, missing};
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -99,10 +99,10 @@ pub struct Case {
     pub initial_velocities: Vec<InitialVelocity>,
     /// Parts of the outline through which waves leave the body in a motion.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub quiet: Vec<Quiet>,
+    pub quiet: Vec<QuietEdge>,
     /// Contact between parts of the body.
     #[serde(rename = "contact", default, skip_serializing_if = "Vec::is_empty")]
-    pub contacts: Vec<Contact>,
+    pub contacts: Vec<SurfaceContact>,
     /// Rigid bodies that parts of the body meet.
     #[serde(rename = "rigid", default, skip_serializing_if = "Vec::is_empty")]
     pub rigid_bodies: Vec<Rigid>,
@@ -121,7 +121,7 @@ pub struct Case {
     pub modal: Option<Modal>,
     /// A motion in time under loads that depend on time.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub motion: Option<Motion>,
+    pub motion: Option<MotionSettings>,
     /// How the equations are solved; nothing need be said.
     #[serde(default, deserialize_with = "solver::read")]
     #[schemars(schema_with = "solver::schema")]
@@ -146,9 +146,6 @@ impl Case {
             mesh.complete(&root().child("mesh"), folder, body)?;
         }
         case.complete_analysis(document)?;
-        if let Some(motion) = &mut case.motion {
-            motion.complete();
-        }
         let is_idle = case.loads.is_empty()
             && case.temperatures.is_empty()
             && case.initial_velocities.is_empty()
@@ -249,8 +246,8 @@ impl Case {
 
     /// State of the plane.
     pub fn plane(&self) -> Plane {
-        let of_mesh = self.mesh.as_ref().and_then(|it| Some(it.plane?.0));
-        let of_lattice = self.lattice.as_ref().map(|it| it.plane.0);
+        let of_mesh = self.mesh.as_ref().and_then(|it| it.plane);
+        let of_lattice = self.lattice.as_ref().map(|it| it.plane);
         of_mesh.or(of_lattice).unwrap_or_default()
     }
 
@@ -330,8 +327,8 @@ impl Case {
             initial_velocities: each("initial_velocity", &self.initial_velocities, |it, key| {
                 it.setup(key, dimensions)
             })?,
-            quiet: self.quiet.iter().map(Quiet::setup).collect(),
-            contacts: self.contacts.iter().map(Contact::setup).collect(),
+            quiet: self.quiet.clone(),
+            contacts: self.contacts.clone(),
             rigid_bodies: each("rigid", &self.rigid_bodies, |it, key| {
                 it.setup(key, dimensions)
             })?,
@@ -369,8 +366,16 @@ impl Case {
     fn analysis_of_setup(&self) -> Result<setup::Analysis, KeyFault> {
         Ok(match (&self.motion, &self.modal, &self.fracture) {
             (Some(motion), _, _) => {
-                let key = root().child("motion");
-                setup::Analysis::Motion(motion.setup(&key, self.fracture.as_ref())?)
+                if !motion.is_explicit() && motion.step.is_none() {
+                    return Err(missing(&root().child("motion"), "step"));
+                }
+                let fracture = self.fracture.as_ref();
+                let breakages =
+                    fracture.map_or(motion.breakages, |it| it.of_steps(motion.breakages));
+                setup::Analysis::Motion(MotionSettings {
+                    breakages,
+                    ..*motion
+                })
             }
             (None, Some(modal), _) => setup::Analysis::Modal(modal.setup()),
             (None, None, Some(fracture)) => {

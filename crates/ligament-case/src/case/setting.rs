@@ -4,9 +4,10 @@ use ligament::setup::setting::Setting;
 use ligament_model::failure;
 use ligament_model::failure::Unfit;
 use ligament_model::law::{BondLaw, listed};
+use serde::Serialize;
 
 use super::fault::Fault;
-use super::word::Worded;
+use super::word::{Word, word_of};
 
 /// A setting of a setup in the form of a case.
 pub(super) fn of_setup(setting: &Setting) -> String {
@@ -17,7 +18,7 @@ pub(super) fn of_setup(setting: &Setting) -> String {
         Setting::Strains(it) => format!("strains = {}", quoted(it)),
         Setting::Form(it) => quoted(it),
         Setting::Alpha(it) => quoted(it),
-        Setting::Surface(it) => quoted(it),
+        Setting::Surface(it) => quoted(&Word(*it)),
         Setting::Domain(it) => quoted(it),
         Setting::Scattered(it) => quoted(it),
         Setting::Lattice => "[lattice] in the place of [mesh]".to_owned(),
@@ -25,8 +26,8 @@ pub(super) fn of_setup(setting: &Setting) -> String {
     }
 }
 
-fn quoted(value: &impl Worded) -> String {
-    format!("\"{}\"", value.word()[0])
+fn quoted(value: &impl Serialize) -> String {
+    format!("\"{}\"", word_of(value))
 }
 
 /// A setting of a criterion in the form of a case.

@@ -33,7 +33,7 @@ pub struct Solver {
     pub update: Word<Option<Update>>,
     /// Broken bonds between two factors that are made anew.
     #[schemars(range(min = 1))]
-    pub rebuild_every: Option<u32>,
+    pub rebuild_every: Option<usize>,
     /// Threads; without it one for each processor. Results do not depend on it.
     #[schemars(range(min = 1, max = MOST_THREADS))]
     pub threads: Option<u32>,
@@ -46,14 +46,13 @@ pub struct Solver {
 impl Solver {
     pub(super) fn setup(&self, allows_unstable: bool) -> SolverSettings {
         let default = SolverSettings::default();
-        let rebuild_every = self.rebuild_every.map(|bonds| bonds as usize);
         SolverSettings {
             method: self.method.0,
             tolerance: self.tolerance.unwrap_or(default.tolerance),
             factorisation: self.factorisation.0,
             ordering: self.ordering.0,
             update: self.update.0,
-            rebuild_every: rebuild_every.unwrap_or(default.rebuild_every),
+            rebuild_every: self.rebuild_every.unwrap_or(default.rebuild_every),
             allows_unstable,
             ..default
         }

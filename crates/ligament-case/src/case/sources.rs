@@ -1,15 +1,16 @@
 //! The papers behind what a case uses.
 
-use super::motion::Scheme;
 use super::scatter::Distribution;
 use super::sections::Case;
+use ligament::setup::Alpha;
+use ligament_analysis::motion::Scheme;
 
 impl Case {
     /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys
     /// of the references; each text stands once.
     pub fn sources(&self) -> Vec<&'static str> {
         let mut found = vec![self.model.law.0.row.source];
-        found.extend(self.correction.alpha.map(|it| it.0.source()));
+        found.extend(self.correction.alpha.map(Alpha::source));
         found.extend(self.correction.surface.map(|it| it.0.source()));
         let fracture = self.fracture.as_ref();
         let criteria = fracture.and_then(|it| it.criteria.as_deref());

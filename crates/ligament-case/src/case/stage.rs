@@ -14,7 +14,7 @@ use super::values::{exactly_one, one_of, require_column_name};
 use ligament::setup;
 
 /// Largest number of load steps of a stage: each has a row in the history.
-const MOST_STEPS: u32 = 1_000_000;
+const MOST_STEPS: usize = 1_000_000;
 
 /// A stage of the loading: loads that go to other factors, each times the load as it is at factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -29,7 +29,7 @@ pub struct Stage {
     pub loads: BTreeMap<String, Factors>,
     /// Equal load steps of the stage; not on the exact path, nor in an elastic analysis.
     #[schemars(range(min = 1, max = MOST_STEPS))]
-    pub steps: Option<u32>,
+    pub steps: Option<usize>,
     /// What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
     /// peaks and snap-backs. Without it the factors grow.
     pub control: Option<Control>,
@@ -84,7 +84,7 @@ impl Stage {
         Ok(setup::Stage {
             name: self.name.clone().unwrap_or_default(),
             loads: self.loads.iter().map(course).collect(),
-            steps: self.steps.map(|steps| steps as usize),
+            steps: self.steps,
             control: match &self.control {
                 Some(control) => Some(control.setup(&key.child("control"))?),
                 None => None,

@@ -4,22 +4,14 @@ use std::borrow::Cow;
 use std::fmt;
 use std::marker::PhantomData;
 
-use ligament::setup::{
-    self, Alpha, Axis, Calibration, CorrectionDomain, Form, Iteration, Strains, Surface,
-};
-use ligament_analysis::Component;
-use ligament_analysis::breaking::BreakingOrder;
+use ligament::setup::{self, Iteration, Surface};
 use ligament_analysis::modal::Rotations;
 use ligament_analysis::probe::PointField;
 use ligament_analysis::solver::{FactorKind, Method, Ordering, Update};
-use ligament_model::Plane;
-use ligament_model::bonds::precrack::Ends;
 use ligament_model::correction::StopRule;
-use ligament_model::correction::patch::{Reference, Settings};
+use ligament_model::correction::patch::Settings;
 use ligament_model::failure::softening::{LAWS, Law};
-use ligament_model::failure::{self, KINDS, Kind};
-use ligament_model::law::rotational::RotationalStiffness;
-use ligament_model::scatter::Scattered;
+use ligament_model::failure::{KINDS, Kind};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{EnumAccess, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -89,45 +81,6 @@ macro_rules! worded {
     };
 }
 
-worded! { failure::Calibration:
-    [Self::Printed] "printed" "As printed: exact without lateral strain alone.";
-    [Self::TwoPoint] "two-point" "From the strains of a bar under both strengths.";
-}
-
-worded! { Plane:
-    [Self::Stress] "stress" "No stress out of the plane: thin bodies.";
-    [Self::Strain] "strain" "No strain out of the plane: long bodies.";
-}
-
-worded! { Calibration:
-    [Self::Integral] "integral" "Integrals over a full circle (the papers').";
-    [Self::Discrete] "discrete" "Sums over the family of each point.";
-}
-
-worded! { RotationalStiffness:
-    [Self::Decaying] "decaying" "k_t l (1 - l/H)/2.";
-    [Self::Quarter] "quarter" "k_t l/4.";
-    [Self::Beam] "beam" "k_t l/12.";
-    [Self::Zero] "none" "None.";
-}
-
-worded! { Form:
-    [Self::Full] "full" "All bonds all three strains.";
-    [Self::Rows] "rows" "Bonds along x and y only their own.";
-    [Self::Pairwise] "pairwise" "As printed, with forces on the two ends alone.";
-}
-
-worded! { Strains:
-    [Self::Small] "small" "The distances before the deformation.";
-    [Self::True] "true" "The distances after the deformation.";
-}
-
-worded! { Alpha:
-    [Self::None] "none" "1.";
-    [Self::PartialVolume] "partial-volume" "The share of the cell inside the horizon.";
-    [Self::Length] "length" "NHPD's factor by length.";
-}
-
 worded! { Surface:
     [Self::None] "none" "None.";
     [Self::Volume] "volume" "By the volumes of the families.";
@@ -135,30 +88,10 @@ worded! { Surface:
     [Self::Patch(Settings::DEFAULT)] in [Self::Patch(_)] "patch" "Two factors a bond for which every uniform strain is an equilibrium.";
 }
 
-worded! { Reference:
-    [Self::Body] "body" "alpha times one number for the body.";
-    [Self::Families] "families" "alpha times factors with which a dilation has one stress at all points, also where the mesh is graded.";
-}
-
 worded! { Option<StopRule>:
     [None] "auto" "`sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.";
     [Some(Iteration::SUM)] in [Some(StopRule::Sum(_))] "sum" "Summed over all bonds (the paper's): grows with the size of the model.";
     [Some(Iteration::MEAN)] in [Some(StopRule::Mean(_))] "mean" "Mean per bond: independent of the size of the model.";
-}
-
-worded! { CorrectionDomain:
-    [Self::Whole] "whole" "Before the pre-cracks cut bonds.";
-    [Self::Cracked] "cracked" "After the pre-cracks cut bonds.";
-}
-
-worded! { Ends:
-    [Self::Excluded] "excluded" "Bonds that pass through the crack are cut.";
-    [Self::Included] "included" "Bonds that have a point in common with the crack are cut.";
-}
-
-worded! { BreakingOrder:
-    [Self::Excess] "excess" "Bonds with the largest excess of stretch over critical stretch (the paper's).";
-    [Self::Ratio] "ratio" "Bonds with the largest ratio of stretch to critical stretch.";
 }
 
 worded! { Option<Method>:
@@ -191,25 +124,10 @@ worded! { Option<Rotations>:
     [Some(Rotations::Massless)] "massless" "Rotations have no inertia and follow the displacements.";
 }
 
-worded! { Scattered:
-    [Self::Strength] "strength" "Strengths, and limits given in their place.";
-    [Self::FractureEnergy] "fracture-energy" "Fracture energies.";
-}
-
-worded! { Axis:
-    [Self::X] "x" "Along x.";
-    [Self::Y] "y" "Along y.";
-    [Self::Z] "z" "Along z of a solid.";
-}
-
-worded! { Component:
-    [Self::X] "x" "Displacement along x, m.";
-    [Self::Y] "y" "Displacement along y, m.";
-    [Self::Rotation] "rotation" "Rotation in the plane, rad, counter-clockwise.";
-    [Self::Z] "z" "Displacement along z of a solid, m.";
-    [Self::RotationX] "rotation_x" "Rotation about x in a solid, rad, right-handed.";
-    [Self::RotationY] "rotation_y" "Rotation about y in a solid, rad, right-handed.";
-    [Self::RotationZ] "rotation_z" "Rotation about z in a solid, rad, right-handed.";
+/// The word of a value that is written as one.
+pub fn word_of(value: &impl Serialize) -> String {
+    let quoted = serde_json::to_string(value).unwrap_or_default();
+    quoted.trim_matches('"').to_owned()
 }
 
 /// A value that is read and written as its word.

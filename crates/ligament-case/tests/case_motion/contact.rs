@@ -1,6 +1,6 @@
 //! `[[contact]]` and `[[rigid]]`: what they make, and what is refused.
 
-use ligament::setup::{Between, ContactLaw, RigidForm};
+use ligament::setup::RigidForm;
 use ligament_analysis::motion::contact::RigidMotion;
 use ligament_analysis::{Amplitude, Shape};
 
@@ -221,17 +221,9 @@ fn contacts_have_defaults() {
     ];
     let setup = read(BAR, &settings).unwrap().setup(&mut ()).unwrap();
     let contact = &setup.contacts[0];
-    assert_eq!(
-        contact.between,
-        Between::Groups(["left", "right"].map(str::to_owned))
-    );
-    assert_eq!(
-        contact.law,
-        ContactLaw {
-            friction: 0.3,
-            stiffness: 1.0
-        }
-    );
+    let groups = ["left", "right"].map(str::to_owned);
+    assert_eq!(contact.between, Some(groups));
+    assert_eq!((contact.friction, contact.stiffness), (0.3, 1.0));
     let RigidForm::Box { size, .. } = setup.rigid_bodies[1].form else {
         panic!("another shape");
     };

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ligament::Loading;
 use ligament::setup::Setup;
 use ligament_analysis::driver::motion::time_step;
-use ligament_analysis::motion::{ImplicitSettings, MotionSettings, Scheme};
+use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_case::case::CaseFile;
 use ligament_model::material::PlaneWaves;
 use ligament_output::quantity::quantity;
@@ -58,12 +58,10 @@ pub(super) fn check(
         entry(out, "critical step", words)?;
         let length = quantity(step.step, "s");
         let words = match settings.scheme {
-            Scheme::Implicit(ImplicitSettings {
-                statics: Some(_), ..
-            }) => format!(
+            Scheme::Auto => format!(
                 "{length} where the body moves; equilibria from row to row before and after"
             ),
-            Scheme::Explicit(_) | Scheme::Implicit(_) => {
+            Scheme::Explicit | Scheme::Implicit => {
                 let count = (settings.duration / step.step).round();
                 format!("{length}, {count} steps")
             }

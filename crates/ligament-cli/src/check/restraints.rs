@@ -32,7 +32,7 @@ fn of_support(support: &Support, dimensions: usize) -> Vec<String> {
     let mut words: Vec<String> = (support.components())
         .map(|it| it.name().to_owned())
         .collect();
-    for (component, total) in support.stiffness.components.components() {
+    for (component, total) in support.stiffness.along_axes().components() {
         let unit = if component.is_rotation() {
             "N m/rad"
         } else {

@@ -168,15 +168,17 @@ pub struct Choice {
     pub after: After,
 }
 
-/// Calibration of the cohesion and the friction of bonds by two strengths.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Calibration {
-    /// The printed calibration, in which the stress of the bar is put in as E s of the bond (MPPD eqs 55, 56). Exact for nu
-    /// = 0 alone.
-    #[default]
-    Printed,
-    /// Calibration by the strains of the bar in tension and in compression; possible where nu < F_t/F_c.
-    TwoPoint,
+crate::case_type! {
+    /// Calibration of the cohesion and the friction of bonds by two strengths. The printed one puts in the stress of the bar as E s of the bond
+    /// (MPPD eqs 55, 56), which is exact for nu = 0 alone; the other one is possible where nu < F_t/F_c.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Calibration {
+        /// As printed: exact without lateral strain alone.
+        #[default]
+        Printed,
+        /// From the strains of a bar under both strengths.
+        TwoPoint,
+    }
 }
 
 /// A law of softening with its parameter.

@@ -2,36 +2,42 @@
 
 use super::rotational::RotationalStiffness;
 
-/// Origin of the constants of a law.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Calibration {
-    /// Integrals over a full circle, as in the papers.
-    #[default]
-    Integral,
-    /// Sums over the family of each point.
-    Discrete,
+crate::case_type! {
+    /// Origin of the constants of a law.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Calibration {
+        /// Integrals over a full circle (the papers').
+        #[default]
+        Integral,
+        /// Sums over the family of each point.
+        Discrete,
+    }
 }
 
-/// Strains that the bonds of MBB-PD resist.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Form {
-    /// All bonds resist all three strains.
-    #[default]
-    Full,
-    /// Bonds along x and y resist their own strain alone.
-    Rows,
-    /// The printed form, with forces on the two ends alone.
-    Pairwise,
+crate::case_type! {
+    /// Strains that the bonds of MBB-PD resist.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Form {
+        /// All bonds all three strains.
+        #[default]
+        Full,
+        /// Bonds along x and y only their own.
+        Rows,
+        /// As printed, with forces on the two ends alone.
+        Pairwise,
+    }
 }
 
-/// Distances in the denominators of the strains of MBB-PD.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Strains {
-    /// Distances before the deformation.
-    #[default]
-    Small,
-    /// Distances after the deformation.
-    True,
+crate::case_type! {
+    /// Distances in the denominators of the strains of MBB-PD.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Strains {
+        /// The distances before the deformation.
+        #[default]
+        Small,
+        /// The distances after the deformation.
+        True,
+    }
 }
 
 /// Options of a law; `None` where the law leaves no choice.

@@ -13,18 +13,22 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::material::{Elasticity, Plane};
 
-/// A choice of k_theta for a given k_t.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum RotationalStiffness {
-    /// Decaying k_t l (1 - l/H)/2 (OMPPD after eq. 57): short bonds resist bending most, and one as long as the horizon not at all.
-    #[default]
-    Decaying,
-    /// Quarter k_t l/4: the moment at an end does not depend on the rotation of the other.
-    Quarter,
-    /// Rotational stiffness k_t l/12 of a beam (Gerstle 2007; OMPPD eq. 22).
-    Beam,
-    /// No rotational stiffness: relative rotations cost no energy.
-    Zero,
+crate::case_type! {
+    /// A choice of k_theta for a given k_t. The decaying one (OMPPD after eq. 57) lets short bonds resist bending most, and one as long as the horizon
+    /// not at all; with a quarter the moment at an end does not depend on the rotation of the other; that of a beam is from Gerstle 2007 (OMPPD eq. 22).
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum RotationalStiffness {
+        /// k_t l (1 - l/H)/2.
+        #[default]
+        Decaying,
+        /// k_t l/4.
+        Quarter,
+        /// k_t l/12.
+        Beam,
+        /// None.
+        #[case(serde(rename = "none"))]
+        Zero,
+    }
 }
 
 /// Scale of k_theta, which every choice of the form leaves free.

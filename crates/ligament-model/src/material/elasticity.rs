@@ -27,14 +27,16 @@ pub(crate) fn stress_component(stiffness: &Stiffness, strains: &[f64], row: usiz
         .sum()
 }
 
-/// State of the plane.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Plane {
-    /// Plane stress: no stress out of the plane.
-    #[default]
-    Stress,
-    /// Plane strain: no strain out of the plane.
-    Strain,
+crate::case_type! {
+    /// State of the plane.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Plane {
+        /// No stress out of the plane: thin bodies.
+        #[default]
+        Stress,
+        /// No strain out of the plane: long bodies.
+        Strain,
+    }
 }
 
 /// The space in which a body deforms.

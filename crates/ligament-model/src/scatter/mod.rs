@@ -30,13 +30,16 @@ pub struct Scatter {
     pub correlation_length: f64,
 }
 
-/// Property that varies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Scattered {
-    /// All strengths of the materials, and limits given in their place: limits of bonds are multiplied by the factor f.
-    Strength,
-    /// Fracture energies: limits derived from them are multiplied by sqrt(f), and the energy of a bond beyond its limit follows.
-    FractureEnergy,
+crate::case_type! {
+    /// Property that varies, by a factor f. Limits of bonds from strengths, and limits given in their place, are multiplied by f; those from fracture energies
+    /// by sqrt(f), and the energy of a bond beyond its limit follows.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Scattered {
+        /// Strengths, and limits given in their place.
+        Strength,
+        /// Fracture energies.
+        FractureEnergy,
+    }
 }
 
 impl Scattered {

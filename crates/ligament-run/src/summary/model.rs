@@ -6,7 +6,7 @@ use ligament_output::summary::{CorrectionSummary, ModelSummary, ScatterSummary, 
 
 use ligament::Model;
 use ligament::setup::{Alpha, Calibration, Correction, Form, Setup, Surface};
-use ligament_case::case::{CaseFile, Worded};
+use ligament_case::case::{CaseFile, Word, word_of};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::material::Space;
 use ligament_model::scatter::{Factors, seed_at};
@@ -98,7 +98,7 @@ fn scatter_of(
     let squares = owned.map(|it| (it - factor.mean).powi(2));
     let variance = subdomain.sum(squares.sum()) / subdomain.n_all().max(1) as f64;
     ScatterSummary {
-        of: of.word()[0].into(),
+        of: word_of(of).into(),
         seed,
         factor,
         deviation: variance.sqrt() / factor.mean,
@@ -130,8 +130,8 @@ fn correction(model: &Model, energy_ratios: Vec<Spread>) -> CorrectionSummary {
     let patch = report.and_then(CorrectionReport::patch);
     let (factor_min, factor_max) = model.correction_range;
     CorrectionSummary {
-        alpha: model.setup.correction.alpha.word()[0].into(),
-        surface: model.setup.correction.surface.word()[0].into(),
+        alpha: word_of(&model.setup.correction.alpha).into(),
+        surface: word_of(&Word(model.setup.correction.surface)).into(),
         sweeps: domain.map(|it| it.sweeps),
         converged: domain.map(|it| it.converged),
         last_change: domain.map(|it| it.last_change),

@@ -16,7 +16,7 @@ use crate::error::{Fault, Field, SetupError};
 use crate::model::Model;
 use crate::parts::Parts;
 use crate::setup::check::contradiction;
-use crate::setup::{Analysis, Between, ContactLaw, Rigid, RigidForm, Setup};
+use crate::setup::{Analysis, ContactLaw, Rigid, RigidForm, Setup};
 use crate::system::over_dimension;
 
 /// Depth in a rigid body over the spacing of the points, beyond which the start is not one of surfaces that touch.
@@ -50,21 +50,21 @@ pub(super) fn contacts<const D: usize>(
             continue;
         };
         let surfaces = match &contact.between {
-            Between::Groups(groups) => {
+            Some(groups) => {
                 let sides = outline.sides_of_groups(field, groups)?;
-                outline.pair(sides, contact.law, Opposite::OtherSides)
+                outline.pair(sides, contact.law(), Opposite::OtherSides)
             }
-            Between::Parts if contact.cracks => {
+            None if contact.cracks => {
                 let sides = outline.one_side(field)?;
-                outline.pair(sides, contact.law, Opposite::Unbonded)
+                outline.pair(sides, contact.law(), Opposite::Unbonded)
             }
-            Between::Parts => {
+            None => {
                 let sides = outline.sides_of_parts(field)?;
-                outline.pair(sides, contact.law, Opposite::OtherSides)
+                outline.pair(sides, contact.law(), Opposite::OtherSides)
             }
         };
         problem.contacts.push(SurfaceContact {
-            name: contact.between.name(),
+            name: contact.name(),
             surfaces,
             rigid_body: None,
         });

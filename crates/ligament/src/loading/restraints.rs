@@ -69,7 +69,7 @@ impl<const D: usize> RestraintBuilder<'_, D> {
     fn support(&mut self, field: Field, support: &Support) -> Result<(), SetupError> {
         let points = self.places.points(field, &support.place)?;
         let shares = self.places.shares(&support.place, &points);
-        for (component, total) in support.stiffness.components.components() {
+        for (component, total) in support.stiffness.along_axes().components() {
             for &(point, share) in &shares {
                 let dof = self.system.layout().degree_of_freedom(point, component);
                 let along = dof.map(|dof| (dof as u32, 1.0));

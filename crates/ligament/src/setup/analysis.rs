@@ -1,19 +1,13 @@
 //! Kind of analysis: an elastic solution, the breakage of bonds, natural modes, or a motion in time.
 
-use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
+use ligament_analysis::breaking::{BreakingRule, TIE_TOLERANCE};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::modal::ModalSettings;
-use ligament_analysis::motion::{
-    Damping, ExplicitSettings, ImplicitSettings, MotionSettings, MotionStop, Scheme,
-};
+use ligament_analysis::motion::MotionSettings;
 
-/// Relative change of energy below which an elastic solution is in equilibrium (NHPD's value).
-pub const ELASTIC_ENERGY_TOLERANCE: f64 = 1e-4;
-
-/// Bonds closer than this (relative) to the worst one break together with it.
-const TIE_TOLERANCE: f64 = 1e-8;
+pub use ligament_analysis::problem::ELASTIC_ENERGY_TOLERANCE;
 
 /// Kind of analysis.
 #[derive(Debug, Clone, PartialEq)]
@@ -63,19 +57,12 @@ impl Analysis {
     }
 }
 
-/// Share of the work so far that a step without inertia may set free in a motion that follows equilibria where it can.
-pub const STATICS: f64 = 1e-3;
-
 /// Settings of load steps with these load factors; at most five bonds break between two solutions.
 pub fn stepped(load_factors: Vec<f64>) -> SteppedSettings {
     SteppedSettings {
         load_factors,
         refine_first_break: 0,
-        rule: BreakingRule {
-            order: BreakingOrder::Excess,
-            bonds_per_iteration: 5,
-            tie_tolerance: TIE_TOLERANCE,
-        },
+        rule: BreakingRule::default(),
         energy_tolerance: ELASTIC_ENERGY_TOLERANCE,
         round_limit: 10_000,
         stop: StopRules::NONE,
@@ -97,43 +84,5 @@ pub fn modal() -> ModalSettings {
         modes: 10,
         rotations: None,
         tolerance: 1e-10,
-    }
-}
-
-/// Settings of a motion for a duration, s: explicit steps of 0.8 of the critical step, 200 rows of the history, no damping.
-pub fn motion(duration: f64) -> MotionSettings {
-    MotionSettings {
-        duration,
-        rows: 200,
-        scheme: Scheme::Explicit(explicit()),
-        damping: Damping::default(),
-        rotary_inertia: 1.0,
-        stop: MotionStop::default(),
-    }
-}
-
-/// Explicit steps of 0.8 of the critical step.
-pub fn explicit() -> ExplicitSettings {
-    ExplicitSettings {
-        step: None,
-        safety: 0.8,
-    }
-}
-
-/// Implicit steps of a length, s, by the trapezoidal rule; at most five bonds break between two solutions, and a step in which bonds break
-/// in more than twenty rounds is halved.
-pub fn implicit(step: f64) -> ImplicitSettings {
-    let SteppedSettings {
-        rule,
-        energy_tolerance,
-        ..
-    } = stepped(Vec::new());
-    ImplicitSettings {
-        step,
-        dissipation: 0.0,
-        rule,
-        rounds: 20,
-        energy_tolerance,
-        statics: None,
     }
 }

@@ -3,7 +3,7 @@
 use ligament_analysis::load_program::Amplitude;
 
 use super::check::{Checked, contradiction, positive, require, require_unique};
-use super::{Between, ContactLaw, Rigid, RigidForm, Setup};
+use super::{ContactLaw, Rigid, RigidForm, Setup, SurfaceContact};
 use crate::error::Field;
 
 impl Setup {
@@ -15,8 +15,8 @@ impl Setup {
     pub(super) fn check_contacts(&self) -> Checked {
         for (index, contact) in self.contacts.iter().enumerate() {
             let field = Field::element("contacts", index);
-            check_law(field, contact.law)?;
-            if let Between::Groups([one, other]) = &contact.between
+            check_law(field, contact.law())?;
+            if let Some([one, other]) = &contact.between
                 && one == other
             {
                 let reason = "contact is between two different groups: give two, or all parts";
@@ -60,7 +60,7 @@ impl Setup {
     /// Refuses a name whose columns in the history are those of a group or of another contact.
     fn check_rigid_name(&self, field: Field, name: &str) -> Checked {
         let is_group = self.body.group_names().iter().any(|it| it == name);
-        let mut others = self.contacts.iter().map(|it| it.between.name());
+        let mut others = self.contacts.iter().map(SurfaceContact::name);
         if is_group || others.any(|it| it == name) {
             let reason = format!(
                 "`{name}` is a group or a contact, whose columns in the history are called so"

@@ -199,7 +199,7 @@ impl Setup {
         };
         for (index, support) in self.supports.iter().enumerate() {
             let mut held = support.held.iter();
-            if held.any(|it| !components.contains(it)) || leaves(&support.stiffness.components) {
+            if held.any(|it| !components.contains(it)) || leaves(&support.stiffness.along_axes()) {
                 return contradiction(Field::element("supports", index), reason);
             }
         }

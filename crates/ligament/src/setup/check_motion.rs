@@ -1,6 +1,6 @@
 //! Checks of a motion in time, and of what only a motion has.
 
-use ligament_analysis::motion::{MotionSettings, Scheme};
+use ligament_analysis::motion::{MOST_DISSIPATION, MotionSettings};
 
 use super::check::{Checked, contradiction, missing, positive, require};
 use super::check_dimension::NO_Z;
@@ -51,27 +51,18 @@ fn check_settings(settings: &MotionSettings) -> Checked {
     positive(field.part("duration"), Some(settings.duration))?;
     let rows = settings.rows;
     require(rows > 0, field.part("rows"), "at least 1", rows)?;
-    match settings.scheme {
-        Scheme::Explicit(explicit) => {
-            positive(field.part("step"), explicit.step)?;
-            let safety = explicit.safety;
-            let is_share = safety > 0.0 && safety < 1.0;
-            let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
-            require(is_share, field.part("safety"), expected, safety)?;
-        }
-        Scheme::Implicit(implicit) => {
-            positive(field.part("step"), Some(implicit.step))?;
-            let dissipation = implicit.dissipation;
-            let is_fit = (0.0..=1.0 / 3.0).contains(&dissipation);
-            let expected = "0 to 1/3";
-            require(is_fit, field.part("dissipation"), expected, dissipation)?;
-            if let Some(share) = implicit.statics {
-                let is_share = share > 0.0 && share < 1.0;
-                let expected = "greater than 0 and less than 1";
-                require(is_share, field.part("statics"), expected, share)?;
-            }
-        }
-    }
+    positive(field.part("step"), settings.step)?;
+    let safety = settings.safety;
+    let is_share = safety > 0.0 && safety < 1.0;
+    let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
+    require(is_share, field.part("safety"), expected, safety)?;
+    let dissipation = settings.dissipation;
+    let is_fit = (0.0..=MOST_DISSIPATION).contains(&dissipation);
+    require(is_fit, field.part("dissipation"), "0 to 1/3", dissipation)?;
+    let share = settings.statics;
+    let is_share = share > 0.0 && share < 1.0;
+    let expected = "greater than 0 and less than 1";
+    require(is_share, field.part("statics"), expected, share)?;
     let factor = settings.rotary_inertia;
     positive(field.part("rotary_inertia"), Some(factor))?;
     for (part, value) in [

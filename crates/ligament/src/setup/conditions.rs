@@ -1,6 +1,7 @@
-//! Supports and loads, and where they act.
+//! Supports, loads, temperatures and initial velocities, and where they act.
 
 use ligament_analysis::{Amplitude, Component, Timed};
+use ligament_model::case_type;
 
 /// A position or a vector along x, y and z; in the plane the z coordinate is zero.
 pub type Position = [f64; 3];
@@ -24,23 +25,56 @@ impl From<&str> for Place {
     }
 }
 
-/// Values of some components of the motion; a component without a value is free.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Displacement {
-    /// Displacement along x, m.
-    pub x: Option<f64>,
-    /// Displacement along y, m.
-    pub y: Option<f64>,
-    /// Rotation in the plane, rad, counter-clockwise.
-    pub rotation: Option<f64>,
-    /// Displacement along z of a solid, m.
-    pub z: Option<f64>,
-    /// Rotation about x in a solid, rad, right-handed.
-    pub rotation_x: Option<f64>,
-    /// Rotation about y in a solid, rad, right-handed.
-    pub rotation_y: Option<f64>,
-    /// Rotation about z in a solid, rad, right-handed.
-    pub rotation_z: Option<f64>,
+case_type! {
+    /// Prescribed displacements; a component that is not given is free. Velocities and accelerations have the same components.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    #[case(schemars(extend("minProperties" = 1)))]
+    pub struct Displacement {
+        /// Along x, m.
+        #[case(schemars(extend("x-unit" = "m")))]
+        pub x: Option<f64>,
+        /// Along y, m.
+        #[case(schemars(extend("x-unit" = "m")))]
+        pub y: Option<f64>,
+        /// Rotation in the plane, rad, counter-clockwise.
+        #[case(schemars(extend("x-unit" = "rad")))]
+        pub rotation: Option<f64>,
+        /// Along z of a solid, m.
+        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "m")))]
+        pub z: Option<f64>,
+        /// Rotation about x in a solid, rad, right-handed.
+        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "rad")))]
+        pub rotation_x: Option<f64>,
+        /// Rotation about y in a solid, rad, right-handed.
+        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "rad")))]
+        pub rotation_y: Option<f64>,
+        /// Rotation about z in a solid, rad, right-handed.
+        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "rad")))]
+        pub rotation_z: Option<f64>,
+    }
+}
+
+case_type! {
+    /// Stiffness of springs to the ground in total over the points, shared out as a force is; a component that is not given has none.
+    #[derive(Debug, Clone, Copy, PartialEq, Default)]
+    #[case(schemars(extend("minProperties" = 1)))]
+    pub struct SpringStiffness {
+        /// Along x, N/m.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        pub x: Option<f64>,
+        /// Along y, N/m.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        pub y: Option<f64>,
+        /// Against rotations of the points, in N m/rad.
+        #[case(schemars(extend("exclusiveMinimum" = 0)))]
+        pub rotation: Option<f64>,
+        /// Along z of a solid, N/m.
+        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        pub z: Option<f64>,
+        /// Along the `normal` of the support, N/m.
+        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        pub normal: Option<f64>,
+    }
 }
 
 /// A support: components of the displacement that are fixed at zero, or resisted by springs.
@@ -54,15 +88,6 @@ pub struct Support {
     pub normal: Option<Position>,
     /// Springs to the ground.
     pub stiffness: SpringStiffness,
-}
-
-/// Total stiffness of springs, distributed over the points as a force is.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SpringStiffness {
-    /// Stiffness along and about the axes, N/m and N m/rad; a component without a value has no spring.
-    pub components: Displacement,
-    /// Stiffness along the normal of the support, N/m; without it the normal is fixed.
-    pub normal: Option<f64>,
 }
 
 /// A load at load factor 1.
@@ -154,15 +179,64 @@ pub enum Profile {
     Table(Vec<Sample>),
 }
 
-/// An axis of the coordinates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axis {
-    /// The x axis.
-    X,
-    /// The y axis.
-    Y,
-    /// The z axis of space.
-    Z,
+/// A change of temperature at load factor 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Temperature {
+    /// Part of the body: the cells of a group that has cells, otherwise the points.
+    pub place: Place,
+    /// Change of the temperature.
+    pub change: TemperatureChange,
+}
+
+/// Change of the temperature.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TemperatureChange {
+    /// Uniform change of the temperature, K.
+    Uniform(f64),
+    /// Changes at positions, each assigned to the point within a tenth of its distance to the nearest other point.
+    Table(Vec<Sample>),
+    /// A field of the mesh file.
+    Field {
+        /// Name of the field.
+        name: String,
+        /// Time step, where the field has several.
+        time_step: Option<i32>,
+        /// Value that is subtracted from the field, in its unit.
+        reference: f64,
+    },
+}
+
+/// Velocity of a part of the body at time zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InitialVelocity {
+    /// Part of the body.
+    pub place: Place,
+    /// Velocity, m/s.
+    pub velocity: Position,
+}
+
+// The dashpots of Lysmer and Kuhlemeyer 1969: on an area A with the normal n their force is -C v with C = A rho (c_P n n^T + c_S (I - n n^T)), so that
+// waves along n are not reflected.
+case_type! {
+    /// A part of the outline through which waves leave the body, by dashpots that take those at a right angle to it.
+    #[derive(Debug, Clone, PartialEq, Eq)]
+    pub struct QuietEdge {
+        /// The physical group on the outline of the mesh, or the set or hole of the lattice.
+        pub group: String,
+    }
+}
+
+case_type! {
+    /// An axis of the coordinates.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Axis {
+        /// Along x.
+        X,
+        /// Along y.
+        Y,
+        /// Along z of a solid.
+        Z,
+    }
 }
 
 impl Axis {
@@ -230,9 +304,22 @@ pub(super) fn axis_along(direction: &[f64]) -> Option<Axis> {
     axes.all(|(_, cosine)| *cosine == 0.0).then_some(axis)
 }
 
+impl SpringStiffness {
+    /// Stiffness along and about the axes in the place of displacements.
+    pub fn along_axes(&self) -> Displacement {
+        Displacement {
+            x: self.x,
+            y: self.y,
+            rotation: self.rotation,
+            z: self.z,
+            ..Displacement::default()
+        }
+    }
+}
+
 impl Displacement {
     /// Components that have a value.
-    pub fn components(&self) -> impl Iterator<Item = (Component, f64)> {
+    pub fn components(self) -> impl Iterator<Item = (Component, f64)> {
         let given = [
             (Component::X, self.x),
             (Component::Y, self.y),

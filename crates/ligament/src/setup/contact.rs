@@ -1,37 +1,49 @@
 //! Contact between surfaces and with rigid bodies.
 
 use ligament_analysis::load_program::Amplitude;
+use ligament_model::case_type;
 
 use super::conditions::Position;
 
-/// Contact between parts of the body.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SurfaceContact {
-    /// What comes into contact.
-    pub between: Between,
-    /// Law of the contact.
-    pub law: ContactLaw,
-    /// Whether faces of cracks take part.
-    pub cracks: bool,
+case_type! {
+    /// Contact between parts of the body, with friction.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct SurfaceContact {
+        /// Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start.
+        #[case(serde(skip_serializing_if = "Option::is_none"))]
+        pub between: Option<[String; 2]>,
+        /// Coefficient of Coulomb's friction.
+        #[case(serde(default), schemars(range(min = 0)))]
+        pub friction: f64,
+        /// Stiffness of the contact over E'/h of the material, with the spacing h of the points.
+        #[case(serde(default = "stiffness"), schemars(extend("exclusiveMinimum" = 0)))]
+        pub stiffness: f64,
+        /// Whether the faces of cracks take part, also those that come about; without `between` all fragments then meet each other.
+        #[case(serde(default))]
+        pub cracks: bool,
+    }
 }
 
-/// Parts of the body that come into contact.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Between {
-    /// The outlines of two groups.
-    Groups([String; 2]),
-    /// The outlines of all parts that no bond connects at the start; with faces of cracks, all points that no bond connects.
-    Parts,
-}
-
-impl Between {
+impl SurfaceContact {
     /// Name in results: those of the groups, or `parts`.
     pub fn name(&self) -> String {
-        match self {
-            Self::Groups(groups) => groups.join("-"),
-            Self::Parts => "parts".to_owned(),
+        match &self.between {
+            Some(groups) => groups.join("-"),
+            None => "parts".to_owned(),
         }
     }
+
+    /// Law of the contact.
+    pub fn law(&self) -> ContactLaw {
+        ContactLaw {
+            friction: self.friction,
+            stiffness: self.stiffness,
+        }
+    }
+}
+
+fn stiffness() -> f64 {
+    1.0
 }
 
 /// Penalty and friction of a contact.
@@ -108,7 +120,7 @@ impl Default for ContactLaw {
     fn default() -> Self {
         Self {
             friction: 0.0,
-            stiffness: 1.0,
+            stiffness: stiffness(),
         }
     }
 }

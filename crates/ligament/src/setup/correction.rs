@@ -17,15 +17,17 @@ pub struct Correction {
     pub domain: CorrectionDomain,
 }
 
-/// The factor alpha of a bond.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Alpha {
-    /// One.
-    None,
-    /// Share of the cell inside the horizon.
-    PartialVolume,
-    /// NHPD's factor by length.
-    Length,
+ligament_model::case_type! {
+    /// The factor alpha of a bond.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Alpha {
+        /// 1.
+        None,
+        /// The share of the cell inside the horizon.
+        PartialVolume,
+        /// NHPD's factor by length.
+        Length,
+    }
 }
 
 /// Correction for surfaces and irregular meshes.
@@ -82,14 +84,16 @@ pub struct Iteration {
     pub max_sweeps: usize,
 }
 
-/// Body on which the correction is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum CorrectionDomain {
-    /// The body before pre-cracks cut bonds.
-    #[default]
-    Whole,
-    /// The body after pre-cracks cut bonds.
-    Cracked,
+ligament_model::case_type! {
+    /// Body on which the correction is computed.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum CorrectionDomain {
+        /// Before the pre-cracks cut bonds.
+        #[default]
+        Whole,
+        /// After the pre-cracks cut bonds.
+        Cracked,
+    }
 }
 
 impl Default for Iteration {

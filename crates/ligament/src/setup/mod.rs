@@ -12,7 +12,6 @@ mod contact;
 mod correction;
 mod curve;
 mod far_field;
-mod motion;
 mod not_together;
 mod precrack;
 mod probe;
@@ -22,7 +21,6 @@ mod scatter;
 mod section;
 pub mod setting;
 pub mod stage;
-mod temperature;
 
 use ligament_analysis::{Message, SolverSettings};
 use ligament_model::failure::Choice;
@@ -32,25 +30,21 @@ use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointClou
 
 use crate::body::AnyBody;
 
-pub use analysis::{
-    Analysis, ELASTIC_ENERGY_TOLERANCE, STATICS, event, explicit, implicit, modal, motion, stepped,
-};
+pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
 pub use conditions::{
-    Action, Axis, Couple, Displacement, Load, Place, Position, Profile, Sample, SpringStiffness,
-    Support, begins_as_formula,
+    Action, Axis, Couple, Displacement, InitialVelocity, Load, Place, Position, Profile, QuietEdge,
+    Sample, SpringStiffness, Support, Temperature, TemperatureChange, begins_as_formula,
 };
-pub use contact::{Between, ContactLaw, Rigid, RigidForm, SurfaceContact};
+pub use contact::{ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub(crate) use curve::CurveAxis;
 pub use far_field::FarField;
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
-pub use motion::{InitialVelocity, QuietEdge};
 pub use not_together::{Exclusion, Feature, NOT_TOGETHER};
 pub use precrack::{CrackShape, PreCrack};
 pub use probe::{Probe, Reading};
 pub use section::Section;
 pub use stage::{Control, Course, Quantity, Stage};
-pub use temperature::{Temperature, TemperatureChange};
 
 /// Description of a computation in the plane or in space: body, section, materials, law, corrections, supports, loads and the
 /// analysis.

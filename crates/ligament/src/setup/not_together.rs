@@ -67,7 +67,9 @@ fn first<T>(list: &'static str, of: &[T], holds: impl Fn(&T) -> bool) -> Option<
 
 /// The first contact or rigid body whose law, and whether it has faces of cracks, satisfies a condition.
 fn first_contact(setup: &Setup, holds: impl Fn(&ContactLaw, bool) -> bool) -> Option<Field> {
-    let of_contact = first("contacts", &setup.contacts, |it| holds(&it.law, it.cracks));
+    let of_contact = first("contacts", &setup.contacts, |it| {
+        holds(&it.law(), it.cracks)
+    });
     let of_body = || {
         first("rigid_bodies", &setup.rigid_bodies, |it| {
             holds(&it.law, it.cracks)
@@ -110,7 +112,7 @@ features! {
         when(motion_with(it, |it| !it.is_explicit()), "analysis")
     };
     STEPS_WITHOUT_INERTIA = "motions that follow equilibria where they can (`scheme = \"auto\"`)", |it| {
-        let has_statics = |it: &MotionSettings| matches!(it.scheme, Scheme::Implicit(it) if it.statics.is_some());
+        let has_statics = |it: &MotionSettings| it.scheme == Scheme::Auto;
         when(motion_with(it, has_statics), "analysis")
     };
     NOT_EXPLICIT = "all analyses but explicit steps of a motion", |it| {

@@ -12,14 +12,17 @@ use crate::error::Field;
 impl Support {
     /// Whether the support has springs or an inclined normal.
     pub fn is_restraint(&self) -> bool {
-        let springs = self.stiffness.components;
-        self.restrained_normal().is_some() || springs.components().next().is_some()
+        let mut springs = self.stiffness.along_axes().components();
+        self.restrained_normal().is_some() || springs.next().is_some()
     }
 
     /// Components that springs and inclined normals resist: of a normal all displacements.
     pub fn restrained(&self) -> Vec<Component> {
-        let springs = self.stiffness.components;
-        let springs = springs.components().map(|(component, _)| component);
+        let springs = self
+            .stiffness
+            .along_axes()
+            .components()
+            .map(|(component, _)| component);
         let normal = self.restrained_normal().map(|_| displacements());
         springs.chain(normal.into_iter().flatten()).collect()
     }
@@ -60,7 +63,7 @@ impl Setup {
                 self.check_takes_restraints(field)?;
             }
             let has_rotations = self.law.rotational_profile().is_some();
-            let mut springs = support.stiffness.components.components();
+            let mut springs = support.stiffness.along_axes().components();
             if springs.any(|(it, _)| it.is_rotation()) && !has_rotations {
                 let reason =
                     "points have no rotations under this law: springs against them act on nothing";
@@ -98,7 +101,7 @@ fn check_support(field: Field, support: &Support, dimensions: usize) -> Checked 
         stiffness,
         ..
     } = support;
-    let springs = stiffness.components.components();
+    let springs = stiffness.along_axes().components();
     for value in springs
         .map(|(_, value)| Some(value))
         .chain([stiffness.normal])
@@ -119,7 +122,7 @@ fn check_support(field: Field, support: &Support, dimensions: usize) -> Checked 
         let reason = "`normal` of the stiffness needs the direction `normal` of the support";
         return contradiction(field.part("stiffness"), reason);
     }
-    let mut springs = stiffness.components.components();
+    let mut springs = stiffness.along_axes().components();
     if springs.any(|(component, _)| held.contains(&component)) {
         let reason = "a component is held by `displacement` or by a spring, not by both";
         return contradiction(field.part("stiffness"), reason);

@@ -22,7 +22,7 @@ fn parted(name: &str, mut setup: Setup) -> Setup {
         },
     }];
     setup.closing = true;
-    setup.analysis = Analysis::Motion(setup::motion(1.0));
+    setup.analysis = Analysis::Motion(MotionSettings::new(1.0));
     setup.initial_velocities = vec![InitialVelocity {
         place: Place::Everywhere,
         velocity: [0.0; 3],

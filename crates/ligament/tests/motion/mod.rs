@@ -18,8 +18,7 @@ use ligament_analysis::driver::{Outcome, Problem, motion};
 use ligament_analysis::history::{Moment, ObserverError, Onward, StepRecord, Termination, View};
 use ligament_analysis::modal::{ModalAnalysis, ModeKind, Rotations};
 use ligament_analysis::motion::{
-    Damping, Dashpot, ExplicitSettings, ImplicitSettings, MotionProblem, MotionSettings,
-    MotionStop, Scheme, critical_step,
+    Damping, Dashpot, MotionProblem, MotionSettings, Scheme, StepBreakages, critical_step,
 };
 use ligament_analysis::{Control, ControlKind, ProportionalLoading};
 use ligament_model::law::LAWS;
@@ -113,29 +112,22 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
 
 fn settings(duration: f64, rows: usize) -> MotionSettings {
     MotionSettings {
-        duration,
         rows,
-        scheme: Scheme::Explicit(ExplicitSettings {
-            step: None,
-            safety: 0.9,
-        }),
-        damping: Damping::default(),
-        rotary_inertia: 1.0,
-        stop: MotionStop::default(),
+        safety: 0.9,
+        ..MotionSettings::new(duration)
     }
 }
 
 /// Implicit steps, a number of them between two rows.
 fn implicit(duration: f64, rows: usize, steps: usize, dissipation: f64) -> MotionSettings {
     MotionSettings {
-        scheme: Scheme::Implicit(ImplicitSettings {
-            step: duration / (rows * steps) as f64,
-            dissipation,
-            rule: setup::stepped(Vec::new()).rule,
-            rounds: 20,
+        scheme: Scheme::Implicit,
+        step: Some(duration / (rows * steps) as f64),
+        dissipation,
+        breakages: StepBreakages {
             energy_tolerance: 1e-6,
-            statics: None,
-        }),
+            ..StepBreakages::default()
+        },
         ..settings(duration, rows)
     }
 }

@@ -52,8 +52,9 @@ fn slowly(statics: Option<f64>) -> MotionSettings {
     let mut settings = implicit(DURATION, ROWS, STEPS, 0.05);
     // Half of the critical damping of the slowest waves, so that the halves come to rest.
     settings.damping.mass = 2e4;
-    if let Scheme::Implicit(implicit) = &mut settings.scheme {
-        implicit.statics = statics;
+    if let Some(share) = statics {
+        settings.scheme = Scheme::Auto;
+        settings.statics = share;
     }
     settings
 }
@@ -105,7 +106,7 @@ impl Observer for Course {
 #[test]
 fn a_bar_follows_equilibria_until_it_snaps() {
     for name in ["plane", "space"] {
-        let settings = slowly(Some(setup::STATICS));
+        let settings = slowly(Some(MotionSettings::new(1.0).statics));
         let problem = posed(drawn(name), &settings);
         let mut course = Course::default();
         let outcome = motion::run(&problem, &settings, &mut course).unwrap();
@@ -174,7 +175,7 @@ fn a_bar_follows_equilibria_until_it_snaps() {
 /// A motion with equilibria has the same bits with two threads, and from a checkpoint before and after the bar has snapped.
 #[test]
 fn a_motion_with_equilibria_goes_on_with_its_bits() {
-    let settings = slowly(Some(setup::STATICS));
+    let settings = slowly(Some(MotionSettings::new(1.0).statics));
     let problem = posed(drawn("plane"), &settings);
     let (outcome, states) = followed(&problem, &settings);
     let two = on_threads(Some(2), || followed(&problem, &settings)).unwrap();
@@ -191,9 +192,7 @@ fn a_load_that_jumps_sets_the_body_in_motion() {
     setup.loads = vec![Load::new("last", Action::Force([1e3, 0.0, 0.0]))];
     let mut settings = implicit(2e-3, 10, 500, 0.05);
     settings.damping.mass = 2e4;
-    if let Scheme::Implicit(implicit) = &mut settings.scheme {
-        implicit.statics = Some(setup::STATICS);
-    }
+    settings.scheme = Scheme::Auto;
     let problem = posed(setup, &settings);
     let mut course = Course::default();
     let outcome = motion::run(&problem, &settings, &mut course).unwrap();

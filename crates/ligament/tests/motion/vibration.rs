@@ -187,13 +187,9 @@ fn damping_by_mass_decays_or_is_refused() {
     let step = 0.5 * critical_step(&problem, &settings(1.0, 1)).unwrap().step;
     let (rows, steps) = (2, 40);
     let duration = (rows * steps) as f64 * step;
-    let explicit = ExplicitSettings {
-        step: Some(1.000_001 * step),
-        safety: 0.9,
-    };
     let of_schemes = [
         MotionSettings {
-            scheme: Scheme::Explicit(explicit),
+            step: Some(1.000_001 * step),
             ..settings(duration, rows)
         },
         implicit(duration, rows, steps, 0.0),

@@ -1,7 +1,7 @@
 //! Times of a motion: equal time steps, of which a fixed number makes a row of the history.
 
 use crate::history::Ahead;
-use crate::motion::{ImplicitSettings, MotionError, MotionSettings};
+use crate::motion::{MotionError, MotionSettings, Scheme};
 use crate::serial;
 
 /// Largest number of time steps: a step of the smallest body takes a microsecond, so that these take eleven days.
@@ -54,19 +54,16 @@ impl Clock {
         }
     }
 
-    /// Times of implicit steps. Where equilibria follow each other, a row is halved until its parts are as short as a step of the motion.
+    /// Times of implicit steps, without a given step from row to row. Where equilibria follow each other, a row is halved until its parts are as short as a step of the motion.
     ///
     /// # Errors
     ///
     /// If there are too many.
-    pub(super) fn implicit(
-        settings: &MotionSettings,
-        implicit: ImplicitSettings,
-    ) -> Result<Self, MotionError> {
-        let clock = Self::new(settings, implicit.step)?;
-        let steps_per_row = match implicit.statics {
-            Some(_) => clock.steps_per_row.next_power_of_two(),
-            None => clock.steps_per_row,
+    pub(super) fn implicit(settings: &MotionSettings) -> Result<Self, MotionError> {
+        let clock = Self::new(settings, settings.step.unwrap_or(settings.duration))?;
+        let steps_per_row = match settings.scheme {
+            Scheme::Auto => clock.steps_per_row.next_power_of_two(),
+            Scheme::Explicit | Scheme::Implicit => clock.steps_per_row,
         };
         Ok(Self {
             steps_per_row,
@@ -79,15 +76,11 @@ impl Clock {
     /// # Errors
     ///
     /// If the given step is larger than the critical one, or there are too many.
-    pub(super) fn explicit(
-        settings: &MotionSettings,
-        (given, safety): (Option<f64>, f64),
-        critical: f64,
-    ) -> Result<Self, MotionError> {
-        match given {
+    pub(super) fn explicit(settings: &MotionSettings, critical: f64) -> Result<Self, MotionError> {
+        match settings.step {
             Some(step) if step > critical => Err(MotionError::StepTooLarge { step, critical }),
             Some(step) => Self::new(settings, step),
-            None => Self::new(settings, safety * critical),
+            None => Self::new(settings, settings.safety * critical),
         }
     }
 
@@ -106,29 +99,24 @@ impl Clock {
 #[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 mod tests {
     use super::*;
-    use crate::motion::{Damping, ExplicitSettings, MotionStop, Scheme};
 
     #[test]
     fn steps_divide_the_time_between_rows() {
-        let explicit = ExplicitSettings {
-            step: None,
-            safety: 0.8,
+        let explicit = |step: Option<f64>| {
+            let settings = MotionSettings {
+                rows: 4,
+                step,
+                ..MotionSettings::new(1e-5)
+            };
+            Clock::explicit(&settings, 1e-6)
         };
-        let settings = MotionSettings {
-            duration: 1e-5,
-            rows: 4,
-            scheme: Scheme::Explicit(explicit),
-            damping: Damping::default(),
-            rotary_inertia: 1.0,
-            stop: MotionStop::default(),
-        };
-        let clock = Clock::explicit(&settings, (None, 0.8), 1e-6).unwrap();
+        let clock = explicit(None).unwrap();
         assert_eq!(clock.steps_per_row, 4);
         assert_eq!(clock.time(16), 1e-5);
         // 2.5 e-6 s are ten steps of 2.5e-7 s.
-        let given = Clock::explicit(&settings, (Some(2.5e-7), 0.8), 1e-6).unwrap();
+        let given = explicit(Some(2.5e-7)).unwrap();
         assert_eq!(given.steps_per_row, 10);
-        let too_large = Clock::explicit(&settings, (Some(2e-6), 0.8), 1e-6);
+        let too_large = explicit(Some(2e-6));
         assert!(matches!(too_large, Err(MotionError::StepTooLarge { .. })));
     }
 }

@@ -26,7 +26,7 @@ use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::motion::contact::ContactForces;
-use crate::motion::{ExplicitSettings, MotionError, MotionProblem, MotionSettings, critical_step};
+use crate::motion::{MotionError, MotionProblem, MotionSettings, critical_step};
 use crate::serial::Sink;
 use crate::solver::{ExplicitChoice, SolverChoice};
 use crate::vectors::{CHUNK, sum_of_chunks};
@@ -68,10 +68,9 @@ struct Parts {
 pub(super) fn run(
     problem: &MotionProblem,
     settings: &MotionSettings,
-    explicit: ExplicitSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (clock, choice) = chosen(problem, settings, explicit)?;
+    let (clock, choice) = chosen(problem, settings)?;
     observer.begins(clock.ahead(false));
     let numbers = BondNumbers::new(&*problem.problem.system)?;
     let friction = FaceFriction::new(problem.problem.face_friction, BTreeMap::new());
@@ -98,7 +97,6 @@ pub(super) fn run(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    explicit: ExplicitSettings,
     resumed: Resumed<ExplicitKept>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
@@ -113,7 +111,7 @@ pub(super) fn resume(
         velocities,
         contacts,
     } = kept;
-    let (clock, choice) = chosen(&problem, settings, explicit)?;
+    let (clock, choice) = chosen(&problem, settings)?;
     if clock != progress.clock {
         return Err(CheckpointError::OtherTimes.into());
     }
@@ -133,7 +131,6 @@ pub(super) fn resume(
 pub(super) fn chosen(
     problem: &MotionProblem,
     settings: &MotionSettings,
-    explicit: ExplicitSettings,
 ) -> Result<(Clock, ExplicitChoice), SetupError> {
     let system = &problem.problem.system;
     if !system.subdomain().is_whole() {
@@ -143,8 +140,7 @@ pub(super) fn chosen(
         return Err(MotionError::StiffnessDamping.into());
     }
     let critical = critical_step(problem, settings)?;
-    let wanted = (explicit.step, explicit.safety);
-    let clock = Clock::explicit(settings, wanted, critical.step)?;
+    let clock = Clock::explicit(settings, critical.step)?;
     let step = clock.step();
     settings.damping.check(step)?;
     Ok((clock, ExplicitChoice { step, critical }))

@@ -23,7 +23,7 @@ use crate::driver::outcome::Outcome;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
-use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
+use crate::motion::{MotionProblem, MotionSettings};
 use crate::serial::Sink;
 use crate::softening::Softening;
 use crate::state::State;
@@ -32,7 +32,6 @@ use crate::user_message::Message;
 /// Motion in implicit steps.
 struct Implicit<'a> {
     settings: &'a MotionSettings,
-    implicit: ImplicitSettings,
     /// The problem, with the criteria of bonds that began to soften.
     problem: MotionProblem,
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
@@ -50,12 +49,11 @@ struct Implicit<'a> {
 pub(super) fn run(
     problem: &MotionProblem,
     settings: &MotionSettings,
-    implicit: ImplicitSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    implicit_fit::check(problem, settings, implicit)?;
-    let clock = Clock::implicit(settings, implicit)?;
-    if implicit.statics.is_none() {
+    implicit_fit::check(problem, settings)?;
+    let clock = Clock::implicit(settings)?;
+    if settings.share_of_statics().is_none() {
         observer.begins(clock.ahead(true));
     }
     let mut state = State::fresh(&*problem.problem.system);
@@ -66,9 +64,9 @@ pub(super) fn run(
     let n_bonds = state.intact.len();
     state.softening = Softening::of_sound_bonds(&problem.problem.criteria, n_bonds);
     let masses = free_masses(problem, settings.rotary_inertia);
-    let pace = quasi_static::first_pace(problem, implicit);
-    let scheme = scheme(settings, implicit, &clock, pace);
-    let mut stepping = Stepping::new(problem, scheme, &masses, (&mut state, implicit))?;
+    let pace = quasi_static::first_pace(problem, settings);
+    let scheme = scheme(settings, &clock, pace);
+    let mut stepping = Stepping::new(problem, scheme, &masses, (&mut state, settings))?;
     let balanced = stepping.equilibrium.measured(&mut state);
     let mut motion = Implicit {
         here: Here {
@@ -82,7 +80,6 @@ pub(super) fn run(
         problem: problem.clone(),
         started: Instant::now(),
         settings,
-        implicit,
         masses,
         stepping,
         pace,
@@ -95,7 +92,6 @@ pub(super) fn run(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    implicit: ImplicitSettings,
     resumed: Resumed<ImplicitKept>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
@@ -105,7 +101,7 @@ pub(super) fn resume(
         progress,
         kept,
     } = resumed;
-    if progress.clock != Clock::implicit(settings, implicit)? {
+    if progress.clock != Clock::implicit(settings)? {
         return Err(CheckpointError::OtherTimes.into());
     }
     let ImplicitKept {
@@ -117,7 +113,6 @@ pub(super) fn resume(
         masses: free_masses(&problem, settings.rotary_inertia),
         started: Instant::now(),
         settings,
-        implicit,
         problem,
         stepping,
         here,
@@ -236,7 +231,7 @@ impl Implicit<'_> {
             return Ok(());
         }
         let time = self.here.state.load_factor;
-        let share = self.implicit.statics.unwrap_or_default();
+        let share = self.settings.share_of_statics().unwrap_or_default();
         let text = format!(
             "the body loses its balance: a step without inertia would set free more than {share:.1e} of the work, or let a part slip off another \
              one, so that it moves from here on"
@@ -260,7 +255,7 @@ impl Implicit<'_> {
             return Ok(true);
         }
         let is_calm = pace.calm > 0 && pace.calm.is_multiple_of(CALM);
-        match self.implicit.statics {
+        match self.settings.share_of_statics() {
             Some(share) if pace.has_inertia && pace.halvings == 0 && is_calm => {
                 self.come_to_rest(row, tick, share)
             }
@@ -272,8 +267,8 @@ impl Implicit<'_> {
     fn change_pace(&mut self, pace: Pace) -> Result<(), SetupError> {
         self.pace = pace;
         let clock = &self.progress.clock;
-        let scheme = scheme(self.settings, self.implicit, clock, pace);
-        let of_state = (&mut self.here.state, self.implicit);
+        let scheme = scheme(self.settings, clock, pace);
+        let of_state = (&mut self.here.state, self.settings);
         let stepping = Stepping::new(&self.problem, scheme, &self.masses, of_state)?;
         let costs = self.stepping.costs();
         self.stepping = Stepping { costs, ..stepping };
@@ -349,8 +344,8 @@ impl Implicit<'_> {
         let trial = Trial {
             row,
             broken: self.here.broken,
-            rule: self.implicit.rule,
-            rounds: self.can_shorten().then_some(self.implicit.rounds),
+            rule: self.settings.breakages.rule,
+            rounds: self.can_shorten().then_some(self.settings.breakages.rounds),
         };
         let equilibrium = &mut self.stepping.equilibrium;
         equilibrium.load_with(loads);
@@ -365,7 +360,11 @@ impl Implicit<'_> {
             Ok(taken) => taken,
             Err(reason) => return Ok(Err(reason)),
         };
-        let Some(share) = self.implicit.statics.filter(|_| !self.pace.has_inertia) else {
+        let Some(share) = self
+            .settings
+            .share_of_statics()
+            .filter(|_| !self.pace.has_inertia)
+        else {
             return Ok(Ok(taken));
         };
         let problem = &self.problem.problem;
@@ -397,7 +396,7 @@ impl Implicit<'_> {
         if self.pace.has_inertia {
             let way = |dof: usize| taken.state.displacement[dof] - before.displacement[dof];
             let both = [&self.here.motion, &motion];
-            let dissipates = self.implicit.dissipation > 0.0;
+            let dissipates = self.settings.dissipation > 0.0;
             let damped = self.inertia().damped(both, &way, dissipates);
             self.progress.motion.damping_energy += damped;
         }
@@ -450,7 +449,7 @@ impl Implicit<'_> {
         let works = rigid_step::works(contact, here, (&taken.state, &taken.balanced));
         let motion = &mut self.progress.motion;
         motion.kinetic_energy += now;
-        if self.implicit.dissipation > 0.0 {
+        if self.settings.dissipation > 0.0 {
             motion.damping_energy += works.of_all - (now - before);
         }
         self.energies.add_driving_work(works.of_accelerations);

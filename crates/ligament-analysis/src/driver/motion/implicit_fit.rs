@@ -2,15 +2,11 @@
 
 use super::clock::Clock;
 use crate::motion::contact::{RigidBody, RigidMotion};
-use crate::motion::{ImplicitSettings, MotionError, MotionProblem, MotionSettings};
+use crate::motion::{MotionError, MotionProblem, MotionSettings};
 use crate::problem::Problem;
 
 /// Refuses what implicit steps cannot follow.
-pub(super) fn check(
-    problem: &MotionProblem,
-    settings: &MotionSettings,
-    implicit: ImplicitSettings,
-) -> Result<(), MotionError> {
+pub(super) fn check(problem: &MotionProblem, settings: &MotionSettings) -> Result<(), MotionError> {
     let Problem {
         system,
         criteria,
@@ -26,7 +22,8 @@ pub(super) fn check(
         RigidMotion::Prescribed { .. } => false,
     };
     let bodies = &problem.problem.contact.rigid_bodies;
-    let is_refused = bodies.iter().any(turns) || criteria.soften() || implicit.statics.is_some();
+    let is_refused =
+        bodies.iter().any(turns) || criteria.soften() || settings.share_of_statics().is_some();
     if bodies.iter().any(is_free) && is_refused {
         return Err(MotionError::FreeRigidBody);
     }
@@ -36,6 +33,6 @@ pub(super) fn check(
     if settings.damping.stiffness > 0.0 && !is_plain {
         return Err(MotionError::StiffnessDamping);
     }
-    let step = Clock::implicit(settings, implicit)?.step();
+    let step = Clock::implicit(settings)?.step();
     settings.damping.check(step)
 }

@@ -11,7 +11,7 @@ use crate::costs::Costs;
 use crate::driver::course::{CheckValues, with_begun};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
-use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
+use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::serial::{Serial, Sink};
 use crate::state::State;
@@ -43,7 +43,7 @@ impl ImplicitKept {
     pub(super) fn read(
         problem: &mut MotionProblem,
         settings: &MotionSettings,
-        (implicit, clock): (ImplicitSettings, &Clock),
+        clock: &Clock,
         from: &mut dyn Read,
     ) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
@@ -61,9 +61,9 @@ impl ImplicitKept {
         }
         problem.problem = with_begun(&problem.problem, &state)?;
         let masses = free_masses(problem, settings.rotary_inertia);
-        let scheme = scheme(settings, implicit, clock, pace);
+        let scheme = scheme(settings, clock, pace);
         let (of_step, restraints) = of_step(problem, scheme, &masses);
-        let tolerance = implicit.energy_tolerance;
+        let tolerance = settings.breakages.energy_tolerance;
         let (equilibrium, state, balanced) =
             Equilibrium::restored(&of_step, tolerance, (numbers, state), from)?;
         let values_then = CheckValues::read(from).map_err(damaged)?;

@@ -44,8 +44,8 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     match settings.scheme {
-        Scheme::Explicit(explicit) => explicit::run(problem, settings, explicit, observer),
-        Scheme::Implicit(implicit) => implicit::run(problem, settings, implicit, observer),
+        Scheme::Explicit => explicit::run(problem, settings, observer),
+        Scheme::Implicit | Scheme::Auto => implicit::run(problem, settings, observer),
     }
 }
 
@@ -59,9 +59,9 @@ pub fn time_step(
     settings: &MotionSettings,
 ) -> Result<ExplicitChoice, SetupError> {
     match settings.scheme {
-        Scheme::Explicit(explicit) => Ok(explicit::chosen(problem, settings, explicit)?.1),
-        Scheme::Implicit(implicit) => Ok(ExplicitChoice {
-            step: Clock::implicit(settings, implicit)?.step(),
+        Scheme::Explicit => Ok(explicit::chosen(problem, settings)?.1),
+        Scheme::Implicit | Scheme::Auto => Ok(ExplicitChoice {
+            step: Clock::implicit(settings)?.step(),
             critical: critical_step(problem, settings)?,
         }),
     }
@@ -96,8 +96,8 @@ pub fn resume(
         progress,
         kept,
     } = restored;
-    match (settings.scheme, kept) {
-        (Scheme::Explicit(explicit), Kept::Explicit(kept)) => {
+    match (settings.is_explicit(), kept) {
+        (true, Kept::Explicit(kept)) => {
             let kept = *kept;
             let resumed = Resumed {
                 problem,
@@ -105,9 +105,9 @@ pub fn resume(
                 progress,
                 kept,
             };
-            explicit::resume(settings, explicit, resumed, observer)
+            explicit::resume(settings, resumed, observer)
         }
-        (Scheme::Implicit(implicit), Kept::Implicit(kept)) => {
+        (false, Kept::Implicit(kept)) => {
             let kept = *kept;
             let resumed = Resumed {
                 problem,
@@ -115,9 +115,9 @@ pub fn resume(
                 progress,
                 kept,
             };
-            implicit::resume(settings, implicit, resumed, observer)
+            implicit::resume(settings, resumed, observer)
         }
-        (Scheme::Explicit(_), Kept::Implicit(_)) | (Scheme::Implicit(_), Kept::Explicit(_)) => {
+        (true, Kept::Implicit(_)) | (false, Kept::Explicit(_)) => {
             Err(CheckpointError::OtherDriver.into())
         }
     }

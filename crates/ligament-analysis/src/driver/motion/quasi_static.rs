@@ -16,15 +16,15 @@ use crate::balanced::Balanced;
 use crate::bond_numbers::sum_over_bonds;
 use crate::driver::recorder::Energies;
 use crate::equilibrium::Equilibrium;
-use crate::motion::{ImplicitSettings, MotionProblem};
+use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::state::State;
 use ligament_model::tensor::{minus, norm};
 
 /// Pace at time zero: without inertia where the settings have it so and the body is at rest.
-pub(super) fn first_pace(problem: &MotionProblem, implicit: ImplicitSettings) -> Pace {
+pub(super) fn first_pace(problem: &MotionProblem, settings: &MotionSettings) -> Pace {
     let is_at_rest = problem.initial_velocity.iter().all(|it| *it == 0.0);
-    match implicit.statics {
+    match settings.share_of_statics() {
         Some(_) if is_at_rest => Pace::STATICS,
         Some(_) | None => Pace::MOTION,
     }

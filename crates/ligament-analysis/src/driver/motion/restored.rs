@@ -8,7 +8,7 @@ use super::progress::{EXPLICIT, IMPLICIT, Progress};
 use crate::checkpoint::CheckpointError;
 use crate::driver::recorder::Energies;
 use crate::error::SetupError;
-use crate::motion::{MotionProblem, MotionSettings, Scheme};
+use crate::motion::{MotionProblem, MotionSettings};
 use crate::serial::{Serial, require_end};
 
 /// Motion restored from a checkpoint, at a row of its history.
@@ -55,13 +55,10 @@ impl Restored {
         }
         let progress: Progress = Serial::read(from).map_err(damaged)?;
         let mut problem = problem.clone();
-        let kept = match (scheme, settings.scheme) {
-            (EXPLICIT, Scheme::Explicit(_)) => {
-                Kept::Explicit(Box::new(ExplicitKept::read(&mut problem, from)?))
-            }
-            (IMPLICIT, Scheme::Implicit(implicit)) => {
-                let of_times = (implicit, &progress.clock);
-                let kept = ImplicitKept::read(&mut problem, settings, of_times, from)?;
+        let kept = match (scheme, settings.is_explicit()) {
+            (EXPLICIT, true) => Kept::Explicit(Box::new(ExplicitKept::read(&mut problem, from)?)),
+            (IMPLICIT, false) => {
+                let kept = ImplicitKept::read(&mut problem, settings, &progress.clock, from)?;
                 Kept::Implicit(Box::new(kept))
             }
             _ => return Err(CheckpointError::OtherDriver.into()),

@@ -13,7 +13,7 @@ use crate::driver::recorder::Energies;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::load_program::LoadProgram;
-use crate::motion::{ImplicitSettings, MotionProblem, MotionSettings};
+use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::restraints::Restraints;
 use crate::serial;
@@ -108,15 +108,10 @@ impl Pace {
 }
 
 /// Scheme of steps at a pace; None without inertia.
-pub(super) fn scheme(
-    settings: &MotionSettings,
-    implicit: ImplicitSettings,
-    clock: &Clock,
-    pace: Pace,
-) -> Option<Newmark> {
+pub(super) fn scheme(settings: &MotionSettings, clock: &Clock, pace: Pace) -> Option<Newmark> {
     pace.has_inertia.then(|| Newmark {
         step: clock.step() / f64::from(1_u32 << pace.halvings),
-        dissipation: implicit.dissipation,
+        dissipation: settings.dissipation,
         damping: settings.damping,
     })
 }
@@ -152,10 +147,10 @@ impl Stepping {
         problem: &MotionProblem,
         scheme: Option<Newmark>,
         masses: &[f64],
-        (state, implicit): (&mut State, ImplicitSettings),
+        (state, settings): (&mut State, &MotionSettings),
     ) -> Result<Self, SetupError> {
         let (of_step, restraints) = of_step(problem, scheme, masses);
-        let mut equilibrium = Equilibrium::new(&of_step, implicit.energy_tolerance)?;
+        let mut equilibrium = Equilibrium::new(&of_step, settings.breakages.energy_tolerance)?;
         let broken = (0..).zip(&state.intact).filter(|(_, intact)| !**intact);
         let broken: Vec<u32> = broken.map(|(bond, _)| bond).collect();
         for &bond in &broken {

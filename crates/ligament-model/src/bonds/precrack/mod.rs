@@ -26,14 +26,16 @@ pub use crack::Crack;
 pub use plane::{PreCrack, crossing_bonds};
 pub use solid::{SolidPreCrack, UnfitCrack};
 
-/// Treatment of bonds that only touch a pre-crack.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Ends {
-    /// Only bonds that pass through the pre-crack are cut.
-    #[default]
-    Excluded,
-    /// Every bond that has a point in common with the pre-crack is cut.
-    Included,
+crate::case_type! {
+    /// Treatment of bonds that only touch a pre-crack.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+    pub enum Ends {
+        /// Bonds that pass through the crack are cut.
+        #[default]
+        Excluded,
+        /// Bonds that have a point in common with the crack are cut.
+        Included,
+    }
 }
 
 /// Geometry of a pre-crack: the pieces of a line or of a surface, numbered from 0. Bonds are given by the positions of their ends, and all

@@ -13,13 +13,16 @@ const SWEEPS: usize = 10;
 /// Largest change of a factor, and the reciprocal of the smallest: the family of a corner of a solid is an eighth of one inside.
 const LARGEST: f64 = 8.0;
 
-/// Reference factors, to which those of the correction are nearest.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Reference {
-    /// Reference alpha times one number for the body.
-    Body,
-    /// Reference alpha times one number for the body and a factor of each bond, for which a dilation has one stress at all points.
-    Families,
+crate::case_type! {
+    /// Reference factors, to which those of the correction are nearest: alpha times one number for the body, with those of the families times one more factor
+    /// of each bond.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Reference {
+        /// alpha times one number for the body.
+        Body,
+        /// alpha times factors with which a dilation has one stress at all points, also where the mesh is graded.
+        Families,
+    }
 }
 
 /// A symmetric tensor at a point.
