@@ -9,27 +9,27 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 99_117),
-    ("ligament-analysis", 204_674),
-    ("ligament-case", 67_971),
-    ("ligament-cli", 54_064),
+    ("ligament", 99_292),
+    ("ligament-analysis", 205_137),
+    ("ligament-case", 64_947),
+    ("ligament-cli", 54_045),
     ("ligament-linalg", 22_625),
     ("ligament-mesh", 36_006),
-    ("ligament-model", 198_041),
+    ("ligament-model", 198_637),
     ("ligament-output", 73_843),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_113),
     ("ligament-post", 26_671),
     ("ligament-python", 11_635),
     ("ligament-report", 18_514),
-    ("ligament-run", 29_864),
+    ("ligament-run", 29_865),
     ("ligament-study", 63_782),
     ("ligament-verify", 74_204),
 ];
 
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
-    ("ligament", 25),
+    ("ligament", 23),
     ("ligament-analysis", 20),
     ("ligament-case", 5),
     ("ligament-cli", 13),
