@@ -21,9 +21,12 @@ fn row(pair: &Exclusion) -> String {
 /// A page with its table made anew.
 fn with_table(text: &str) -> String {
     let (before, rest) = text.split_once(HEADING).unwrap();
-    let after = rest.split_once("\n\n").unwrap().1;
+    let earlier = rest
+        .split_inclusive('\n')
+        .take_while(|it| it.starts_with('|'));
+    let earlier: usize = earlier.map(str::len).sum();
     let rows: String = NOT_TOGETHER.iter().map(row).collect();
-    format!("{before}{HEADING}{rows}\n{after}")
+    format!("{before}{HEADING}{rows}{}", &rest[earlier..])
 }
 
 /// With `LIGAMENT_WRITE_LIMITS` in the environment the table is written first.
