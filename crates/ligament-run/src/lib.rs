@@ -11,12 +11,12 @@
 //! | [`loading`] | a body under loads, and the rule by which its results are written |
 //! | [`end`] | the end of a run and its exit code |
 //! | [`stability`] | advice about a model that is unstable |
+//! | [`messages`] | the messages of a run as the user reads them |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
 //! | [`watch`], [`progress`] | the observer that writes results, and the display of progress |
 //! | `processes`, `pieces` | the communication of processes, and the output of ranks other than 0 |
 //! | [`stages`], [`memory`], [`disk`] | time, memory and disk space that a run needs |
 //! | `processors` | the number of processors that other programs leave free |
-//! | [`gauges`] | messages about free rigid motions |
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
