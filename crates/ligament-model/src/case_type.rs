@@ -1,7 +1,7 @@
 //! Types that a case file reads as they are.
 
-/// A structure or a list of words that a case file reads as it is. With the feature `case` it derives what serde and schemars need: its documentation
-/// describes it to users, and `#[case(...)]` adds attributes of the two. Words are those of the variants in kebab case.
+/// A structure or a list of words that a case file reads as it is. With the feature `case` the type derives what serde and schemars need: its
+/// documentation describes it to users, and `#[case(...)]` adds attributes of the two. A variant is written as its name in kebab case.
 ///
 /// ```text
 /// ligament_model::case_type! {

@@ -17,6 +17,9 @@ pub(super) struct Pressed {
 }
 
 /// Pressures under a rigid body from the sides of cells in contact, over so many directions along the surface and so many integration points of a side.
+///
+/// Hertz's pressure is p = p_0 sqrt(1 - r^2/a^2) at the distance r from the middle (Johnson 1985, sections 4.2 and 4.3), so that p^2 is a straight line over
+/// r^2, whose value at r = 0 is p_0^2. The mean of r^2, weighted by p, is a^2/4 over a strip and 2 a^2/5 over a disk.
 pub(super) fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow::Result<Pressed> {
     let touches = &solution.outcome.state.surfaces.touching().touches;
     let all = touches.first().context("no contact")?.iter();
@@ -27,7 +30,6 @@ pub(super) fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow:
         .iter()
         .map(|it| it.stiffness * it.depth() * squares(&it.arm));
     let second = moments.sum::<f64>() / force;
-    // Of p_0 sqrt(1 - r^2/a^2) over a strip and over a disk.
     let of_reach = if along == 1 { 0.25 } else { 0.4 };
     let mut sides: BTreeMap<u32, Vec<[f64; 2]>> = BTreeMap::new();
     for it in &all {

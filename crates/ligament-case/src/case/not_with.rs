@@ -24,7 +24,7 @@ pub(super) struct Settings {
 struct NotWith {
     /// Setting of the case with which they do not apply.
     with: With,
-    /// Section of the keys; empty where they are those of the case.
+    /// Section that has the keys; empty for keys outside of all sections.
     section: &'static str,
     keys: &'static [&'static str],
     reason: &'static str,
@@ -190,7 +190,7 @@ const fn row(
 }
 
 impl With {
-    /// The words of the setting, if it is among those of a case.
+    /// The words of the setting, if a case with these settings has it.
     fn among(&self, settings: &Settings) -> Option<String> {
         match self {
             Self::Analysis(any) => {

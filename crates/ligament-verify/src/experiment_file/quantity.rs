@@ -2,7 +2,7 @@
 //!
 //! | name | quantity |
 //! |---|---|
-//! | those of [`history`] | in a row of the history, or in the last one |
+//! | a name of [`history`] | the value in a row of the history, or in the last one |
 //! | `intact.NAME` | the same in the last row without a broken bond |
 //! | `end.NAME` | the same in the last equilibrium of a run that goes on until none follows |
 //! | `frequency.N` | frequency of the elastic mode N from one on, Hz; the case is one of natural modes |
@@ -17,7 +17,7 @@
 //! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
 //! | `common_breaks.N` | bonds that break up to N us with explicit and implicit steps alike, over those that one of them breaks more of |
 //! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
-//! | others | the row of [`QUANTITIES`] |
+//! | any other name | the row of [`QUANTITIES`] |
 
 use std::collections::{BTreeMap, BTreeSet};
 

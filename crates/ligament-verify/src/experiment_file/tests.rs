@@ -168,7 +168,7 @@ sum = "lambda + coarse""#;
     assert_eq!(value(["3", "patch"]).unwrap(), 43.0);
 }
 
-/// Quantities within numbers and references are planned like those of the value.
+/// Unknown quantities are refused within numbers and references as within a value.
 #[test]
 fn quantities_of_numbers_and_references_must_be_known() {
     for (number, expected) in [

@@ -14,8 +14,8 @@ const SWEEPS: usize = 10;
 const LARGEST: f64 = 8.0;
 
 crate::case_type! {
-    /// Reference factors, to which those of the correction are nearest: alpha times one number for the body, with those of the families times one more factor
-    /// of each bond.
+    /// Reference factors, from which the patch correction departs as little as it can: alpha times one number for the body, which for `Families` is
+    /// multiplied by a factor of each bond.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub enum Reference {
         /// alpha times one number for the body.
