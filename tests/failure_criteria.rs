@@ -348,7 +348,7 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                 let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
                 let utilisation = |&bond: &u32| {
                     let bond = bond as usize;
-                    let criteria = &bench.model.criteria;
+                    let criteria = bench.model.criteria.without_state();
                     criteria.utilisation(bond, &deformations[bond])
                 };
                 let family = system.bonds.incidence.at(middle).iter();

@@ -344,7 +344,8 @@ impl Separation {
         let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
         for bond in segment.crossing(bench) {
             let deformation = deformations[bond];
-            let ratio = bench.model.criteria.utilisation(bond, &deformation);
+            let criteria = bench.model.criteria.without_state();
+            let ratio = criteria.utilisation(bond, &deformation);
             if ratio == 0.0 {
                 sum.unbroken += 1;
                 continue;

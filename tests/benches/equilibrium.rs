@@ -67,12 +67,12 @@ fn parts(group: &mut BenchmarkGroup<'_, WallTime>, bench: &Bench) {
     let deformations =
         internal::sweep(system, left, displacement, ThermalStrain::NONE).deformations;
     let next = |count: usize| {
-        let limits = &bench.model.criteria;
+        let limits = bench.model.criteria.without_state();
         next_to_break(
             &BondNumbers::whole(0),
             &rule(count),
             black_box(&deformations),
-            limits,
+            &limits,
             intact,
             |bond| [bond, 0],
         )
@@ -159,8 +159,8 @@ impl Body {
         criteria: &ligament_model::failure::Criteria,
     ) -> Duration {
         let (deformations, intact) = (&self.balanced.deformations, &self.state.intact);
-        let numbers = BondNumbers::whole(0);
-        let bonds = next_to_break(&numbers, rule, deformations, criteria, intact, |bond| {
+        let (numbers, criteria) = (BondNumbers::whole(0), criteria.without_state());
+        let bonds = next_to_break(&numbers, rule, deformations, &criteria, intact, |bond| {
             [bond, 0]
         });
         let start = Instant::now();

@@ -113,7 +113,7 @@ impl Check {
     fn growth(&mut self, record: &StepRecord, view: &View<'_>) {
         let state = view.state;
         let mut damage = vec![fields::damage(view.system, &state.intact)];
-        let of_kinds = damages(view.system, view.criteria, state);
+        let of_kinds = damages(view.system, view.criteria.criteria(), state);
         damage.extend(of_kinds.into_iter().map(|it| it.1));
         let past = std::mem::replace(
             &mut self.past,

@@ -186,11 +186,12 @@ impl<'a> Recorder<'a> {
     }
 
     fn see_largest(&mut self, step: usize, view: &View<'_>) {
-        for (number, criterion) in view.criteria.list.iter().enumerate() {
+        let criteria = view.criteria;
+        for number in 0..criteria.criteria().list.len() {
             for (bond, seen) in self.largest.iter_mut().enumerate() {
                 let deformation = &view.balanced.deformations[bond];
-                let (measure, limit) =
-                    (criterion.measure(bond, deformation), criterion.limit[bond]);
+                let measure = criteria.measure(number, bond, deformation);
+                let limit = criteria.limits(number)[bond];
                 if view.state.intact[bond] && measure > SAME * f64::from(seen.0) * limit {
                     *seen = ((measure / limit) as f32, step as i64, number as i64);
                 }
@@ -235,10 +236,10 @@ impl<'a> Recorder<'a> {
             .clone()
             .map(|it| i64::from(state.held[layout.range(it as u32)].contains(&true)));
         fields_of.integers("held", held);
-        for (name, values) in damages(system, view.criteria, state) {
+        for (name, values) in damages(system, view.criteria.criteria(), state) {
             fields_of.reals(name, values);
         }
-        if !view.criteria.list.is_empty() {
+        if !view.criteria.criteria().list.is_empty() {
             let values = fields::dissipated_energy_density(system, &state.dissipated);
             fields_of.reals("dissipated_energy_density", values);
         }
@@ -316,15 +317,16 @@ impl<'a> Recorder<'a> {
         let intact = view.state.intact.iter().map(|&it| i64::from(it));
         self.expected.integers(cell("intact"), intact);
         let utilisation = (0..system.bonds.len()).map(|bond| {
-            let of = |it: &ligament_model::failure::Criterion| {
-                let measure = it.measure(bond, &deformations[bond]);
+            let of = |place| {
+                let measure = view.criteria.measure(place, bond, &deformations[bond]);
                 if measure > 0.0 {
-                    measure / it.limit[bond]
+                    measure / view.criteria.limits(place)[bond]
                 } else {
                     0.0
                 }
             };
-            view.criteria.list.iter().map(of).fold(0.0, f64::max)
+            let places = 0..view.criteria.criteria().list.len();
+            places.map(of).fold(0.0, f64::max)
         });
         self.expected.reals(cell("utilisation"), utilisation);
         let omega = self.model.fixed.domain_factor.iter().copied();

@@ -37,8 +37,11 @@ impl Softened {
             // Of the criteria with something to tell, the one that the bond is farthest beyond.
             let of = |criterion: usize| {
                 let largest = *softening.largest[criterion].get(bond)?;
-                let opens = view.criteria.list[criterion].measure.weakens() == Weakened::Opening;
-                let force = softening.bond(view.criteria, criterion, bond).force;
+                let opens =
+                    view.criteria.criteria().list[criterion].measure.weakens() == Weakened::Opening;
+                let force = softening
+                    .bond(view.criteria.criteria(), criterion, bond)
+                    .force;
                 let below = [0.5, 0.25, 0.1]
                     .into_iter()
                     .filter(|share| opens && force < *share);

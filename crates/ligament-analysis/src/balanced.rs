@@ -60,7 +60,7 @@ pub struct Balanced {
     /// Contact between surfaces.
     pub touching: Touching,
     /// Stresses across the bonds for each criterion, once some criterion was [asked](crate::problem::Problem::criteria_in).
-    pub(crate) stresses: OnceLock<Vec<Stresses>>,
+    pub(crate) stresses: OnceLock<Vec<Option<Stresses>>>,
 }
 
 impl Balanced {
@@ -120,9 +120,9 @@ impl Balanced {
             touching: Touching::default(),
             stresses: match self.stresses.get() {
                 Some(stresses) => {
-                    let scaled: Vec<Stresses> =
-                        stresses.iter().map(|it| it.scaled(factor)).collect();
-                    scaled.into()
+                    let of_criteria = stresses.iter();
+                    let scaled = of_criteria.map(|it| it.as_ref().map(|it| it.scaled(factor)));
+                    scaled.collect::<Vec<_>>().into()
                 }
                 None => OnceLock::new(),
             },

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use ligament_model::communicator::Wire;
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::{Criteria, Verdict};
+use ligament_model::failure::{CriteriaInState, Verdict};
 use rayon::prelude::*;
 
 use crate::bond_numbers::BondNumbers;
@@ -62,7 +62,7 @@ pub fn next_to_break(
     numbers: &BondNumbers,
     rule: &BreakingRule,
     deformations: &[BondDeformation],
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     intact: &[bool],
     in_file: impl Fn(u32) -> [u32; 2],
 ) -> Vec<u32> {
@@ -77,7 +77,7 @@ pub fn next_to_break(
 pub(crate) fn next_of_near(
     rule: &BreakingRule,
     near: &[(u32, BondDeformation)],
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     in_file: impl Fn(u32) -> [u32; 2],
 ) -> Vec<u32> {
     let candidate = |(bond, deformation): &(u32, BondDeformation)| {
@@ -101,7 +101,7 @@ impl BreakingRule {
 fn near_limit(
     rule: &BreakingRule,
     deformations: &[BondDeformation],
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     intact: &[bool],
 ) -> Vec<Candidate> {
     let near = rule.near();
@@ -168,7 +168,7 @@ impl FirstToBreak {
 pub fn first_to_break(
     tie_tolerance: f64,
     deformations: &[BondDeformation],
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     intact: &[bool],
 ) -> FirstToBreak {
     leaders(tie_tolerance, deformations, criteria, intact).first_to_break()
@@ -179,7 +179,7 @@ pub(crate) fn first_of_all(
     numbers: &BondNumbers,
     tie_tolerance: f64,
     deformations: &[BondDeformation],
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     intact: &[bool],
     in_file: impl Fn(u32) -> [u32; 2],
 ) -> FirstToBreak {
@@ -201,7 +201,7 @@ pub(crate) fn first_of_all(
 fn leaders(
     tie_tolerance: f64,
     deformations: &[BondDeformation],
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     intact: &[bool],
 ) -> Leaders {
     let start = || Leaders::new(tie_tolerance);
@@ -222,7 +222,7 @@ fn leaders(
 /// Results gathered by tasks from the verdicts on their intact bonds, in the order of the bonds.
 fn judge<T: Send>(
     deformations: &[BondDeformation],
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     intact: &[bool],
     start: impl Fn() -> T + Sync,
     gather: impl Fn(&mut T, u32, Verdict) + Sync,
@@ -343,7 +343,7 @@ impl Candidate {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ligament_model::failure::{Criterion, Measure};
+    use ligament_model::failure::{Criteria, Criterion, Measure};
 
     fn stretch_limits(limit: &[f64]) -> Criteria {
         Criteria {
@@ -360,7 +360,7 @@ mod tests {
             &BondNumbers::whole(0),
             rule,
             &deformations,
-            &stretch_limits(limit),
+            &stretch_limits(limit).without_state(),
             intact,
             |bond| [bond, 0],
         )
@@ -400,7 +400,12 @@ mod tests {
                 .iter()
                 .map(|&stretch| BondDeformation::new([stretch, 0.0, 0.0]))
                 .collect();
-            let first = first_to_break(1e-8, &deformations, &stretch_limits(limit), intact);
+            let first = first_to_break(
+                1e-8,
+                &deformations,
+                &stretch_limits(limit).without_state(),
+                intact,
+            );
             (first.ratio, first.bonds)
         };
         // Ratios 2 (broken), -3, 0.5, 0.2, 0.5 + 2e-9, 0 (unbreakable), 0.5 - 1e-8.

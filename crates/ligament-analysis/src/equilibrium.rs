@@ -206,11 +206,6 @@ impl Equilibrium {
         self.equations.load_with(loads);
     }
 
-    /// Replaces the criteria of the problem by others of the same bonds and measures.
-    pub(crate) fn judge_by(&mut self, criteria: Arc<Criteria>) {
-        self.equations.problem.criteria = criteria;
-    }
-
     /// Sets the quantity prescribed in later equilibria; None solves at the load factor of the state.
     pub(crate) fn aim(&mut self, held: Option<ControlledQuantity>) {
         self.held = held;
@@ -331,8 +326,8 @@ impl Equilibrium {
         breakage
     }
 
-    /// Takes breakages back: the equations are those of the bonds of a state again, with its criteria.
-    pub(crate) fn return_to(&mut self, state: &State, criteria: Arc<Criteria>) {
+    /// Takes breakages back: the equations are those of the bonds of a state again.
+    pub(crate) fn return_to(&mut self, state: &State) {
         let Equations {
             problem,
             meeting,
@@ -345,7 +340,6 @@ impl Equilibrium {
         meeting.faces = Contact::new(system, &state.intact);
         *earlier = EarlierEquilibria::default();
         solver.discard();
-        problem.criteria = criteria;
     }
 
     /// Measures a state that is known to be in equilibrium at its load factor, without solving.

@@ -2,7 +2,7 @@
 
 use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::Criteria;
+use ligament_model::failure::CriteriaInState;
 use thiserror::Error;
 
 use crate::balanced::Balanced;
@@ -253,7 +253,7 @@ pub struct View<'a> {
     /// Supports and loads.
     pub loads: &'a dyn LoadProgram,
     /// Failure criteria; empty in an elastic analysis.
-    pub criteria: &'a Criteria,
+    pub criteria: &'a CriteriaInState<'a>,
     /// Connected parts.
     pub fragments: &'a Fragments,
     /// Accumulated costs of the equations.

@@ -1,10 +1,9 @@
 //! Problem: a body with its loads, criteria and probes.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use ligament_model::Bonds;
-use ligament_model::failure::Criteria;
+use ligament_model::failure::{Criteria, CriteriaInState};
 use ligament_model::stress::point_strain::Motion;
 
 use crate::balanced::Balanced;
@@ -49,15 +48,15 @@ impl Problem {
     }
 
     /// The criteria with the limits and stresses that the bonds have in an equilibrium.
-    pub fn criteria_in(&self, state: &State, balanced: &Balanced) -> Cow<'_, Criteria> {
+    pub fn criteria_in(&self, state: &State, balanced: &Balanced) -> CriteriaInState<'_> {
         let deformations = &balanced.deformations;
         let stresses = balanced.stresses.get_or_init(|| {
             let sound = state.softening.sound(&state.intact);
             let motion = self.motion(state, &sound);
             self.criteria.stresses(&*self.system, motion, deformations)
         });
-        self.criteria
-            .in_state(stresses, &state.intact, deformations)
+        let criteria = state.softening.criteria(&self.criteria);
+        criteria.in_state(stresses, &state.intact, deformations)
     }
 
     /// An equilibrium state with its criteria, from which fields and probes are read.
@@ -75,7 +74,7 @@ impl Problem {
     /// The deformations at which bonds began to soften by the stress around them, with those that begin in an equilibrium; None where
     /// none begins.
     pub(crate) fn beginning(&self, state: &State, balanced: &Balanced) -> Option<Vec<Vec<f64>>> {
-        let begun = &state.softening.begun;
+        let begun = state.softening.begun();
         if begun.iter().all(Vec::is_empty) {
             return None;
         }
@@ -86,11 +85,15 @@ impl Problem {
     }
 
     /// The criteria in an equilibrium of the body before any bond began to soften.
-    pub(crate) fn criteria_at_start(&self, state: &State, balanced: &Balanced) -> Criteria {
+    pub(crate) fn criteria_before_softening(
+        &self,
+        state: &State,
+        balanced: &Balanced,
+    ) -> CriteriaInState<'_> {
         let motion = self.motion(state, &state.intact);
         let (system, deformations) = (&*self.system, &balanced.deformations);
         let criteria = self.criteria_in(state, balanced);
-        criteria.at_start(system, motion, deformations).into_owned()
+        criteria.before_softening(system, motion, deformations)
     }
 
     fn motion<'a>(&'a self, state: &'a State, intact: &'a [bool]) -> Motion<'a> {

@@ -324,7 +324,7 @@ impl<'a> View<'a> {
     pub fn solution(&self) -> Solution<'a> {
         Solution {
             system: self.system,
-            criteria: self.criteria,
+            criteria: self.criteria.criteria(),
             state: self.state,
             balanced: self.balanced,
             loads: self.loads,
@@ -452,7 +452,7 @@ fn point_damage_by(it: Solution<'_>, way: Weakened, point: u32) -> f64 {
 
 fn dissipated_energy_density(view: &View<'_>) -> Option<FieldValues> {
     let densities = || fields::dissipated_energy_density(view.system, &view.state.dissipated);
-    (!view.criteria.list.is_empty()).then(|| FieldValues::Numbers(densities()))
+    (!view.criteria.criteria().list.is_empty()).then(|| FieldValues::Numbers(densities()))
 }
 
 /// Stress-free strains due to the temperature, shape (n_points, n_components); empty where the temperature does not change.

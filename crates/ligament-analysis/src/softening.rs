@@ -8,7 +8,9 @@ use std::io::Read;
 
 use ligament_model::Bonds;
 use ligament_model::element::{BondDeformation, StiffnessFactors};
-use ligament_model::failure::{Criteria, Criterion, Softened, Weakened};
+use ligament_model::failure::{
+    AfterLimit, Criteria, CriteriaInState, Criterion, Softened, StateVariables, Weakened,
+};
 use rayon::prelude::*;
 
 use crate::bond_numbers::BondNumbers;
@@ -29,7 +31,9 @@ pub struct Softening {
     pub remaining: Vec<StiffnessFactors>,
     /// Deformations at which bonds began to soften by the stress around them, infinite for those that did not, shape (n_bonds) for each
     /// criterion; empty for those that ask for no stress.
-    pub begun: Vec<Vec<f64>>,
+    begun: Vec<Vec<f64>>,
+    /// Limits and laws of the criteria that follow from where bonds began; empty where no criterion lets bonds begin.
+    variables: Vec<StateVariables>,
 }
 
 impl Softening {
@@ -61,18 +65,28 @@ impl Softening {
     /// If the bytes are damaged or belong to another body.
     pub(crate) fn read(
         numbers: &BondNumbers,
+        criteria: &Criteria,
         from: &mut dyn Read,
     ) -> Result<Self, CheckpointError> {
         let lists = |usual: f64, from: &mut dyn Read| -> Result<Vec<Vec<f64>>, CheckpointError> {
             let count = usize::read(from)?;
             (0..count).map(|_| numbers.read(usual, from)).collect()
         };
-        Ok(Self {
+        let mut softening = Self {
             largest: lists(0.0, from)?,
             trial: lists(0.0, from)?,
             remaining: numbers.read(StiffnessFactors::WHOLE, from)?,
             begun: lists(f64::INFINITY, from)?,
-        })
+            variables: Vec::new(),
+        };
+        let lengths = |of: &[Vec<f64>]| of.iter().map(Vec::len).collect::<Vec<usize>>();
+        if !softening.begun.is_empty() {
+            if lengths(&softening.begun) != lengths(&criteria.none_begun()) {
+                return Err(CheckpointError::OtherModel);
+            }
+            softening.variables = criteria.begun(&softening.begun);
+        }
+        Ok(softening)
     }
 
     /// State of bonds without softening.
@@ -86,8 +100,26 @@ impl Softening {
             trial: largest.clone(),
             largest,
             remaining: vec![StiffnessFactors::WHOLE; n_bonds],
+            variables: criteria.begun(&criteria.none_begun()),
             begun: criteria.none_begun(),
         }
+    }
+
+    /// Deformations at which bonds began to soften by the stress around them, infinite for those that did not, shape (n_bonds) for each
+    /// criterion; empty for those that ask for no stress.
+    pub fn begun(&self) -> &[Vec<f64>] {
+        &self.begun
+    }
+
+    /// Lets bonds begin to soften at deformations, in the shape of [`begun`](Self::begun).
+    pub(crate) fn begin(&mut self, criteria: &Criteria, begun: Vec<Vec<f64>>) {
+        self.variables = criteria.begun(&begun);
+        self.begun = begun;
+    }
+
+    /// The criteria with the limits of the bonds that began to soften.
+    pub fn criteria<'a>(&self, criteria: &'a Criteria) -> CriteriaInState<'a> {
+        criteria.with_variables(&self.variables)
     }
 
     /// Updates the trial extremes and the remaining stiffness of the bonds to the deformations of an iterate (n_bonds).
@@ -102,17 +134,17 @@ impl Softening {
         deformations: &[BondDeformation],
         is_one_way: bool,
     ) {
-        for ((criterion, largest), trial) in
-            criteria.list.iter().zip(&self.largest).zip(&mut self.trial)
-        {
+        let criteria = &self.criteria(criteria);
+        for (place, (largest, trial)) in self.largest.iter().zip(&mut self.trial).enumerate() {
             if largest.is_empty() {
                 continue;
             }
+            let after = criteria.after(place);
             trial.par_iter_mut().enumerate().for_each(|(bond, trial)| {
-                let utilisation = criterion.utilisation(bond, &deformations[bond]);
+                let utilisation = criteria.utilisation_by(place, bond, &deformations[bond]);
                 let floor = if is_one_way { *trial } else { largest[bond] };
                 if intact[bond] {
-                    let extreme = criterion.after.extreme(bond, utilisation);
+                    let extreme = after.extreme(bond, utilisation);
                     *trial = extreme.map_or(floor, |it| floor.max(it));
                 }
             });
@@ -156,67 +188,83 @@ impl Softening {
     pub(crate) fn dissipated_at(
         &self,
         system: &dyn Bonds,
-        criteria: &Criteria,
+        criteria: &CriteriaInState<'_>,
         bond: usize,
         deformation: &BondDeformation,
     ) -> f64 {
-        let of = |(criterion, largest): (&Criterion, &Vec<f64>)| {
+        let of = |(place, largest): (usize, &Vec<f64>)| {
             let largest = *largest.get(bond)?;
-            let utilisation = criterion.utilisation(bond, deformation);
-            let now = criterion.after.extreme(bond, utilisation);
+            let after = criteria.after(place);
+            let now = after.extreme(bond, criteria.utilisation_by(place, bond, deformation));
             let kappa = now.map_or(largest, |it| largest.max(it));
-            let taken = criterion.after.at(bond, kappa).dissipated;
-            (taken != 0.0).then(|| taken * system.energy_at_limit(criterion, bond))
+            let taken = after.at(bond, kappa).dissipated;
+            (taken != 0.0).then(|| taken * energy_at_limit(system, criteria, place, bond))
         };
-        let both = criteria.list.iter().zip(&self.largest);
-        both.filter_map(of).sum()
+        self.largest.iter().enumerate().filter_map(of).sum()
     }
 
     /// Whether an unbroken bond is at its extreme at a deformation, so that it softens further at any larger one of its kind.
     pub(crate) fn goes_on(
         &self,
-        criteria: &Criteria,
+        criteria: &CriteriaInState<'_>,
         bond: usize,
         deformation: &BondDeformation,
     ) -> bool {
-        let mut both = criteria.list.iter().zip(&self.largest);
-        both.any(|(criterion, largest)| {
+        let mut largest = self.largest.iter().enumerate();
+        largest.any(|(place, largest)| {
             let Some(&largest) = largest.get(bond) else {
                 return false;
             };
-            let extreme = criterion
-                .after
-                .extreme(bond, criterion.utilisation(bond, deformation));
+            let utilisation = criteria.utilisation_by(place, bond, deformation);
+            let extreme = criteria.after(place).extreme(bond, utilisation);
             extreme.is_some_and(|it| it > 1.0 && it >= largest * (1.0 - SAME))
         })
+    }
+
+    /// What happens after the limit of a criterion.
+    fn after<'a>(&'a self, criteria: &'a Criteria, place: usize) -> &'a AfterLimit {
+        let own = &criteria.list[place];
+        let variables = self.variables.get(place);
+        variables.map_or(&own.after, |it| it.after(own))
     }
 
     /// Softening of a bond under a criterion, by its extreme in equilibrium; undamaged for a criterion that does not soften.
     pub fn bond(&self, criteria: &Criteria, criterion: usize, bond: usize) -> Softened {
         match self.largest.get(criterion).and_then(|it| it.get(bond)) {
             None => Softened::SOUND,
-            Some(&largest) => criteria.list[criterion].after.at(bond, largest),
+            Some(&largest) => self.after(criteria, criterion).at(bond, largest),
         }
     }
 }
 
+/// Energy of a bond at its limit by a criterion, J; 0 where it never fails.
+pub(crate) fn energy_at_limit(
+    system: &dyn Bonds,
+    criteria: &CriteriaInState<'_>,
+    place: usize,
+    bond: usize,
+) -> f64 {
+    let criterion = &criteria.criteria().list[place];
+    system.energy_at(criterion, criteria.limits(place)[bond], bond)
+}
+
 /// Remaining stiffness of a bond for the largest utilisations, the smallest of all criteria.
 fn remaining_of(
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     largest: &[Vec<f64>],
     bond: usize,
     is_open: bool,
 ) -> StiffnessFactors {
     let [mut opening, mut crushing, mut sliding] = [1.0_f64; 3];
-    for (criterion, largest) in criteria.list.iter().zip(largest) {
+    for (place, largest) in largest.iter().enumerate() {
         let Some(&largest) = largest.get(bond) else {
             continue;
         };
         if largest <= 1.0 {
             continue;
         }
-        let secant = criterion.after.at(bond, largest).secant;
-        let weakened: &mut [&mut f64] = match criterion.measure.weakens() {
+        let secant = criteria.after(place).at(bond, largest).secant;
+        let weakened: &mut [&mut f64] = match criteria.criteria().list[place].measure.weakens() {
             Weakened::Opening => &mut [&mut opening],
             Weakened::Crushing => &mut [&mut crushing],
             Weakened::Sliding => &mut [&mut sliding],

@@ -137,6 +137,7 @@ impl State {
     /// If the bytes are damaged or belong to another body.
     pub(crate) fn read(
         (numbers, n_components): (&BondNumbers, usize),
+        criteria: &Criteria,
         from: &mut dyn Read,
     ) -> Result<Self, CheckpointError> {
         let mut state = Self {
@@ -144,7 +145,7 @@ impl State {
             displacement: numbers.read_points(n_components, from)?,
             intact: numbers.read(true, from)?,
             broken_by: numbers.read(None, from)?,
-            softening: Softening::read(numbers, from)?,
+            softening: Softening::read(numbers, criteria, from)?,
             dissipated: numbers.read(0.0, from)?,
             held: numbers.read_points(n_components, from)?,
             friction: Serial::read(from)?,

@@ -321,8 +321,8 @@ pub trait BondReadings: BondTopology {
         component: Component,
     ) -> f64;
 
-    /// Energy of a bond at the limit of a criterion, from the rigidity that the criterion weakens, J; 0 where the limit is infinite.
-    fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64;
+    /// Energy of a bond at a limit of the measure of a criterion, from the rigidity that the criterion weakens, J; 0 where the limit is infinite.
+    fn energy_at(&self, criterion: &Criterion, limit: f64, bond: usize) -> f64;
 }
 
 /// Pairs of points across cracks.

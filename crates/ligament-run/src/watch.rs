@@ -168,7 +168,8 @@ impl Observer for Watch<'_> {
             load: Some(record.reaction),
             units: self.last.units,
             broken_bonds: record.broken_bonds as u64,
-            softened_bonds: (view.criteria.soften()).then(|| view.softened_bonds() as u64),
+            softened_bonds: (view.criteria.criteria().soften())
+                .then(|| view.softened_bonds() as u64),
             stage: (view.loads.course()).map(|it| it.programme.stage_name(record.part).to_owned()),
         };
         if record.step > 0 {

@@ -1,7 +1,5 @@
 //! Bonds that begin to soften by the stress around them.
 
-use std::sync::Arc;
-
 use super::path::Path;
 use crate::balanced::Balanced;
 
@@ -12,10 +10,8 @@ impl Path<'_> {
         let begun = self.problem.beginning(&self.state, balanced);
         let some = (self.problem.system.subdomain()).any(begun.is_some());
         if let Some(begun) = begun {
-            let criteria = Arc::new(self.problem.criteria.begun_at(&begun));
-            self.equilibrium.judge_by(criteria.clone());
-            self.problem.criteria = criteria;
-            self.state.softening.begun = begun;
+            let softening = &mut self.state.softening;
+            softening.begin(&self.problem.criteria, begun);
         }
         some
     }

@@ -2,7 +2,7 @@
 
 use ligament_model::communicator::Wire;
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::Criteria;
+use ligament_model::failure::CriteriaInState;
 
 use crate::bond_numbers::BondNumbers;
 use crate::history::BreakRecord;
@@ -10,7 +10,7 @@ use crate::history::BreakRecord;
 /// Criteria and the deformations to which they apply.
 #[derive(Clone, Copy)]
 pub(super) struct CriteriaAtDeformations<'a> {
-    pub(super) criteria: &'a Criteria,
+    pub(super) criteria: &'a CriteriaInState<'a>,
     /// Deformation of a bond, by its index among the breaking bonds and its local number.
     pub(super) deformation: &'a dyn Fn(usize, usize) -> BondDeformation,
 }

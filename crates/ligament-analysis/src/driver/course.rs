@@ -1,7 +1,6 @@
 //! Progress of a run: contents of a checkpoint other than the state, and the run restored from one.
 
 use std::io::Read;
-use std::sync::Arc;
 
 use super::recorder::{Energies, StepCounters};
 use super::start::ElasticAnswer;
@@ -155,10 +154,9 @@ impl Restored {
         let place = Serial::read(from).map_err(damaged)?;
         let numbers = BondNumbers::new(&*problem.system)?;
         let n_components = problem.system.layout().components.len();
-        let state = State::read((&numbers, n_components), from)?;
+        let state = State::read((&numbers, n_components), &problem.criteria, from)?;
         let course: Course = Serial::read(from).map_err(damaged)?;
         let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
-        let problem = with_begun(&problem, &state)?;
         let (equilibrium, state, balanced) =
             Equilibrium::restored(&problem, energy_tolerance, (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
@@ -204,25 +202,6 @@ impl Restored {
             && recorded <= last
             && last <= self.equilibrium.costs().solves
     }
-}
-
-/// Problem with the criteria of the bonds that had begun to soften in a restored state.
-///
-/// # Errors
-///
-/// If the state belongs to other criteria.
-pub(super) fn with_begun(problem: &Problem, state: &State) -> Result<Problem, CheckpointError> {
-    let mut problem = problem.clone();
-    let begun = &state.softening.begun;
-    let has_all = problem.criteria.none_begun();
-    let lengths = |of: &[Vec<f64>]| of.iter().map(Vec::len).collect::<Vec<usize>>();
-    if !begun.is_empty() {
-        if lengths(begun) != lengths(&has_all) {
-            return Err(CheckpointError::OtherModel);
-        }
-        problem.criteria = Arc::new(problem.criteria.begun_at(begun));
-    }
-    Ok(problem)
 }
 
 /// Relative difference of sums over the bonds that is accepted between different numbers of processes.

@@ -2,12 +2,11 @@
 //!
 //! A `Path` computes equilibria with their energies, breaks bonds, fixes detached parts, makes records and applies stop rules.
 
-use std::borrow::Cow;
 use std::cell::Cell;
 use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::Criteria;
+use ligament_model::failure::CriteriaInState;
 
 use super::breaks::{Breaking, CriteriaAtDeformations};
 use super::course::{CheckValues, Course, Place, Restored};
@@ -286,7 +285,7 @@ impl<'a> Path<'a> {
         &self,
         tie_tolerance: f64,
         deformations: &[BondDeformation],
-        criteria: &Criteria,
+        criteria: &CriteriaInState<'_>,
     ) -> FirstToBreak {
         let (intact, system) = (&self.state.intact, &self.problem.system);
         let in_file = |bond| system.ends_in_file(bond);
@@ -308,7 +307,8 @@ impl<'a> Path<'a> {
         step: usize,
         round: usize,
     ) -> Result<Breakage, SetupError> {
-        let criteria = self.criteria(balanced).into_owned();
+        let problem = self.problem.clone();
+        let criteria = problem.criteria_in(&self.state, balanced);
         let deformation = |_, bond: usize| balanced.deformations[bond];
         let judged = CriteriaAtDeformations {
             criteria: &criteria,
@@ -365,7 +365,7 @@ impl<'a> Path<'a> {
     }
 
     /// Criteria with the limits and measures of the bonds in an equilibrium.
-    pub(super) fn criteria(&self, balanced: &Balanced) -> Cow<'_, Criteria> {
+    pub(super) fn criteria(&self, balanced: &Balanced) -> CriteriaInState<'_> {
         self.problem.criteria_in(&self.state, balanced)
     }
 

@@ -3,10 +3,9 @@
 //! Up to its first breakage a body is elastic. In proportion to one load factor one solution suffices; in a programme of stages the
 //! state follows a straight line from the end of one part to the end of the next, with one solution for each part.
 
-use std::borrow::Cow;
-
 use ligament_model::deformation::Deformations;
-use ligament_model::failure::Criteria;
+use ligament_model::element::BondDeformation;
+use ligament_model::failure::CriteriaInState;
 use rayon::prelude::*;
 
 use super::outcome::LoadPoint;
@@ -137,7 +136,9 @@ impl Path<'_> {
         if !(0.0..AT_ONCE).contains(&share) {
             return Ok(());
         }
-        let criteria = self.problem.criteria_at_start(&self.state, &balanced);
+        let criteria = self
+            .problem
+            .criteria_before_softening(&self.state, &balanced);
         let criteria = criteria.on_line(None, times);
         let deformations = balanced.deformations.scaled(times);
         let is_beyond = |(bond, deformation)| criteria.utilisation(bond, deformation) >= AT_LIMIT;
@@ -223,7 +224,9 @@ fn in_proportion(
         }
     };
     let factors = steps.unwrap_or(&[1.0]);
-    let criteria = path.problem.criteria_at_start(&path.state, &balanced);
+    let criteria = path
+        .problem
+        .criteria_before_softening(&path.state, &balanced);
     let (displacement, reaction) = path.control(&balanced);
     let along = balanced.deformations;
     // Faces that close under a load are open under the opposite one.
@@ -294,7 +297,8 @@ fn in_stages(
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => return Ok(Prediction::NoEquilibrium { part: 0, reason }),
     };
-    let mut criteria_here = path.criteria(&here).into_owned();
+    // The stresses of an equilibrium stay those with the loads of the part in which they are asked for first.
+    path.criteria(&here);
     for (index, part) in programme.parts.iter().enumerate() {
         let start = path.control(&here);
         path.begin_part(index);
@@ -306,11 +310,11 @@ fn in_stages(
                 return Ok(Prediction::without_equilibrium(index, n_steps, reason));
             }
         };
-        let criteria = path.criteria(&there).into_owned();
+        let [criteria_here, criteria] = [&here, &there].map(|it| path.criteria(it));
         let line = Line::new([&here, &there], [&criteria_here, &criteria]);
         let Some(share) = line.first_failure(goes_on) else {
             largest = largest.max(utilisation(&criteria, &there.deformations));
-            (here, criteria_here) = (there, criteria);
+            here = there;
             continue;
         };
         let first = Nearest::new(&path, &line.criteria(share), &line.at(share));
@@ -362,11 +366,11 @@ struct Line<'a> {
     here: Deformations,
     slopes: Deformations,
     /// Criteria in both equilibria.
-    criteria: [&'a Criteria; 2],
+    criteria: [&'a CriteriaInState<'a>; 2],
 }
 
 impl<'a> Line<'a> {
-    fn new([here, there]: [&Balanced; 2], criteria: [&'a Criteria; 2]) -> Self {
+    fn new([here, there]: [&Balanced; 2], criteria: [&'a CriteriaInState<'a>; 2]) -> Self {
         Self {
             here: here.deformations.clone(),
             slopes: there.deformations.ahead(&here.deformations, -1.0),
@@ -378,7 +382,7 @@ impl<'a> Line<'a> {
         self.here.ahead(&self.slopes, share)
     }
 
-    fn criteria(&self, share: f64) -> Cow<'a, Criteria> {
+    fn criteria(&self, share: f64) -> CriteriaInState<'a> {
         let [here, there] = self.criteria;
         there.on_line(Some(here), share)
     }
@@ -417,7 +421,7 @@ struct Nearest {
 }
 
 impl Nearest {
-    fn new(path: &Path<'_>, criteria: &Criteria, deformations: &Deformations) -> Self {
+    fn new(path: &Path<'_>, criteria: &CriteriaInState<'_>, deformations: &Deformations) -> Self {
         let of_bonds: Vec<f64> = (deformations.par_iter().enumerate())
             .map(|(bond, deformation)| criteria.utilisation(bond, deformation))
             .collect();
@@ -428,11 +432,11 @@ impl Nearest {
         let bond = bond.unwrap_or_default();
         let of_criterion = |index: usize| {
             let deformation = deformations.get(bond as usize);
-            deformation.map_or(0.0, |it| {
-                criteria.list[index].utilisation(bond as usize, it)
+            deformation.map_or(0.0, |it: &BondDeformation| {
+                criteria.utilisation_by(index, bond as usize, it)
             })
         };
-        let criteria = (0..criteria.list.len()).rev();
+        let criteria = (0..criteria.criteria().list.len()).rev();
         let worst =
             criteria.max_by(|one, other| of_criterion(*one).total_cmp(&of_criterion(*other)));
         Self {
@@ -444,14 +448,14 @@ impl Nearest {
 }
 
 /// Largest utilisation of a bond at deformations (n_bonds).
-fn utilisation(criteria: &Criteria, deformations: &Deformations) -> f64 {
+fn utilisation(criteria: &CriteriaInState<'_>, deformations: &Deformations) -> f64 {
     (deformations.par_iter().enumerate())
         .map(|(bond, deformation)| criteria.utilisation(bond, deformation))
         .reduce(|| 0.0, f64::max)
 }
 
 /// Number of bonds at or beyond their limits at deformations (n_bonds).
-fn beyond(criteria: &Criteria, deformations: &Deformations) -> usize {
+fn beyond(criteria: &CriteriaInState<'_>, deformations: &Deformations) -> usize {
     (deformations.par_iter().enumerate())
         .filter(|(bond, deformation)| criteria.utilisation(*bond, deformation) >= AT_LIMIT)
         .count()

@@ -4,7 +4,7 @@ use std::io::Read;
 
 use ligament_model::deformation::Deformations;
 use ligament_model::element::StiffnessFactors;
-use ligament_model::failure::Criteria;
+use ligament_model::failure::CriteriaInState;
 use rayon::prelude::*;
 
 use crate::balanced::Balanced;
@@ -437,7 +437,7 @@ pub(super) fn largest_ratio(problem: &Problem, state: &State, balanced: &Balance
 
 /// Largest utilisation of the intact bonds by some criteria.
 pub(super) fn largest_ratio_by(
-    criteria: &Criteria,
+    criteria: &CriteriaInState<'_>,
     problem: &Problem,
     state: &State,
     balanced: &Balanced,

@@ -172,7 +172,7 @@ impl Start {
             StepCounters::default(),
         );
         self.elastic.stiffness = record.reaction / record.displacement;
-        let criteria = problem.criteria_at_start(at_one, balanced);
+        let criteria = problem.criteria_before_softening(at_one, balanced);
         let ratio = largest_ratio_by(&criteria, problem, at_one, balanced);
         let is_bent = problem.contact.is_linear();
         let is_predicted = ratio > 0.0 && problem.system.is_linear() && !is_bent;

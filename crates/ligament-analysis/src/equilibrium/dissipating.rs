@@ -117,9 +117,10 @@ pub(super) fn balance(
 
 /// Energy that the bonds of a state would have dissipated at deformations (n_bonds), J.
 fn dissipated(problem: &Problem, state: &State, deformations: &[BondDeformation]) -> f64 {
-    let (system, criteria) = (&*problem.system, &problem.criteria);
+    let system = &*problem.system;
+    let criteria = state.softening.criteria(&problem.criteria);
     let of_bond = |(bond, deformation): (usize, &BondDeformation)| match state.intact[bond] {
-        true => (state.softening).dissipated_at(system, criteria, bond, deformation),
+        true => (state.softening).dissipated_at(system, &criteria, bond, deformation),
         false => state.dissipated[bond],
     };
     let of_bonds: Vec<f64> = (deformations.par_iter().enumerate()).map(of_bond).collect();
@@ -147,9 +148,10 @@ fn ahead(
     let problem = &equations.problem;
     let expansion = goal.rate.thermal_strain(1.0);
     let slopes = (problem.system).deformations(&state.intact, &growth, expansion);
+    let criteria = state.softening.criteria(&problem.criteria);
     let largest = (slopes.par_iter().enumerate())
         .filter(|(bond, _)| state.intact[*bond])
-        .map(|(bond, slope)| problem.criteria.utilisation(bond, slope))
+        .map(|(bond, slope)| criteria.utilisation(bond, slope))
         .reduce(|| 0.0, f64::max);
     let largest = problem.system.subdomain().max(largest);
     let at = |by: f64| here.ahead(&slopes, by);
@@ -191,11 +193,12 @@ fn opening(
     deformations: &Deformations,
     goal: &Dissipation,
 ) -> Option<Target> {
-    let (system, criteria, intact) = (&*problem.system, &problem.criteria, &state.intact);
+    let (system, intact) = (&*problem.system, &state.intact);
     let mut there: Softening = state.softening.clone();
-    there.follow(criteria, intact, deformations, false);
+    there.follow(&problem.criteria, intact, deformations, false);
+    let criteria = state.softening.criteria(&problem.criteria);
     let lost = |(bond, deformation): (usize, &BondDeformation)| {
-        let opens = intact[bond] && state.softening.goes_on(criteria, bond, deformation);
+        let opens = intact[bond] && state.softening.goes_on(&criteria, bond, deformation);
         match opens {
             true => StiffnessFactors::WHOLE.lost(&there.remaining[bond]),
             false => StiffnessFactors::NOTHING,

@@ -9,8 +9,7 @@
 //! A ratio is known where no delayed part has bonds of the ends.
 
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::hooke::Moduli;
-use ligament_model::failure::{Criteria, Criterion};
+use ligament_model::failure::CriteriaInState;
 use ligament_model::stress::stored::StoredMotions;
 use rayon::prelude::*;
 
@@ -30,7 +29,7 @@ pub(super) struct Around<'a> {
     problem: &'a Problem,
     stored: Box<dyn StoredMotions + 'a>,
     /// The criteria with the stresses across the bonds by the stored motions.
-    pub(super) criteria: Criteria,
+    pub(super) criteria: CriteriaInState<'a>,
     /// Stored deformations of the bonds, shape (n_bonds).
     deformations: Vec<BondDeformation>,
     /// Ratio of measure to limit of each bond by the stored motions, shape (n_bonds); 0 where it is broken.
@@ -69,7 +68,7 @@ impl<'a> Around<'a> {
     pub(super) fn new(
         (division, reach, problem): (&'a Division, &'a Reach, &'a Problem),
         state: &State,
-        criteria: Criteria,
+        criteria: CriteriaInState<'a>,
         deformations: &[BondDeformation],
     ) -> Option<Self> {
         let system = &*problem.system;
@@ -299,20 +298,8 @@ impl<'a> Around<'a> {
     /// Computes the stresses across some bonds from the stored motions.
     fn update_stresses(&mut self, bonds: &[u32]) {
         let stored = &self.stored;
-        for criterion in self
-            .criteria
-            .list
-            .iter_mut()
-            .filter(|it| it.follows_stress())
-        {
-            let of_bond = |criterion: &Criterion, bond: u32| {
-                let moduli = Moduli::from_coefficients(criterion.coefficients(bond as usize));
-                stored.stress_across(bond, &moduli)
-            };
-            let found = bonds.par_iter().with_min_len(TASK);
-            let found: Vec<_> = found.map(|&bond| of_bond(criterion, bond)).collect();
-            criterion.stress.replace(bonds, &found);
-        }
+        let stress = |bond: u32, moduli: &_| stored.stress_across(bond, moduli);
+        self.criteria.replace_stresses(bonds, stress);
     }
 
     /// Ratio of a bond by the stored motions.

@@ -18,13 +18,12 @@ mod division;
 mod per_norm;
 mod reach;
 
-use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use ligament_linalg::Factorisation;
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::{Criteria, Criterion};
+use ligament_model::failure::{CriteriaInState, Criterion};
 use rayon::prelude::*;
 
 use crate::breaking::{FirstToBreak, Leaders};
@@ -93,6 +92,8 @@ pub(crate) struct Lagging<'a> {
     per_norm: &'a [f64],
     problem: &'a Problem,
     tie_tolerance: f64,
+    /// The criteria without stresses.
+    criteria: CriteriaInState<'a>,
     /// Ratios by criteria of stress; None without these.
     around: Option<Around<'a>>,
     /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
@@ -113,7 +114,7 @@ impl<'a> Lagging<'a> {
         problem: &'a Problem,
         tie_tolerance: f64,
         state: &State,
-        criteria: Cow<'_, Criteria>,
+        criteria: CriteriaInState<'a>,
         deformations: &[BondDeformation],
     ) -> Self {
         let Body {
@@ -122,7 +123,7 @@ impl<'a> Lagging<'a> {
         let n_parts = division.parts.len();
         let around = body.reach.as_ref().and_then(|reach| {
             let body = (division, reach, problem);
-            Around::new(body, state, criteria.into_owned(), deformations)
+            Around::new(body, state, criteria, deformations)
         });
         let mut lagging = Self {
             division,
@@ -130,6 +131,7 @@ impl<'a> Lagging<'a> {
             per_norm: &body.per_norm,
             problem,
             tie_tolerance,
+            criteria: problem.criteria.without_state(),
             around,
             displacement: state.displacement.clone(),
             references: vec![Vec::new(); n_parts],
@@ -151,10 +153,10 @@ impl<'a> Lagging<'a> {
     }
 
     /// The criteria with the stresses of the bonds that break first.
-    pub(crate) fn criteria(&self) -> &Criteria {
+    pub(crate) fn criteria(&self) -> &CriteriaInState<'a> {
         match &self.around {
             Some(around) => &around.criteria,
-            None => &self.problem.criteria,
+            None => &self.criteria,
         }
     }
 
@@ -404,7 +406,7 @@ impl<'a> Lagging<'a> {
         if !state.intact[bond as usize] {
             return 0.0;
         }
-        let verdict = (self.problem.criteria).breaking(bond as usize, deformation);
+        let verdict = self.criteria.breaking(bond as usize, deformation);
         verdict.map_or(0.0, |it| it.ratio())
     }
 

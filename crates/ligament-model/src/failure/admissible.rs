@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::along_line::{AlongLine, EVERYWHERE, Interval};
 use super::criterion::{Criteria, Criterion};
+use super::state_variables::CriteriaInState;
 use crate::deformation::{Deformation, Deformations, SpaceDeformation};
 use crate::element::BondDeformation;
 
@@ -20,7 +21,9 @@ impl Criteria {
         };
         self.list.iter().find(is_unknown)
     }
+}
 
+impl CriteriaInState<'_> {
     /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `here` + t `slopes`; None where some
     /// does for every t. These are the criteria here, and `rates` are those of the slopes.
     pub fn admissible(
@@ -60,10 +63,10 @@ impl Criteria {
 
     /// The t for which no criterion breaks a bond with the deformation `here` + t `slope`; None where some does for every t.
     fn within<B: AlongLine>(&self, rates: &Self, bond: usize, line: [&B; 2]) -> Option<Interval> {
-        let of = |interval: Interval, (it, rate): (&Criterion, &Criterion)| {
-            let limit = it.break_limit(bond);
+        let of = |interval: Interval, (place, it): (usize, &Criterion)| {
+            let limit = self.break_limit(place, bond);
             let of_criterion = if limit.is_finite() {
-                let stress = [it, rate].map(|it| it.stress(bond));
+                let stress = [self, rates].map(|it| it.stress(place, bond));
                 it.measure
                     .within(line, it.coefficients(bond), stress, limit)?
             } else {
@@ -71,8 +74,8 @@ impl Criteria {
             };
             both(interval, of_criterion)
         };
-        let mut both_of = self.list.iter().zip(&rates.list);
-        both_of.try_fold(EVERYWHERE, of)
+        let mut list = self.criteria().list.iter().enumerate();
+        list.try_fold(EVERYWHERE, of)
     }
 }
 

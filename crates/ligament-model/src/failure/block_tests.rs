@@ -244,7 +244,8 @@ fn yields_at(criterion: &Criterion, sign: f64, poisson: f64) -> f64 {
         let moved = [0, 1, 2].map(|k| strain * (along * axis[k] - poisson * n[k]));
         let stretch = dot(moved, n);
         let sliding = (dot(moved, moved) - stretch * stretch).sqrt();
-        criterion.utilisation(ANY, &BondDeformation::new([stretch, sliding, 0.0]))
+        let deformation = BondDeformation::new([stretch, sliding, 0.0]);
+        criterion.measure(ANY, &deformation).max(0.0) / criterion.limit[ANY]
     };
     1.0 / (0..COUNT).map(of_bond).fold(0.0, f64::max)
 }

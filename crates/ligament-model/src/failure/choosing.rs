@@ -2,7 +2,7 @@
 
 use super::KINDS;
 use super::basis::Basis;
-use super::criterion::{Criteria, Criterion, Stresses};
+use super::criterion::{Criteria, Criterion};
 use super::fracture_energy;
 use super::kind::{After, Choice, Kind};
 use super::measure::Measure;
@@ -49,7 +49,6 @@ pub fn criteria<const D: usize>(
                 },
                 limit: limits.limit.into(),
                 coefficient: limits.coefficient.into(),
-                stress: Stresses::default(),
                 surroundings: limits.surroundings,
             });
         }

@@ -1,9 +1,6 @@
 //! Criteria with the limits of their bonds.
 
-use std::borrow::Cow;
 use std::sync::Arc;
-
-use rayon::prelude::*;
 
 use super::hooke::{Moduli, StressAcross};
 use super::measure::Measure;
@@ -14,7 +11,7 @@ use super::weakened::Weakened;
 use crate::element::{BondDeformation, Rigidities};
 use crate::stress::point_strain::StrainAround;
 
-/// A failure criterion with its limits.
+/// A failure criterion with its limits, which stay as they are during a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
     /// Name of the criterion in results, which begins with the word of its kind.
@@ -27,8 +24,6 @@ pub struct Criterion {
     pub limit: Arc<Vec<f64>>,
     /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
     pub coefficient: Arc<Vec<f64>>,
-    /// Stresses across the bonds in the state of the criterion; none but where the measure takes them.
-    pub stress: Stresses,
     /// What happens after the limit.
     pub after: AfterLimit,
     /// What its limits or its measure follow while the body deforms and bonds break; None where both depend on the bond alone.
@@ -44,7 +39,6 @@ impl Criterion {
             measure,
             limit: limit.into(),
             coefficient: Arc::default(),
-            stress: Stresses::default(),
             after: AfterLimit::new(brittle::LAW, Vec::new()),
             surroundings: None,
         }
@@ -71,13 +65,12 @@ impl Criterion {
         )
     }
 
-    /// Energy of a bond at its limit, J; zero without a limit.
-    pub(crate) fn energy_at_limit(&self, rigidities: &Rigidities, bond: usize) -> f64 {
+    /// Energy of a bond at a limit of the measure, J; zero without a limit.
+    pub(crate) fn energy_at(&self, limit: f64, rigidities: &Rigidities, bond: usize) -> f64 {
         let rigidity = match self.measure.weakens() {
             Weakened::Opening | Weakened::Crushing | Weakened::Whole => rigidities.axial[bond],
             Weakened::Sliding => rigidities.shear[bond],
         };
-        let limit = self.limit[bond];
         if limit.is_finite() {
             0.5 * rigidity * limit * limit
         } else {
@@ -85,12 +78,12 @@ impl Criterion {
         }
     }
 
-    /// The measure of a deformation of a bond.
+    /// The measure of a deformation of a bond without stress around it.
     #[inline]
     pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
         let coefficients = self.coefficients(bond);
         self.measure
-            .value(deformation, coefficients, || self.stress(bond))
+            .value(deformation, coefficients, StressAcross::default)
     }
 
     /// Largest value of a measure of stress over both signs of a bond's stretch and of the lateral strain around it; None for a bar.
@@ -114,13 +107,6 @@ impl Criterion {
         of_signs[0].max(of_signs[1])
     }
 
-    /// Stress across a bond over E'; zero where the measure takes none.
-    #[inline]
-    pub(super) fn stress(&self, bond: usize) -> StressAcross {
-        let of_bond = self.stress.of_bonds.get(bond);
-        of_bond.map_or_else(StressAcross::default, |it| it.scaled(self.stress.times))
-    }
-
     /// The coefficients of the measure for a bond, shape (n).
     #[inline]
     pub fn coefficients(&self, bond: usize) -> &[f64] {
@@ -132,79 +118,10 @@ impl Criterion {
         &self.coefficient[count * bond..count * (bond + 1)]
     }
 
-    /// Measure at which a bond breaks.
+    /// Measure at which a bond breaks by its own limit.
     #[inline]
     pub fn break_limit(&self, bond: usize) -> f64 {
         self.limit[bond] * self.after.end(bond)
-    }
-
-    /// Measure over limit, 0 where the measure is not positive.
-    #[inline]
-    pub fn utilisation(&self, bond: usize, deformation: &BondDeformation) -> f64 {
-        let measure = self.measure(bond, deformation);
-        // An infinite limit is never reached: nor is infinity times zero, which is no number.
-        if measure > 0.0 {
-            measure / self.limit[bond]
-        } else {
-            0.0
-        }
-    }
-}
-
-/// Stresses across the bonds of a body, as they are at one load factor times another one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Stresses {
-    /// Stress across each bond, shape (n_bonds); empty where no measure takes it.
-    pub(super) of_bonds: Arc<Vec<StressAcross>>,
-    /// Factor on all of them.
-    pub(super) times: f64,
-}
-
-impl Default for Stresses {
-    fn default() -> Self {
-        Self {
-            of_bonds: Arc::default(),
-            times: 1.0,
-        }
-    }
-}
-
-impl Stresses {
-    /// Stresses across the bonds (n_bonds).
-    pub(super) fn new(of_bonds: Vec<StressAcross>) -> Self {
-        Self {
-            of_bonds: of_bonds.into(),
-            times: 1.0,
-        }
-    }
-
-    /// Replaces the stresses across some bonds.
-    pub fn replace(&mut self, bonds: &[u32], stresses: &[StressAcross]) {
-        let of_bonds = Arc::make_mut(&mut self.of_bonds);
-        for (&bond, stress) in bonds.iter().zip(stresses) {
-            of_bonds[bond as usize] = stress.scaled(self.times.recip());
-        }
-    }
-
-    /// All stresses times a factor.
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self {
-            of_bonds: self.of_bonds.clone(),
-            times: factor * self.times,
-        }
-    }
-
-    /// The stresses and others times a factor.
-    fn plus(&self, other: &Self, factor: f64) -> Self {
-        let both = self.of_bonds.par_iter().zip(&*other.of_bonds);
-        let factor = factor * other.times;
-        let sum = |(one, other): (&StressAcross, &StressAcross)| {
-            one.scaled(self.times).plus(other, factor)
-        };
-        Self {
-            of_bonds: Arc::new(both.map(sum).collect()),
-            times: 1.0,
-        }
     }
 }
 
@@ -238,63 +155,5 @@ impl Criteria {
     /// Whether bonds may do anything but break at once.
     pub fn soften(&self) -> bool {
         self.list.iter().any(|it| !it.after.is_brittle())
-    }
-
-    /// The criteria on the straight line between two motions, of the same body with the same bonds: from that of some criteria, or none
-    /// from the unloaded body, to that of these, at a share of it. Limits are those of these.
-    pub fn on_line(&self, from: Option<&Self>, share: f64) -> Cow<'_, Self> {
-        self.with_stresses(|place, there| {
-            let there = there.scaled(share);
-            match from {
-                Some(from) => there.plus(&from.list[place].stress, 1.0 - share),
-                None => there,
-            }
-        })
-    }
-
-    /// The criteria of a motion + t another one, of the same body with the same bonds, from those of both.
-    pub fn ahead(&self, rates: &Self, t: f64) -> Cow<'_, Self> {
-        self.with_stresses(|place, here| here.plus(&rates.list[place].stress, t))
-    }
-
-    /// The criteria with other stresses across the bonds, which a function makes of the number of a criterion and its stresses.
-    fn with_stresses(&self, stress: impl Fn(usize, &Stresses) -> Stresses) -> Cow<'_, Self> {
-        if !self.list.iter().any(Criterion::follows_stress) {
-            return Cow::Borrowed(self);
-        }
-        let mut criteria = self.clone();
-        let of_stress = criteria.list.iter_mut().enumerate();
-        for (place, criterion) in of_stress.filter(|(_, it)| it.follows_stress()) {
-            criterion.stress = stress(place, &criterion.stress);
-        }
-        Cow::Owned(criteria)
-    }
-
-    /// Largest utilisation of a bond over the criteria; 0 without any.
-    #[inline]
-    pub fn utilisation(&self, bond: usize, deformation: &BondDeformation) -> f64 {
-        let of = |it: &Criterion| it.utilisation(bond, deformation);
-        self.list.iter().map(of).fold(0.0, f64::max)
-    }
-
-    /// The criterion with the largest measure over the limit at which the bond *breaks*, the first of them where several are;
-    /// None where no measure is positive.
-    #[inline]
-    pub fn breaking(&self, bond: usize, deformation: &BondDeformation) -> Option<Verdict> {
-        let mut worst: Option<Verdict> = None;
-        for (criterion, it) in self.list.iter().enumerate() {
-            let measure = it.measure(bond, deformation);
-            if measure > 0.0 {
-                let verdict = Verdict {
-                    criterion,
-                    measure,
-                    limit: it.break_limit(bond),
-                };
-                if worst.is_none_or(|worst| verdict.ratio() > worst.ratio()) {
-                    worst = Some(verdict);
-                }
-            }
-        }
-        worst
     }
 }

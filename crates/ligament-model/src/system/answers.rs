@@ -440,8 +440,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         pulls.sum()
     }
 
-    fn energy_at_limit(&self, criterion: &Criterion, bond: usize) -> f64 {
-        criterion.energy_at_limit(&self.system.rigidities, bond)
+    fn energy_at(&self, criterion: &Criterion, limit: f64, bond: usize) -> f64 {
+        criterion.energy_at(limit, &self.system.rigidities, bond)
     }
 }
 

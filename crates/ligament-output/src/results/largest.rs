@@ -55,25 +55,25 @@ impl Largest {
 
     /// Updates the utilisations of the bonds that are intact at the end of a step.
     pub(super) fn see(&mut self, step: usize, view: &View<'_>) {
-        let (criteria, intact) = (&view.criteria.list, &view.state.intact);
+        let (criteria, intact) = (view.criteria, &view.state.intact);
         let deformations = &view.balanced.deformations;
         let parts = self.of_bonds.par_chunks_mut(TASK).enumerate();
         parts.for_each(|(part, seen)| {
             let bonds = part * TASK..part * TASK + seen.len();
             let (intact, deformations) = (&intact[bonds.clone()], &deformations[bonds.clone()]);
-            for (number, criterion) in (0..).zip(criteria) {
-                let limits = &criterion.limit[bonds.clone()];
+            for place in 0..criteria.criteria().list.len() {
+                let limits = &criteria.limits(place)[bonds.clone()];
                 let arrays = intact.iter().zip(deformations).zip(limits);
                 for (bond, (seen, ((&is_intact, deformation), &limit))) in
                     bonds.clone().zip(seen.iter_mut().zip(arrays))
                 {
-                    let measure = criterion.measure(bond, deformation);
+                    let measure = criteria.measure(place, bond, deformation);
                     // No division; false for an infinite limit, for which the product is infinite or not a number.
                     if is_intact && measure > SAME * f64::from(seen.utilisation) * limit {
                         *seen = Seen {
                             utilisation: (measure / limit) as f32,
                             step: step as u32,
-                            criterion: number,
+                            criterion: place as u32,
                         };
                     }
                 }

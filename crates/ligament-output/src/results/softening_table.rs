@@ -195,13 +195,15 @@ impl SoftenedBonds {
         let softening = &view.state.softening;
         let mut changed = Vec::new();
         for (criterion, largest) in softening.largest.iter().enumerate() {
-            let weakened = view.criteria.list[criterion].measure.weakens();
+            let weakened = view.criteria.criteria().list[criterion].measure.weakens();
             let opens = matches!(weakened, Weakened::Opening | Weakened::Whole);
             for (bond, &largest) in largest.iter().enumerate() {
                 if largest <= 1.0 || usize::from(self.told[bond]) == EVENTS.len() {
                     continue;
                 }
-                let force = softening.bond(view.criteria, criterion, bond).force;
+                let force = softening
+                    .bond(view.criteria.criteria(), criterion, bond)
+                    .force;
                 let below = CrackedBelow::ALL
                     .iter()
                     .filter(|it| opens && force < it.share());

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::{Criteria, Criterion};
+use ligament_model::failure::{Criteria, CriteriaInState, Criterion};
 use ligament_model::system::BondSystem;
 
 use super::PrincipalStretches;
@@ -24,7 +24,7 @@ const UNUSED: f64 = 1e-12;
 /// Bonds of a point: their directions and their failure criteria.
 #[derive(Debug, Clone)]
 pub struct Family<'a> {
-    criteria: &'a Criteria,
+    criteria: CriteriaInState<'a>,
     bonds: Vec<Bond>,
 }
 
@@ -54,7 +54,7 @@ impl<'a> Family<'a> {
             twice: [(2.0 * direction).cos(), (2.0 * direction).sin()],
         };
         Self {
-            criteria,
+            criteria: criteria.without_state(),
             bonds: directions.iter().enumerate().map(bond).collect(),
         }
     }
@@ -69,7 +69,7 @@ impl<'a> Family<'a> {
             }
         };
         Self {
-            criteria,
+            criteria: criteria.without_state(),
             bonds: system.bonds.incidence.at(point).iter().map(bond).collect(),
         }
     }
@@ -107,10 +107,13 @@ impl<'a> Family<'a> {
         strains: PrincipalStretches,
     ) -> (Option<(usize, BondDeformation)>, f64) {
         let mut worst = (None, 0.0);
-        for (place, criterion) in self.criteria.list.iter().enumerate() {
+        let list = &self.criteria.criteria().list;
+        for (place, criterion) in list.iter().enumerate() {
             for bond in &self.bonds {
                 let deformation = critical_of(criterion, bond.number, strains);
-                let utilisation = criterion.utilisation(bond.number, &deformation);
+                let utilisation = self
+                    .criteria
+                    .utilisation_by(place, bond.number, &deformation);
                 if utilisation > worst.1 {
                     worst = (Some((place, deformation)), utilisation);
                 }
@@ -200,7 +203,7 @@ impl<'a> Family<'a> {
             let coefficient = coefficient_of(criterion, bond.number);
             criterion.measure.steepest_slope(coefficient) / criterion.limit[bond.number]
         };
-        (self.criteria.list.iter())
+        (self.criteria.criteria().list.iter())
             .flat_map(|criterion| self.bonds.iter().map(move |bond| of(criterion, bond)))
             .fold(0.0, f64::max)
     }

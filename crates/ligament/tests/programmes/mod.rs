@@ -234,7 +234,10 @@ fn the_exact_path_after_a_preload_is_that_of_a_search() {
             panic!("{attempt:?}");
         };
         let ratio = |(bond, deformation): (usize, &BondDeformation)| match state.intact[bond] {
-            true => model.criteria.utilisation(bond, deformation),
+            true => model
+                .criteria
+                .without_state()
+                .utilisation(bond, deformation),
             false => 0.0,
         };
         balanced

@@ -21,7 +21,7 @@ use crate::load_program::{LoadProgram, PartControl};
 use crate::problem::Problem;
 use crate::unbalanced::Unbalanced;
 use ligament_model::deformation::Deformations;
-use ligament_model::failure::Criteria;
+use ligament_model::failure::CriteriaInState;
 use ligament_model::failure::along_line::{EVERYWHERE, Interval};
 use ligament_model::stress::point_strain::Motion;
 use ligament_model::subdomain::Subdomain;
@@ -44,17 +44,13 @@ impl Affine {
         }
     }
 
-    /// Rate of the deformations (n_bonds) with the load factor, and the criteria with the rates of the stresses around the bonds.
-    fn slopes(
-        &mut self,
-        path: &mut Path<'_>,
-        rate: &dyn LoadProgram,
-    ) -> Result<(Deformations, Criteria), Unbalanced> {
+    /// Finds the growth at a rate of the loads, unless it is present.
+    fn grow(&mut self, path: &mut Path<'_>, rate: &dyn LoadProgram) -> Result<(), Unbalanced> {
         if !mem::replace(&mut self.is_present, false) {
             self.growth = path.equilibrium.growth(&mut path.state, rate)?;
             path.course.solves[0] = path.equilibrium.costs().solves;
         }
-        Ok(slopes(path, &self.growth, rate))
+        Ok(())
     }
 }
 
@@ -66,12 +62,13 @@ impl EquilibriumLine for Affine {
         else {
             unreachable!("lines of a programme are followed under a programme");
         };
-        let (slopes, rates) = self.slopes(path, &*rate)?;
+        self.grow(path, &*rate)?;
         let start = Instant::now();
+        let (slopes, rates) = slopes(path, &self.growth, &*rate);
         let now = path.state.load_factor;
         let (programme, part) = (&course.programme, course.part);
         let (begins, ends) = programme.parts[part].span;
-        let criteria = path.criteria(line).into_owned();
+        let criteria = path.criteria(line);
         let intact = &path.state.intact;
         let dissipates = match course.control() {
             Some(&PartControl::DissipatedEnergy { end }) => Some(end),
@@ -127,11 +124,11 @@ impl EquilibriumLine for Affine {
 
 /// Rate of the deformations (n_bonds) with the load factor for a rate of the displacements (n_degrees_of_freedom), and the criteria with the
 /// rates of the stresses around the bonds.
-pub(super) fn slopes(
-    path: &Path<'_>,
+pub(super) fn slopes<'a>(
+    path: &'a Path<'_>,
     growth: &[f64],
     rate: &dyn LoadProgram,
-) -> (Deformations, Criteria) {
+) -> (Deformations, CriteriaInState<'a>) {
     let motion = Motion {
         intact: &path.state.intact,
         displacement: growth,
@@ -142,8 +139,8 @@ pub(super) fn slopes(
     } = &path.problem;
     let slopes = system.deformations(motion.intact, motion.displacement, motion.expansion);
     let stresses = criteria.stresses(&**system, motion, &slopes);
-    let rates = criteria.in_state(&stresses, motion.intact, &slopes);
-    let rates = rates.into_owned();
+    let rates = criteria.without_state();
+    let rates = rates.in_state(&stresses, motion.intact, &slopes);
     (slopes, rates)
 }
 
@@ -157,7 +154,12 @@ fn on_all_processes(subdomain: &Subdomain, here: Option<Interval>) -> Option<Int
 }
 
 /// Goal at fixed load, where no load is admissible.
-pub(super) fn held(tie: f64, line: &Balanced, criteria: &Criteria, path: &Path<'_>) -> Goal {
+pub(super) fn held(
+    tie: f64,
+    line: &Balanced,
+    criteria: &CriteriaInState<'_>,
+    path: &Path<'_>,
+) -> Goal {
     let first = path.first_to_break(tie, &line.deformations, criteria);
     Goal {
         // A bond that just reached its limit breaks as on any other line.

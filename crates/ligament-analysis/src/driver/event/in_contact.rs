@@ -62,7 +62,7 @@ impl EquilibriumLine for InContact {
         let reach = to_contact.min(left);
         let loads = path.problem.loads.clone();
         let (slopes, rates) = slopes(path, &self.growth, &*loads);
-        let criteria = path.criteria(line).into_owned();
+        let criteria = path.criteria(line);
         let span = if rises { [0.0, reach] } else { [-reach, 0.0] };
         let deformations = [&line.deformations, &slopes];
         let admissible = criteria.admissible(&rates, &path.state.intact, deformations, span);

@@ -74,7 +74,7 @@ pub(super) fn pass(
     let start = Instant::now();
     let problem = path.problem.clone();
     let (state, deformations) = (&path.state, &line.deformations);
-    let criteria = path.criteria(line);
+    let criteria = problem.criteria_in(state, line);
     let mut first = first_to_break(tie_tolerance, deformations, &criteria, &state.intact);
     let lagging = Lagging::new(body, &problem, tie_tolerance, state, criteria, deformations);
     let mut passing = Passing {

@@ -1,10 +1,9 @@
 //! Bonds of a body in motion: their forces at a time, and those that break then.
 
-use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::{Criteria, Criterion};
+use ligament_model::failure::{CriteriaInState, Criterion};
 use ligament_model::product::NearLimits;
 use ligament_model::surface::Bonded;
 use ligament_model::thermal::ThermalStrain;
@@ -42,7 +41,6 @@ const NEARLY_CRITICAL: f64 = 0.999;
 
 /// Bonds of a body in motion.
 pub(super) struct Body {
-    /// Problem with the criteria of bonds that began to soften.
     pub(super) problem: Problem,
     pub(super) numbers: BondNumbers,
     pub(super) connectivity: Connectivity,
@@ -226,7 +224,8 @@ impl Body {
         let measured = system.measured(intact, displacement, &near);
         let near: Vec<(u32, BondDeformation)> = near.into_iter().zip(measured).collect();
         let in_file = |bond| system.ends_in_file(bond);
-        let bonds = next_of_near(&RULE, &near, criteria, in_file);
+        let criteria = criteria.without_state();
+        let bonds = next_of_near(&RULE, &near, &criteria, in_file);
         if bonds.is_empty() {
             return Ok(Breakage::default());
         }
@@ -235,7 +234,7 @@ impl Body {
             bonds,
             deformations,
         };
-        let breakage = self.break_bonds(&beyond, criteria, step, observer)?;
+        let breakage = self.break_bonds(&beyond, &criteria, step, observer)?;
         let lost = breakage.unbalanced_force(&self.state.displacement, ThermalStrain::NONE);
         for (dof, force) in lost {
             self.balanced.internal.values[dof] -= force;
@@ -299,8 +298,8 @@ impl Body {
             return;
         }
         if let Some(begun) = self.problem.beginning(&self.state, &self.balanced) {
-            self.problem.criteria = Arc::new(self.problem.criteria.begun_at(&begun));
-            self.state.softening.begun = begun;
+            let softening = &mut self.state.softening;
+            softening.begin(&self.problem.criteria, begun);
         }
         let State {
             softening, intact, ..
@@ -311,8 +310,8 @@ impl Body {
         dissipation::soften(&self.problem, &mut self.state);
     }
 
-    fn beyond_limits(&self, criteria: &Criteria) -> Vec<u32> {
-        if criteria.list.is_empty() {
+    fn beyond_limits(&self, criteria: &CriteriaInState<'_>) -> Vec<u32> {
+        if criteria.criteria().list.is_empty() {
             return Vec::new();
         }
         let (system, deformations) = (&self.problem.system, &self.balanced.deformations);
@@ -331,7 +330,7 @@ impl Body {
     fn break_bonds(
         &mut self,
         beyond: &Beyond,
-        criteria: &Criteria,
+        criteria: &CriteriaInState<'_>,
         step: &TimeStep<'_>,
         observer: &mut dyn Observer,
     ) -> Result<Breakage, SetupError> {

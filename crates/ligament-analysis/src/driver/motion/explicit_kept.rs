@@ -7,7 +7,7 @@ use super::face_friction::FaceFriction;
 use super::inertia::Velocities;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::driver::course::{CheckValues, with_begun};
+use crate::driver::course::CheckValues;
 use crate::error::SetupError;
 use crate::friction::Anchored;
 use crate::motion::MotionProblem;
@@ -43,15 +43,12 @@ impl ExplicitKept {
         internal.on_rigid_bodies.write(out);
     }
 
-    /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
-    pub(super) fn read(
-        problem: &mut MotionProblem,
-        from: &mut dyn Read,
-    ) -> Result<Self, SetupError> {
+    /// Restores the motion of a problem at a row.
+    pub(super) fn read(problem: &MotionProblem, from: &mut dyn Read) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
         let n_components = problem.problem.system.layout().components.len();
-        let state = State::read((&numbers, n_components), from)?;
+        let state = State::read((&numbers, n_components), &problem.problem.criteria, from)?;
         let velocities: Velocities = Serial::read(from).map_err(damaged)?;
         let anchored: Vec<(u32, Anchored)> = Serial::read(from).map_err(damaged)?;
         let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;
@@ -66,7 +63,6 @@ impl ExplicitKept {
         if !fits || !can_touch || lengths != [state.displacement.len(); 2] {
             return Err(CheckpointError::OtherModel.into());
         }
-        problem.problem = with_begun(&problem.problem, &state)?;
         let friction = FaceFriction::new(
             problem.problem.face_friction,
             anchored.into_iter().collect(),

@@ -32,7 +32,6 @@ use crate::user_message::Message;
 /// Motion in implicit steps.
 struct Implicit<'a> {
     settings: &'a MotionSettings,
-    /// The problem, with the criteria of bonds that began to soften.
     problem: MotionProblem,
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
     masses: Vec<f64>,
@@ -225,9 +224,8 @@ impl Implicit<'_> {
                 return self.change_pace(pace);
             }
             self.pace = pace;
-            let criteria = self.problem.problem.criteria.clone();
             let equilibrium = &mut self.stepping.equilibrium;
-            equilibrium.return_to(&self.here.state, criteria);
+            equilibrium.return_to(&self.here.state);
             return Ok(());
         }
         let time = self.here.state.load_factor;
@@ -287,7 +285,6 @@ impl Implicit<'_> {
         let pace = self.pace;
         let time = self.here.state.load_factor;
         self.change_pace(quasi_static::pace_from(tick, &self.progress.clock))?;
-        let criteria = self.problem.problem.criteria.clone();
         let taken = self.attempt(row, time)?.ok();
         let problem = &self.problem.problem;
         let is_near = |taken: &Taken| {
@@ -295,7 +292,6 @@ impl Implicit<'_> {
             taken.broken.is_empty() && kinetic + free <= most
         };
         let Some(taken) = taken.filter(is_near) else {
-            self.problem.problem.criteria = criteria;
             self.change_pace(Pace { calm: 0, ..pace })?;
             return Ok(false);
         };
@@ -354,8 +350,7 @@ impl Implicit<'_> {
             ..self.here.state.clone()
         };
         let start = (start, self.here.balanced.clone());
-        let criteria = self.problem.problem.criteria.clone();
-        let problem = &mut self.problem.problem;
+        let problem = &self.problem.problem;
         let taken = match taken::attempt(problem, equilibrium, start, &trial)? {
             Ok(taken) => taken,
             Err(reason) => return Ok(Err(reason)),
@@ -378,7 +373,6 @@ impl Implicit<'_> {
         if !slips && free <= (share * self.energy_given().max(given)).max(rounding) {
             return Ok(Ok(taken));
         }
-        self.problem.problem.criteria = criteria;
         Ok(Err(TooLong::Free))
     }
 

@@ -8,7 +8,7 @@ use super::stepping::{Pace, Stepping, of_step, scheme};
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
-use crate::driver::course::{CheckValues, with_begun};
+use crate::driver::course::CheckValues;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::motion::{MotionProblem, MotionSettings};
@@ -39,9 +39,9 @@ impl ImplicitKept {
         CheckValues::new(problem, &here.balanced).write(out);
     }
 
-    /// Restores the motion of a problem at a row, with the criteria of bonds that had begun to soften.
+    /// Restores the motion of a problem at a row.
     pub(super) fn read(
-        problem: &mut MotionProblem,
+        problem: &MotionProblem,
         settings: &MotionSettings,
         clock: &Clock,
         from: &mut dyn Read,
@@ -49,7 +49,7 @@ impl ImplicitKept {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
         let n_components = problem.problem.system.layout().components.len();
-        let state = State::read((&numbers, n_components), from)?;
+        let state = State::read((&numbers, n_components), &problem.problem.criteria, from)?;
         let motion: Motion = Serial::read(from).map_err(damaged)?;
         let pace: Pace = Serial::read(from).map_err(damaged)?;
         let costs: Costs = Serial::read(from).map_err(damaged)?;
@@ -59,7 +59,6 @@ impl ImplicitKept {
         if !motion.fits(n) || !has_rates || pace.halvings > pace.most_halvings(clock) {
             return Err(CheckpointError::OtherModel.into());
         }
-        problem.problem = with_begun(&problem.problem, &state)?;
         let masses = free_masses(problem, settings.rotary_inertia);
         let scheme = scheme(settings, clock, pace);
         let (of_step, restraints) = of_step(problem, scheme, &masses);

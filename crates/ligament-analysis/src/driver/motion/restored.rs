@@ -54,11 +54,10 @@ impl Restored {
             return Err(CheckpointError::OtherDriver.into());
         }
         let progress: Progress = Serial::read(from).map_err(damaged)?;
-        let mut problem = problem.clone();
         let kept = match (scheme, settings.is_explicit()) {
-            (EXPLICIT, true) => Kept::Explicit(Box::new(ExplicitKept::read(&mut problem, from)?)),
+            (EXPLICIT, true) => Kept::Explicit(Box::new(ExplicitKept::read(problem, from)?)),
             (IMPLICIT, false) => {
-                let kept = ImplicitKept::read(&mut problem, settings, &progress.clock, from)?;
+                let kept = ImplicitKept::read(problem, settings, &progress.clock, from)?;
                 Kept::Implicit(Box::new(kept))
             }
             _ => return Err(CheckpointError::OtherDriver.into()),
@@ -70,7 +69,7 @@ impl Restored {
         let energies = Energies::read(&problem.problem, state, balanced, from)?;
         require_end(from).map_err(damaged)?;
         Ok(Self {
-            problem,
+            problem: problem.clone(),
             energies,
             progress,
             kept,

@@ -1,7 +1,5 @@
 //! An implicit step on trial: its equilibria, and the bonds that break in it.
 
-use std::sync::Arc;
-
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
@@ -45,15 +43,13 @@ pub(super) struct Trial {
     pub(super) rounds: Option<usize>,
 }
 
-/// A step to the time of a state, from an equilibrium before it; the reason why it is too long, if it is. The criteria of the problem then remain
-/// as they were.
+/// A step to the time of a state, from an equilibrium before it; the reason why it is too long, if it is.
 pub(super) fn attempt(
-    problem: &mut Problem,
+    problem: &Problem,
     equilibrium: &mut Equilibrium,
     (state, balanced): (State, Balanced),
     trial: &Trial,
 ) -> Result<Result<Taken, TooLong>, SetupError> {
-    let criteria = problem.criteria.clone();
     let mut taken = Taken {
         state,
         balanced,
@@ -70,15 +66,12 @@ pub(super) fn attempt(
         taken.balanced = match attempt {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => {
-                problem.criteria = criteria;
                 return Ok(Err(TooLong::Unbalanced(reason)));
             }
         };
         breakage = Breakage::default();
         if let Some(begun) = problem.beginning(&taken.state, &taken.balanced) {
-            problem.criteria = Arc::new(problem.criteria.begun_at(&begun));
-            equilibrium.judge_by(problem.criteria.clone());
-            taken.state.softening.begun = begun;
+            taken.state.softening.begin(&problem.criteria, begun);
             continue;
         }
         let next = next(problem, &trial.rule, equilibrium, &taken);
@@ -88,7 +81,6 @@ pub(super) fn attempt(
         }
         rounds += 1;
         if trial.rounds.is_some_and(|most| rounds > most) {
-            problem.criteria = criteria;
             return Ok(Err(TooLong::Rounds));
         }
         let moment = BreakRecord {
@@ -109,7 +101,7 @@ fn next(
     taken: &Taken,
 ) -> Vec<u32> {
     let criteria = problem.criteria_in(&taken.state, &taken.balanced);
-    if criteria.list.is_empty() {
+    if problem.criteria.list.is_empty() {
         return Vec::new();
     }
     let (system, deformations) = (&problem.system, &taken.balanced.deformations);
@@ -142,7 +134,7 @@ impl Taken {
             state, balanced, ..
         } = self;
         let time = state.load_factor;
-        let criteria = problem.criteria_in(state, balanced).into_owned();
+        let criteria = problem.criteria_in(state, balanced);
         let deformation = |_, bond: usize| balanced.deformations[bond];
         let breaking = Breaking {
             ends: problem.system.ends(),
