@@ -1,9 +1,9 @@
 //! Linear elastic driver: one solve at load factor one, or one at the end of each part of a programme.
 
 use super::outcome::{Outcome, Rows};
-use super::path::Path;
-use super::recorder::StepCounters;
-use super::stop::StopRules;
+use super::record::StepCounters;
+use super::run::Run;
+use super::run::StopRules;
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::error::SetupError;
@@ -17,39 +17,39 @@ pub fn run(
     energy_tolerance: f64,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let (mut path, at_one) = Path::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
-    if let Some(end) = path.end_if_unstable()? {
-        return Ok(path.into_outcome(end, Rows::LoadSteps));
+    let (mut run, at_one) = Run::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
+    if let Some(end) = run.end_if_unstable()? {
+        return Ok(run.into_outcome(end, Rows::LoadSteps));
     }
     let nothing = Breakage::default();
     let mut termination = Termination::StepsDone;
     let ends = ends(problem);
     // An iterative solver starts from the known solution; a direct one recomputes it bit for bit.
-    let iterates = path.equilibrium.choice().iterates();
+    let iterates = run.equilibrium.choice().iterates();
     let found = at_one.filter(|_| iterates && problem.loads.course().is_none());
     for (step, &(part, load_factor)) in ends.iter().enumerate() {
-        path.begin_part(part);
-        path.state.load_factor = load_factor;
+        run.begin_part(part);
+        run.state.load_factor = load_factor;
         if let Some(found) = found.as_ref().filter(|it| it.load_factor == load_factor) {
-            path.state.displacement.clone_from(&found.displacement);
+            run.state.displacement.clone_from(&found.displacement);
         }
-        path.enter(step, 0)?;
-        let balanced = match path.balance(step, &nothing)? {
+        run.enter(step, 0)?;
+        let balanced = match run.balance(step, &nothing)? {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => {
                 termination = Termination::NoEquilibrium { step, reason };
                 break;
             }
         };
-        path.account(step, &nothing, &balanced)?;
+        run.account(step, &nothing, &balanced)?;
         let counters = StepCounters {
             step,
             at_rest: true,
             ..Default::default()
         };
-        path.record(&balanced, counters, step + 1 == ends.len())?;
+        run.record(&balanced, counters, step + 1 == ends.len())?;
     }
-    Ok(path.into_outcome(termination, Rows::LoadSteps))
+    Ok(run.into_outcome(termination, Rows::LoadSteps))
 }
 
 /// Part of a programme and load factor of each solution, the unloaded body first.

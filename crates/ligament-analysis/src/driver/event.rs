@@ -18,13 +18,13 @@ use std::io::Read;
 use std::mem;
 use std::rc::Rc;
 
-use super::course::{Place, Restored, ToEvent};
+use super::checkpoint::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
-use super::path::Path;
 use super::prediction::{self, Prediction};
-use super::prepared::Prepared;
-use super::recorder::{Energies, StepCounters, largest_ratio};
-use super::stop::StopRules;
+use super::record::{Energies, StepCounters, largest_ratio};
+use super::run::Run;
+use super::run::StopRules;
+use super::start::Prepared;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -58,7 +58,7 @@ pub fn run(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     refuse(problem)?;
-    let begun = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     run_begun(begun, settings)
 }
 
@@ -79,36 +79,36 @@ pub fn run_from(
 
 /// Follows the path from the unloaded body; with its equilibrium at load factor one, if there is one.
 fn run_begun(
-    (mut path, at_one): (Path<'_>, Option<State>),
+    (mut run, at_one): (Run<'_>, Option<State>),
     settings: &EventSettings,
 ) -> Result<Outcome, SetupError> {
-    if let Some(end) = path.end_if_unstable()? {
-        return Ok(path.into_outcome(end, Rows::Events));
+    if let Some(end) = run.end_if_unstable()? {
+        return Ok(run.into_outcome(end, Rows::Events));
     }
-    path.require_resistance(at_one.as_ref())?;
-    let is_staged = path.problem.loads.course().is_some();
-    let begins_unloaded = is_staged || !path.problem.contact.is_empty();
-    let unloaded = match path.balance(0, &Breakage::default())? {
+    run.require_resistance(at_one.as_ref())?;
+    let is_staged = run.problem.loads.course().is_some();
+    let begins_unloaded = is_staged || !run.problem.contact.is_empty();
+    let unloaded = match run.balance(0, &Breakage::default())? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => {
             let end = Termination::NoEquilibrium { step: 0, reason };
-            return Ok(path.into_outcome(end, Rows::Events));
+            return Ok(run.into_outcome(end, Rows::Events));
         }
     };
     let counters = StepCounters {
         at_rest: true,
         ..Default::default()
     };
-    path.record(&unloaded, counters, false)?;
+    run.record(&unloaded, counters, false)?;
     // A missing equilibrium at load factor one is reported by the first event, with its reason.
     match at_one.filter(|_| !begins_unloaded) {
-        Some(at_one) => path.state = at_one,
+        Some(at_one) => run.state = at_one,
         None if begins_unloaded => {}
-        None => path.state.load_factor = 1.0,
+        None => run.state.load_factor = 1.0,
     }
-    let mut following = Following::new(path, settings, Vec::new());
+    let mut following = Following::new(run, settings, Vec::new());
     let termination = following.follow()?;
-    Ok(following.path.into_outcome(termination, Rows::Events))
+    Ok(following.run.into_outcome(termination, Rows::Events))
 }
 
 /// Predicts the first failure on the path.
@@ -122,12 +122,12 @@ pub fn predict(
     observer: &mut dyn Observer,
 ) -> Result<Prediction, SetupError> {
     refuse(problem)?;
-    let (path, at_one) = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
-    if let Some(refused) = Prediction::refused(&path) {
+    let (run, at_one) = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    if let Some(refused) = Prediction::refused(&run) {
         return Ok(refused);
     }
-    path.require_resistance(at_one.as_ref())?;
-    prediction::predict(path, at_one, None)
+    run.require_resistance(at_one.as_ref())?;
+    prediction::predict(run, at_one, None)
 }
 
 /// Refuses problems whose path is not made of straight lines.
@@ -189,15 +189,15 @@ pub fn resume(
         return Err(CheckpointError::OtherDriver.into());
     };
     let (step, growth) = (*step, mem::take(growth));
-    let (path, line) = Path::go_on(settings.stop, restored, observer);
-    let mut following = Following::new(path, settings, growth);
+    let (run, line) = Run::go_on(settings.stop, restored, observer);
+    let mut following = Following::new(run, settings, growth);
     let termination = following.go_on(step, line)?;
-    Ok(following.path.into_outcome(termination, Rows::Events))
+    Ok(following.run.into_outcome(termination, Rows::Events))
 }
 
 /// Run along the exact path.
 struct Following<'a> {
-    path: Path<'a>,
+    run: Run<'a>,
     way: Box<dyn EquilibriumLine>,
     tie_tolerance: f64,
     /// Parts of the body whose displacements may be updated later; built when events may first be skipped.
@@ -213,38 +213,38 @@ struct Before {
 }
 
 impl Before {
-    fn new(path: &Path<'_>) -> Self {
+    fn new(run: &Run<'_>) -> Self {
         Self {
-            load_factor: path.state.load_factor,
-            displacement: path.state.displacement.clone(),
-            surfaces: path.state.surfaces.clone(),
-            energies: path.energies.clone(),
+            load_factor: run.state.load_factor,
+            displacement: run.state.displacement.clone(),
+            surfaces: run.state.surfaces.clone(),
+            energies: run.energies.clone(),
         }
     }
 
     /// Exchanges the stored state and the present one.
-    fn swap(&mut self, path: &mut Path<'_>) {
-        mem::swap(&mut self.load_factor, &mut path.state.load_factor);
-        mem::swap(&mut self.displacement, &mut path.state.displacement);
-        mem::swap(&mut self.surfaces, &mut path.state.surfaces);
-        mem::swap(&mut self.energies, &mut path.energies);
+    fn swap(&mut self, run: &mut Run<'_>) {
+        mem::swap(&mut self.load_factor, &mut run.state.load_factor);
+        mem::swap(&mut self.displacement, &mut run.state.displacement);
+        mem::swap(&mut self.surfaces, &mut run.state.surfaces);
+        mem::swap(&mut self.energies, &mut run.energies);
     }
 }
 
 impl<'a> Following<'a> {
-    fn new(path: Path<'a>, settings: &EventSettings, growth: Vec<f64>) -> Self {
-        let loads = &*path.problem.loads;
-        let choice = path.equilibrium.choice();
+    fn new(run: Run<'a>, settings: &EventSettings, growth: Vec<f64>) -> Self {
+        let loads = &*run.problem.loads;
+        let choice = run.equilibrium.choice();
         let tie_tolerance = choice.tie_tolerance(settings.tie_tolerance);
         let way: Box<dyn EquilibriumLine> = match loads.course() {
             Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
-            None if !path.problem.contact.is_empty() => {
+            None if !run.problem.contact.is_empty() => {
                 Box::new(in_contact::InContact::new(tie_tolerance, growth))
             }
             None => Box::new(proportional::Proportional::new(tie_tolerance, loads)),
         };
         Self {
-            path,
+            run,
             way,
             tie_tolerance,
             body: OnceCell::new(),
@@ -254,8 +254,8 @@ impl<'a> Following<'a> {
     /// Follows the path from an equilibrium of the intact body to the end of the run.
     fn follow(&mut self) -> Result<Termination, SetupError> {
         let step = 1;
-        self.path.enter(step, 0)?;
-        match self.path.balance(step, &Breakage::default())? {
+        self.run.enter(step, 0)?;
+        match self.run.balance(step, &Breakage::default())? {
             Attempt::Balanced(line) => self.go_on(step, line),
             Attempt::Unbalanced(reason) => Ok(Termination::NoEquilibrium { step, reason }),
         }
@@ -266,21 +266,21 @@ impl<'a> Following<'a> {
         loop {
             let passed = match self.body(step) {
                 Some(body) => {
-                    let path = &mut self.path;
+                    let run = &mut self.run;
                     let tie_tolerance = self.tie_tolerance;
-                    Some(passing::pass(path, &body, tie_tolerance, &mut step, &line)?)
+                    Some(passing::pass(run, &body, tie_tolerance, &mut step, &line)?)
                 }
                 None => None,
             };
             let broken = match passed {
                 Some(Passed::Broke(critical, breakage)) => Some((critical, breakage)),
                 Some(Passed::Line(Attempt::Unbalanced(reason))) => {
-                    let end = self.path.without_equilibrium(step, reason);
+                    let end = self.run.without_equilibrium(step, reason);
                     return self.end(step, &line, end);
                 }
                 Some(Passed::Line(Attempt::Balanced(balanced))) => {
                     line = balanced;
-                    if self.path.carries_nothing(&line) {
+                    if self.run.carries_nothing(&line) {
                         return self.end(step, &line, Termination::FellApart);
                     }
                     None
@@ -294,18 +294,18 @@ impl<'a> Following<'a> {
                     Err(end) => return Ok(end),
                 },
             };
-            if self.path.collapsed {
+            if self.run.collapsed {
                 return self.end(step + 1, &critical, Termination::Collapsed);
             }
-            self.path.enter(step, 1)?;
-            line = match self.path.balance(step, &breakage)? {
+            self.run.enter(step, 1)?;
+            line = match self.run.balance(step, &breakage)? {
                 Attempt::Balanced(balanced) => balanced,
                 Attempt::Unbalanced(reason) => {
-                    let end = self.path.without_equilibrium(step, reason);
+                    let end = self.run.without_equilibrium(step, reason);
                     return self.end(step + 1, &critical, end);
                 }
             };
-            self.path.account(step, &breakage, &line)?;
+            self.run.account(step, &breakage, &line)?;
             step += 1;
             if self.fell_apart(&line) {
                 return self.end(step, &line, Termination::FellApart);
@@ -315,20 +315,20 @@ impl<'a> Following<'a> {
 
     /// Whether a body without contacts, which may carry it, carries no load any more.
     fn fell_apart(&self, line: &Balanced) -> bool {
-        self.path.problem.contact.is_empty() && self.path.carries_nothing(line)
+        self.run.problem.contact.is_empty() && self.run.carries_nothing(line)
     }
 
     /// Parts of the body whose displacements may be updated later in a step; None where the step needs the whole body.
     fn body(&self, step: usize) -> Option<Rc<Body>> {
-        if !passing::may_pass(&self.path, step) {
+        if !passing::may_pass(&self.run, step) {
             return None;
         }
         let body = self.body.get_or_init(|| {
-            let stiffness = self.path.equilibrium.stiffness()?;
-            Body::new(&self.path.problem, stiffness).map(Rc::new)
+            let stiffness = self.run.equilibrium.stiffness()?;
+            Body::new(&self.run.problem, stiffness).map(Rc::new)
         });
         let body = body.clone();
-        body.filter(|body| passing::may_wait(&self.path, body))
+        body.filter(|body| passing::may_wait(&self.run, body))
     }
 
     /// Follows the line of an equilibrium to its next event and breaks the bonds there; returns the critical equilibrium and the
@@ -339,27 +339,27 @@ impl<'a> Following<'a> {
         line: &mut Balanced,
     ) -> Result<Result<(Balanced, Breakage), Termination>, SetupError> {
         loop {
-            let goal = match self.way.goal(&mut self.path, line) {
+            let goal = match self.way.goal(&mut self.run, line) {
                 Ok(goal) => goal,
                 Err(reason) => {
-                    let end = self.path.without_equilibrium(*step, reason);
+                    let end = self.run.without_equilibrium(*step, reason);
                     return self.end(*step, line, end).map(Err);
                 }
             };
-            let before = Before::new(&self.path);
-            let critical = self.way.follow(&mut self.path, line, goal.load_factor);
-            self.path.account(*step, &Breakage::default(), &critical)?;
+            let before = Before::new(&self.run);
+            let critical = self.way.follow(&mut self.run, line, goal.load_factor);
+            self.run.account(*step, &Breakage::default(), &critical)?;
             if goal.event == Event::ContactChangesBeyond {
                 *line = critical;
                 continue;
             }
-            let missed = (self.path.equilibrium).missed(&self.path.state, &critical);
-            let missed = missed.map(|reason| self.path.without_equilibrium(*step, reason));
+            let missed = (self.run.equilibrium).missed(&self.run.state, &critical);
+            let missed = missed.map(|reason| self.run.without_equilibrium(*step, reason));
             let end = missed
                 .or(goal.end.clone())
-                .or_else(|| self.path.interruption())
-                .or_else(|| self.path.end_at_rest(&critical))
-                .or_else(|| self.path.end_by_load_fraction(&critical));
+                .or_else(|| self.run.interruption())
+                .or_else(|| self.run.end_at_rest(&critical))
+                .or_else(|| self.run.end_by_load_fraction(&critical));
             let end = self.offer(before, *step, line, end)?;
             self.record(*step, &goal, &critical, end.is_some())?;
             if let Some(end) = end {
@@ -367,13 +367,13 @@ impl<'a> Following<'a> {
             }
             if goal.event != Event::Breakage {
                 if goal.event == Event::PartEnds {
-                    self.path.begin_part(self.path.course.part + 1);
+                    self.run.begin_part(self.run.progress.part + 1);
                 }
                 *line = critical;
                 *step += 1;
                 continue;
             }
-            let breakage = self.path.break_bonds(&goal.bonds, &critical, *step, 1)?;
+            let breakage = self.run.break_bonds(&goal.bonds, &critical, *step, 1)?;
             return Ok(Ok((critical, breakage)));
         }
     }
@@ -386,7 +386,7 @@ impl<'a> Following<'a> {
         critical: &Balanced,
         is_last: bool,
     ) -> Result<(), SetupError> {
-        self.path.enter(step, 0)?;
+        self.run.enter(step, 0)?;
         let breaks = usize::from(!is_last && goal.event == Event::Breakage);
         let counters = StepCounters {
             step,
@@ -396,7 +396,7 @@ impl<'a> Following<'a> {
             largest_ratio: goal.ratio,
             ..Default::default()
         };
-        self.path.record(critical, counters, is_last)
+        self.run.record(critical, counters, is_last)
     }
 
     /// Offers the state before the move along a line to the observer, once it is known whether the run ends there.
@@ -407,14 +407,14 @@ impl<'a> Following<'a> {
         line: &Balanced,
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
-        before.swap(&mut self.path);
+        before.swap(&mut self.run);
         let growth = self.way.growth();
         let place = || {
             let growth = growth.to_vec();
             Place::Event(ToEvent { step, growth })
         };
-        let end = self.path.offer(&place, line, end)?;
-        before.swap(&mut self.path);
+        let end = self.run.offer(&place, line, end)?;
+        before.swap(&mut self.run);
         Ok(end)
     }
 
@@ -428,10 +428,10 @@ impl<'a> Following<'a> {
         let counters = StepCounters {
             step,
             at_rest: end == Termination::FellApart,
-            largest_ratio: largest_ratio(&self.path.problem, &self.path.state, last),
+            largest_ratio: largest_ratio(&self.run.problem, &self.run.state, last),
             ..Default::default()
         };
-        self.path.record(last, counters, true)?;
+        self.run.record(last, counters, true)?;
         Ok(end)
     }
 }

@@ -1,28 +1,21 @@
 //! Drivers, one file for each way to follow a load program.
 
-mod beginning;
 mod breaks;
-mod course;
-mod dissipation;
+mod checkpoint;
 pub mod elastic;
-mod ends;
 pub mod event;
 pub mod motion;
 mod outcome;
-mod parts;
-mod path;
 mod prediction;
-mod prepared;
-mod recorder;
-mod remarks;
+mod record;
+mod run;
+mod run_messages;
 mod start;
 pub mod stepped;
-mod stop;
 
 pub use crate::problem::Problem;
-pub use course::Restored;
+pub use checkpoint::Restored;
 pub use outcome::{LoadPoint, Outcome, Rows};
 pub use prediction::{FirstFailure, Prediction, StepOfFailure};
-pub use prepared::Prepared;
-pub use start::stability_of;
-pub use stop::StopRules;
+pub use run::StopRules;
+pub use start::{Prepared, stability_of};

@@ -9,8 +9,8 @@ use ligament_model::failure::CriteriaInState;
 use rayon::prelude::*;
 
 use super::outcome::LoadPoint;
-use super::path::Path;
-use super::recorder::largest_ratio;
+use super::record::largest_ratio;
+use super::run::Run;
 use super::start::NoObserver;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
@@ -102,13 +102,13 @@ pub struct StepOfFailure {
 
 impl Prediction {
     /// Prediction of a run whose intact model is unstable, unless the problem allows that.
-    pub(super) fn refused(path: &Path<'_>) -> Option<Self> {
-        let refused = path.course.elastic.refused(&path.problem);
+    pub(super) fn refused(run: &Run<'_>) -> Option<Self> {
+        let refused = run.progress.elastic.refused(&run.problem);
         refused.map(Self::Refused)
     }
 }
 
-impl Path<'_> {
+impl Run<'_> {
     /// Notifies the observer of loads that break the body at once, without meaningful results, if the first bond reaches its limit
     /// early in the first load step. The step ends at load factor `load_factor`, in stages at that share of a controlling motion.
     /// The equilibrium at load factor one, in stages of the control load alone, is `at_one`.
@@ -117,7 +117,7 @@ impl Path<'_> {
         at_one: &State,
         load_factor: f64,
     ) -> Result<(), SetupError> {
-        let first = self.course.elastic.first_break;
+        let first = self.progress.elastic.first_break;
         let (share, balanced, times) = match first.map(|it| it.load_factor / load_factor) {
             Some(share) if (0.0..AT_ONCE).contains(&share) => {
                 let balanced = self.equilibrium.measured(&mut at_one.clone());
@@ -177,7 +177,7 @@ impl Path<'_> {
         let nothing = Breakage::default();
         let attempt = (self.equilibrium).balance(&mut state, &nothing, &mut NoObserver)?;
         self.equilibrium.aim(None);
-        self.course.solves = [self.equilibrium.costs().solves; 2];
+        self.progress.solves = [self.equilibrium.costs().solves; 2];
         Ok(match attempt {
             Attempt::Balanced(balanced) => Some(balanced),
             Attempt::Unbalanced(_) => None,
@@ -188,35 +188,35 @@ impl Path<'_> {
 /// Predicts the first failure of a run that has begun; `at_one` is its equilibrium at load factor one, and `steps` are the load
 /// factors of its load steps, None along the exact path.
 pub(super) fn predict(
-    path: Path<'_>,
+    run: Run<'_>,
     at_one: Option<State>,
     steps: Option<&[f64]>,
 ) -> Result<Prediction, SetupError> {
-    let system = &path.problem.system;
+    let system = &run.problem.system;
     // The stress at which bonds begin to soften is proportional to a load that grows, and to no other.
-    let list = &path.problem.criteria.list;
+    let list = &run.problem.criteria.list;
     let begins_by_stress = list.iter().any(|it| it.starting().is_some());
     let turns_back = steps.is_some_and(|it| it.iter().any(|factor| *factor < 0.0));
-    let is_bent = path.problem.contact.is_linear();
+    let is_bent = run.problem.contact.is_linear();
     let is_linear = system.is_linear() && !(begins_by_stress && turns_back) && !is_bent;
-    match path.problem.loads.course() {
+    match run.problem.loads.course() {
         _ if !is_linear => Ok(Prediction::Nonlinear),
-        None => in_proportion(path, at_one, steps),
+        None => in_proportion(run, at_one, steps),
         Some(_) if system.faces_close() || begins_by_stress => Ok(Prediction::Nonlinear),
         Some(course) => {
             let programme = course.programme.clone();
-            in_stages(path, &programme, steps.is_some())
+            in_stages(run, &programme, steps.is_some())
         }
     }
 }
 
 /// Predicts the first failure in proportion to one load factor.
 fn in_proportion(
-    mut path: Path<'_>,
+    mut run: Run<'_>,
     at_one: Option<State>,
     steps: Option<&[f64]>,
 ) -> Result<Prediction, SetupError> {
-    let balanced = match at_full_load(&mut path, at_one)? {
+    let balanced = match at_full_load(&mut run, at_one)? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => {
             let n_steps = steps.map_or(1, <[f64]>::len);
@@ -224,18 +224,16 @@ fn in_proportion(
         }
     };
     let factors = steps.unwrap_or(&[1.0]);
-    let criteria = path
-        .problem
-        .criteria_before_softening(&path.state, &balanced);
-    let (displacement, reaction) = path.control(&balanced);
+    let criteria = run.problem.criteria_before_softening(&run.state, &balanced);
+    let (displacement, reaction) = run.control(&balanced);
     let along = balanced.deformations;
     // Faces that close under a load are open under the opposite one.
     let reversed = factors.iter().position(|factor| *factor < 0.0);
-    let open = reversed.filter(|_| path.problem.may_press());
+    let open = reversed.filter(|_| run.problem.may_press());
     let told = open.unwrap_or(factors.len());
-    let forward = Nearest::new(&path, &criteria, &along);
+    let forward = Nearest::new(&run, &criteria, &along);
     let backward =
-        reversed.map(|_| Nearest::new(&path, &criteria.on_line(None, -1.0), &along.scaled(-1.0)));
+        reversed.map(|_| Nearest::new(&run, &criteria.on_line(None, -1.0), &along.scaled(-1.0)));
     let nearest = |factor: f64| match &backward {
         Some(backward) if factor < 0.0 => backward,
         _ => &forward,
@@ -274,51 +272,49 @@ fn in_proportion(
 }
 
 /// Equilibrium at load factor one, from its state if that is known.
-fn at_full_load(path: &mut Path<'_>, at_one: Option<State>) -> Result<Attempt, SetupError> {
+fn at_full_load(run: &mut Run<'_>, at_one: Option<State>) -> Result<Attempt, SetupError> {
     let Some(state) = at_one else {
-        path.state.load_factor = 1.0;
-        return path.balance(0, &Breakage::default());
+        run.state.load_factor = 1.0;
+        return run.balance(0, &Breakage::default());
     };
-    path.state = state;
-    Ok(Attempt::Balanced(
-        path.equilibrium.measured(&mut path.state),
-    ))
+    run.state = state;
+    Ok(Attempt::Balanced(run.equilibrium.measured(&mut run.state)))
 }
 
 /// Predicts the first failure in a programme of stages.
 fn in_stages(
-    mut path: Path<'_>,
+    mut run: Run<'_>,
     programme: &Programme,
     has_steps: bool,
 ) -> Result<Prediction, SetupError> {
     let nothing = Breakage::default();
     let mut largest: f64 = 0.0;
-    let mut here = match path.balance(0, &nothing)? {
+    let mut here = match run.balance(0, &nothing)? {
         Attempt::Balanced(balanced) => balanced,
         Attempt::Unbalanced(reason) => return Ok(Prediction::NoEquilibrium { part: 0, reason }),
     };
     // The stresses of an equilibrium stay those with the loads of the part in which they are asked for first.
-    path.criteria(&here);
+    run.criteria(&here);
     for (index, part) in programme.parts.iter().enumerate() {
-        let start = path.control(&here);
-        path.begin_part(index);
-        let goes_on = aim_at_end(&mut path, part);
-        let there = match path.balance(0, &nothing)? {
+        let start = run.control(&here);
+        run.begin_part(index);
+        let goes_on = aim_at_end(&mut run, part);
+        let there = match run.balance(0, &nothing)? {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => {
                 let n_steps = if has_steps { part.steps } else { 1 };
                 return Ok(Prediction::without_equilibrium(index, n_steps, reason));
             }
         };
-        let [criteria_here, criteria] = [&here, &there].map(|it| path.criteria(it));
+        let [criteria_here, criteria] = [&here, &there].map(|it| run.criteria(it));
         let line = Line::new([&here, &there], [&criteria_here, &criteria]);
         let Some(share) = line.first_failure(goes_on) else {
             largest = largest.max(utilisation(&criteria, &there.deformations));
             here = there;
             continue;
         };
-        let first = Nearest::new(&path, &line.criteria(share), &line.at(share));
-        let end = path.control(&there);
+        let first = Nearest::new(&run, &line.criteria(share), &line.at(share));
+        let end = run.control(&there);
         let on_way = |start: f64, end: f64| start + share * (end - start);
         let (begins, ends) = part.span;
         let steps_before: usize = programme.parts[..index].iter().map(|it| it.steps).sum();
@@ -330,7 +326,7 @@ fn in_stages(
             point: LoadPoint {
                 displacement: on_way(start.0, end.0),
                 reaction: on_way(start.1, end.1),
-                load_factor: on_way(begins, path.state.load_factor),
+                load_factor: on_way(begins, run.state.load_factor),
             },
             part: index,
             share: (!goes_on).then(|| on_way(begins, ends)),
@@ -348,15 +344,15 @@ fn in_stages(
 
 /// Prescribes the end of a part that has just begun; returns whether the part ends at a dissipated energy, which no elastic
 /// solution does: then its end is at the load that it names.
-fn aim_at_end(path: &mut Path<'_>, part: &Part) -> bool {
+fn aim_at_end(run: &mut Run<'_>, part: &Part) -> bool {
     let dissipates = matches!(part.control, Some(PartControl::DissipatedEnergy { .. }));
     if dissipates {
-        path.equilibrium.aim(None);
+        run.equilibrium.aim(None);
     } else {
-        path.aim(1.0);
+        run.aim(1.0);
     }
     if !matches!(part.control, Some(PartControl::Motion(_))) {
-        path.state.load_factor = part.span.1;
+        run.state.load_factor = part.span.1;
     }
     dissipates
 }
@@ -421,14 +417,14 @@ struct Nearest {
 }
 
 impl Nearest {
-    fn new(path: &Path<'_>, criteria: &CriteriaInState<'_>, deformations: &Deformations) -> Self {
+    fn new(run: &Run<'_>, criteria: &CriteriaInState<'_>, deformations: &Deformations) -> Self {
         let of_bonds: Vec<f64> = (deformations.par_iter().enumerate())
             .map(|(bond, deformation)| criteria.utilisation(bond, deformation))
             .collect();
         let utilisation = of_bonds.iter().copied().fold(0.0, f64::max);
         let is_tied = |bond: &u32| of_bonds[*bond as usize] >= (1.0 - TIED) * utilisation;
         let tied = (0..of_bonds.len() as u32).filter(is_tied);
-        let bond = tied.min_by_key(|bond| path.problem.system.ends_in_file(*bond));
+        let bond = tied.min_by_key(|bond| run.problem.system.ends_in_file(*bond));
         let bond = bond.unwrap_or_default();
         let of_criterion = |index: usize| {
             let deformation = deformations.get(bond as usize);

@@ -6,14 +6,14 @@
 use std::io::Read;
 use std::time::Instant;
 
-use super::course::{InLoadStep, Place, Restored};
+use super::checkpoint::{InLoadStep, Place, Restored};
 use super::outcome::{LoadPoint, Outcome, Rows};
-use super::path::Path;
 use super::prediction::{self, Prediction};
-use super::prepared::Prepared;
-use super::recorder::{StepCounters, largest_ratio};
+use super::record::{StepCounters, largest_ratio};
+use super::run::Run;
+use super::run::StopRules;
 use super::start::ElasticAnswer;
-use super::stop::StopRules;
+use super::start::Prepared;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
@@ -48,7 +48,7 @@ pub fn run(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let begun = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     run_begun(begun, settings)
 }
 
@@ -68,22 +68,22 @@ pub fn run_from(
 
 /// Follows the load program from the unloaded body; with its equilibrium at load factor one, if there is one.
 fn run_begun(
-    (mut path, at_one): (Path<'_>, Option<State>),
+    (mut run, at_one): (Run<'_>, Option<State>),
     settings: &SteppedSettings,
 ) -> Result<Outcome, SetupError> {
-    if let Some(end) = path.end_if_unstable()? {
-        return Ok(path.into_outcome(end, Rows::LoadSteps));
+    if let Some(end) = run.end_if_unstable()? {
+        return Ok(run.into_outcome(end, Rows::LoadSteps));
     }
-    let (mut path, _, plan) = planned((path, at_one), settings)?;
-    path.soften();
+    let (mut run, _, plan) = planned((run, at_one), settings)?;
+    run.soften();
     let mut stepping = Stepping {
-        path,
+        run,
         settings,
         plan: &plan,
     };
     let termination = stepping.steps_from(0)?;
-    stepping.path.report_past_peak(&termination)?;
-    Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
+    stepping.run.report_past_peak(&termination)?;
+    Ok(stepping.run.into_outcome(termination, Rows::LoadSteps))
 }
 
 /// Predicts the first failure in the load steps.
@@ -96,26 +96,26 @@ pub fn predict(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Prediction, SetupError> {
-    let begun = Path::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
     if let Some(refused) = Prediction::refused(&begun.0) {
         return Ok(refused);
     }
-    let (path, at_one, plan) = planned(begun, settings)?;
+    let (run, at_one, plan) = planned(begun, settings)?;
     let factors: Vec<f64> = plan.iter().skip(1).map(|it| it.load_factor).collect();
-    prediction::predict(path, at_one, Some(&factors))
+    prediction::predict(run, at_one, Some(&factors))
 }
 
 /// Run before its first load step, its equilibrium at load factor one, if there is one, and all load steps.
 fn planned<'a>(
-    (mut path, at_one): (Path<'a>, Option<State>),
+    (mut run, at_one): (Run<'a>, Option<State>),
     settings: &SteppedSettings,
-) -> Result<(Path<'a>, Option<State>, Vec<LoadStep>), SetupError> {
-    path.require_resistance(at_one.as_ref())?;
-    let plan = plan(&path.problem, settings, &path.course.elastic);
+) -> Result<(Run<'a>, Option<State>, Vec<LoadStep>), SetupError> {
+    run.require_resistance(at_one.as_ref())?;
+    let plan = plan(&run.problem, settings, &run.progress.elastic);
     if let (Some(at_one), Some(first)) = (&at_one, plan.get(1)) {
-        path.report_first_step(at_one, first.load_factor)?;
+        run.report_first_step(at_one, first.load_factor)?;
     }
-    Ok((path, at_one, plan))
+    Ok((run, at_one, plan))
 }
 
 /// Restores a run from a checkpoint.
@@ -135,7 +135,7 @@ pub fn restore(
     else {
         return Err(CheckpointError::OtherDriver.into());
     };
-    let planned = plan(problem, settings, &restored.course.elastic);
+    let planned = plan(problem, settings, &restored.progress.elastic);
     let planned = |step: usize| planned.get(step).map(|it| it.load_factor.to_bits());
     let is_same = |step: &usize| planned(*step) == Some(done[*step].to_bits());
     match (0..done.len()).find(|step| !is_same(step)) {
@@ -161,20 +161,20 @@ pub fn resume(
     let Place::LoadStep(InLoadStep { counters, .. }) = restored.place else {
         return Err(CheckpointError::OtherDriver.into());
     };
-    let plan = plan(&restored.problem, settings, &restored.course.elastic);
-    let (path, balanced) = Path::go_on(settings.stop, restored, observer);
+    let plan = plan(&restored.problem, settings, &restored.progress.elastic);
+    let (run, balanced) = Run::go_on(settings.stop, restored, observer);
     let mut stepping = Stepping {
-        path,
+        run,
         settings,
         plan: &plan,
     };
-    stepping.path.aim(plan[counters.step].load_factor);
+    stepping.run.aim(plan[counters.step].load_factor);
     let termination = match stepping.break_until_admissible(counters, balanced)? {
         Some(end) => end,
         None => stepping.steps_from(counters.step + 1)?,
     };
-    stepping.path.report_past_peak(&termination)?;
-    Ok(stepping.path.into_outcome(termination, Rows::LoadSteps))
+    stepping.run.report_past_peak(&termination)?;
+    Ok(stepping.run.into_outcome(termination, Rows::LoadSteps))
 }
 
 /// A load step.
@@ -237,7 +237,7 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
 
 /// Run through load steps.
 struct Stepping<'a, 'b> {
-    path: Path<'a>,
+    run: Run<'a>,
     settings: &'b SteppedSettings,
     /// All load steps, the unloaded body first.
     plan: &'b [LoadStep],
@@ -257,23 +257,23 @@ impl Stepping<'_, '_> {
     /// Performs one load step, and returns the reason why the run ends, if it does.
     fn load_step(&mut self, step: usize) -> Result<Option<Termination>, SetupError> {
         let LoadStep { part, load_factor } = self.plan[step];
-        self.path.begin_part(part);
-        self.path.aim(load_factor);
-        if !self.path.is_controlled() {
-            self.path.state.load_factor = load_factor;
+        self.run.begin_part(part);
+        self.run.aim(load_factor);
+        if !self.run.is_controlled() {
+            self.run.state.load_factor = load_factor;
         }
         let counters = StepCounters {
             step,
             ..Default::default()
         };
         let nothing = Breakage::default();
-        self.path.enter(step, counters.rounds)?;
-        match self.path.balance(step, &nothing)? {
+        self.run.enter(step, counters.rounds)?;
+        match self.run.balance(step, &nothing)? {
             Attempt::Balanced(balanced) => {
-                self.path.account(step, &nothing, &balanced)?;
+                self.run.account(step, &nothing, &balanced)?;
                 self.break_until_admissible(counters, balanced)
             }
-            Attempt::Unbalanced(reason) => Ok(Some(self.path.without_equilibrium(step, reason))),
+            Attempt::Unbalanced(reason) => Ok(Some(self.run.without_equilibrium(step, reason))),
         }
     }
 
@@ -287,7 +287,8 @@ impl Stepping<'_, '_> {
     ) -> Result<Option<Termination>, SetupError> {
         let step = counters.step;
         loop {
-            if self.path.begin_softening(&balanced) {
+            let Run { problem, state, .. } = &mut self.run;
+            if problem.begin_softening(state, &balanced) {
                 balanced = match self.balance_again(&counters, &Breakage::default())? {
                     Ok(balanced) => balanced,
                     Err(end) => return self.record(&balanced, counters, Some(end)),
@@ -304,9 +305,9 @@ impl Stepping<'_, '_> {
             counters.rounds += 1;
             counters.broken_in_step += next.len();
             let breakage = self
-                .path
+                .run
                 .break_bonds(&next, &balanced, step, counters.rounds)?;
-            if self.path.collapsed {
+            if self.run.collapsed {
                 return self.record(&balanced, counters, Some(Termination::Collapsed));
             }
             balanced = match self.balance_again(&counters, &breakage)? {
@@ -323,13 +324,13 @@ impl Stepping<'_, '_> {
         breakage: &Breakage,
     ) -> Result<Result<Balanced, Termination>, SetupError> {
         let step = counters.step;
-        self.path.enter(step, counters.rounds)?;
-        match self.path.balance(step, breakage)? {
+        self.run.enter(step, counters.rounds)?;
+        match self.run.balance(step, breakage)? {
             Attempt::Balanced(balanced) => {
-                self.path.account(step, breakage, &balanced)?;
+                self.run.account(step, breakage, &balanced)?;
                 Ok(Ok(balanced))
             }
-            Attempt::Unbalanced(reason) => Ok(Err(self.path.without_equilibrium(step, reason))),
+            Attempt::Unbalanced(reason) => Ok(Err(self.run.without_equilibrium(step, reason))),
         }
     }
 
@@ -337,15 +338,15 @@ impl Stepping<'_, '_> {
         let start = Instant::now();
         let BreakingRule { tie_tolerance, .. } = self.settings.rule;
         let rule = BreakingRule {
-            tie_tolerance: self.path.equilibrium.choice().tie_tolerance(tie_tolerance),
+            tie_tolerance: self.run.equilibrium.choice().tie_tolerance(tie_tolerance),
             ..self.settings.rule
         };
-        let (deformations, criteria) = (&balanced.deformations, self.path.criteria(balanced));
-        let (intact, system) = (&self.path.state.intact, &self.path.problem.system);
+        let (deformations, criteria) = (&balanced.deformations, self.run.criteria(balanced));
+        let (intact, system) = (&self.run.state.intact, &self.run.problem.system);
         let in_file = |bond| system.ends_in_file(bond);
-        let numbers = self.path.equilibrium.numbers();
+        let numbers = self.run.equilibrium.numbers();
         let next = next_to_break(numbers, &rule, deformations, &criteria, intact, in_file);
-        self.path.equilibrium.count_bond_work(start);
+        self.run.equilibrium.count_bond_work(start);
         next
     }
 
@@ -356,7 +357,7 @@ impl Stepping<'_, '_> {
             step: counters.step,
             rounds: counters.rounds,
         });
-        let interruption = self.path.interruption().or(not_at_rest);
+        let interruption = self.run.interruption().or(not_at_rest);
         interruption.or_else(|| {
             self.end_at_rest(balanced, counters.step)
                 .filter(|_| counters.at_rest)
@@ -366,21 +367,21 @@ impl Stepping<'_, '_> {
     /// Reason why the run ends in an equilibrium at rest. Unloading is no failure, and the load fraction counts only where the load
     /// is as large as it was before.
     fn end_at_rest(&self, balanced: &Balanced, step: usize) -> Option<Termination> {
-        if self.path.is_controlled() {
-            let end = self.path.end_at_rest(balanced);
-            return end.or_else(|| self.path.end_by_load_fraction(balanced));
+        if self.run.is_controlled() {
+            let end = self.run.end_at_rest(balanced);
+            return end.or_else(|| self.run.end_by_load_fraction(balanced));
         }
-        let loads = &self.path.problem.loads;
-        let size = loads.control_factor(self.path.state.load_factor).abs();
-        let before = self.path.course.history[..step].iter();
-        let mut before = before.map(|it| self.path.control_factor(it).abs());
+        let loads = &self.run.problem.loads;
+        let size = loads.control_factor(self.run.state.load_factor).abs();
+        let before = self.run.progress.history[..step].iter();
+        let mut before = before.map(|it| self.run.control_factor(it).abs());
         let is_unloading = before.next_back().is_some_and(|last| size < last);
         if is_unloading || (step > 0 && size == 0.0) {
             return None;
         }
-        let end = self.path.end_at_rest(balanced);
+        let end = self.run.end_at_rest(balanced);
         let was_larger = before.any(|earlier| earlier > size);
-        let fallen = (!was_larger).then(|| self.path.end_by_load_fraction(balanced));
+        let fallen = (!was_larger).then(|| self.run.end_by_load_fraction(balanced));
         end.or(fallen.flatten())
     }
 
@@ -402,7 +403,7 @@ impl Stepping<'_, '_> {
             })
         };
         let end = end.or(done.then_some(Termination::StepsDone));
-        self.path.offer(&place, balanced, end)
+        self.run.offer(&place, balanced, end)
     }
 
     /// Records the end of the load step, and returns the reason why the run ends, if it does.
@@ -412,8 +413,8 @@ impl Stepping<'_, '_> {
         mut counters: StepCounters,
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
-        counters.largest_ratio = largest_ratio(&self.path.problem, &self.path.state, balanced);
-        self.path.record(balanced, counters, end.is_some())?;
+        counters.largest_ratio = largest_ratio(&self.run.problem, &self.run.state, balanced);
+        self.run.record(balanced, counters, end.is_some())?;
         Ok(end)
     }
 }

@@ -14,8 +14,8 @@ use std::time::Instant;
 
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
-use crate::driver::path::Path;
-use crate::driver::recorder::largest_ratio;
+use crate::driver::record::largest_ratio;
+use crate::driver::run::Run;
 use crate::history::Termination;
 use crate::load_program::{LoadProgram, PartControl};
 use crate::problem::Problem;
@@ -45,31 +45,31 @@ impl Affine {
     }
 
     /// Finds the growth at a rate of the loads, unless it is present.
-    fn grow(&mut self, path: &mut Path<'_>, rate: &dyn LoadProgram) -> Result<(), Unbalanced> {
+    fn grow(&mut self, run: &mut Run<'_>, rate: &dyn LoadProgram) -> Result<(), Unbalanced> {
         if !mem::replace(&mut self.is_present, false) {
-            self.growth = path.equilibrium.growth(&mut path.state, rate)?;
-            path.course.solves[0] = path.equilibrium.costs().solves;
+            self.growth = run.equilibrium.growth(&mut run.state, rate)?;
+            run.progress.solves[0] = run.equilibrium.costs().solves;
         }
         Ok(())
     }
 }
 
 impl EquilibriumLine for Affine {
-    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
-        let loads = path.problem.loads.clone();
+    fn goal(&mut self, run: &mut Run<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
+        let loads = run.problem.loads.clone();
         let Some((course, rate)) =
             (loads.course()).and_then(|it| Some((it, loads.in_course(it.rate())?)))
         else {
             unreachable!("lines of a programme are followed under a programme");
         };
-        self.grow(path, &*rate)?;
+        self.grow(run, &*rate)?;
         let start = Instant::now();
-        let (slopes, rates) = slopes(path, &self.growth, &*rate);
-        let now = path.state.load_factor;
+        let (slopes, rates) = slopes(run, &self.growth, &*rate);
+        let now = run.state.load_factor;
         let (programme, part) = (&course.programme, course.part);
         let (begins, ends) = programme.parts[part].span;
-        let criteria = path.criteria(line);
-        let intact = &path.state.intact;
+        let criteria = run.criteria(line);
+        let intact = &run.state.intact;
         let dissipates = match course.control() {
             Some(&PartControl::DissipatedEnergy { end }) => Some(end),
             Some(PartControl::Motion(_)) | None => None,
@@ -80,11 +80,11 @@ impl EquilibriumLine for Affine {
         };
         let deformations = [&line.deformations, &slopes];
         let admissible = criteria.admissible(&rates, intact, deformations, reach);
-        let goal = match on_all_processes(path.problem.system.subdomain(), admissible) {
-            None => held(self.tie_tolerance, line, &criteria, path),
+        let goal = match on_all_processes(run.problem.system.subdomain(), admissible) {
+            None => held(self.tie_tolerance, line, &criteria, run),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,
-                ratio: largest_ratio(&path.problem, &path.state, line),
+                ratio: largest_ratio(&run.problem, &run.state, line),
                 bonds: Vec::new(),
                 is_held: false,
                 event: Event::Breakage,
@@ -94,9 +94,9 @@ impl EquilibriumLine for Affine {
                 let at = line.deformations.ahead(&slopes, upper);
                 let tie = self.tie_tolerance;
                 let criteria = criteria.ahead(&rates, upper);
-                let first = path.first_to_break(tie, &at, &criteria);
+                let first = run.first_to_break(tie, &at, &criteria);
                 let is_at_end = upper == reach[1];
-                let is_gone = dissipates.filter(|it| path.dissipated_energy() >= *it);
+                let is_gone = dissipates.filter(|it| run.dissipated_energy() >= *it);
                 let ends_part = is_at_end || is_gone.is_some();
                 let is_last = part + 1 == programme.parts.len();
                 let end = is_gone.map_or(Termination::FullLoad, |energy| {
@@ -113,8 +113,8 @@ impl EquilibriumLine for Affine {
                 }
             }
         };
-        path.equilibrium.count_bond_work(start);
-        Ok(up_to_displacement(goal, path, &self.growth))
+        run.equilibrium.count_bond_work(start);
+        Ok(up_to_displacement(goal, run, &self.growth))
     }
 
     fn growth(&self) -> &[f64] {
@@ -125,18 +125,18 @@ impl EquilibriumLine for Affine {
 /// Rate of the deformations (n_bonds) with the load factor for a rate of the displacements (n_degrees_of_freedom), and the criteria with the
 /// rates of the stresses around the bonds.
 pub(super) fn slopes<'a>(
-    path: &'a Path<'_>,
+    run: &'a Run<'_>,
     growth: &[f64],
     rate: &dyn LoadProgram,
 ) -> (Deformations, CriteriaInState<'a>) {
     let motion = Motion {
-        intact: &path.state.intact,
+        intact: &run.state.intact,
         displacement: growth,
         expansion: rate.thermal_strain(1.0),
     };
     let Problem {
         system, criteria, ..
-    } = &path.problem;
+    } = &run.problem;
     let slopes = system.deformations(motion.intact, motion.displacement, motion.expansion);
     let stresses = criteria.stresses(&**system, motion, &slopes);
     let rates = criteria.without_state();
@@ -158,26 +158,26 @@ pub(super) fn held(
     tie: f64,
     line: &Balanced,
     criteria: &CriteriaInState<'_>,
-    path: &Path<'_>,
+    run: &Run<'_>,
 ) -> Goal {
-    let first = path.first_to_break(tie, &line.deformations, criteria);
+    let first = run.first_to_break(tie, &line.deformations, criteria);
     Goal {
         // A bond that just reached its limit breaks as on any other line.
         is_held: first.ratio > 1.0 + tie,
-        ..Goal::breakage(path.state.load_factor, first)
+        ..Goal::breakage(run.state.load_factor, first)
     }
 }
 
 /// The goal, or the load before it at which the control load reaches the displacement that ends the run.
-pub(super) fn up_to_displacement(goal: Goal, path: &Path<'_>, growth: &[f64]) -> Goal {
-    let (state, loads) = (&path.state, &path.problem.loads);
+pub(super) fn up_to_displacement(goal: Goal, run: &Run<'_>, growth: &[f64]) -> Goal {
+    let (state, loads) = (&run.state, &run.problem.loads);
     let at = |load_factor: f64| {
         let by = load_factor - state.load_factor;
         let moved = state.displacement.iter().zip(growth);
         let moved: Vec<f64> = moved.map(|(value, growth)| value + by * growth).collect();
         loads.control_displacement(load_factor, &moved)
     };
-    let Some(wanted) = path.stop.displacement else {
+    let Some(wanted) = run.stop.displacement else {
         return goal;
     };
     let [here, there] = [at(state.load_factor), at(goal.load_factor)];

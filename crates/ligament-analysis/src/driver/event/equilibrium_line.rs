@@ -2,23 +2,23 @@
 
 use crate::balanced::Balanced;
 use crate::breaking::FirstToBreak;
-use crate::driver::path::Path;
+use crate::driver::run::Run;
 use crate::history::Termination;
 use crate::unbalanced::Unbalanced;
 
 /// A line between two breakages.
 pub(super) trait EquilibriumLine {
     /// End of the line of an equilibrium: the critical load, or the end of the run or of the part of the programme before it.
-    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced>;
+    fn goal(&mut self, run: &mut Run<'_>, line: &Balanced) -> Result<Goal, Unbalanced>;
 
     /// Moves to another load factor with the same bonds along the rate of the displacements, without a solution.
-    fn follow(&self, path: &mut Path<'_>, _line: &Balanced, load_factor: f64) -> Balanced {
-        let by = load_factor - path.state.load_factor;
-        for (value, growth) in path.state.displacement.iter_mut().zip(self.growth()) {
+    fn follow(&self, run: &mut Run<'_>, _line: &Balanced, load_factor: f64) -> Balanced {
+        let by = load_factor - run.state.load_factor;
+        for (value, growth) in run.state.displacement.iter_mut().zip(self.growth()) {
             *value += by * growth;
         }
-        path.state.load_factor = load_factor;
-        path.equilibrium.arrived(&mut path.state)
+        run.state.load_factor = load_factor;
+        run.equilibrium.arrived(&mut run.state)
     }
 
     /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom); empty where they are proportional to it.

@@ -11,8 +11,8 @@ use std::time::Instant;
 use super::affine::{held, slopes, up_to_displacement};
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
-use crate::driver::path::Path;
-use crate::driver::recorder::largest_ratio;
+use crate::driver::record::largest_ratio;
+use crate::driver::run::Run;
 use crate::equilibrium::Heading;
 use crate::history::Termination;
 use crate::unbalanced::Unbalanced;
@@ -36,46 +36,46 @@ impl InContact {
     }
 
     /// Finds the growth in a direction of the load, unless it is present.
-    fn grow(&mut self, path: &mut Path<'_>, heading: Heading) -> Result<(), Unbalanced> {
+    fn grow(&mut self, run: &mut Run<'_>, heading: Heading) -> Result<(), Unbalanced> {
         if !std::mem::replace(&mut self.is_present, false) {
-            let equilibrium = &mut path.equilibrium;
-            self.growth = equilibrium.growth_in_contact(&mut path.state, heading)?;
-            path.course.solves[0] = path.equilibrium.costs().solves;
+            let equilibrium = &mut run.equilibrium;
+            self.growth = equilibrium.growth_in_contact(&mut run.state, heading)?;
+            run.progress.solves[0] = run.equilibrium.costs().solves;
         }
         Ok(())
     }
 }
 
 impl EquilibriumLine for InContact {
-    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
-        let ratio = largest_ratio(&path.problem, &path.state, line);
+    fn goal(&mut self, run: &mut Run<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
+        let ratio = largest_ratio(&run.problem, &run.state, line);
         let rises = ratio <= 1.0 + self.tie_tolerance;
         let heading = Heading {
             sign: if rises { 1.0 } else { -1.0 },
             tie_tolerance: self.tie_tolerance,
         };
-        self.grow(path, heading)?;
+        self.grow(run, heading)?;
         let start = Instant::now();
-        let now = path.state.load_factor;
-        let to_contact = path.equilibrium.reach(&path.state, &self.growth, heading);
+        let now = run.state.load_factor;
+        let to_contact = run.equilibrium.reach(&run.state, &self.growth, heading);
         let left = if rises { 1.0 - now } else { now };
         let reach = to_contact.min(left);
-        let loads = path.problem.loads.clone();
-        let (slopes, rates) = slopes(path, &self.growth, &*loads);
-        let criteria = path.criteria(line);
+        let loads = run.problem.loads.clone();
+        let (slopes, rates) = slopes(run, &self.growth, &*loads);
+        let criteria = run.criteria(line);
         let span = if rises { [0.0, reach] } else { [-reach, 0.0] };
         let deformations = [&line.deformations, &slopes];
-        let admissible = criteria.admissible(&rates, &path.state.intact, deformations, span);
-        let at = |path: &Path<'_>, upper: f64| {
+        let admissible = criteria.admissible(&rates, &run.state.intact, deformations, span);
+        let at = |run: &Run<'_>, upper: f64| {
             let criteria = criteria.ahead(&rates, upper);
             let deformations = line.deformations.ahead(&slopes, upper);
-            path.first_to_break(self.tie_tolerance, &deformations, &criteria)
+            run.first_to_break(self.tie_tolerance, &deformations, &criteria)
         };
         let goal = match admissible {
             Some([_, upper]) if rises && upper == reach => {
-                let first = at(path, upper);
+                let first = at(run, upper);
                 let is_full = reach == left;
-                let full = match first.ratio > path.negligible_utilisation() {
+                let full = match first.ratio > run.negligible_utilisation() {
                     true => Termination::FullLoad,
                     false => Termination::NothingBreaks,
                 };
@@ -85,16 +85,16 @@ impl EquilibriumLine for InContact {
                     ..Goal::breakage(if is_full { 1.0 } else { now + reach }, first)
                 }
             }
-            Some([_, upper]) => Goal::breakage(now + upper, at(path, upper)),
+            Some([_, upper]) => Goal::breakage(now + upper, at(run, upper)),
             None if !rises && reach < left => Goal {
                 event: Event::ContactChangesBeyond,
-                ..Goal::breakage(now - reach, at(path, -reach))
+                ..Goal::breakage(now - reach, at(run, -reach))
             },
             // Bonds that are at their limits already, or beyond them without any load.
-            None => held(self.tie_tolerance, line, &criteria, path),
+            None => held(self.tie_tolerance, line, &criteria, run),
         };
-        path.equilibrium.count_bond_work(start);
-        Ok(up_to_displacement(goal, path, &self.growth))
+        run.equilibrium.count_bond_work(start);
+        Ok(up_to_displacement(goal, run, &self.growth))
     }
 
     fn growth(&self) -> &[f64] {

@@ -12,9 +12,8 @@ use ligament_model::element::{BondDeformation, StiffnessFactors};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, first_to_break};
-use crate::driver::breaks::CriteriaAtDeformations;
-use crate::driver::path::Path;
-use crate::driver::recorder::StepCounters;
+use crate::driver::record::StepCounters;
+use crate::driver::run::Run;
 use crate::error::SetupError;
 use crate::lagging::{Body, ForwardSubstituted, Lagging};
 use crate::problem::Problem;
@@ -35,7 +34,7 @@ pub(super) enum Passed {
 
 /// State while events are skipped, on the line of one load factor.
 pub(super) struct Passing<'a, 'p> {
-    path: &'a mut Path<'p>,
+    run: &'a mut Run<'p>,
     problem: &'a Problem,
     body: &'a Body,
     lagging: Lagging<'a>,
@@ -46,34 +45,34 @@ pub(super) struct Passing<'a, 'p> {
 }
 
 /// Whether an event may be skipped.
-pub(super) fn may_pass(path: &Path<'_>, step: usize) -> bool {
-    !step.is_multiple_of(WHOLE_EVERY) && !path.observer.looks(step)
+pub(super) fn may_pass(run: &Run<'_>, step: usize) -> bool {
+    !step.is_multiple_of(WHOLE_EVERY) && !run.observer.looks(step)
 }
 
 /// Whether updates of the body may be delayed with its added supports: these may fix only detached parts that are not observed.
-pub(super) fn may_wait(path: &Path<'_>, body: &Body) -> bool {
-    let fragments = path.equilibrium.fragments();
-    let layout = path.problem.system.layout();
+pub(super) fn may_wait(run: &Run<'_>, body: &Body) -> bool {
+    let fragments = run.equilibrium.fragments();
+    let layout = run.problem.system.layout();
     let fragment = |point: u32| fragments.of_point[point as usize] as usize;
     let mut is_asked_for = vec![false; fragments.len()];
     for &point in body.wanted() {
         is_asked_for[fragment(point)] = true;
     }
-    let mut held = (0..).zip(&path.state.held).filter(|(_, held)| **held);
+    let mut held = (0..).zip(&run.state.held).filter(|(_, held)| **held);
     held.all(|(dof, _)| !is_asked_for[fragment(layout.point(dof))])
 }
 
 /// Skips events from an equilibrium on the line to the first of them, as long as allowed; advances the step number.
 pub(super) fn pass(
-    path: &mut Path<'_>,
+    run: &mut Run<'_>,
     body: &Body,
     tie_tolerance: f64,
     step: &mut usize,
     line: &Balanced,
 ) -> Result<Passed, SetupError> {
     let start = Instant::now();
-    let problem = path.problem.clone();
-    let (state, deformations) = (&path.state, &line.deformations);
+    let problem = run.problem.clone();
+    let (state, deformations) = (&run.state, &line.deformations);
     let criteria = problem.criteria_in(state, line);
     let mut first = first_to_break(tie_tolerance, deformations, &criteria, &state.intact);
     let lagging = Lagging::new(body, &problem, tie_tolerance, state, criteria, deformations);
@@ -86,11 +85,11 @@ pub(super) fn pass(
             deformations: Deformations::default(),
             ..line.clone()
         },
-        path,
+        run,
     };
-    passing.path.equilibrium.count_bond_work(start);
+    passing.run.equilibrium.count_bond_work(start);
     let first_step = *step;
-    while may_pass(passing.path, *step) {
+    while may_pass(passing.run, *step) {
         let Some(critical) = passing.go_to(&first) else {
             if *step == first_step {
                 passing.go_back();
@@ -99,22 +98,22 @@ pub(super) fn pass(
             break;
         };
         let breakage = passing.break_first(&first, critical, *step)?;
-        if passing.path.collapsed || !passing.path.equilibrium.can_update(&breakage) {
+        if passing.run.collapsed || !passing.run.equilibrium.can_update(&breakage) {
             let before = passing.before(&breakage);
             return Ok(Passed::Broke(before, breakage));
         }
-        passing.path.enter(*step, 1)?;
+        passing.run.enter(*step, 1)?;
         let Some(next) = passing.follow(&breakage) else {
             let before = passing.before(&breakage);
             return Ok(Passed::Broke(before, breakage));
         };
         let after = passing.known();
-        passing.path.account(*step, &breakage, &after)?;
+        passing.run.account(*step, &breakage, &after)?;
         *step += 1;
         first = next;
     }
     passing.catch_up();
-    let attempt = passing.path.balance(*step, &Breakage::default())?;
+    let attempt = passing.run.balance(*step, &Breakage::default())?;
     Ok(Passed::Line(attempt))
 }
 
@@ -125,22 +124,22 @@ impl Passing<'_, '_> {
         if !(load_factor > 0.0 && load_factor <= 1.0) {
             return None;
         }
-        self.path.state.load_factor = load_factor;
+        self.run.state.load_factor = load_factor;
         self.know(&first.bonds);
         let critical = self.known();
-        let (displacement, _) = self.path.control(&critical);
-        let wanted = self.path.stop.displacement;
+        let (displacement, _) = self.run.control(&critical);
+        let wanted = self.run.stop.displacement;
         let ends = wanted.is_some_and(|wanted| displacement >= wanted)
-            || self.path.interruption().is_some()
-            || self.path.end_at_rest(&critical).is_some()
-            || self.path.end_by_load_fraction(&critical).is_some();
+            || self.run.interruption().is_some()
+            || self.run.end_at_rest(&critical).is_some()
+            || self.run.end_by_load_fraction(&critical).is_some();
         (!ends).then_some(critical)
     }
 
     /// Moves back to the state before the first skipped event.
     fn go_back(&mut self) {
-        self.path.state.load_factor = self.load_factor;
-        let motions = &mut self.path.state.displacement;
+        self.run.state.load_factor = self.load_factor;
+        let motions = &mut self.run.state.displacement;
         motions.clone_from(&self.lagging.displacement);
     }
 
@@ -151,12 +150,12 @@ impl Passing<'_, '_> {
         mut critical: Balanced,
         step: usize,
     ) -> Result<Breakage, SetupError> {
-        let path = &mut *self.path;
-        path.account(step, &Breakage::default(), &critical)?;
-        critical.stored_energy = path.energies.stored_in_proportion();
-        path.enter(step, 0)?;
-        path.course.solves[0] = path.equilibrium.costs().solves;
-        path.course.negative_eigenvalues = path.equilibrium.negative_eigenvalues();
+        let run = &mut *self.run;
+        run.account(step, &Breakage::default(), &critical)?;
+        critical.stored_energy = run.energies.stored_in_proportion();
+        run.enter(step, 0)?;
+        run.progress.solves[0] = run.equilibrium.costs().solves;
+        run.progress.negative_eigenvalues = run.equilibrium.negative_eigenvalues();
         let counters = StepCounters {
             step,
             broken_in_step: first.bonds.len(),
@@ -165,29 +164,26 @@ impl Passing<'_, '_> {
             largest_ratio: 1.0,
             ..Default::default()
         };
-        path.record_in_passing(&critical, counters)?;
+        run.record_in_passing(&critical, counters)?;
         let factor = self.factor();
-        let path = &mut *self.path;
+        let run = &mut *self.run;
         let (system, displacement) = (&self.problem.system, &self.lagging.displacement);
         let FirstToBreak { bonds, .. } = first.clone().sorted(|it| system.ends_in_file(it));
-        let deformations = system.measured(&path.state.intact, displacement, &bonds);
+        let deformations = system.measured(&run.state.intact, displacement, &bonds);
         let deformations = deformations.iter().map(|it| it.scaled(factor));
         let deformations: Vec<BondDeformation> = deformations.collect();
         let deformation = |place: usize, _| deformations[place];
         let criteria = self.lagging.criteria().on_line(None, factor);
-        let judged = CriteriaAtDeformations {
-            criteria: &criteria,
-            deformation: &deformation,
-        };
-        path.break_deformed(&bonds, judged, &critical, step, 1)
+        let judged = (&criteria, &deformation as &dyn Fn(usize, usize) -> _);
+        run.break_deformed(&bonds, judged, &critical.internal, [step, 1])
     }
 
     /// Applies a breakage; returns the bonds that break next. None where the update of the factor failed.
     fn follow(&mut self, breakage: &Breakage) -> Option<FirstToBreak> {
         let scale = self.factor().recip();
-        let Path {
+        let Run {
             equilibrium, state, ..
-        } = &mut *self.path;
+        } = &mut *self.run;
         let ends = self.problem.system.ends();
         let points = breakage.bonds.iter().flat_map(|&bond| ends[bond as usize]);
         let mut points: Vec<u32> = points.collect();
@@ -205,7 +201,7 @@ impl Passing<'_, '_> {
         let start = Instant::now();
         self.know(&breakage.bonds);
         self.add_up_forces();
-        self.path.equilibrium.count_bond_work(start);
+        self.run.equilibrium.count_bond_work(start);
         Some(first)
     }
 
@@ -216,7 +212,7 @@ impl Passing<'_, '_> {
 
     /// Ratio of the displacements of the state to the delayed ones.
     fn factor(&self) -> f64 {
-        self.path.state.load_factor / self.load_factor
+        self.run.state.load_factor / self.load_factor
     }
 
     /// Sets the motions of the observed points and of the ends of some bonds in the state.
@@ -227,7 +223,7 @@ impl Passing<'_, '_> {
         let ends = bonds.iter().flat_map(|&bond| ends[bond as usize]);
         for point in self.body.wanted().iter().copied().chain(ends) {
             for dof in layout.range(point) {
-                self.path.state.displacement[dof] = factor * self.lagging.displacement[dof];
+                self.run.state.displacement[dof] = factor * self.lagging.displacement[dof];
             }
         }
     }
@@ -235,7 +231,7 @@ impl Passing<'_, '_> {
     /// Sums the forces of the bonds on the observed points.
     fn add_up_forces(&mut self) {
         let system = &self.problem.system;
-        let (layout, intact) = (system.layout(), &self.path.state.intact);
+        let (layout, intact) = (system.layout(), &self.run.state.intact);
         let (motions, forces) = (&self.lagging.displacement, &mut self.line.internal.values);
         for &point in self.body.wanted() {
             let dofs = layout.range(point);
@@ -259,23 +255,23 @@ impl Passing<'_, '_> {
     fn catch_up(&mut self) {
         let start = Instant::now();
         // Without a factor the last known motions are the start of the next iteration.
-        if let Some(factor) = self.path.equilibrium.factor() {
-            self.lagging.catch_up(factor, &self.path.state);
+        if let Some(factor) = self.run.equilibrium.factor() {
+            self.lagging.catch_up(factor, &self.run.state);
         }
         let factor = self.factor();
-        let motions = self.path.state.displacement.iter_mut();
+        let motions = self.run.state.displacement.iter_mut();
         for (motion, line) in motions.zip(&self.lagging.displacement) {
             *motion = factor * line;
         }
-        self.path.equilibrium.count_bond_work(start);
+        self.run.equilibrium.count_bond_work(start);
     }
 
     /// Equilibrium of the whole body before a breakage that was not applied.
     fn before(&mut self, breakage: &Breakage) -> Balanced {
         self.catch_up();
-        let Path {
+        let Run {
             equilibrium, state, ..
-        } = &mut *self.path;
+        } = &mut *self.run;
         for &bond in &breakage.bonds {
             state.intact[bond as usize] = true;
         }

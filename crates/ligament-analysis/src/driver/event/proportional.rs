@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use super::equilibrium_line::{EquilibriumLine, Goal};
 use crate::balanced::Balanced;
-use crate::driver::path::Path;
+use crate::driver::run::Run;
 use crate::history::Termination;
 use crate::load_program::LoadProgram;
 use crate::unbalanced::Unbalanced;
@@ -30,20 +30,20 @@ impl Proportional {
 
 impl EquilibriumLine for Proportional {
     /// End of the line of an equilibrium: the critical load, or the end of the run before it.
-    fn goal(&mut self, path: &mut Path<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
+    fn goal(&mut self, run: &mut Run<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
         let start = Instant::now();
-        let criteria = path.criteria(line);
-        let first = path.first_to_break(self.tie_tolerance, &line.deformations, &criteria);
+        let criteria = run.criteria(line);
+        let first = run.first_to_break(self.tie_tolerance, &line.deformations, &criteria);
         let ratio = first.ratio;
-        path.equilibrium.count_bond_work(start);
-        let now = path.state.load_factor;
+        run.equilibrium.count_bond_work(start);
+        let now = run.state.load_factor;
         let mut goal = Goal {
             ratio: 1.0,
             ..Goal::breakage(now / ratio, first)
         };
         if goal.load_factor > 1.0 {
             // Detached parts have stretches of rounding size, which do not count.
-            let is_stretched = ratio > path.negligible_utilisation() * now;
+            let is_stretched = ratio > run.negligible_utilisation() * now;
             let end = if is_stretched {
                 Termination::FullLoad
             } else {
@@ -51,9 +51,9 @@ impl EquilibriumLine for Proportional {
             };
             (goal.load_factor, goal.end) = (1.0, Some(end));
         }
-        let loads = &path.problem.loads;
-        let displacement = loads.control_displacement(now, &path.state.displacement);
-        if let Some(wanted) = path.stop.displacement
+        let loads = &run.problem.loads;
+        let displacement = loads.control_displacement(now, &run.state.displacement);
+        if let Some(wanted) = run.stop.displacement
             && displacement > 0.0
         {
             let load_factor = now * wanted / displacement;
@@ -76,17 +76,17 @@ impl EquilibriumLine for Proportional {
     /// free motion of such a part, fixed by an added support, is scaled with the rest: it has no energy, and its size is arbitrary.
     /// A part without prescribed motions and loads has no strains and stays where it is, to the last bit. The residual after the
     /// next breakage covers the whole state, and so verifies this.
-    fn follow(&self, path: &mut Path<'_>, line: &Balanced, load_factor: f64) -> Balanced {
+    fn follow(&self, run: &mut Run<'_>, line: &Balanced, load_factor: f64) -> Balanced {
         let start = Instant::now();
-        let state = &mut path.state;
+        let state = &mut run.state;
         let factor = load_factor / state.load_factor;
         state.load_factor = load_factor;
-        let fragments = path.equilibrium.fragments();
+        let fragments = run.equilibrium.fragments();
         // A temperature strains all parts, and where faces close any part may press on another.
-        let faces_close = path.problem.system.faces_close();
-        let is_heated = !path.problem.loads.thermal_strain(load_factor).is_none();
+        let faces_close = run.problem.system.faces_close();
+        let is_heated = !run.problem.loads.thermal_strain(load_factor).is_none();
         let mut is_loaded = vec![is_heated || faces_close; fragments.len()];
-        let layout = path.problem.system.layout();
+        let layout = run.problem.system.layout();
         for &dof in &self.loaded {
             let point = layout.point(dof as usize);
             is_loaded[fragments.of_point[point as usize] as usize] = true;
@@ -98,7 +98,7 @@ impl EquilibriumLine for Proportional {
             }
         }
         let critical = line.scaled(factor);
-        path.equilibrium.count_bond_work(start);
+        run.equilibrium.count_bond_work(start);
         critical
     }
 

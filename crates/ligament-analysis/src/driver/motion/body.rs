@@ -9,7 +9,7 @@ use ligament_model::surface::Bonded;
 use ligament_model::thermal::ThermalStrain;
 
 use super::face_friction::{FaceFriction, FrictionEnergies};
-use super::record::Now;
+use super::record::MotionView;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -17,9 +17,8 @@ use crate::breaking::{BreakingOrder, BreakingRule, next_of_near, next_to_break};
 use crate::connectivity::decremental::Connectivity;
 use crate::contact::{self, Contact};
 use crate::costs::Costs;
-use crate::driver::breaks::{Breaking, CriteriaAtDeformations};
-use crate::driver::dissipation;
-use crate::driver::recorder::Energies;
+use crate::driver::breaks::{self, Breaking};
+use crate::driver::record::Energies;
 use crate::error::SetupError;
 use crate::history::{BreakRecord, Observer, Rates};
 use crate::problem::Problem;
@@ -248,9 +247,9 @@ impl Body {
         energies: &'a Energies,
         rates: Rates<'a>,
         of_critical: f64,
-    ) -> Now<'a> {
+    ) -> MotionView<'a> {
         let square = of_critical.min(NEARLY_CRITICAL).powi(2);
-        Now {
+        MotionView {
             contacts: None,
             below_zero: square / (1.0 - square),
             rounding: 0.0,
@@ -297,17 +296,15 @@ impl Body {
         if self.state.softening.remaining.is_empty() {
             return;
         }
-        if let Some(begun) = self.problem.beginning(&self.state, &self.balanced) {
-            let softening = &mut self.state.softening;
-            softening.begin(&self.problem.criteria, begun);
-        }
+        self.problem
+            .begin_softening(&mut self.state, &self.balanced);
         let State {
             softening, intact, ..
         } = &mut self.state;
         let deformations = self.balanced.deformations.measured();
         softening.follow(&self.problem.criteria, intact, deformations, false);
         softening.settle();
-        dissipation::soften(&self.problem, &mut self.state);
+        breaks::soften(&self.problem, &mut self.state);
     }
 
     fn beyond_limits(&self, criteria: &CriteriaInState<'_>) -> Vec<u32> {
@@ -336,34 +333,26 @@ impl Body {
     ) -> Result<Breakage, SetupError> {
         let problem = self.problem.clone();
         let (system, loads) = (&*problem.system, &problem.loads);
-        let time = self.state.load_factor;
         let deformation = |place: usize, _| beyond.deformations[place];
         let breaking = Breaking {
-            ends: system.ends(),
-            judged: CriteriaAtDeformations {
-                criteria,
-                deformation: &deformation,
-            },
+            problem: &problem,
+            numbers: &self.numbers,
+            criteria,
+            deformation: &deformation,
             moment: BreakRecord {
                 order: self.broken,
                 step: step.row,
                 round: step.number,
-                load_factor: time,
-                displacement: loads.control_displacement(time, &self.state.displacement),
-                reaction: loads.control_force(time, &self.balanced.internal),
                 ..BreakRecord::default()
             },
         };
         let bonds = &beyond.bonds;
-        let records = breaking.records(&self.numbers, bonds);
+        let records = breaking.apply(&mut self.state, &self.balanced.internal, bonds);
         observer.broke(&records)?;
-        for record in &records {
-            dissipation::break_bond(&problem, &mut self.state, record.bond as usize, record);
-        }
         // With the displacements before the step, because the energy that leaves in it is 1/2 u^T K_b u' with those before and after.
         let before = step.before(&self.state.displacement);
         let now = std::mem::replace(&mut self.state.displacement, before);
-        let expansion = loads.thermal_strain(time);
+        let expansion = loads.thermal_strain(self.state.load_factor);
         let breakage = Breakage::new(system, expansion, &self.state, bonds);
         self.state.displacement = now;
         self.broken += bonds.len();

@@ -12,17 +12,17 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::body::{Body, TimeStep};
+use super::checkpoint::ExplicitCheckpoint;
 use super::clock::Clock;
-use super::explicit_kept::ExplicitKept;
 use super::face_friction::{FaceFriction, FrictionEnergies};
 use super::inertia::{Inertia, Velocities};
-use super::progress::{EXPLICIT, Progress, Resumed};
-use super::record::{self, Now};
+use super::record::{self, MotionView};
+use super::record::{EXPLICIT, Progress, Resumed};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::driver::outcome::Outcome;
-use crate::driver::recorder::Energies;
+use crate::driver::record::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::motion::contact::ContactForces;
@@ -97,7 +97,7 @@ pub(super) fn run(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    resumed: Resumed<ExplicitKept>,
+    resumed: Resumed<ExplicitCheckpoint>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     let Resumed {
@@ -106,7 +106,7 @@ pub(super) fn resume(
         progress,
         kept,
     } = resumed;
-    let ExplicitKept {
+    let ExplicitCheckpoint {
         body,
         velocities,
         contacts,
@@ -260,14 +260,14 @@ impl<'a> Explicit<'a> {
         } = self;
         let velocity = velocities.at_time(self.inertia.step());
         let of_critical = self.choice.of_critical();
-        let now = Now {
+        let now = MotionView {
             contacts: contacts.as_ref(),
             ..body.now(energies, velocities.rates(&velocity), of_critical)
         };
         let stop = (&self.settings.stop, self.started);
         let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
             let state = |out: &mut dyn Sink| {
-                ExplicitKept::write(body, velocities, contacts.as_ref(), out);
+                ExplicitCheckpoint::write(body, velocities, contacts.as_ref(), out);
             };
             progress.write_all(energies, EXPLICIT, &state, out);
         };

@@ -7,23 +7,23 @@
 
 use std::time::Instant;
 
+use super::checkpoint::ImplicitCheckpoint;
 use super::clock::Clock;
-use super::here::{Here, MassAndDamping, Motion, free_masses};
-use super::implicit_fit;
-use super::implicit_kept::ImplicitKept;
-use super::progress::{IMPLICIT, Progress, Resumed};
-use super::quasi_static;
-use super::record::{self, Now};
-use super::rigid_step;
+use super::motion_state::{MassAndDamping, Motion, MotionState, free_masses};
+use super::record::{self, MotionView};
+use super::record::{IMPLICIT, Progress, Resumed};
 use super::stepping::{CALM, HALVINGS, Pace, Stepping, scheme};
-use super::taken::{self, Taken, TooLong, Trial};
+use super::trial_step::{self, StepSettings, TooLong, TrialStep};
+use super::{quasi_static, rigid_step};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::driver::outcome::Outcome;
-use crate::driver::recorder::Energies;
+use crate::driver::record::Energies;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
-use crate::motion::{MotionProblem, MotionSettings};
+use crate::motion::contact::{RigidBody, RigidMotion};
+use crate::motion::{MotionError, MotionProblem, MotionSettings};
+use crate::problem::Problem;
 use crate::serial::Sink;
 use crate::softening::Softening;
 use crate::state::State;
@@ -36,7 +36,7 @@ struct Implicit<'a> {
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
     masses: Vec<f64>,
     stepping: Stepping,
-    here: Here,
+    here: MotionState,
     energies: Energies,
     progress: Progress,
     pace: Pace,
@@ -50,7 +50,7 @@ pub(super) fn run(
     settings: &MotionSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    implicit_fit::check(problem, settings)?;
+    check(problem, settings)?;
     let clock = Clock::implicit(settings)?;
     if settings.share_of_statics().is_none() {
         observer.begins(clock.ahead(true));
@@ -68,7 +68,7 @@ pub(super) fn run(
     let mut stepping = Stepping::new(problem, scheme, &masses, (&mut state, settings))?;
     let balanced = stepping.equilibrium.measured(&mut state);
     let mut motion = Implicit {
-        here: Here {
+        here: MotionState {
             motion: Motion::with_velocity(problem.initial_velocity.to_vec(), &balanced),
             state,
             balanced,
@@ -91,7 +91,7 @@ pub(super) fn run(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    resumed: Resumed<ImplicitKept>,
+    resumed: Resumed<ImplicitCheckpoint>,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     let Resumed {
@@ -103,7 +103,7 @@ pub(super) fn resume(
     if progress.clock != Clock::implicit(settings)? {
         return Err(CheckpointError::OtherTimes.into());
     }
-    let ImplicitKept {
+    let ImplicitCheckpoint {
         here,
         stepping,
         pace,
@@ -126,7 +126,7 @@ pub(super) fn resume(
 impl Implicit<'_> {
     /// Sets accelerations and energies of time zero.
     fn begin(&mut self) {
-        let Here { state, motion, .. } = &self.here;
+        let MotionState { state, motion, .. } = &self.here;
         let (external, damping) = self.inertia().forces(state, &motion.velocity);
         let masses = &self.masses;
         let motion = &mut self.here.motion;
@@ -142,7 +142,7 @@ impl Implicit<'_> {
         let problem = &self.problem.problem;
         motion.rigid = rigid_step::at_start(&problem.contact, &self.here.balanced);
         self.here.balance_forces(problem, &self.masses);
-        let Here {
+        let MotionState {
             state,
             balanced,
             motion,
@@ -287,7 +287,7 @@ impl Implicit<'_> {
         self.change_pace(quasi_static::pace_from(tick, &self.progress.clock))?;
         let taken = self.attempt(row, time)?.ok();
         let problem = &self.problem.problem;
-        let is_near = |taken: &Taken| {
+        let is_near = |taken: &TrialStep| {
             let free = quasi_static::set_free(problem, &self.energies, &self.here, taken);
             taken.broken.is_empty() && kinetic + free <= most
         };
@@ -335,9 +335,9 @@ impl Implicit<'_> {
     }
 
     /// A step to a time, without effect on the motion; the reason why it is too long, if it is.
-    fn attempt(&mut self, row: usize, time: f64) -> Result<Result<Taken, TooLong>, SetupError> {
+    fn attempt(&mut self, row: usize, time: f64) -> Result<Result<TrialStep, TooLong>, SetupError> {
         let loads = self.stepping.loads(&self.here, self.inertia());
-        let trial = Trial {
+        let trial = StepSettings {
             row,
             broken: self.here.broken,
             rule: self.settings.breakages.rule,
@@ -351,7 +351,7 @@ impl Implicit<'_> {
         };
         let start = (start, self.here.balanced.clone());
         let problem = &self.problem.problem;
-        let taken = match taken::attempt(problem, equilibrium, start, &trial)? {
+        let taken = match trial_step::attempt(problem, equilibrium, start, &trial)? {
             Ok(taken) => taken,
             Err(reason) => return Ok(Err(reason)),
         };
@@ -377,7 +377,7 @@ impl Implicit<'_> {
     }
 
     /// Accepts a step, with its energies.
-    fn accept(&mut self, taken: Taken) -> Result<(), SetupError> {
+    fn accept(&mut self, taken: TrialStep) -> Result<(), SetupError> {
         let problem = &self.problem.problem;
         self.observer.broke(&taken.records)?;
         let expansion = problem.loads.thermal_strain(taken.state.load_factor);
@@ -402,7 +402,7 @@ impl Implicit<'_> {
         } else {
             0
         };
-        self.here = Here {
+        self.here = MotionState {
             broken: self.here.broken + taken.broken.len(),
             state: taken.state,
             balanced: taken.balanced,
@@ -412,7 +412,7 @@ impl Implicit<'_> {
         self.here.balance_forces(problem, &self.masses);
         let (
             problem,
-            Here {
+            MotionState {
                 state, balanced, ..
             },
         ) = (&self.problem.problem, &self.here);
@@ -435,7 +435,7 @@ impl Implicit<'_> {
     }
 
     /// Adds the energies of the rigid bodies with a mass in a step.
-    fn move_rigid_bodies(&mut self, taken: &Taken, after: &Motion) {
+    fn move_rigid_bodies(&mut self, taken: &TrialStep, after: &Motion) {
         let contact = &self.problem.problem.contact;
         let kinetic = |it: &Motion| rigid_step::kinetic_energy(contact, &it.rigid);
         let [before, now] = [&self.here.motion, after].map(kinetic);
@@ -465,7 +465,7 @@ impl Implicit<'_> {
             true => 0.0,
             false => quasi_static::rounding(&stepping.equilibrium, &here.balanced),
         };
-        let now = Now {
+        let now = MotionView {
             rounding,
             ..stepping.now(&problem.problem, here, (energies, &costs))
         };
@@ -473,10 +473,42 @@ impl Implicit<'_> {
         let pace = self.pace;
         let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
             let state = |out: &mut dyn Sink| {
-                ImplicitKept::write(&problem.problem, here, (stepping, pace), out);
+                ImplicitCheckpoint::write(&problem.problem, here, (stepping, pace), out);
             };
             progress.write_all(energies, IMPLICIT, &state, out);
         };
         now.record(progress, stop, *observer, &checkpoint)
     }
+}
+
+/// Refuses what implicit steps cannot follow.
+pub(super) fn check(problem: &MotionProblem, settings: &MotionSettings) -> Result<(), MotionError> {
+    let Problem {
+        system,
+        criteria,
+        loads,
+        ..
+    } = &problem.problem;
+    if !system.subdomain().is_whole() {
+        return Err(MotionError::SeveralProcesses);
+    }
+    let is_free = |it: &RigidBody| matches!(it.motion, RigidMotion::Free { .. });
+    let turns = |it: &RigidBody| match it.motion {
+        RigidMotion::Free { inertia, .. } => inertia.is_finite(),
+        RigidMotion::Prescribed { .. } => false,
+    };
+    let bodies = &problem.problem.contact.rigid_bodies;
+    let is_refused =
+        bodies.iter().any(turns) || criteria.soften() || settings.share_of_statics().is_some();
+    if bodies.iter().any(is_free) && is_refused {
+        return Err(MotionError::FreeRigidBody);
+    }
+    let is_heated = !loads.temperature_change(0.0).is_empty();
+    let is_plain =
+        system.is_linear() && !problem.problem.may_press() && !criteria.soften() && !is_heated;
+    if settings.damping.stiffness > 0.0 && !is_plain {
+        return Err(MotionError::StiffnessDamping);
+    }
+    let step = Clock::implicit(settings)?.step();
+    settings.damping.check(step)
 }

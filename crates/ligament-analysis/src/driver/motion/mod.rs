@@ -1,23 +1,19 @@
 //! Motion in time: explicit and implicit steps in which bonds break.
 
 mod body;
+mod checkpoint;
 mod clock;
 mod explicit;
-mod explicit_kept;
 mod face_friction;
-mod here;
 mod implicit;
-mod implicit_fit;
-mod implicit_kept;
 mod inertia;
+mod motion_state;
 mod newmark;
-mod progress;
 mod quasi_static;
 mod record;
-mod restored;
 mod rigid_step;
 mod stepping;
-mod taken;
+mod trial_step;
 
 use std::io::Read;
 
@@ -28,10 +24,10 @@ use crate::motion::{MotionProblem, MotionSettings, Scheme, critical_step};
 use crate::solver::ExplicitChoice;
 
 use super::Outcome;
+pub use checkpoint::Restored;
+use checkpoint::SchemeCheckpoint;
 use clock::Clock;
-use progress::Resumed;
-use restored::Kept;
-pub use restored::Restored;
+use record::Resumed;
 
 /// Follows a motion to its end.
 ///
@@ -97,7 +93,7 @@ pub fn resume(
         kept,
     } = restored;
     match (settings.is_explicit(), kept) {
-        (true, Kept::Explicit(kept)) => {
+        (true, SchemeCheckpoint::Explicit(kept)) => {
             let kept = *kept;
             let resumed = Resumed {
                 problem,
@@ -107,7 +103,7 @@ pub fn resume(
             };
             explicit::resume(settings, resumed, observer)
         }
-        (false, Kept::Implicit(kept)) => {
+        (false, SchemeCheckpoint::Implicit(kept)) => {
             let kept = *kept;
             let resumed = Resumed {
                 problem,
@@ -117,7 +113,7 @@ pub fn resume(
             };
             implicit::resume(settings, resumed, observer)
         }
-        (true, Kept::Implicit(_)) | (false, Kept::Explicit(_)) => {
+        (true, SchemeCheckpoint::Implicit(_)) | (false, SchemeCheckpoint::Explicit(_)) => {
             Err(CheckpointError::OtherDriver.into())
         }
     }

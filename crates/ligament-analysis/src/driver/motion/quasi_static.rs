@@ -9,12 +9,12 @@
 //! force does on the way counts as set free, but not what a prescribed motion seems to do there by the trapezoidal rule.
 
 use super::clock::Clock;
-use super::here::Here;
+use super::motion_state::MotionState;
 use super::stepping::{HALVINGS, Pace};
-use super::taken::Taken;
+use super::trial_step::TrialStep;
 use crate::balanced::Balanced;
 use crate::bond_numbers::sum_over_bonds;
-use crate::driver::recorder::Energies;
+use crate::driver::record::Energies;
 use crate::equilibrium::Equilibrium;
 use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
@@ -77,7 +77,12 @@ pub(super) fn slips(problem: &Problem, size: f64, [before, after]: [&State; 2]) 
 }
 
 /// Energy that a step sets free, J.
-pub(super) fn set_free(problem: &Problem, energies: &Energies, here: &Here, taken: &Taken) -> f64 {
+pub(super) fn set_free(
+    problem: &Problem,
+    energies: &Energies,
+    here: &MotionState,
+    taken: &TrialStep,
+) -> f64 {
     let work = energies.work_to(problem, &taken.state, &taken.balanced);
     let stored = taken.balanced.stored_energy - here.balanced.stored_energy;
     let (before, after) = (&here.state.dissipated, &taken.state.dissipated);

@@ -1,37 +1,39 @@
-//! Rows of the history of a motion.
+//! Rows of the history of a motion, and its progress.
 
 use std::time::Instant;
 
+use ligament_model::surface::Vector;
+
 use super::clock::Clock;
-use super::progress::Progress;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
 use crate::driver::outcome::{Outcome, Rows};
-use crate::driver::recorder::{Energies, StepCounters, largest_ratio, step_record};
-use crate::driver::remarks;
+use crate::driver::record::{Energies, StepCounters, largest_ratio, step_record};
+use crate::driver::run_messages;
 use crate::error::SetupError;
 use crate::history::{
-    Moment, Observer, ObserverError, Onward, Rates, StepRecord, Termination, View,
+    InMotion, LargestOverlap, Moment, Observer, ObserverError, Onward, Rates, StepRecord,
+    Termination, View,
 };
-use crate::motion::MotionStop;
 use crate::motion::contact::{ContactForces, RigidMotion};
+use crate::motion::{MotionProblem, MotionStop};
 use crate::problem::Problem;
 use crate::result_fields::Solution;
-use crate::serial::Sink;
+use crate::serial;
+use crate::serial::{Serial, Sink};
 use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
 use crate::state::State;
 use crate::termination::{Growth, Verdict};
 use crate::unbalanced::Unbalanced;
-use ligament_model::surface::Vector;
 
 /// Share of the work by which the energies may differ, or an energy be negative, before the motion counts as growing without cause.
 const GROWN: f64 = 0.02;
 
 /// A body in motion at a row of its history.
-pub(super) struct Now<'a> {
+pub(super) struct MotionView<'a> {
     pub(super) problem: &'a Problem,
     pub(super) numbers: &'a BondNumbers,
     pub(super) fragments: &'a Fragments,
@@ -51,7 +53,7 @@ pub(super) struct Now<'a> {
     pub(super) rounding: f64,
 }
 
-impl Now<'_> {
+impl MotionView<'_> {
     /// Records the time as a row, and returns the reason why the motion ends there, if it does. Before, the motion is offered to the observer as
     /// one that can continue with this row, so that a motion resumed at its end records its last row again; `checkpoint` writes it.
     pub(super) fn record(
@@ -76,17 +78,18 @@ impl Now<'_> {
         let (problem, state) = (self.problem, self.state);
         let overlap = &mut progress.overlap;
         if record.at_rest
-            && let Some(message) = remarks::overlap(problem, state, self.fragments, row, overlap)
+            && let Some(message) =
+                run_messages::overlap(problem, state, self.fragments, row, overlap)
         {
             observer.message(message)?;
         }
         if !progress.has_turned
-            && let Some(message) = remarks::turned(problem, state, self.fragments, row)
+            && let Some(message) = run_messages::turned(problem, state, self.fragments, row)
         {
             progress.has_turned = true;
             observer.message(message)?;
         }
-        if let Some(message) = remarks::energies(problem, &record, progress.history.last()) {
+        if let Some(message) = run_messages::energies(problem, &record, progress.history.last()) {
             observer.message(message)?;
         }
         progress.history.push(record);
@@ -225,7 +228,7 @@ fn offer(
 
 /// Result of a motion.
 pub(super) fn outcome(
-    now: &Now<'_>,
+    now: &MotionView<'_>,
     progress: Progress,
     solver: SolverChoice,
     termination: Termination,
@@ -245,4 +248,77 @@ pub(super) fn outcome(
         solver,
         state: now.state.clone(),
     }
+}
+
+/// First byte of the checkpoint of an explicit motion; those of statics begin with 0 or 1.
+pub(super) const EXPLICIT: u8 = 2;
+
+/// First byte of the checkpoint of an implicit motion.
+pub(super) const IMPLICIT: u8 = 3;
+
+/// Progress of a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Progress {
+    pub(super) clock: Clock,
+    /// Energies and number of time steps.
+    pub(super) motion: InMotion,
+    /// Forces of damping at the time (n_degrees_of_freedom), N and N m; empty where nothing damps.
+    pub(super) damping_forces: Vec<f64>,
+    /// Energy stored in faces of cracks that stick, J.
+    pub(super) sticking: f64,
+    /// Time at which the body last lost its balance, s, with the number of bonds broken before.
+    pub(super) moving_since: (f64, usize),
+    pub(super) history: Vec<StepRecord>,
+    /// Largest overlap of crack faces so far.
+    pub(super) overlap: Option<LargestOverlap>,
+    /// Whether a part has turned beyond small angles.
+    pub(super) has_turned: bool,
+}
+
+serial!(Progress {
+    clock,
+    motion,
+    damping_forces,
+    sticking,
+    moving_since,
+    history,
+    overlap,
+    has_turned,
+});
+
+impl Progress {
+    pub(super) fn at_start(clock: Clock) -> Self {
+        Self {
+            clock,
+            motion: InMotion::default(),
+            damping_forces: Vec::new(),
+            sticking: 0.0,
+            moving_since: (0.0, 0),
+            history: Vec::new(),
+            overlap: None,
+            has_turned: false,
+        }
+    }
+
+    /// Appends the bytes of a motion under a scheme, from which it continues with the same bits; `write` appends its state.
+    pub(super) fn write_all(
+        &self,
+        energies: &Energies,
+        scheme: u8,
+        write: &dyn Fn(&mut dyn Sink),
+        out: &mut dyn Sink,
+    ) {
+        scheme.write(out);
+        self.write(out);
+        write(out);
+        energies.write(out);
+    }
+}
+
+/// A motion that continues from a checkpoint, with its state under a scheme.
+pub(super) struct Resumed<K> {
+    pub(super) problem: MotionProblem,
+    pub(super) energies: Energies,
+    pub(super) progress: Progress,
+    pub(super) kept: K,
 }

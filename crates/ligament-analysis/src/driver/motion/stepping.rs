@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::clock::Clock;
-use super::here::{Here, MassAndDamping, Motion};
+use super::motion_state::{MassAndDamping, Motion, MotionState};
 use super::newmark::{Newmark, StepLoads};
-use super::record::Now;
+use super::record::MotionView;
 use super::rigid_step;
-use super::taken::Taken;
+use super::trial_step::TrialStep;
 use crate::costs::Costs;
-use crate::driver::recorder::Energies;
+use crate::driver::record::Energies;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::load_program::LoadProgram;
@@ -175,12 +175,16 @@ impl Stepping {
     }
 
     /// Loads of a step from here.
-    pub(super) fn loads(&self, here: &Here, inertia: MassAndDamping<'_>) -> Arc<dyn LoadProgram> {
+    pub(super) fn loads(
+        &self,
+        here: &MotionState,
+        inertia: MassAndDamping<'_>,
+    ) -> Arc<dyn LoadProgram> {
         let base = inertia.problem.problem.loads.clone();
         let Some(scheme) = &self.scheme else {
             return base;
         };
-        let Here { state, motion, .. } = here;
+        let MotionState { state, motion, .. } = here;
         let Motion {
             velocity,
             acceleration,
@@ -219,8 +223,13 @@ impl Stepping {
     }
 
     /// Velocities, accelerations and forces after a step.
-    pub(super) fn after(&self, here: &Here, taken: &Taken, inertia: MassAndDamping<'_>) -> Motion {
-        let Here { state, motion, .. } = here;
+    pub(super) fn after(
+        &self,
+        here: &MotionState,
+        taken: &TrialStep,
+        inertia: MassAndDamping<'_>,
+    ) -> Motion {
+        let MotionState { state, motion, .. } = here;
         let n = inertia.masses.len();
         let mut after = Motion::with_velocity(vec![0.0; n], &taken.balanced);
         let Some(scheme) = &self.scheme else {
@@ -249,10 +258,10 @@ impl Stepping {
     pub(super) fn now<'a>(
         &'a self,
         problem: &'a Problem,
-        here: &'a Here,
+        here: &'a MotionState,
         (energies, costs): (&'a Energies, &'a Costs),
-    ) -> Now<'a> {
-        Now {
+    ) -> MotionView<'a> {
+        MotionView {
             contacts: None,
             numbers: self.equilibrium.numbers(),
             fragments: self.equilibrium.fragments(),

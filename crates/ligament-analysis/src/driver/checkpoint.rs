@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::recorder::{Energies, StepCounters};
+use super::record::{Energies, StepCounters};
 use super::start::ElasticAnswer;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
@@ -17,7 +17,7 @@ use crate::serial::{Damaged, Serial, Sink, require_end};
 use crate::state::State;
 
 /// Progress of a run.
-pub(super) struct Course {
+pub(super) struct Progress {
     pub(super) elastic: ElasticAnswer,
     pub(super) broken: usize,
     pub(super) history: Vec<StepRecord>,
@@ -38,7 +38,7 @@ pub(super) struct Course {
     pub(super) overlap: Option<LargestOverlap>,
 }
 
-serial!(Course {
+serial!(Progress {
     elastic,
     broken,
     history,
@@ -53,7 +53,7 @@ serial!(Course {
     overlap,
 });
 
-impl Course {
+impl Progress {
     /// Problem with the loads of the present part of its programme; None where the progress belongs to another programme.
     fn problem(&self, problem: &Problem) -> Option<Problem> {
         let mut problem = problem.clone();
@@ -127,7 +127,7 @@ pub struct Restored {
     pub(super) problem: Problem,
     pub(super) place: Place,
     pub(super) state: State,
-    pub(super) course: Course,
+    pub(super) progress: Progress,
     pub(super) equilibrium: Equilibrium,
     pub(super) balanced: Balanced,
     pub(super) energies: Energies,
@@ -141,7 +141,7 @@ impl Restored {
 
     /// Number of bonds broken up to the restored state.
     pub fn broken_bonds(&self) -> usize {
-        self.course.broken
+        self.progress.broken
     }
 
     /// Restores the run of a checkpoint.
@@ -155,8 +155,10 @@ impl Restored {
         let numbers = BondNumbers::new(&*problem.system)?;
         let n_components = problem.system.layout().components.len();
         let state = State::read((&numbers, n_components), &problem.criteria, from)?;
-        let course: Course = Serial::read(from).map_err(damaged)?;
-        let problem = course.problem(problem).ok_or(CheckpointError::OtherModel)?;
+        let progress: Progress = Serial::read(from).map_err(damaged)?;
+        let problem = progress
+            .problem(problem)
+            .ok_or(CheckpointError::OtherModel)?;
         let (equilibrium, state, balanced) =
             Equilibrium::restored(&problem, energy_tolerance, (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
@@ -165,7 +167,7 @@ impl Restored {
             problem,
             place,
             state,
-            course,
+            progress,
             equilibrium,
             balanced,
             energies,
@@ -191,13 +193,13 @@ impl Restored {
             Place::Event(it) => it.step > 0,
             Place::LoadStep(it) => it.load_factors.len().checked_sub(1) == Some(step),
         };
-        let Course {
+        let Progress {
             solves: [last, recorded],
             broken,
             ..
-        } = self.course;
+        } = self.progress;
         is_in_steps
-            && self.course.history.len() == step
+            && self.progress.history.len() == step
             && broken == self.equilibrium.broken_bonds(&self.state)
             && recorded <= last
             && last <= self.equilibrium.costs().solves

@@ -3,8 +3,7 @@
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
-use crate::driver::breaks::{Breaking, CriteriaAtDeformations};
-use crate::driver::dissipation;
+use crate::driver::breaks::{self, Breaking};
 use crate::driver::start::NoObserver;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
@@ -14,7 +13,7 @@ use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
 /// A step that was taken.
-pub(super) struct Taken {
+pub(super) struct TrialStep {
     pub(super) state: State,
     pub(super) balanced: Balanced,
     /// Bonds that broke, in order, with their records.
@@ -33,7 +32,7 @@ pub(super) enum TooLong {
 }
 
 /// Settings of a step.
-pub(super) struct Trial {
+pub(super) struct StepSettings {
     /// Row of the history to which the step leads.
     pub(super) row: usize,
     /// Number of bonds that broke before it.
@@ -48,9 +47,9 @@ pub(super) fn attempt(
     problem: &Problem,
     equilibrium: &mut Equilibrium,
     (state, balanced): (State, Balanced),
-    trial: &Trial,
-) -> Result<Result<Taken, TooLong>, SetupError> {
-    let mut taken = Taken {
+    trial: &StepSettings,
+) -> Result<Result<TrialStep, TooLong>, SetupError> {
+    let mut taken = TrialStep {
         state,
         balanced,
         broken: Vec::new(),
@@ -70,13 +69,12 @@ pub(super) fn attempt(
             }
         };
         breakage = Breakage::default();
-        if let Some(begun) = problem.beginning(&taken.state, &taken.balanced) {
-            taken.state.softening.begin(&problem.criteria, begun);
+        if problem.begin_softening(&mut taken.state, &taken.balanced) {
             continue;
         }
         let next = next(problem, &trial.rule, equilibrium, &taken);
         if next.is_empty() {
-            dissipation::soften(problem, &mut taken.state);
+            breaks::soften(problem, &mut taken.state);
             return Ok(Ok(taken));
         }
         rounds += 1;
@@ -98,7 +96,7 @@ fn next(
     problem: &Problem,
     rule: &BreakingRule,
     equilibrium: &Equilibrium,
-    taken: &Taken,
+    taken: &TrialStep,
 ) -> Vec<u32> {
     let criteria = problem.criteria_in(&taken.state, &taken.balanced);
     if problem.criteria.list.is_empty() {
@@ -121,7 +119,7 @@ fn next(
     )
 }
 
-impl Taken {
+impl TrialStep {
     /// Breaks bonds of an equilibrium of the step.
     fn break_bonds(
         &mut self,
@@ -133,28 +131,16 @@ impl Taken {
         let Self {
             state, balanced, ..
         } = self;
-        let time = state.load_factor;
         let criteria = problem.criteria_in(state, balanced);
         let deformation = |_, bond: usize| balanced.deformations[bond];
         let breaking = Breaking {
-            ends: problem.system.ends(),
-            judged: CriteriaAtDeformations {
-                criteria: &criteria,
-                deformation: &deformation,
-            },
-            moment: BreakRecord {
-                load_factor: time,
-                displacement: problem
-                    .loads
-                    .control_displacement(time, &state.displacement),
-                reaction: problem.loads.control_force(time, &balanced.internal),
-                ..moment
-            },
+            problem,
+            numbers: equilibrium.numbers(),
+            criteria: &criteria,
+            deformation: &deformation,
+            moment,
         };
-        let records = breaking.records(equilibrium.numbers(), bonds);
-        for record in &records {
-            dissipation::break_bond(problem, state, record.bond as usize, record);
-        }
+        let records = breaking.apply(state, &balanced.internal, bonds);
         self.records.extend(records);
         self.broken.extend(bonds);
         equilibrium.break_bonds(&mut self.state, bonds)

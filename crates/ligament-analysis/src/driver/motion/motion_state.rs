@@ -10,7 +10,7 @@ use crate::state::State;
 use crate::vectors::{sum_of_chunks, weighted_square};
 
 /// Motion at a time.
-pub(super) struct Here {
+pub(super) struct MotionState {
     pub(super) state: State,
     /// Deformations and energy of the bonds; its forces are those that supports and loads balance.
     pub(super) balanced: Balanced,
@@ -190,7 +190,7 @@ impl MassAndDamping<'_> {
     }
 }
 
-impl Here {
+impl MotionState {
     /// Makes the forces of the state those that supports and loads balance: the bonds' with inertia and damping, and at restraints the external
     /// ones.
     pub(super) fn balance_forces(&mut self, problem: &Problem, masses: &[f64]) {
