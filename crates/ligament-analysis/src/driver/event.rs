@@ -14,6 +14,7 @@ mod passing;
 mod proportional;
 
 use std::cell::OnceCell;
+use std::convert::Infallible;
 use std::io::Read;
 use std::mem;
 use std::rc::Rc;
@@ -22,8 +23,7 @@ use super::checkpoint::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{Energies, StepCounters, largest_ratio};
-use super::run::Run;
-use super::run::StopRules;
+use super::run::{Run, Stop, StopRules};
 use super::start::Prepared;
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
@@ -106,9 +106,14 @@ fn run_begun(
         None if begins_unloaded => {}
         None => run.state.load_factor = 1.0,
     }
-    let mut following = Following::new(run, settings, Vec::new());
-    let termination = following.follow()?;
-    Ok(following.run.into_outcome(termination, Rows::Events))
+    run.enter(1, 0)?;
+    match run.balance(1, &Breakage::default())? {
+        Attempt::Balanced(line) => Following::new(run, settings, (1, line), Vec::new()).outcome(),
+        Attempt::Unbalanced(reason) => {
+            let end = Termination::NoEquilibrium { step: 1, reason };
+            Ok(run.into_outcome(end, Rows::Events))
+        }
+    }
 }
 
 /// Predicts the first failure on the path.
@@ -190,14 +195,16 @@ pub fn resume(
     };
     let (step, growth) = (*step, mem::take(growth));
     let (run, line) = Run::go_on(settings.stop, restored, observer);
-    let mut following = Following::new(run, settings, growth);
-    let termination = following.go_on(step, line)?;
-    Ok(following.run.into_outcome(termination, Rows::Events))
+    Following::new(run, settings, (step, line), growth).outcome()
 }
 
 /// Run along the exact path.
 struct Following<'a> {
     run: Run<'a>,
+    /// Number of the next event.
+    step: usize,
+    /// Equilibrium on the line to it.
+    line: Balanced,
     way: Box<dyn EquilibriumLine>,
     tie_tolerance: f64,
     /// Parts of the body whose displacements may be updated later; built when events may first be skipped.
@@ -232,7 +239,13 @@ impl Before {
 }
 
 impl<'a> Following<'a> {
-    fn new(run: Run<'a>, settings: &EventSettings, growth: Vec<f64>) -> Self {
+    /// The path from an equilibrium on the line to an event of this number.
+    fn new(
+        run: Run<'a>,
+        settings: &EventSettings,
+        (step, line): (usize, Balanced),
+        growth: Vec<f64>,
+    ) -> Self {
         let loads = &*run.problem.loads;
         let choice = run.equilibrium.choice();
         let tie_tolerance = choice.tie_tolerance(settings.tie_tolerance);
@@ -245,82 +258,70 @@ impl<'a> Following<'a> {
         };
         Self {
             run,
+            step,
+            line,
             way,
             tie_tolerance,
             body: OnceCell::new(),
         }
     }
 
-    /// Follows the path from an equilibrium of the intact body to the end of the run.
-    fn follow(&mut self) -> Result<Termination, SetupError> {
-        let step = 1;
-        self.run.enter(step, 0)?;
-        match self.run.balance(step, &Breakage::default())? {
-            Attempt::Balanced(line) => self.go_on(step, line),
-            Attempt::Unbalanced(reason) => Ok(Termination::NoEquilibrium { step, reason }),
-        }
+    /// Follows the path to the end of the run.
+    fn outcome(mut self) -> Result<Outcome, SetupError> {
+        let Err(stop) = self.follow();
+        Ok(self.run.into_outcome(stop.termination()?, Rows::Events))
     }
 
-    /// Follows the path from an equilibrium on the line to an event.
-    fn go_on(&mut self, mut step: usize, mut line: Balanced) -> Result<Termination, SetupError> {
+    /// Follows the path from event to event until the run stops.
+    fn follow(&mut self) -> Result<Infallible, Stop> {
         loop {
-            let passed = match self.body(step) {
-                Some(body) => {
-                    let run = &mut self.run;
-                    let tie_tolerance = self.tie_tolerance;
-                    Some(passing::pass(run, &body, tie_tolerance, &mut step, &line)?)
-                }
-                None => None,
-            };
-            let broken = match passed {
-                Some(Passed::Broke(critical, breakage)) => Some((critical, breakage)),
-                Some(Passed::Line(Attempt::Unbalanced(reason))) => {
-                    let end = self.run.without_equilibrium(step, reason);
-                    return self.end(step, &line, end);
-                }
-                Some(Passed::Line(Attempt::Balanced(balanced))) => {
-                    line = balanced;
-                    if self.run.carries_nothing(&line) {
-                        return self.end(step, &line, Termination::FellApart);
-                    }
-                    None
-                }
-                Some(Passed::Nothing) | None => None,
-            };
-            let (critical, breakage) = match broken {
+            let (critical, breakage) = match self.pass()? {
                 Some(broken) => broken,
-                None => match self.follow_line(&mut step, &mut line)? {
-                    Ok(broken) => broken,
-                    Err(end) => return Ok(end),
-                },
+                None => self.break_at_end_of_line()?,
             };
             if self.run.collapsed {
-                return self.end(step + 1, &critical, Termination::Collapsed);
+                let end = Termination::Collapsed;
+                return Err(end_of(&mut self.run, self.step + 1, &critical, end));
             }
-            self.run.enter(step, 1)?;
-            line = match self.run.balance(step, &breakage)? {
-                Attempt::Balanced(balanced) => balanced,
-                Attempt::Unbalanced(reason) => {
-                    let end = self.run.without_equilibrium(step, reason);
-                    return self.end(step + 1, &critical, end);
+            self.line = match self.run.equilibrium([self.step, 1], &breakage) {
+                Err(Stop::End(end)) => {
+                    return Err(end_of(&mut self.run, self.step + 1, &critical, end));
                 }
+                line => line?,
             };
-            self.run.account(step, &breakage, &line)?;
-            step += 1;
-            if self.fell_apart(&line) {
-                return self.end(step, &line, Termination::FellApart);
+            self.step += 1;
+            // Contacts may carry what the bonds do not.
+            if self.run.problem.contact.is_empty() && self.run.carries_nothing(&self.line) {
+                return Err(self.end(Termination::FellApart));
             }
         }
     }
 
-    /// Whether a body without contacts, which may carry it, carries no load any more.
-    fn fell_apart(&self, line: &Balanced) -> bool {
-        self.run.problem.contact.is_empty() && self.run.carries_nothing(line)
+    /// Skips events for which nobody needs the whole body; returns a breakage that cannot be applied to delayed parts, with the equilibrium
+    /// before it.
+    fn pass(&mut self) -> Result<Option<(Balanced, Breakage)>, Stop> {
+        let Some(body) = self.body() else {
+            return Ok(None);
+        };
+        let (run, tie, step) = (&mut self.run, self.tie_tolerance, &mut self.step);
+        match passing::pass(run, &body, tie, step, &self.line)? {
+            Passed::Broke(critical, breakage) => return Ok(Some((critical, breakage))),
+            Passed::Line(Attempt::Balanced(line)) => self.line = line,
+            Passed::Line(Attempt::Unbalanced(reason)) => {
+                let end = self.run.without_equilibrium(self.step, reason);
+                return Err(self.end(end));
+            }
+            Passed::Nothing => return Ok(None),
+        }
+        match self.run.carries_nothing(&self.line) {
+            true => Err(self.end(Termination::FellApart)),
+            false => Ok(None),
+        }
     }
 
-    /// Parts of the body whose displacements may be updated later in a step; None where the step needs the whole body.
-    fn body(&self, step: usize) -> Option<Rc<Body>> {
-        if !passing::may_pass(&self.run, step) {
+    /// Parts of the body whose displacements may be updated later in the step; None where the step needs the whole body.
+    fn body(&self) -> Option<Rc<Body>> {
+        if !passing::may_pass(&self.run, self.step) {
             return None;
         }
         let body = self.body.get_or_init(|| {
@@ -331,65 +332,61 @@ impl<'a> Following<'a> {
         body.filter(|body| passing::may_wait(&self.run, body))
     }
 
-    /// Follows the line of an equilibrium to its next event and breaks the bonds there; returns the critical equilibrium and the
-    /// breakage, or the end of the run.
-    fn follow_line(
-        &mut self,
-        step: &mut usize,
-        line: &mut Balanced,
-    ) -> Result<Result<(Balanced, Breakage), Termination>, SetupError> {
+    /// Follows lines to the next event at which bonds break, and breaks them; returns the critical equilibrium and the breakage.
+    fn break_at_end_of_line(&mut self) -> Result<(Balanced, Breakage), Stop> {
         loop {
-            let goal = match self.way.goal(&mut self.run, line) {
+            let goal = match self.way.goal(&mut self.run, &self.line) {
                 Ok(goal) => goal,
                 Err(reason) => {
-                    let end = self.run.without_equilibrium(*step, reason);
-                    return self.end(*step, line, end).map(Err);
+                    let end = self.run.without_equilibrium(self.step, reason);
+                    return Err(self.end(end));
                 }
             };
             let before = Before::new(&self.run);
-            let critical = self.way.follow(&mut self.run, line, goal.load_factor);
-            self.run.account(*step, &Breakage::default(), &critical)?;
+            let critical = (self.way).follow(&mut self.run, &self.line, goal.load_factor);
+            self.run
+                .account(self.step, &Breakage::default(), &critical)?;
             if goal.event == Event::ContactChangesBeyond {
-                *line = critical;
+                self.line = critical;
                 continue;
             }
             let missed = (self.run.equilibrium).missed(&self.run.state, &critical);
-            let missed = missed.map(|reason| self.run.without_equilibrium(*step, reason));
+            let missed = missed.map(|reason| self.run.without_equilibrium(self.step, reason));
             let end = missed
                 .or(goal.end.clone())
                 .or_else(|| self.run.interruption())
                 .or_else(|| self.run.end_at_rest(&critical))
                 .or_else(|| self.run.end_by_load_fraction(&critical));
-            let end = self.offer(before, *step, line, end)?;
-            self.record(*step, &goal, &critical, end.is_some())?;
+            let end = self.offer(before, end)?;
+            self.record(&goal, &critical, end.is_some())?;
             if let Some(end) = end {
-                return Ok(Err(end));
+                return Err(Stop::End(end));
             }
-            if goal.event != Event::Breakage {
-                if goal.event == Event::PartEnds {
-                    self.run.begin_part(self.run.progress.part + 1);
+            match goal.event {
+                Event::Breakage => {
+                    let at = [self.step, 1];
+                    let breakage = self.run.break_bonds(&goal.bonds, &critical, at)?;
+                    return Ok((critical, breakage));
                 }
-                *line = critical;
-                *step += 1;
-                continue;
+                Event::PartEnds => self.run.begin_part(self.run.progress.part + 1),
+                Event::ContactChanges | Event::ContactChangesBeyond => {}
             }
-            let breakage = self.run.break_bonds(&goal.bonds, &critical, *step, 1)?;
-            return Ok(Ok((critical, breakage)));
+            self.line = critical;
+            self.step += 1;
         }
     }
 
     /// Records the state at the end of a line.
     fn record(
         &mut self,
-        step: usize,
         goal: &Goal,
         critical: &Balanced,
         is_last: bool,
     ) -> Result<(), SetupError> {
-        self.run.enter(step, 0)?;
+        self.run.enter(self.step, 0)?;
         let breaks = usize::from(!is_last && goal.event == Event::Breakage);
         let counters = StepCounters {
-            step,
+            step: self.step,
             broken_in_step: breaks * goal.bonds.len(),
             rounds: breaks,
             at_rest: !goal.is_held,
@@ -399,39 +396,39 @@ impl<'a> Following<'a> {
         self.run.record(critical, counters, is_last)
     }
 
-    /// Offers the state before the move along a line to the observer, once it is known whether the run ends there.
+    /// Offers the state before the move along the line to the observer, once it is known whether the run ends there.
     fn offer(
         &mut self,
         mut before: Before,
-        step: usize,
-        line: &Balanced,
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         before.swap(&mut self.run);
-        let growth = self.way.growth();
+        let (step, growth) = (self.step, self.way.growth());
         let place = || {
             let growth = growth.to_vec();
             Place::Event(ToEvent { step, growth })
         };
-        let end = self.run.offer(&place, line, end)?;
+        let end = self.run.offer(&place, &self.line, end)?;
         before.swap(&mut self.run);
         Ok(end)
     }
 
-    /// Ends the run with a last record after a breakage; at rest only where the body fell apart.
-    fn end(
-        &mut self,
-        step: usize,
-        last: &Balanced,
-        end: Termination,
-    ) -> Result<Termination, SetupError> {
-        let counters = StepCounters {
-            step,
-            at_rest: end == Termination::FellApart,
-            largest_ratio: largest_ratio(&self.run.problem, &self.run.state, last),
-            ..Default::default()
-        };
-        self.run.record(last, counters, true)?;
-        Ok(end)
+    /// Ends the run with a last record of the line.
+    fn end(&mut self, end: Termination) -> Stop {
+        end_of(&mut self.run, self.step, &self.line, end)
+    }
+}
+
+/// Ends a run with a last record after a breakage; at rest only where the body fell apart.
+fn end_of(run: &mut Run<'_>, step: usize, last: &Balanced, end: Termination) -> Stop {
+    let counters = StepCounters {
+        step,
+        at_rest: end == Termination::FellApart,
+        largest_ratio: largest_ratio(&run.problem, &run.state, last),
+        ..Default::default()
+    };
+    match run.record(last, counters, true) {
+        Ok(()) => Stop::End(end),
+        Err(error) => Stop::Failed(error),
     }
 }

@@ -1,5 +1,6 @@
 //! Energies and records, as all drivers use them.
 
+use std::cell::Cell;
 use std::io::Read;
 
 use ligament_model::deformation::Deformations;
@@ -8,12 +9,14 @@ use ligament_model::failure::CriteriaInState;
 use rayon::prelude::*;
 
 use crate::balanced::Balanced;
-use crate::bond_numbers::{add_over_bonds, sum_over_bonds};
+use crate::bond_numbers::{BondNumbers, add_over_bonds, sum_over_bonds};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::contact::{ContactEnergy, ContactLoss};
-use crate::history::{ContactAtRest, StepRecord};
+use crate::history::{
+    ContactAtRest, Moment, Observer, ObserverError, Onward, StepRecord, Termination,
+};
 use crate::load_program::groups_of_reactions;
 use crate::probe;
 use crate::problem::Problem;
@@ -423,6 +426,32 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
             sum
         })
         .collect()
+}
+
+/// Offers a state to the observer as one from which the run can continue, by what `checkpoint` writes. Returns the reason why the run ends there:
+/// `end`, or a stop by the observer. Collective.
+pub(super) fn offer(
+    observer: &mut dyn Observer,
+    numbers: &BondNumbers,
+    end: Option<Termination>,
+    checkpoint: &dyn Fn(&mut dyn Sink),
+) -> Result<Option<Termination>, ObserverError> {
+    let asked = observer.asks(end.as_ref())?;
+    let has_taken_part = Cell::new(false);
+    let written = |out: &mut dyn Sink| {
+        has_taken_part.set(true);
+        checkpoint(out);
+    };
+    let all_take_part = numbers.subdomain().any(asked) && !numbers.subdomain().is_whole();
+    let moment = Moment {
+        end: end.as_ref(),
+        checkpoint: &written,
+    };
+    let onward = observer.moment(&moment)?;
+    if all_take_part && !has_taken_part.get() {
+        checkpoint(&mut ());
+    }
+    Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
 }
 
 /// Largest utilisation of the intact bonds; 0 without criteria.

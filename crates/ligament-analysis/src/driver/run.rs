@@ -3,7 +3,6 @@
 //! A `Run` computes equilibria with their energies, breaks bonds, fixes detached parts, makes records, begins the parts of a programme and
 //! applies stop rules.
 
-use std::cell::Cell;
 use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
@@ -12,7 +11,7 @@ use ligament_model::failure::CriteriaInState;
 use super::breaks::{self, Breaking};
 use super::checkpoint::{CheckValues, Place, Progress, Restored};
 use super::outcome::{Outcome, Rows};
-use super::record::{Energies, StepCounters, step_record};
+use super::record::{Energies, StepCounters, offer, step_record};
 use super::run_messages;
 use super::start::{Start, begin, report_detached_parts, report_mechanisms};
 use crate::balanced::{Attempt, Balanced};
@@ -22,9 +21,7 @@ use crate::breaking::{FirstToBreak, first_of_all};
 use crate::connectivity::AddedSupport;
 use crate::equilibrium::{ControlledQuantity, Dissipation, Equilibrium, Target};
 use crate::error::SetupError;
-use crate::history::{
-    BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, Termination, View,
-};
+use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, Termination, View};
 use crate::internal::InternalForces;
 use crate::load_program::{ControlKind, LoadCourse, PartControl};
 use crate::problem::Problem;
@@ -35,6 +32,32 @@ use crate::state::{Solution, State};
 use crate::termination::Verdict;
 use crate::unbalanced::Unbalanced;
 use crate::user_message::Message;
+
+/// Reason why the loop of a driver stops: the run ends, or it fails.
+pub(super) enum Stop {
+    End(Termination),
+    Failed(SetupError),
+}
+
+impl<E: Into<SetupError>> From<E> for Stop {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
+    }
+}
+
+impl Stop {
+    /// The end of the run.
+    ///
+    /// # Errors
+    ///
+    /// If it failed.
+    pub(super) fn termination(self) -> Result<Termination, SetupError> {
+        match self {
+            Self::End(termination) => Ok(termination),
+            Self::Failed(error) => Err(error),
+        }
+    }
+}
 
 /// State of a run.
 pub(super) struct Run<'a> {
@@ -187,6 +210,22 @@ impl<'a> Run<'a> {
         Ok(attempt)
     }
 
+    /// The equilibrium of a step after a breakage, with its energies accounted for; where there is none, the end of the run.
+    pub(super) fn equilibrium(
+        &mut self,
+        [step, round]: [usize; 2],
+        breakage: &Breakage,
+    ) -> Result<Balanced, Stop> {
+        self.enter(step, round)?;
+        match self.balance(step, breakage)? {
+            Attempt::Balanced(balanced) => {
+                self.account(step, breakage, &balanced)?;
+                Ok(balanced)
+            }
+            Attempt::Unbalanced(reason) => Err(Stop::End(self.without_equilibrium(step, reason))),
+        }
+    }
+
     /// Equilibrium of the state after the last breakage. Where a body with broken bonds moves beyond its size, supports that were added
     /// for vanishing pivots may be where the motion without stiffness is small: it gets its support where it is largest, before
     /// others are added, and the reaction there decides whether the body bears its load.
@@ -242,11 +281,8 @@ impl<'a> Run<'a> {
             problem,
             ..
         } = self;
-        let asked = observer.asks(end.as_ref())?;
         let numbers = equilibrium.numbers();
-        let has_taken_part = Cell::new(false);
         let checkpoint = |out: &mut dyn Sink| {
-            has_taken_part.set(true);
             place().write(out);
             state.write(numbers, out);
             progress.write(out);
@@ -254,16 +290,7 @@ impl<'a> Run<'a> {
             energies.write(out);
             CheckValues::new(problem, balanced).write(out);
         };
-        let all_take_part = numbers.subdomain().any(asked) && !numbers.subdomain().is_whole();
-        let moment = Moment {
-            end: end.as_ref(),
-            checkpoint: &checkpoint,
-        };
-        let onward = observer.moment(&moment)?;
-        if all_take_part && !has_taken_part.get() {
-            checkpoint(&mut ());
-        }
-        Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
+        Ok(offer(*observer, numbers, end, &checkpoint)?)
     }
 
     /// Adds work and released energy, and reports mechanisms.
@@ -301,19 +328,18 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Breaks bonds of an equilibrium and fixes detached parts.
+    /// Breaks bonds of an equilibrium in a step and a round, and fixes detached parts.
     pub(super) fn break_bonds(
         &mut self,
         bonds: &[u32],
         balanced: &Balanced,
-        step: usize,
-        round: usize,
+        at: [usize; 2],
     ) -> Result<Breakage, SetupError> {
         let problem = self.problem.clone();
         let criteria = problem.criteria_in(&self.state, balanced);
         let deformation = |_, bond: usize| balanced.deformations[bond];
         let judged = (&criteria, &deformation as &dyn Fn(usize, usize) -> _);
-        self.break_deformed(bonds, judged, &balanced.internal, [step, round])
+        self.break_deformed(bonds, judged, &balanced.internal, at)
     }
 
     /// Breaks bonds by criteria and their deformations, in an equilibrium with these internal forces,

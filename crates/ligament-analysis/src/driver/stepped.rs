@@ -10,11 +10,10 @@ use super::checkpoint::{InLoadStep, Place, Restored};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{StepCounters, largest_ratio};
-use super::run::Run;
-use super::run::StopRules;
+use super::run::{Run, Stop, StopRules};
 use super::start::ElasticAnswer;
 use super::start::Prepared;
-use crate::balanced::{Attempt, Balanced};
+use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
 use crate::checkpoint::CheckpointError;
@@ -169,9 +168,9 @@ pub fn resume(
         plan: &plan,
     };
     stepping.run.aim(plan[counters.step].load_factor);
-    let termination = match stepping.break_until_admissible(counters, balanced)? {
-        Some(end) => end,
-        None => stepping.steps_from(counters.step + 1)?,
+    let termination = match stepping.break_until_admissible(counters, balanced) {
+        Ok(()) => stepping.steps_from(counters.step + 1)?,
+        Err(stop) => stop.termination()?,
     };
     stepping.run.report_past_peak(&termination)?;
     Ok(stepping.run.into_outcome(termination, Rows::LoadSteps))
@@ -246,35 +245,27 @@ struct Stepping<'a, 'b> {
 impl Stepping<'_, '_> {
     /// Performs the load steps from `first` on, and returns the reason why the run ends.
     fn steps_from(&mut self, first: usize) -> Result<Termination, SetupError> {
-        for step in first..self.plan.len() {
-            if let Some(end) = self.load_step(step)? {
-                return Ok(end);
-            }
+        let mut steps = first..self.plan.len();
+        match steps.try_for_each(|step| self.load_step(step)) {
+            Ok(()) => Ok(Termination::StepsDone),
+            Err(stop) => stop.termination(),
         }
-        Ok(Termination::StepsDone)
     }
 
-    /// Performs one load step, and returns the reason why the run ends, if it does.
-    fn load_step(&mut self, step: usize) -> Result<Option<Termination>, SetupError> {
+    /// Performs one load step.
+    fn load_step(&mut self, step: usize) -> Result<(), Stop> {
         let LoadStep { part, load_factor } = self.plan[step];
         self.run.begin_part(part);
         self.run.aim(load_factor);
         if !self.run.is_controlled() {
             self.run.state.load_factor = load_factor;
         }
+        let balanced = self.run.equilibrium([step, 0], &Breakage::default())?;
         let counters = StepCounters {
             step,
             ..Default::default()
         };
-        let nothing = Breakage::default();
-        self.run.enter(step, counters.rounds)?;
-        match self.run.balance(step, &nothing)? {
-            Attempt::Balanced(balanced) => {
-                self.run.account(step, &nothing, &balanced)?;
-                self.break_until_admissible(counters, balanced)
-            }
-            Attempt::Unbalanced(reason) => Ok(Some(self.run.without_equilibrium(step, reason))),
-        }
+        self.break_until_admissible(counters, balanced)
     }
 
     /// Breaks bonds in a load step, from an equilibrium on, until none is left to break.
@@ -284,53 +275,31 @@ impl Stepping<'_, '_> {
         &mut self,
         mut counters: StepCounters,
         mut balanced: Balanced,
-    ) -> Result<Option<Termination>, SetupError> {
-        let step = counters.step;
+    ) -> Result<(), Stop> {
         loop {
             let Run { problem, state, .. } = &mut self.run;
-            if problem.begin_softening(state, &balanced) {
-                balanced = match self.balance_again(&counters, &Breakage::default())? {
-                    Ok(balanced) => balanced,
-                    Err(end) => return self.record(&balanced, counters, Some(end)),
-                };
-                continue;
+            let mut breakage = Breakage::default();
+            if !problem.begin_softening(state, &balanced) {
+                let next = self.next_to_break(&balanced);
+                counters.at_rest = next.is_empty();
+                let end = self.end(&balanced, &counters);
+                let end = self.offer(&balanced, counters, end)?;
+                if counters.at_rest || end.is_some() {
+                    return self.record(&balanced, counters, end);
+                }
+                counters.rounds += 1;
+                counters.broken_in_step += next.len();
+                let at = [counters.step, counters.rounds];
+                breakage = self.run.break_bonds(&next, &balanced, at)?;
+                if self.run.collapsed {
+                    return self.record(&balanced, counters, Some(Termination::Collapsed));
+                }
             }
-            let next = self.next_to_break(&balanced);
-            counters.at_rest = next.is_empty();
-            let end = self.end(&balanced, &counters);
-            let end = self.offer(&balanced, counters, end)?;
-            if counters.at_rest || end.is_some() {
-                return self.record(&balanced, counters, end);
-            }
-            counters.rounds += 1;
-            counters.broken_in_step += next.len();
-            let breakage = self
-                .run
-                .break_bonds(&next, &balanced, step, counters.rounds)?;
-            if self.run.collapsed {
-                return self.record(&balanced, counters, Some(Termination::Collapsed));
-            }
-            balanced = match self.balance_again(&counters, &breakage)? {
-                Ok(balanced) => balanced,
-                Err(end) => return self.record(&balanced, counters, Some(end)),
+            let at = [counters.step, counters.rounds];
+            balanced = match self.run.equilibrium(at, &breakage) {
+                Err(Stop::End(end)) => return self.record(&balanced, counters, Some(end)),
+                next => next?,
             };
-        }
-    }
-
-    /// The equilibrium after a breakage in a load step, accounted for; the reason why the run ends where there is none.
-    fn balance_again(
-        &mut self,
-        counters: &StepCounters,
-        breakage: &Breakage,
-    ) -> Result<Result<Balanced, Termination>, SetupError> {
-        let step = counters.step;
-        self.run.enter(step, counters.rounds)?;
-        match self.run.balance(step, breakage)? {
-            Attempt::Balanced(balanced) => {
-                self.run.account(step, breakage, &balanced)?;
-                Ok(Ok(balanced))
-            }
-            Attempt::Unbalanced(reason) => Ok(Err(self.run.without_equilibrium(step, reason))),
         }
     }
 
@@ -406,16 +375,16 @@ impl Stepping<'_, '_> {
         self.run.offer(&place, balanced, end)
     }
 
-    /// Records the end of the load step, and returns the reason why the run ends, if it does.
+    /// Records the end of the load step, and stops where the run ends.
     fn record(
         &mut self,
         balanced: &Balanced,
         mut counters: StepCounters,
         end: Option<Termination>,
-    ) -> Result<Option<Termination>, SetupError> {
+    ) -> Result<(), Stop> {
         counters.largest_ratio = largest_ratio(&self.run.problem, &self.run.state, balanced);
         self.run.record(balanced, counters, end.is_some())?;
-        Ok(end)
+        end.map_or(Ok(()), |end| Err(Stop::End(end)))
     }
 }
 

@@ -7,6 +7,7 @@
 //! that are linear in the displacements: 1/2 (M a + M a')^T (u' - u) is the change of the kinetic energy.
 
 use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -23,8 +24,9 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::driver::outcome::Outcome;
 use crate::driver::record::Energies;
+use crate::driver::run::Stop;
 use crate::error::SetupError;
-use crate::history::{Observer, Termination};
+use crate::history::Observer;
 use crate::motion::contact::ContactForces;
 use crate::motion::{MotionError, MotionProblem, MotionSettings, critical_step};
 use crate::serial::Sink;
@@ -227,16 +229,8 @@ impl<'a> Explicit<'a> {
 
     /// Follows the motion row by row.
     fn follow(mut self) -> Result<Outcome, SetupError> {
-        let termination = loop {
-            if let Some(end) = self.record()? {
-                break end;
-            }
-            let (row, time) = (self.progress.history.len(), self.body.state.load_factor);
-            self.observer.round(row, 0, time, self.body.broken)?;
-            for _ in 0..self.progress.clock.steps_per_row {
-                self.step(row)?;
-            }
-        };
+        let Err(stop) = self.rows();
+        let termination = stop.termination()?;
         let velocity = self.velocities.at_time(self.inertia.step());
         let rates = self.velocities.rates(&velocity);
         let now = self
@@ -246,8 +240,20 @@ impl<'a> Explicit<'a> {
         Ok(record::outcome(&now, self.progress, solver, termination))
     }
 
-    /// Records the present time as a row, and returns the reason why the motion ends there, if it does.
-    fn record(&mut self) -> Result<Option<Termination>, SetupError> {
+    /// Records rows of the history and moves from each to the next until the motion stops.
+    fn rows(&mut self) -> Result<Infallible, Stop> {
+        loop {
+            self.record()?;
+            let (row, time) = (self.progress.history.len(), self.body.state.load_factor);
+            self.observer.round(row, 0, time, self.body.broken)?;
+            for _ in 0..self.progress.clock.steps_per_row {
+                self.step(row)?;
+            }
+        }
+    }
+
+    /// Records the present time as a row, and stops where the motion ends there.
+    fn record(&mut self) -> Result<(), Stop> {
         self.progress.motion.kinetic_energy = self.kinetic_energy();
         let Self {
             body,

@@ -5,6 +5,7 @@
 //!
 //! Points with a prescribed motion have no mass here: the trapezoidal rule would let the acceleration of a prescribed motion ring.
 
+use std::convert::Infallible;
 use std::time::Instant;
 
 use super::checkpoint::ImplicitCheckpoint;
@@ -13,12 +14,13 @@ use super::motion_state::{MassAndDamping, Motion, MotionState, free_masses};
 use super::record::{self, MotionView};
 use super::record::{IMPLICIT, Progress, Resumed};
 use super::stepping::{CALM, HALVINGS, Pace, Stepping, scheme};
-use super::trial_step::{self, StepSettings, TooLong, TrialStep};
+use super::trial_step::{self, Rejected, StepSettings, TrialStep};
 use super::{quasi_static, rigid_step};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::driver::outcome::Outcome;
 use crate::driver::record::Energies;
+use crate::driver::run::Stop;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::motion::contact::{RigidBody, RigidMotion};
@@ -161,16 +163,8 @@ impl Implicit<'_> {
 
     /// Follows the motion row by row.
     fn follow(mut self) -> Result<Outcome, SetupError> {
-        let termination = loop {
-            if let Some(end) = self.record()? {
-                break end;
-            }
-            let (row, time) = (self.progress.history.len(), self.here.state.load_factor);
-            self.observer.round(row, 0, time, self.here.broken)?;
-            if let Some(end) = self.move_to_row(row)? {
-                break end;
-            }
-        };
+        let Err(stop) = self.rows();
+        let termination = stop.termination()?;
         let solver = *self.stepping.equilibrium.choice();
         let costs = self.stepping.costs();
         let records = (&self.energies, &costs);
@@ -180,8 +174,18 @@ impl Implicit<'_> {
         Ok(record::outcome(&now, self.progress, solver, termination))
     }
 
-    /// Takes steps up to a row of the history; returns the reason why there is none, if a step does not converge however small it is.
-    fn move_to_row(&mut self, row: usize) -> Result<Option<Termination>, SetupError> {
+    /// Records rows of the history and moves from each to the next until the motion stops.
+    fn rows(&mut self) -> Result<Infallible, Stop> {
+        loop {
+            self.record()?;
+            let (row, time) = (self.progress.history.len(), self.here.state.load_factor);
+            self.observer.round(row, 0, time, self.here.broken)?;
+            self.move_to_row(row)?;
+        }
+    }
+
+    /// Takes steps up to a row of the history; stops where a step does not converge however small it is.
+    fn move_to_row(&mut self, row: usize) -> Result<(), Stop> {
         let Clock {
             steps_per_row,
             rows,
@@ -195,19 +199,22 @@ impl Implicit<'_> {
             let length = self.pace.parts(&self.progress.clock);
             let share = (tick + length) as f64 / ticks as f64;
             let time = duration * ((row - 1) as f64 + share) / rows as f64;
-            match self.attempt(row, time)? {
+            match self.attempt(row, time) {
                 Ok(taken) => {
                     self.accept(taken)?;
                     tick += length;
                 }
-                Err(TooLong::Unbalanced(reason)) if !self.can_shorten() => {
+                Err(Rejected::Failed(error)) => return Err(error.into()),
+                Err(Rejected::Unbalanced(reason)) if !self.can_shorten() => {
                     let step = self.progress.history.len();
-                    return Ok(Some(Termination::NoEquilibrium { step, reason }));
+                    return Err(Stop::End(Termination::NoEquilibrium { step, reason }));
                 }
-                Err(TooLong::Rounds | TooLong::Free | TooLong::Unbalanced(_)) => self.shorten()?,
+                Err(Rejected::Rounds | Rejected::Free | Rejected::Unbalanced(_)) => {
+                    self.shorten()?;
+                }
             }
         }
-        Ok(None)
+        Ok(())
     }
 
     /// Whether shorter steps than the present ones are possible, or steps with inertia.
@@ -285,7 +292,10 @@ impl Implicit<'_> {
         let pace = self.pace;
         let time = self.here.state.load_factor;
         self.change_pace(quasi_static::pace_from(tick, &self.progress.clock))?;
-        let taken = self.attempt(row, time)?.ok();
+        let taken = match self.attempt(row, time) {
+            Err(Rejected::Failed(error)) => return Err(error),
+            taken => taken.ok(),
+        };
         let problem = &self.problem.problem;
         let is_near = |taken: &TrialStep| {
             let free = quasi_static::set_free(problem, &self.energies, &self.here, taken);
@@ -335,7 +345,7 @@ impl Implicit<'_> {
     }
 
     /// A step to a time, without effect on the motion; the reason why it is too long, if it is.
-    fn attempt(&mut self, row: usize, time: f64) -> Result<Result<TrialStep, TooLong>, SetupError> {
+    fn attempt(&mut self, row: usize, time: f64) -> Result<TrialStep, Rejected> {
         let loads = self.stepping.loads(&self.here, self.inertia());
         let trial = StepSettings {
             row,
@@ -351,16 +361,13 @@ impl Implicit<'_> {
         };
         let start = (start, self.here.balanced.clone());
         let problem = &self.problem.problem;
-        let taken = match trial_step::attempt(problem, equilibrium, start, &trial)? {
-            Ok(taken) => taken,
-            Err(reason) => return Ok(Err(reason)),
-        };
+        let taken = trial_step::attempt(problem, equilibrium, start, &trial)?;
         let Some(share) = self
             .settings
             .share_of_statics()
             .filter(|_| !self.pace.has_inertia)
         else {
-            return Ok(Ok(taken));
+            return Ok(taken);
         };
         let problem = &self.problem.problem;
         let free = quasi_static::set_free(problem, &self.energies, &self.here, &taken);
@@ -371,9 +378,9 @@ impl Implicit<'_> {
         let both = [&self.here.state, &taken.state];
         let slips = quasi_static::slips(problem, equilibrium.size(), both);
         if !slips && free <= (share * self.energy_given().max(given)).max(rounding) {
-            return Ok(Ok(taken));
+            return Ok(taken);
         }
-        Ok(Err(TooLong::Free))
+        Err(Rejected::Free)
     }
 
     /// Accepts a step, with its energies.
@@ -449,8 +456,8 @@ impl Implicit<'_> {
         self.energies.add_driving_work(works.of_accelerations);
     }
 
-    /// Records the present time as a row, and returns the reason why the motion ends there, if it does.
-    fn record(&mut self) -> Result<Option<Termination>, SetupError> {
+    /// Records the present time as a row, and stops where the motion ends there.
+    fn record(&mut self) -> Result<(), Stop> {
         let costs = self.stepping.costs();
         let Self {
             here,

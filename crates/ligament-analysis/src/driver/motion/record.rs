@@ -10,12 +10,11 @@ use crate::bond_numbers::BondNumbers;
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
 use crate::driver::outcome::{Outcome, Rows};
-use crate::driver::record::{Energies, StepCounters, largest_ratio, step_record};
+use crate::driver::record::{Energies, StepCounters, largest_ratio, offer, step_record};
+use crate::driver::run::Stop;
 use crate::driver::run_messages;
-use crate::error::SetupError;
 use crate::history::{
-    InMotion, LargestOverlap, Moment, Observer, ObserverError, Onward, Rates, StepRecord,
-    Termination, View,
+    InMotion, LargestOverlap, Observer, ObserverError, Rates, StepRecord, Termination, View,
 };
 use crate::motion::contact::{ContactForces, RigidMotion};
 use crate::motion::{MotionProblem, MotionStop};
@@ -54,7 +53,7 @@ pub(super) struct MotionView<'a> {
 }
 
 impl MotionView<'_> {
-    /// Records the time as a row, and returns the reason why the motion ends there, if it does. Before, the motion is offered to the observer as
+    /// Records the time as a row, and stops where the motion ends there. Before, the motion is offered to the observer as
     /// one that can continue with this row, so that a motion resumed at its end records its last row again; `checkpoint` writes it.
     pub(super) fn record(
         &self,
@@ -62,7 +61,7 @@ impl MotionView<'_> {
         stop: (&MotionStop, Instant),
         observer: &mut dyn Observer,
         checkpoint: &dyn Fn(&Progress, &mut dyn Sink),
-    ) -> Result<Option<Termination>, SetupError> {
+    ) -> Result<(), Stop> {
         let row = progress.history.len();
         let mut record = self.row(row, progress);
         let Clock { rows, duration, .. } = progress.clock;
@@ -73,7 +72,9 @@ impl MotionView<'_> {
         let end = end.filter(|it| row > 0 || is_lost(it)).or(done);
         let verdict = end.as_ref().map(|it| it.row().verdict);
         record.at_rest = verdict != Some(Verdict::Invalid);
-        let end = offer(observer, end, &|out| checkpoint(progress, out))?;
+        let end = offer(observer, self.numbers, end, &|out| {
+            checkpoint(progress, out)
+        })?;
         self.show(&record, end.is_some(), observer)?;
         let (problem, state) = (self.problem, self.state);
         let overlap = &mut progress.overlap;
@@ -93,7 +94,7 @@ impl MotionView<'_> {
             observer.message(message)?;
         }
         progress.history.push(record);
-        Ok(end)
+        end.map_or(Ok(()), |end| Err(Stop::End(end)))
     }
 
     fn row(&self, row: usize, progress: &Progress) -> StepRecord {
@@ -208,22 +209,6 @@ impl MotionView<'_> {
         ];
         grown.into_iter().find(|it| it.0).map(|it| it.1)
     }
-}
-
-/// Offers a row to the observer before it is recorded, as one from which the motion can continue. Returns the reason why the motion ends
-/// there: `end`, or a stop by the observer.
-fn offer(
-    observer: &mut dyn Observer,
-    end: Option<Termination>,
-    checkpoint: &dyn Fn(&mut dyn Sink),
-) -> Result<Option<Termination>, ObserverError> {
-    observer.asks(end.as_ref())?;
-    let moment = Moment {
-        end: end.as_ref(),
-        checkpoint,
-    };
-    let onward = observer.moment(&moment)?;
-    Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
 }
 
 /// Result of a motion.

@@ -21,14 +21,22 @@ pub(super) struct TrialStep {
     pub(super) records: Vec<BreakRecord>,
 }
 
-/// Reason why a step is too long.
-pub(super) enum TooLong {
+/// Reason why a step cannot be taken: it is too long, or it failed.
+pub(super) enum Rejected {
     /// Bonds broke round after round.
     Rounds,
     /// Without inertia it set energy free.
     Free,
     /// There was no equilibrium.
     Unbalanced(Unbalanced),
+    /// The equations could not be set up.
+    Failed(SetupError),
+}
+
+impl<E: Into<SetupError>> From<E> for Rejected {
+    fn from(error: E) -> Self {
+        Self::Failed(error.into())
+    }
 }
 
 /// Settings of a step.
@@ -48,7 +56,7 @@ pub(super) fn attempt(
     equilibrium: &mut Equilibrium,
     (state, balanced): (State, Balanced),
     trial: &StepSettings,
-) -> Result<Result<TrialStep, TooLong>, SetupError> {
+) -> Result<TrialStep, Rejected> {
     let mut taken = TrialStep {
         state,
         balanced,
@@ -65,7 +73,7 @@ pub(super) fn attempt(
         taken.balanced = match attempt {
             Attempt::Balanced(balanced) => balanced,
             Attempt::Unbalanced(reason) => {
-                return Ok(Err(TooLong::Unbalanced(reason)));
+                return Err(Rejected::Unbalanced(reason));
             }
         };
         breakage = Breakage::default();
@@ -75,11 +83,11 @@ pub(super) fn attempt(
         let next = next(problem, &trial.rule, equilibrium, &taken);
         if next.is_empty() {
             breaks::soften(problem, &mut taken.state);
-            return Ok(Ok(taken));
+            return Ok(taken);
         }
         rounds += 1;
         if trial.rounds.is_some_and(|most| rounds > most) {
-            return Ok(Err(TooLong::Rounds));
+            return Err(Rejected::Rounds);
         }
         let moment = BreakRecord {
             order: trial.broken + taken.broken.len(),
