@@ -180,10 +180,15 @@ impl ImplicitCheckpoint {
 
 /// Motion restored from a checkpoint, at a row of its history.
 pub struct Restored {
+    pub(super) record: RestoredRecord,
+    pub(super) scheme: SchemeCheckpoint,
+}
+
+/// Problem of a restored motion, and its record up to a row.
+pub(super) struct RestoredRecord {
     pub(super) problem: MotionProblem,
     pub(super) energies: Energies,
     pub(super) progress: Progress,
-    pub(super) kept: SchemeCheckpoint,
 }
 
 /// State of a motion under each scheme.
@@ -195,7 +200,7 @@ pub(super) enum SchemeCheckpoint {
 impl Restored {
     /// Time of the restored state, s.
     pub fn time(&self) -> f64 {
-        match &self.kept {
+        match &self.scheme {
             SchemeCheckpoint::Explicit(it) => it.body.state.load_factor,
             SchemeCheckpoint::Implicit(it) => it.here.state.load_factor,
         }
@@ -203,7 +208,7 @@ impl Restored {
 
     /// Number of bonds broken up to the restored state.
     pub fn broken_bonds(&self) -> usize {
-        match &self.kept {
+        match &self.scheme {
             SchemeCheckpoint::Explicit(it) => it.body.broken,
             SchemeCheckpoint::Implicit(it) => it.here.broken,
         }
@@ -237,11 +242,14 @@ impl Restored {
         };
         let energies = Energies::read(&problem.problem, state, balanced, from)?;
         require_end(from).map_err(damaged)?;
+        let problem = problem.clone();
         Ok(Self {
-            problem: problem.clone(),
-            energies,
-            progress,
-            kept,
+            record: RestoredRecord {
+                problem,
+                energies,
+                progress,
+            },
+            scheme: kept,
         })
     }
 }

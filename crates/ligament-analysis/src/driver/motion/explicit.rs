@@ -13,12 +13,12 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::body::{Body, TimeStep};
-use super::checkpoint::ExplicitCheckpoint;
+use super::checkpoint::{ExplicitCheckpoint, RestoredRecord};
 use super::clock::Clock;
 use super::face_friction::{FaceFriction, FrictionEnergies};
 use super::inertia::{Inertia, Velocities};
 use super::record::{self, MotionView};
-use super::record::{EXPLICIT, Progress, Resumed};
+use super::record::{EXPLICIT, Progress};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -99,20 +99,20 @@ pub(super) fn run(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    resumed: Resumed<ExplicitCheckpoint>,
+    record: RestoredRecord,
+    checkpoint: ExplicitCheckpoint,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let Resumed {
+    let RestoredRecord {
         problem,
         energies,
         progress,
-        kept,
-    } = resumed;
+    } = record;
     let ExplicitCheckpoint {
         body,
         velocities,
         contacts,
-    } = kept;
+    } = checkpoint;
     let (clock, choice) = chosen(&problem, settings)?;
     if clock != progress.clock {
         return Err(CheckpointError::OtherTimes.into());

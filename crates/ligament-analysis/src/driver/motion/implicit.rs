@@ -8,11 +8,11 @@
 use std::convert::Infallible;
 use std::time::Instant;
 
-use super::checkpoint::ImplicitCheckpoint;
+use super::checkpoint::{ImplicitCheckpoint, RestoredRecord};
 use super::clock::Clock;
 use super::motion_state::{MassAndDamping, Motion, MotionState, free_masses};
 use super::record::{self, MotionView};
-use super::record::{IMPLICIT, Progress, Resumed};
+use super::record::{IMPLICIT, Progress};
 use super::stepping::{CALM, HALVINGS, Pace, Stepping, scheme};
 use super::trial_step::{self, Rejected, StepSettings, TrialStep};
 use super::{quasi_static, rigid_step};
@@ -93,15 +93,15 @@ pub(super) fn run(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    resumed: Resumed<ImplicitCheckpoint>,
+    record: RestoredRecord,
+    checkpoint: ImplicitCheckpoint,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let Resumed {
+    let RestoredRecord {
         problem,
         energies,
         progress,
-        kept,
-    } = resumed;
+    } = record;
     if progress.clock != Clock::implicit(settings)? {
         return Err(CheckpointError::OtherTimes.into());
     }
@@ -109,7 +109,7 @@ pub(super) fn resume(
         here,
         stepping,
         pace,
-    } = kept;
+    } = checkpoint;
     let motion = Implicit {
         masses: free_masses(&problem, settings.rotary_inertia),
         started: Instant::now(),

@@ -27,7 +27,6 @@ use super::Outcome;
 pub use checkpoint::Restored;
 use checkpoint::SchemeCheckpoint;
 use clock::Clock;
-use record::Resumed;
 
 /// Follows a motion to its end.
 ///
@@ -86,34 +85,15 @@ pub fn resume(
     restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let Restored {
-        problem,
-        energies,
-        progress,
-        kept,
-    } = restored;
-    match (settings.is_explicit(), kept) {
-        (true, SchemeCheckpoint::Explicit(kept)) => {
-            let kept = *kept;
-            let resumed = Resumed {
-                problem,
-                energies,
-                progress,
-                kept,
-            };
-            explicit::resume(settings, resumed, observer)
+    let Restored { record, scheme } = restored;
+    match scheme {
+        SchemeCheckpoint::Explicit(it) if settings.is_explicit() => {
+            explicit::resume(settings, record, *it, observer)
         }
-        (false, SchemeCheckpoint::Implicit(kept)) => {
-            let kept = *kept;
-            let resumed = Resumed {
-                problem,
-                energies,
-                progress,
-                kept,
-            };
-            implicit::resume(settings, resumed, observer)
+        SchemeCheckpoint::Implicit(it) if !settings.is_explicit() => {
+            implicit::resume(settings, record, *it, observer)
         }
-        (true, SchemeCheckpoint::Implicit(_)) | (false, SchemeCheckpoint::Explicit(_)) => {
+        SchemeCheckpoint::Explicit(_) | SchemeCheckpoint::Implicit(_) => {
             Err(CheckpointError::OtherDriver.into())
         }
     }

@@ -17,7 +17,7 @@ use crate::history::{
     InMotion, LargestOverlap, Observer, ObserverError, Rates, StepRecord, Termination, View,
 };
 use crate::motion::contact::{ContactForces, RigidMotion};
-use crate::motion::{MotionProblem, MotionStop};
+use crate::motion::MotionStop;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
 use crate::serial;
@@ -298,12 +298,4 @@ impl Progress {
         write(out);
         energies.write(out);
     }
-}
-
-/// A motion that continues from a checkpoint, with its state under a scheme.
-pub(super) struct Resumed<K> {
-    pub(super) problem: MotionProblem,
-    pub(super) energies: Energies,
-    pub(super) progress: Progress,
-    pub(super) kept: K,
 }
