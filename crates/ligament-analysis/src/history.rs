@@ -14,10 +14,8 @@ use crate::serial;
 use crate::serial::Sink;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
-use crate::user_message::Message;
-
-pub use crate::ahead::Ahead;
 pub use crate::termination::Termination;
+use crate::user_message::Message;
 
 /// Record of a load step at rest (or where the run was stopped), or of an event of the exact path: the state at the load at which
 /// the next bonds break, just before breakage.
@@ -381,4 +379,21 @@ pub trait Observer {
 
     /// Called at the end of a load step or event.
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError>;
+}
+
+/// What a run is about to do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ahead {
+    /// Time steps of a motion.
+    TimeSteps {
+        /// Number of steps.
+        count: usize,
+        /// Whether each solves equations.
+        is_implicit: bool,
+    },
+    /// Solutions with a factor of the stiffness.
+    Factor {
+        /// Multiplications of the factorisation.
+        multiplications: f64,
+    },
 }

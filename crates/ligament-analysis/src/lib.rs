@@ -6,7 +6,6 @@
 //! during the run; the end of a run is a [`Termination`], never an error.
 //! The crate reads and writes no files and prints nothing.
 
-mod ahead;
 pub mod assembly;
 pub mod balanced;
 pub mod bond_numbers;

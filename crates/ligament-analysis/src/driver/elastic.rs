@@ -4,7 +4,6 @@ use super::outcome::{Outcome, Rows};
 use super::record::StepCounters;
 use super::run::Run;
 use super::run::StopRules;
-use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
@@ -33,15 +32,13 @@ pub fn run(
         if let Some(found) = found.as_ref().filter(|it| it.load_factor == load_factor) {
             run.state.displacement.clone_from(&found.displacement);
         }
-        run.enter(step, 0)?;
-        let balanced = match run.balance(step, &nothing)? {
-            Attempt::Balanced(balanced) => balanced,
-            Attempt::Unbalanced(reason) => {
-                termination = Termination::NoEquilibrium { step, reason };
+        let balanced = match run.next_equilibrium([step, 0], &nothing) {
+            Ok(balanced) => balanced,
+            Err(stop) => {
+                termination = stop.termination()?;
                 break;
             }
         };
-        run.account(step, &nothing, &balanced)?;
         let counters = StepCounters {
             step,
             at_rest: true,

@@ -23,8 +23,7 @@ use super::checkpoint::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{Energies, StepCounters, largest_ratio};
-use super::run::{Run, Stop, StopRules};
-use super::start::Prepared;
+use super::run::{Prepared, Run, Stop, StopRules};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -283,7 +282,7 @@ impl<'a> Following<'a> {
                 let end = Termination::Collapsed;
                 return Err(end_of(&mut self.run, self.step + 1, &critical, end));
             }
-            self.line = match self.run.equilibrium([self.step, 1], &breakage) {
+            self.line = match self.run.next_equilibrium([self.step, 1], &breakage) {
                 Err(Stop::End(end)) => {
                     return Err(end_of(&mut self.run, self.step + 1, &critical, end));
                 }

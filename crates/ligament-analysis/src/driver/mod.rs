@@ -17,5 +17,5 @@ pub use crate::problem::Problem;
 pub use checkpoint::Restored;
 pub use outcome::{LoadPoint, Outcome, Rows};
 pub use prediction::{FirstFailure, Prediction, StepOfFailure};
-pub use run::StopRules;
-pub use start::{Prepared, stability_of};
+pub use run::{Prepared, StopRules};
+pub use start::stability_of;

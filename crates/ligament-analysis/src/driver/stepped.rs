@@ -10,9 +10,8 @@ use super::checkpoint::{InLoadStep, Place, Restored};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{StepCounters, largest_ratio};
-use super::run::{Run, Stop, StopRules};
+use super::run::{Prepared, Run, Stop, StopRules};
 use super::start::ElasticAnswer;
-use super::start::Prepared;
 use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
@@ -260,7 +259,7 @@ impl Stepping<'_, '_> {
         if !self.run.is_controlled() {
             self.run.state.load_factor = load_factor;
         }
-        let balanced = self.run.equilibrium([step, 0], &Breakage::default())?;
+        let balanced = self.run.next_equilibrium([step, 0], &Breakage::default())?;
         let counters = StepCounters {
             step,
             ..Default::default()
@@ -296,7 +295,7 @@ impl Stepping<'_, '_> {
                 }
             }
             let at = [counters.step, counters.rounds];
-            balanced = match self.run.equilibrium(at, &breakage) {
+            balanced = match self.run.next_equilibrium(at, &breakage) {
                 Err(Stop::End(end)) => return self.record(&balanced, counters, Some(end)),
                 next => next?,
             };

@@ -19,8 +19,8 @@
 //! whose ends are apart across the crack by a quarter of the distance of points at least (`PASSED`), the others as never broken.
 
 use super::criterion::{Criteria, Criterion};
+use super::measure::Weakened;
 use super::starting::Surface;
-use super::weakened::Weakened;
 use crate::element::BondDeformation;
 use crate::system::BondSystem;
 

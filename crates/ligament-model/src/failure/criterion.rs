@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
+use super::crack_at_points::CrackAtPoints;
 use super::hooke::{Moduli, StressAcross};
 use super::measure::Measure;
+use super::measure::Weakened;
 use super::softening::{AfterLimit, brittle};
 use super::starting::Starting;
-use super::surroundings::Surroundings;
-use super::weakened::Weakened;
 use crate::element::{BondDeformation, Rigidities};
 use crate::stress::point_strain::StrainAround;
 
@@ -156,4 +156,15 @@ impl Criteria {
     pub fn soften(&self) -> bool {
         self.list.iter().any(|it| !it.after.is_brittle())
     }
+}
+
+/// What limits and measures of bonds follow while the body deforms and bonds break.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Surroundings {
+    /// Limits follow the bonds that are left at the points.
+    CrackAtPoints(CrackAtPoints),
+    /// Measures follow the stress around the bonds ([`Moduli`](super::hooke::Moduli)).
+    Stress,
+    /// Bonds begin to soften by the stress around them.
+    Starting(Starting),
 }

@@ -5,8 +5,8 @@ use std::f64::consts::FRAC_PI_2;
 use super::basis::{Basis, weakest_materials};
 use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use super::setting::Setting;
 use super::stretch;
+use super::unfit::Setting;
 use super::unfit::{NoLimit, Unfit};
 use crate::material::{Isotropic, Material, Space};
 

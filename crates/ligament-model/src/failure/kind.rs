@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::basis::Basis;
+use super::criterion::Surroundings;
 use super::measure::Measure;
-use super::setting::Setting;
 use super::softening::{Law, brittle};
-use super::surroundings::Surroundings;
+use super::unfit::Setting;
 use super::unfit::{NoLimit, Unfit};
 use crate::advice::Advice;
 use crate::dimension::cast;

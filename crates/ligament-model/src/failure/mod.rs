@@ -38,27 +38,24 @@ pub mod mohr_coulomb;
 mod of_stress;
 pub mod printed;
 pub mod rankine;
-mod setting;
 pub mod sliding;
 pub mod softening;
 pub mod starting;
 mod state_variables;
 pub mod strength;
 pub mod stretch;
-pub mod surroundings;
 mod unfit;
-mod weakened;
 
 pub use basis::Basis;
 pub use choosing::criteria;
 pub use criterion::{Criteria, Criterion, Verdict};
 pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::Measure;
-pub use setting::Setting;
+pub use measure::Weakened;
 pub use softening::{AfterLimit, Softened};
 pub use state_variables::{CriteriaInState, StateVariables, Stresses};
+pub use unfit::Setting;
 pub use unfit::{NoLimit, Unfit};
-pub use weakened::Weakened;
 
 /// All kinds of criteria.
 pub static KINDS: [&Kind; 15] = [

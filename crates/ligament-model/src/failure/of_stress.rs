@@ -1,9 +1,9 @@
 //! Limits of stresses across the bonds.
 
 use super::basis::{Basis, weakest_materials};
+use super::criterion::Surroundings;
 use super::hooke::Moduli;
 use super::kind::Limits;
-use super::surroundings::Surroundings;
 use crate::material::Isotropic;
 
 /// Limits of a stress across the bonds over E', from those of the materials (n_materials), with the coefficients of its measure that a

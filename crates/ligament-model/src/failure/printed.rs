@@ -16,10 +16,10 @@ use std::sync::Arc;
 
 use super::basis::Basis;
 use super::crack_at_points::{CrackAtPoints, Mode};
+use super::criterion::Surroundings;
 use super::kind::{FRACTURE_ENERGY, Kind, Limits, PerSpace};
 use super::measure::Measure;
 use super::mixed_mode;
-use super::surroundings::Surroundings;
 
 /// Opening (mode I).
 pub static OPENING: Kind = Kind {

@@ -14,13 +14,13 @@ use std::sync::Arc;
 
 use super::basis::Basis;
 use super::bond_rankine::tensile;
+use super::criterion::Surroundings;
 use super::fracture_energy::critical_stretches_for;
 use super::hooke::Moduli;
 use super::kind::{Choice, FRACTURE_ENERGY, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use super::setting::Setting;
 use super::starting::{Starting, Surface};
-use super::surroundings::Surroundings;
+use super::unfit::Setting;
 use super::unfit::{NoLimit, Unfit};
 use crate::material::Space;
 use crate::scatter::Scattered;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::criterion::Surroundings;
 use super::criterion::{Criteria, Criterion, Verdict};
 use super::hooke::{Moduli, StressAcross};
 use super::measure::Measure;
 use super::softening::{AfterLimit, brittle};
-use super::surroundings::Surroundings;
 use crate::element::BondDeformation;
 use crate::interface::Bonds;
 use crate::stress::point_strain::Motion;

@@ -16,8 +16,8 @@ use crate::driver::run_messages;
 use crate::history::{
     InMotion, LargestOverlap, Observer, ObserverError, Rates, StepRecord, Termination, View,
 };
-use crate::motion::contact::{ContactForces, RigidMotion};
 use crate::motion::MotionStop;
+use crate::motion::contact::{ContactForces, RigidMotion};
 use crate::problem::Problem;
 use crate::result_fields::Solution;
 use crate::serial;
