@@ -9,13 +9,13 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 99_292),
-    ("ligament-analysis", 205_137),
-    ("ligament-case", 64_947),
+    ("ligament", 99_030),
+    ("ligament-analysis", 205_092),
+    ("ligament-case", 63_265),
     ("ligament-cli", 54_045),
     ("ligament-linalg", 22_625),
     ("ligament-mesh", 36_006),
-    ("ligament-model", 198_637),
+    ("ligament-model", 199_537),
     ("ligament-output", 73_843),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_113),

@@ -107,11 +107,11 @@ impl CaseFile {
                 Ok(AnyMesh::Plane(mesh).into())
             }
             (None, Some(section), _) => {
-                let body = stage(watcher, "lattice", || lattice_keys::body(section));
+                let body = stage(watcher, "lattice", || lattice_keys::body(section.grid()));
                 Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, Some(section)) => {
-                let body = stage(watcher, "lattice", || lattice_keys::body(section));
+                let body = stage(watcher, "lattice", || lattice_keys::body(section.grid()));
                 Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, None) => anyhow::bail!("the case has no body"),
@@ -127,33 +127,33 @@ impl CaseFile {
         let dimensions = body.dimensions();
         let setup = self.case.setup_on(body);
         let mut setup = setup.map_err(|fault| self.source.error(fault))?;
+        let unread = |list: &str, index: usize, key: &str| {
+            let key = format!("{list}.{index}.{key}");
+            move |reason: String| self.error(&key, reason)
+        };
         for (index, section) in self.case.temperatures.iter().enumerate() {
             if let Some(file) = &section.file {
                 let samples = point_table::samples(file, dimensions, ["change", " (K)"]);
-                let samples = samples
-                    .map_err(|reason| self.error(&format!("temperature.{index}.file"), reason))?;
+                let samples = samples.map_err(unread("temperature", index, "file"))?;
                 setup.temperatures[index].change = TemperatureChange::Table(samples);
             }
         }
         for (index, section) in self.case.loads.iter().enumerate() {
             if let Some(file) = section.profile.as_ref().and_then(|it| it.file.as_ref()) {
                 let samples = point_table::samples(file, dimensions, ["factor", ""]);
-                let samples = samples
-                    .map_err(|reason| self.error(&format!("load.{index}.profile.file"), reason))?;
+                let samples = samples.map_err(unread("load", index, "profile.file"))?;
                 setup.loads[index].profile = Some(Profile::Table(samples));
             }
             if let Some(file) = section.amplitude.as_ref().and_then(|it| it.file.as_ref()) {
-                let amplitude = point_table::amplitude(file).map_err(|reason| {
-                    self.error(&format!("load.{index}.amplitude.file"), reason)
-                })?;
+                let amplitude = point_table::amplitude(file);
+                let amplitude = amplitude.map_err(unread("load", index, "amplitude.file"))?;
                 setup.loads[index].amplitude = Some(amplitude);
             }
         }
         for (index, section) in self.case.rigid_bodies.iter().enumerate() {
             if let Some(file) = section.amplitude.as_ref().and_then(|it| it.file.as_ref()) {
-                let amplitude = point_table::amplitude(file).map_err(|reason| {
-                    self.error(&format!("rigid.{index}.amplitude.file"), reason)
-                })?;
+                let amplitude = point_table::amplitude(file);
+                let amplitude = amplitude.map_err(unread("rigid", index, "amplitude.file"))?;
                 setup.rigid_bodies[index].amplitude = amplitude;
             }
         }

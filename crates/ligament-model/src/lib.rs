@@ -19,7 +19,7 @@
 pub mod advice;
 pub mod bonds;
 pub mod boxes;
-mod case_type;
+pub mod case_type;
 pub mod change;
 pub mod cloud;
 pub mod communicator;

@@ -51,6 +51,8 @@ pub struct Field {
     pub index: Option<usize>,
     /// Part of the field or of its element: `place`.
     pub part: Option<&'static str>,
+    /// Key of the part, where the part has several.
+    pub key: Option<&'static str>,
 }
 
 /// Fault of a field of a setup.
@@ -396,6 +398,7 @@ impl Field {
             name,
             index: None,
             part: None,
+            key: None,
         }
     }
 
@@ -405,6 +408,7 @@ impl Field {
             name,
             index: Some(index),
             part: None,
+            key: None,
         }
     }
 
@@ -412,6 +416,14 @@ impl Field {
     pub const fn part(self, part: &'static str) -> Self {
         Self {
             part: Some(part),
+            ..self
+        }
+    }
+
+    /// A key of this part of the field.
+    pub const fn key(self, key: &'static str) -> Self {
+        Self {
+            key: Some(key),
             ..self
         }
     }
@@ -431,9 +443,7 @@ impl fmt::Display for Field {
         if let Some(index) = self.index {
             write!(formatter, "[{index}]")?;
         }
-        match self.part {
-            Some(part) => write!(formatter, ".{part}"),
-            None => Ok(()),
-        }
+        let mut below = self.part.iter().chain(&self.key);
+        below.try_for_each(|it| write!(formatter, ".{it}"))
     }
 }

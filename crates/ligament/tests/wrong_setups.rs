@@ -1,8 +1,10 @@
 //! A setup that is built wrongly names the field and says what to do.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
+use ligament::analysis::motion::MotionSettings;
 use ligament::body::PointsError;
 use ligament::prelude::*;
+use ligament::setup::ContactLaw;
 use ligament::suggestion::{hint, nearest};
 use ligament_model::failure::mixed_mode::MIXED_MODE;
 use ligament_model::{Anisotropic, Orthotropic};
@@ -82,6 +84,74 @@ fn values_out_of_range_say_what_they_must_be() {
                 }
             }),
             "section.thickness: must be greater than 0, found 0.0",
+        ),
+    ] {
+        assert_eq!(found, expected);
+    }
+}
+
+/// The range of a number stands once, for a case file and for memory: out of it the field of its key is named, with words of its own where the
+/// range has some. Expected are the words of the messages; a number that is not finite is out of every range.
+#[test]
+fn numbers_out_of_the_ranges_of_their_keys_are_refused() {
+    let motion = |change: fn(&mut MotionSettings)| {
+        error(|it| {
+            let mut settings = MotionSettings::new(1.0);
+            change(&mut settings);
+            it.analysis = Analysis::Motion(settings);
+        })
+    };
+    let law = ContactLaw {
+        friction: -0.1,
+        ..ContactLaw::default()
+    };
+    for (found, expected) in [
+        (
+            motion(|it| it.duration = f64::INFINITY),
+            "motion.duration: must be a finite number, found inf",
+        ),
+        (
+            motion(|it| it.rows = 0),
+            "motion.rows: must be 1 to 1000000, found 0",
+        ),
+        (
+            motion(|it| it.step = Some(f64::NAN)),
+            "motion.step: must be greater than 0, found NaN",
+        ),
+        (
+            motion(|it| it.safety = 1.0),
+            "motion.safety: must be greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is \
+             unstable, found 1.0",
+        ),
+        (
+            motion(|it| it.dissipation = 0.5),
+            "motion.dissipation: must be 0 to 1/3, found 0.5",
+        ),
+        (
+            motion(|it| it.damping.mass = -1.0),
+            "motion.damping.mass: must be at least 0: a negative damping would feed energy to the body, found -1.0",
+        ),
+        (
+            motion(|it| it.stop.wall_time = Some(0.0)),
+            "motion.stop.wall_time: must be greater than 0, found 0.0",
+        ),
+        (
+            error(|it| {
+                let mut settings = event();
+                settings.stop.load_fraction = Some(1.5);
+                it.criteria = vec![STRENGTH.into()];
+                it.materials[0].material.tensile_strength = Some(1e6);
+                it.analysis = Analysis::Event(settings);
+            }),
+            "analysis.stop.load_fraction: must be greater than 0 and less than 1, found 1.5",
+        ),
+        (
+            error(|it| it.supports[0].stiffness.y = Some(-1.0)),
+            "supports[0].stiffness: must be greater than 0, found -1.0",
+        ),
+        (
+            error(|it| it.contacts.push(law.into())),
+            "contacts[0].friction: must be 0 or more, found -0.1",
         ),
     ] {
         assert_eq!(found, expected);

@@ -758,16 +758,18 @@ ligament_model::case_type! {
     #[case(serde(default))]
     pub struct StopRules {
         /// When the load has fallen to this share of its largest value; not where the load factor is below an earlier one.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
+        #[range("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)]
         pub load_fraction: Option<f64>,
         /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("m")]
         pub displacement: Option<f64>,
         /// When so many bonds are broken.
-        #[case(schemars(range(min = 1)))]
+        #[range("minimum" = 1)]
         pub bonds: Option<usize>,
         /// After so much time, s.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("s")]
         pub wall_time: Option<f64>,
         /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
         pub negative_energy: bool,

@@ -61,30 +61,38 @@ case_type! {
     #[derive(Debug, Clone, PartialEq)]
     pub struct MotionSettings {
         /// Time at the end, s.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("s")]
         pub duration: f64,
         /// Rows of the history, at equal times.
-        #[case(serde(default = "rows"), schemars(range(min = 1, max = 1_000_000)))]
+        #[range("minimum" = 1, "maximum" = 1_000_000)]
+        #[case(serde(default = "rows"))]
         pub rows: usize,
         /// Scheme of the integration in time.
         #[case(serde(default))]
         pub scheme: Scheme,
         /// Time step, s; explicit steps without it are `safety` times the critical step of the body. It is shortened so that rows are at
         /// multiples of it, and implicit steps are halved where bonds break fast.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("s")]
         pub step: Option<f64>,
         /// Share of the critical step, beyond which explicit steps are unstable.
-        #[case(serde(default = "safety"), schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
+        #[range("exclusiveMinimum" = 0, "exclusiveMaximum" = 1;
+            "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable")]
+        #[case(serde(default = "safety"))]
         pub safety: f64,
         /// Dissipation of fast motions by implicit steps, after Hilber, Hughes and Taylor: 0 takes no energy.
-        #[case(serde(default), schemars(range(min = 0), extend("maximum" = MOST_DISSIPATION)))]
+        #[range("minimum" = 0, "maximum" = MOST_DISSIPATION; "0 to 1/3")]
+        #[case(serde(default))]
         pub dissipation: f64,
         /// Share of the work so far that a step without inertia may set free beyond what its bonds dissipate, and that a motion may have left when
         /// equilibria follow again; for the scheme `auto`.
-        #[case(serde(default = "statics"), schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)))]
+        #[range("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)]
+        #[case(serde(default = "statics"))]
         pub statics: f64,
         /// Factor on the rotational inertia of the points; a larger one allows longer steps where rotations limit them.
-        #[case(serde(default = "rotary_inertia"), schemars(extend("exclusiveMinimum" = 0)))]
+        #[range("exclusiveMinimum" = 0)]
+        #[case(serde(default = "rotary_inertia"))]
         pub rotary_inertia: f64,
         /// Damping C = `mass` M + `stiffness` K.
         #[case(serde(default))]
@@ -119,10 +127,12 @@ case_type! {
     #[case(serde(default))]
     pub struct Damping {
         /// alpha, 1/s: slow motions are damped most.
-        #[case(schemars(range(min = 0), extend("x-unit" = "1/s")))]
+        #[range("minimum" = 0; "at least 0: a negative damping would feed energy to the body")]
+        #[unit("1/s")]
         pub mass: f64,
         /// beta, s: fast motions are damped most; it shortens the critical step.
-        #[case(schemars(range(min = 0), extend("x-unit" = "s")))]
+        #[range("minimum" = 0; "at least 0: a negative damping would feed energy to the body")]
+        #[unit("s")]
         pub stiffness: f64,
     }
 }
@@ -133,10 +143,11 @@ case_type! {
     #[case(serde(default))]
     pub struct MotionStop {
         /// When so many bonds are broken.
-        #[case(schemars(range(min = 1)))]
+        #[range("minimum" = 1)]
         pub bonds: Option<usize>,
         /// After so much time of the machine, s.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("s")]
         pub wall_time: Option<f64>,
     }
 }

@@ -95,12 +95,9 @@ impl Amplitude {
         ];
         let factor = one_of(key, forms)??;
         if self.shape.is_none() {
-            self.refuse_others(
-                key,
-                "`points` or `file`",
-                "it belongs to a `shape`",
-                &["start", "duration", "periods", "peak_time", "frequency"],
-            )?;
+            let of_shapes = ["start", "duration", "periods", "peak_time", "frequency"];
+            let reason = "it belongs to a `shape`";
+            refuse(key, self, &of_shapes, "`points` or `file`", reason)?;
         }
         Ok(factor)
     }
@@ -112,9 +109,9 @@ impl Amplitude {
             let is_sine = matches!(shape, S::Sine { .. });
             let reason = "it belongs to another shape";
             let setting = format!("shape = \"{}\"", word_of(&self.shape));
-            self.refuse_others(key, &setting, reason, &["peak_time", "frequency"])?;
+            refuse(key, self, &["peak_time", "frequency"], &setting, reason)?;
             if !is_sine {
-                self.refuse_others(key, &setting, reason, &["periods"])?;
+                refuse(key, self, &["periods"], &setting, reason)?;
             }
             let duration = number("duration", self.duration)?;
             let start = self.start.unwrap_or(0.0);
@@ -135,7 +132,7 @@ impl Amplitude {
                 let reason = "a wavelet has a `peak_time` and a `frequency`";
                 let setting = "shape = \"ricker\"";
                 let others = ["start", "duration", "periods"];
-                self.refuse_others(key, setting, reason, &others)?;
+                refuse(key, self, &others, setting, reason)?;
                 let peak_time = number("peak_time", self.peak_time)?;
                 Ok(Factor::ricker(
                     peak_time,
@@ -143,25 +140,6 @@ impl Amplitude {
                 ))
             }
         }
-    }
-
-    /// Refuses given keys among some.
-    fn refuse_others(
-        &self,
-        key: &KeyPath,
-        setting: &str,
-        reason: &'static str,
-        others: &[&str],
-    ) -> Result<(), KeyFault> {
-        let given = [
-            ("start", self.start.is_some()),
-            ("duration", self.duration.is_some()),
-            ("periods", self.periods.is_some()),
-            ("peak_time", self.peak_time.is_some()),
-            ("frequency", self.frequency.is_some()),
-        ];
-        let given = given.map(|(name, is_given)| (name, is_given && others.contains(&name)));
-        refuse(key, given, setting, reason)
     }
 }
 

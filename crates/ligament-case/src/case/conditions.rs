@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::region::{Corners, place};
+use super::region::{Corners, place, place_or_everywhere};
 use super::values::exactly_one;
-use ligament::setup::{self, Displacement, Place, Position, SpringStiffness};
+use ligament::setup::{self, Displacement, Position, SpringStiffness};
 
 /// A vector; a component that is not given is zero.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -22,7 +22,6 @@ pub struct Vector {
     #[serde(default)]
     pub y: f64,
     /// Along z of a solid, in the unit of the force.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub z: Option<f64>,
 }
 
@@ -107,12 +106,9 @@ impl InitialVelocity {
         key: &KeyPath,
         dimensions: usize,
     ) -> Result<setup::InitialVelocity, KeyFault> {
-        let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
+        let group = self.group.as_ref();
         Ok(setup::InitialVelocity {
-            place: match is_placed {
-                true => place(key, dimensions, self.group.as_ref(), self.r#box, self.at)?,
-                false => Place::Everywhere,
-            },
+            place: place_or_everywhere(key, dimensions, group, self.r#box, self.at)?,
             velocity: self.velocity.for_body(&key.child("velocity"), dimensions)?,
         })
     }

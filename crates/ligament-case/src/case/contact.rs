@@ -27,37 +27,28 @@ pub struct Rigid {
     #[schemars(extend("x-unit" = "m"))]
     pub centre: Coordinates,
     /// Radius of a circle or sphere, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub radius: Option<f64>,
     /// Outward normal of a wall.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<Coordinates>,
     /// Sides of a box, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m"))]
     pub size: Option<Coordinates>,
     /// Displacement at load factor 1, m; in statics.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m"))]
     pub displacement: Option<Vector>,
     /// Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s"))]
     pub velocity: Option<Vector>,
     /// Factor of the velocity as a function of time; without it 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<Amplitude>,
     /// Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg"))]
     pub mass: Option<f64>,
     /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg m^2"))]
     pub inertia: Option<f64>,
     /// Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s^2"))]
     pub acceleration: Option<Vector>,
     /// Coefficient of Coulomb's friction.
@@ -137,12 +128,9 @@ impl Rigid {
 
     fn form(&self, key: &KeyPath, dimensions: usize) -> Result<RigidForm, KeyFault> {
         let centre = self.centre.for_body(&key.child("centre"), dimensions)?;
-        let of_ball = ("radius", self.radius.is_some());
-        let of_wall = ("normal", self.normal.is_some());
-        let of_box = ("size", self.size.is_some());
-        let refuse = |keys: [(&'static str, bool); 2]| {
+        let refuse = |keys: [&'static str; 2]| {
             let setting = format!("shape = \"{}\"", word_of(&self.shape));
-            refuse(key, keys, &setting, "it belongs to another shape")
+            refuse(key, self, &keys, &setting, "it belongs to another shape")
         };
         let along = |name: &str, given: Option<Coordinates>| {
             let given = given.ok_or_else(|| missing(key, name))?;
@@ -150,7 +138,7 @@ impl Rigid {
         };
         match self.shape {
             RigidShape::Circle | RigidShape::Sphere => {
-                refuse([of_wall, of_box])?;
+                refuse(["normal", "size"])?;
                 if (self.shape == RigidShape::Circle) != (dimensions == 2) {
                     let reason = match dimensions {
                         2 => "a body in the plane meets a \"circle\"",
@@ -162,7 +150,7 @@ impl Rigid {
                 Ok(RigidForm::Ball { centre, radius })
             }
             RigidShape::Wall => {
-                refuse([of_ball, of_box])?;
+                refuse(["radius", "size"])?;
                 let normal = along("normal", self.normal)?;
                 Ok(RigidForm::Wall {
                     point: centre,
@@ -170,7 +158,7 @@ impl Rigid {
                 })
             }
             RigidShape::Box => {
-                refuse([of_ball, of_wall])?;
+                refuse(["radius", "normal"])?;
                 let size = along("size", self.size)?;
                 Ok(RigidForm::Box { centre, size })
             }

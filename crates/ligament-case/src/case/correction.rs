@@ -51,34 +51,30 @@ impl Correction {
     pub(super) fn complete(&mut self, key: &KeyPath, law: &Law) -> Result<(), KeyFault> {
         let of_paper = setup::Correction::of_paper(law);
         self.alpha.get_or_insert(of_paper.alpha);
-        let surface = self.surface.get_or_insert(Word(of_paper.surface));
-        let of_domain = [
-            ("rule", self.rule.is_some()),
-            ("tolerance", self.tolerance.is_some()),
-            ("max_sweeps", self.max_sweeps.is_some()),
-        ];
+        let surface = self.surface.get_or_insert(Word(of_paper.surface)).0;
+        let of_domain = ["rule", "tolerance", "max_sweeps"];
         let of_patch = [
-            ("reference", self.reference.is_some()),
-            ("smallest_factor", self.smallest_factor.is_some()),
-            ("largest_factor", self.largest_factor.is_some()),
-            ("moment_weight", self.moment_weight.is_some()),
-            ("regularisation", self.regularisation.is_some()),
+            "reference",
+            "smallest_factor",
+            "largest_factor",
+            "moment_weight",
+            "regularisation",
         ];
-        let setting = format!("surface = \"{}\"", surface.0.word()[0]);
+        let setting = format!("surface = \"{}\"", surface.word()[0]);
         let is_iterated = "only the domain correction is iterated";
         let is_patch = "only the patch correction has it";
-        match surface.0 {
+        match surface {
             Surface::Domain(_) => {
-                refuse(key, of_patch, &setting, is_patch)?;
+                refuse(key, self, &of_patch, &setting, is_patch)?;
                 self.surface = Some(Word(Surface::Domain(self.iteration(key)?)));
             }
             Surface::Patch(_) => {
-                refuse(key, of_domain, &setting, is_iterated)?;
+                refuse(key, self, &of_domain, &setting, is_iterated)?;
                 self.surface = Some(Word(Surface::Patch(self.patch())));
             }
             Surface::None | Surface::Volume => {
-                refuse(key, of_domain, &setting, is_iterated)?;
-                refuse(key, of_patch, &setting, is_patch)?;
+                refuse(key, self, &of_domain, &setting, is_iterated)?;
+                refuse(key, self, &of_patch, &setting, is_patch)?;
             }
         }
         Ok(())

@@ -6,7 +6,7 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::conditions::Vector;
 use super::fault::KeyFault;
@@ -14,7 +14,8 @@ use super::key_path::KeyPath;
 use ligament::setup;
 
 /// A couple.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Couple {
     /// A couple in the plane, counter-clockwise.
     InPlane(f64),
@@ -70,15 +71,6 @@ impl<'de> Visitor<'de> for CoupleVisitor {
 
     fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Couple, A::Error> {
         Vector::deserialize(MapAccessDeserializer::new(map)).map(Couple::About)
-    }
-}
-
-impl Serialize for Couple {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        match self {
-            Self::InPlane(value) => value.serialize(serializer),
-            Self::About(vector) => vector.serialize(serializer),
-        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use ligament_model::case_type::{is_within, range_in_words};
 use serde_json::Value as Json;
 
 use super::document::{Node, Value};
@@ -89,13 +90,8 @@ fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault
         Value::Float(number) if number.is_finite() => (*number, format!("{number:?}")),
         Value::Float(_) | Value::String(_) | Value::Boolean(_) | Value::Date => return Ok(()),
     };
-    let bound = |keyword: &str| schema[keyword].as_f64();
-    let holds = bound("minimum").is_none_or(|least| number >= least)
-        && bound("maximum").is_none_or(|most| number <= most)
-        && bound("exclusiveMinimum").is_none_or(|below| number > below)
-        && bound("exclusiveMaximum").is_none_or(|above| number < above);
-    match range_in_words(schema) {
-        Some(expected) if !holds => Err(KeyFault::new(
+    match range_of(schema) {
+        Some(expected) if !is_within(number, bounds(schema)) => Err(KeyFault::new(
             key.clone(),
             Fault::out_of_range(expected, found),
         )),
@@ -103,30 +99,15 @@ fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault
     }
 }
 
-/// Description of a key's range, "greater than 0"; `None` for an arbitrary number or a count from 0, which is implied by its type.
-fn range_in_words(schema: &Json) -> Option<String> {
-    let bounds = |keyword: &str| {
-        schema
-            .get(keyword)
-            .filter(|bound| keyword != "minimum" || **bound != 0)
-    };
-    let bound = |keyword: &str| bounds(keyword).map(Json::to_string);
-    if let Some(words) = schema[RANGE].as_str() {
-        return Some(words.to_owned());
-    }
-    if let (Some(least), Some(most)) = (bound("minimum"), bound("maximum")) {
-        return Some(format!("{least} to {most}"));
-    }
-    let bounds = [
-        ("exclusiveMinimum", "greater than"),
-        ("minimum", "at least"),
-        ("exclusiveMaximum", "less than"),
-        ("maximum", "at most"),
-    ];
-    let bounds = bounds.into_iter();
-    let words = bounds.filter_map(|(keyword, words)| Some(format!("{words} {}", bound(keyword)?)));
-    let words: Vec<String> = words.collect();
-    (!words.is_empty()).then(|| words.join(" and "))
+/// The bounds of a key's number.
+fn bounds(schema: &Json) -> impl Fn(&str) -> Option<f64> {
+    |keyword| schema[keyword].as_f64()
+}
+
+/// Description of a key's range, "greater than 0"; `None` for an arbitrary number or a count from 0.
+fn range_of(schema: &Json) -> Option<String> {
+    let words = schema[RANGE].as_str().map(str::to_owned);
+    words.or_else(|| range_in_words(bounds(schema)))
 }
 
 /// The rows of a Markdown table of the keys at a path and in tables below it: description, range and default.
@@ -167,7 +148,7 @@ fn row(schema: &Json, path: &str) -> String {
         .replace("\n\n", "\n")
         .replace("\n- ", " ")
         .replace('\n', " ");
-    if let Some(range) = range_in_words(schema) {
+    if let Some(range) = range_of(schema) {
         text += &format!(" Must be {range}.");
     }
     if let Some(default) = schema.get("default").filter(|it| !it.is_object()) {

@@ -14,73 +14,44 @@ pub const MOST_CELLS: u64 = 50_000_000;
 /// Largest distance from the origin, in cells: beyond it coordinates of neighbours would share too many digits.
 const FARTHEST: f64 = 1e9;
 
-/// Keys of a section that describes a lattice in D dimensions.
-pub(crate) trait LatticeKeys<const D: usize> {
+/// What a section says of a lattice in D dimensions.
+pub(crate) struct Grid<const D: usize, S> {
     /// Key of the section.
-    const SECTION: &'static str;
-
+    pub(crate) section: &'static str,
     /// Text for the axes: "x and y".
-    const AXES: &'static str;
-
-    /// Type of the shapes of holes and sets.
-    type Shape: LatticeShape<D>;
-
-    /// Type of the keys of a hole.
-    type Hole: HoleKeys<Self::Shape>;
-
-    /// Type of the keys of a set of cells.
-    type Set: SetKeys<D, Self::Shape>;
-
+    pub(crate) axes: &'static str,
     /// Number of cells along the axes.
-    fn cells(&self) -> [u32; D];
-
+    pub(crate) cells: [u32; D],
     /// Sides of the cells, m.
-    fn spacing(&self) -> [f64; D];
-
+    pub(crate) spacing: [f64; D],
     /// Corner with the lowest coordinates, m.
-    fn corner(&self) -> [f64; D];
-
+    pub(crate) corner: [f64; D],
     /// Thickness of a body in the plane, m; 1 for a solid.
-    fn thickness(&self) -> f64 {
-        1.0
-    }
-
-    /// Keys of the holes.
-    fn holes(&self) -> &[Self::Hole];
-
-    /// Keys of the sets of cells, by their names.
-    fn sets(&self) -> &BTreeMap<String, Self::Set>;
+    pub(crate) thickness: f64,
+    /// Holes, each with the name of the group of the cells at its rim.
+    pub(crate) holes: Vec<(Option<String>, Shapes<S>)>,
+    /// Sets of cells by their names.
+    pub(crate) sets: BTreeMap<String, (Sides<D>, Shapes<S>)>,
 }
 
-/// Type of the keys of a hole.
-pub(crate) trait HoleKeys<S> {
-    /// Name of the group of the cells at the hole's rim.
-    fn name(&self) -> Option<&String>;
+/// The possible shapes by their keys, at most one of which is given.
+pub(crate) type Shapes<S> = Vec<(&'static str, Option<S>)>;
 
-    /// The possible shapes by their keys, exactly one of which is given.
-    fn shapes(&self) -> Vec<(&'static str, Option<S>)>;
-}
-
-/// Keys of a set of cells of a lattice in D dimensions.
-pub(crate) trait SetKeys<const D: usize, S> {
-    /// Numbers of layers at the sides of the lattice, by their keys, with the outward normals of the sides.
-    fn sides(&self) -> Vec<(&'static str, Option<u32>, [i8; D])>;
-
-    /// The possible shapes by their keys.
-    fn shapes(&self) -> Vec<(&'static str, Option<S>)>;
-}
+/// Numbers of layers at the sides of a lattice, by their keys, with the outward normals of the sides.
+pub(crate) type Sides<const D: usize> = Vec<(&'static str, Option<u32>, [i8; D])>;
 
 /// The body of a section.
 ///
 /// # Errors
 ///
 /// If a key is out of range, or no cell remains of the lattice, of a set or of the rim of a hole.
-pub(crate) fn body<const D: usize, K: LatticeKeys<D>>(
-    keys: &K,
-) -> Result<BodyOnLattice<D, K::Shape>, KeyFault> {
-    let section = KeyPath::default().child(K::SECTION);
-    let (holes, sets) = parts(keys, &section)?;
-    let body = BodyOnLattice::new(keys.cells(), keys.spacing(), keys.corner(), &holes, &sets);
+pub(crate) fn body<const D: usize, S: LatticeShape<D>>(
+    grid: Grid<D, S>,
+) -> Result<BodyOnLattice<D, S>, KeyFault> {
+    let section = KeyPath::default().child(grid.section);
+    let (cells, spacing, corner) = (grid.cells, grid.spacing, grid.corner);
+    let (holes, sets) = parts(grid, &section)?;
+    let body = BodyOnLattice::new(cells, spacing, corner, &holes, &sets);
     body.map_err(|error| {
         let key = match &error {
             LatticeError::NothingLeft { .. } => section.child("remove"),
@@ -96,51 +67,52 @@ pub(crate) fn body<const D: usize, K: LatticeKeys<D>>(
 /// # Errors
 ///
 /// If a key is out of range.
-pub(crate) fn stand_in<const D: usize, K: LatticeKeys<D>>(
-    keys: &K,
-) -> Result<BodyOnLattice<D, K::Shape>, KeyFault> {
-    let section = KeyPath::default().child(K::SECTION);
-    parts(keys, &section)?;
-    let cell = BodyOnLattice::new([1; D], keys.spacing(), keys.corner(), &[], &BTreeMap::new());
+pub(crate) fn stand_in<const D: usize, S: LatticeShape<D>>(
+    grid: Grid<D, S>,
+) -> Result<BodyOnLattice<D, S>, KeyFault> {
+    let section = KeyPath::default().child(grid.section);
+    let (spacing, corner) = (grid.spacing, grid.corner);
+    parts(grid, &section)?;
+    let cell = BodyOnLattice::new([1; D], spacing, corner, &[], &BTreeMap::new());
     cell.map_err(|error| KeyFault::new(section, error.to_string()))
 }
 
 /// Holes and sets of a lattice.
 type Parts<const D: usize, S> = (Vec<Hole<S>>, BTreeMap<String, Cells<D, S>>);
 
-fn parts<const D: usize, K: LatticeKeys<D>>(
-    keys: &K,
+fn parts<const D: usize, S: LatticeShape<D>>(
+    grid: Grid<D, S>,
     section: &KeyPath,
-) -> Result<Parts<D, K::Shape>, KeyFault> {
-    check_size(keys, section)?;
-    let holes = keys.holes().iter().enumerate().map(|(index, hole)| {
+) -> Result<Parts<D, S>, KeyFault> {
+    check_size(&grid, section)?;
+    let holes = grid.holes.into_iter().enumerate();
+    let holes = holes.map(|(index, (name, shapes))| {
         let key = section.child("remove").child(index);
-        if let Some(name) = hole.name() {
+        if let Some(name) = &name {
             require_column_name(|| key.child("name"), name)?;
-            if keys.sets().contains_key(name) {
-                let list = K::SECTION;
-                let reason = format!("`{list}.set` has a `{name}` as well: rename one of them");
+            if grid.sets.contains_key(name) {
+                let reason = format!("`{section}.set` has a `{name}` as well: rename one of them");
                 return Err(KeyFault::new(key.child("name"), reason));
             }
         }
-        Ok(Hole {
-            name: hole.name().cloned(),
-            shape: one_of(&key, hole.shapes())?,
-        })
+        let shape = one_of(&key, shapes)?;
+        Ok(Hole { name, shape })
     });
     let holes = holes.collect::<Result<_, _>>()?;
-    let sets = keys.sets().iter().map(|(name, set)| {
-        let cells = cells_of(set, &section.child("set").child(name), keys.cells())?;
-        Ok((name.clone(), cells))
+    let sets = grid.sets.into_iter().map(|(name, (sides, shapes))| {
+        let cells = cells_of(
+            sides,
+            shapes,
+            &section.child("set").child(&name),
+            grid.cells,
+        )?;
+        Ok((name, cells))
     });
     Ok((holes, sets.collect::<Result<_, _>>()?))
 }
 
-fn check_size<const D: usize, K: LatticeKeys<D>>(
-    keys: &K,
-    section: &KeyPath,
-) -> Result<(), KeyFault> {
-    let (cells, spacing, corner) = (keys.cells(), keys.spacing(), keys.corner());
+fn check_size<const D: usize, S>(grid: &Grid<D, S>, section: &KeyPath) -> Result<(), KeyFault> {
+    let (cells, spacing, corner) = (grid.cells, grid.spacing, grid.corner);
     let along = cells.iter().map(|&it| u64::from(it));
     let n_cells = along.fold(1_u64, u64::saturating_mul);
     require(
@@ -148,11 +120,11 @@ fn check_size<const D: usize, K: LatticeKeys<D>>(
         || section.child("cells"),
         &format!(
             "at least 1 along {}, and {MOST_CELLS} together at most",
-            K::AXES
+            grid.axes
         ),
         cells,
     )?;
-    let volume = spacing.iter().product::<f64>() * keys.thickness();
+    let volume = spacing.iter().product::<f64>() * grid.thickness;
     require(
         spacing.iter().all(|side| *side > 0.0) && volume.is_normal(),
         || section.child("spacing"),
@@ -172,11 +144,11 @@ fn check_size<const D: usize, K: LatticeKeys<D>>(
 
 /// The rule for the cells of a set in a lattice of `size` cells along the axes.
 fn cells_of<const D: usize, S: LatticeShape<D>>(
-    set: &impl SetKeys<D, S>,
+    sides: Sides<D>,
+    shapes: Shapes<S>,
     key: &KeyPath,
     size: [u32; D],
 ) -> Result<Cells<D, S>, KeyFault> {
-    let sides = set.sides();
     for &(name, layers, normal) in &sides {
         let across = normal.iter().position(|it| *it != 0).unwrap_or(0);
         let (most, layers) = (size[across], layers.unwrap_or(1));
@@ -188,5 +160,5 @@ fn cells_of<const D: usize, S: LatticeShape<D>>(
     };
     let inside = |(name, shape): (&'static str, Option<S>)| (name, shape.map(Cells::Inside));
     let given = sides.into_iter().map(at_side);
-    one_of(key, given.chain(set.shapes().into_iter().map(inside)))
+    one_of(key, given.chain(shapes.into_iter().map(inside)))
 }

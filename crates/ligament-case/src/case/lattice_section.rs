@@ -9,7 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::lattice_keys::{HoleKeys, LatticeKeys, SetKeys};
+use super::lattice_keys::{Grid, Shapes, Sides};
 use super::region::Rectangle;
 use super::values::{Numbers, Point, exactly_one, metre, numbers};
 
@@ -28,7 +28,6 @@ pub struct LatticeSection {
     #[schemars(extend("x-unit" = "m"))]
     pub corner: Point,
     /// Thickness of the body, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0, "x-unit" = "m"))]
     pub thickness: Option<f64>,
     /// Plane stress or plane strain.
@@ -110,45 +109,28 @@ pub struct Polygon(pub Vec<Point>);
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Spacing(pub [f64; 2]);
 
-impl LatticeKeys<2> for LatticeSection {
-    const SECTION: &'static str = "lattice";
-    const AXES: &'static str = "x and y";
-
-    type Shape = Shape;
-    type Hole = Hole;
-    type Set = CellSet;
-
-    fn cells(&self) -> [u32; 2] {
-        self.cells
-    }
-
-    fn spacing(&self) -> [f64; 2] {
-        self.spacing.0
-    }
-
-    fn corner(&self) -> [f64; 2] {
-        self.corner
-    }
-
-    fn thickness(&self) -> f64 {
-        self.thickness.unwrap_or_else(metre)
-    }
-
-    fn holes(&self) -> &[Hole] {
-        &self.remove
-    }
-
-    fn sets(&self) -> &BTreeMap<String, CellSet> {
-        &self.sets
+impl LatticeSection {
+    /// What the section says of the lattice.
+    pub(crate) fn grid(&self) -> Grid<2, Shape> {
+        let holes = self.remove.iter();
+        let sets = self.sets.iter();
+        Grid {
+            section: "lattice",
+            axes: "x and y",
+            cells: self.cells,
+            spacing: self.spacing.0,
+            corner: self.corner,
+            thickness: self.thickness.unwrap_or_else(metre),
+            holes: holes.map(|it| (it.name.clone(), it.shapes())).collect(),
+            sets: sets
+                .map(|(name, it)| (name.clone(), (it.sides(), it.shapes())))
+                .collect(),
+        }
     }
 }
 
-impl HoleKeys<Shape> for Hole {
-    fn name(&self) -> Option<&String> {
-        self.name.as_ref()
-    }
-
-    fn shapes(&self) -> Vec<(&'static str, Option<Shape>)> {
+impl Hole {
+    fn shapes(&self) -> Shapes<Shape> {
         let outside = self
             .outside
             .map(|Circle { centre, radius }| Shape::Outside { centre, radius });
@@ -161,8 +143,8 @@ impl HoleKeys<Shape> for Hole {
     }
 }
 
-impl SetKeys<2, Shape> for CellSet {
-    fn sides(&self) -> Vec<(&'static str, Option<u32>, [i8; 2])> {
+impl CellSet {
+    fn sides(&self) -> Sides<2> {
         vec![
             ("bottom", self.bottom, [0, -1]),
             ("top", self.top, [0, 1]),
@@ -171,7 +153,7 @@ impl SetKeys<2, Shape> for CellSet {
         ]
     }
 
-    fn shapes(&self) -> Vec<(&'static str, Option<Shape>)> {
+    fn shapes(&self) -> Shapes<Shape> {
         vec![
             ("box", self.r#box.map(Shape::from)),
             ("circle", self.circle.map(Shape::from)),

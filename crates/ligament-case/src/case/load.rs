@@ -13,14 +13,29 @@ use super::couple::Couple;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
-use super::region::{Corners, place};
-use super::values::{exactly_one, first_given, missing, one_of, refuse, require_column_name};
-use ligament::setup::{self, Action, Axis, Displacement, Place, Position, begins_as_formula};
+use super::region::{Corners, place, place_or_everywhere};
+use super::values::{exactly_one, missing, one_of, refuse, require_column_name};
+use ligament::setup::{self, Action, Axis, Displacement, Position, begins_as_formula};
+
+/// Keys of the actions, of which a load has one.
+pub(super) const ACTIONS: [&str; 11] = [
+    "displacement",
+    "velocity",
+    "base_acceleration",
+    "force",
+    "force_per_length",
+    "force_per_area",
+    "body_force",
+    "acceleration",
+    "moment",
+    "body_couple",
+    "pressure",
+];
 
 /// A load, given as it is at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["displacement", "velocity", "base_acceleration", "force", "force_per_length", "force_per_area", "body_force", "acceleration", "moment", "body_couple", "pressure"])))]
+#[schemars(extend("oneOf" = exactly_one(&ACTIONS)))]
 pub struct Load {
     /// Heads its column in `history.csv`; without it the name of the group.
     #[schemars(length(min = 1))]
@@ -36,11 +51,9 @@ pub struct Load {
     /// Prescribed displacements, m, rotation in rad.
     pub displacement: Option<Displacement>,
     /// Prescribed velocities in a motion, m/s, of the rotation rad/s.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = of_rates, extend("x-unit" = "m/s"))]
     pub velocity: Option<Displacement>,
     /// Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(transform = of_rates, extend("x-unit" = "m/s^2"))]
     pub base_acceleration: Option<Displacement>,
     /// A force in total over the points, N.
@@ -50,7 +63,6 @@ pub struct Load {
     #[schemars(extend("x-unit" = "N/m"))]
     pub force_per_length: Option<Vector>,
     /// A force over the surface of a group of a solid, N/m^2.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "N/m^2"))]
     pub force_per_area: Option<Vector>,
     /// A force in the volume, N/m^3; on the whole body without a place.
@@ -72,7 +84,6 @@ pub struct Load {
     /// How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table.
     pub profile: Option<Profile>,
     /// How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude: Option<Amplitude>,
     /// Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine.
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
@@ -108,8 +119,13 @@ impl Profile {
             return Ok(());
         };
         complete_path(&key.child("file"), file, folder)?;
-        let given = [("zero", self.zero.is_some()), ("one", self.one.is_some())];
-        refuse(key, given, "`file`", "they belong to `along`")
+        refuse(
+            key,
+            self,
+            &["zero", "one"],
+            "`file`",
+            "they belong to `along`",
+        )
     }
 
     /// The variation; for a file still without its rows.
@@ -157,16 +173,14 @@ impl Load {
 
     pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Load, KeyFault> {
         let action = one_of(key, self.actions(key, dimensions))??;
-        let place = || place(key, dimensions, self.group.as_ref(), self.r#box, self.at);
-        let is_placed = self.group.is_some() || self.r#box.is_some() || self.at.is_some();
+        let (group, corners) = (self.group.as_ref(), self.r#box);
         let place = match action {
             Action::Displacement(_)
             | Action::Velocity(_)
             | Action::BaseAcceleration(_)
             | Action::Force(_)
-            | Action::Moment(_) => place()?,
-            _ if is_placed => place()?,
-            _ => Place::Everywhere,
+            | Action::Moment(_) => place(key, dimensions, group, corners, self.at)?,
+            _ => place_or_everywhere(key, dimensions, group, corners, self.at)?,
         };
         let profile = self.profile.as_ref();
         let profile = profile.map(|it| it.setup(&key.child("profile")));
@@ -217,12 +231,6 @@ impl Load {
             couple("body_couple", self.body_couple, Action::BodyCouple),
             ("pressure", self.pressure.map(|it| Ok(Action::Pressure(it)))),
         ]
-    }
-
-    /// Key of the action.
-    pub(crate) fn action_key(&self) -> &'static str {
-        let actions = self.actions(&KeyPath::default(), 3);
-        first_given(actions.map(|(key, action)| (key, action.is_some()))).unwrap_or("force")
     }
 }
 

@@ -3,32 +3,42 @@
 use ligament::error::Fault as SetupFault;
 use ligament::{Field, SetupError};
 
+use super::document::Node;
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::load::ACTIONS;
 use super::sections::Case;
 use super::setting;
 use super::source::Source;
 use crate::point_table;
 
+/// Parts of the elements of a setup's lists with their keys, of which a case gives one; the last stands for none.
+const PARTS: [(&str, &[&str]); 5] = [
+    ("place", &["box", "at", "group"]),
+    ("action", &ACTIONS),
+    ("change", &["change", "file", "mesh_field"]),
+    ("reading", &["between", "at", "section"]),
+    ("surface", &["points", "centre", "group"]),
+];
+
 impl Case {
     /// The error of a faulty field of the setup, at the responsible key.
     pub(super) fn located(&self, source: &Source, error: SetupError) -> CaseError {
         let SetupError { field, fault } = error;
-        let mut key = self.key_of_field(field);
+        let document = &source.document;
+        let mut key = self.key_of_field(document, field);
         let fault = match *fault {
             SetupFault::Missing { reason, .. } => Fault::Required {
-                key: missing_key(field),
+                key: key_of_material(field.part.unwrap_or_default()),
                 reason,
             },
             SetupFault::Unfit(unfit) => {
-                key = unfit
-                    .field()
-                    .map_or(key.clone(), |it| format!("{key}.{it}"));
+                key = unfit.field().map_or(key.clone(), |it| key.child(it));
                 (*unfit).into()
             }
             SetupFault::NameTwice { name, first } => Fault::NotUnique {
                 name,
-                first: self.key_of_field(first.part("name")),
+                first: self.key_of_field(document, first.part("name")).to_string(),
                 advice: match field.name {
                     "loads" => {
                         ": give one of the loads another `name` (the name of a load without one is its group)"
@@ -47,105 +57,73 @@ impl Case {
             } => self.row_twice(field, &place, [first, second]),
             other => other.into(),
         };
-        let path = KeyPath::parse(&key).unwrap_or_else(|| KeyPath(vec![key]));
-        source.error(KeyFault::new(path, fault))
+        source.error(KeyFault::new(key, fault))
     }
 
     /// Key path responsible for a field of the setup.
-    fn key_of_field(&self, field: Field) -> String {
-        let list = match field.name {
+    fn key_of_field(&self, document: &Node, field: Field) -> KeyPath {
+        let section = self.section_of(field);
+        // One property that varies at random is a table, also where it is the only one of a list.
+        let is_table = field.name == "scatter" && document.at(&section.child(1)).is_none();
+        let element = match field.index {
+            Some(index) if field.name == "materials" => self.materials[index].key_path(),
+            Some(index) if !is_table => section.child(index),
+            _ => section,
+        };
+        let given = |key: &&&'static str| document.at(&element.child(key)).is_some();
+        let part = match (field.name, field.part) {
+            ("law" | "closing" | "closing_friction", None) => field.name,
+            ("rotational_scale", Some("length")) => "cosserat_length",
+            ("rotational_scale", _) => "rotational_factor",
+            ("supports", None) if given(&&"displacement") => "displacement",
+            ("materials", Some("elasticity")) | ("loads", Some("name")) | (_, None) => {
+                return element;
+            }
+            ("materials", Some(part)) => key_of_material(part),
+            ("temperatures", Some("name")) => "mesh_field",
+            (_, Some(part)) => {
+                let keys = PARTS
+                    .iter()
+                    .find(|it| field.index.is_some() && it.0 == part);
+                let key = keys.and_then(|(_, keys)| keys.iter().find(given).or(keys.last()));
+                key.copied().unwrap_or(part)
+            }
+        };
+        let part = part.split('.').chain(field.key);
+        let key = part.fold(element, |key, part| key.child(part));
+        match (field.name, field.part, field.index) {
+            ("precracks", Some("points"), Some(index)) => self.repeated_point(index, key),
+            _ => key,
+        }
+    }
+
+    /// Key path of the section that makes a field of the setup.
+    fn section_of(&self, field: Field) -> KeyPath {
+        let section = match field.name {
             "body" if self.mesh.is_some() => "mesh",
             "body" if self.solid_lattice.is_some() => "solid_lattice",
             "body" => "lattice",
             "law" | "horizon" | "rotational_scale" | "closing" | "closing_friction" => "model",
-            "materials" => "material",
-            "precracks" => "precrack",
-            "supports" => "support",
-            "loads" => "load",
-            "stages" => "stage",
-            "temperatures" => "temperature",
             "initial_velocities" => "initial_velocity",
-            "probes" => "probe",
-            "contacts" => "contact",
             "rigid_bodies" => "rigid",
             "criteria" => "fracture.criterion",
             "scatter" => "fracture.scatter",
             "analysis.load_factors" => "fracture.steps",
             "analysis.stop" => "fracture.stop",
-            other => other,
+            "analysis" => "analysis",
+            // The lists of a setup have their names in the plural.
+            other => other.trim_end_matches('s'),
         };
-        let Some(index) = field.index else {
-            let part = match (field.name, field.part) {
-                ("law", None) => Some("law"),
-                ("closing", None) => Some("closing"),
-                ("closing_friction", None) => Some("closing_friction"),
-                ("rotational_scale", Some("length")) => Some("cosserat_length"),
-                ("rotational_scale", _) => Some("rotational_factor"),
-                (_, part) => part,
-            };
-            return part.map_or(list.to_owned(), |part| format!("{list}.{part}"));
-        };
-        let element = match field.name {
-            "materials" => self.materials[index].key(),
-            "scatter" if self.varies_once() => list.to_owned(),
-            _ => format!("{list}.{index}"),
-        };
-        let part = match (field.name, field.part) {
-            ("supports", None) if self.supports[index].displacement.is_some() => "displacement",
-            ("materials", Some("elasticity")) | ("loads", Some("name")) | (_, None) => {
-                return element;
-            }
-            ("materials", Some(_)) => missing_key(field),
-            ("precracks", Some("surface")) => self.precracks[index].surface_key(),
-            ("precracks", Some("points")) => &self.points_key(index),
-            (_, Some("place")) => self.place_key(field.name, index),
-            (_, Some("action")) => self.loads[index].action_key(),
-            (_, Some("change")) => self.temperatures[index].change_key(),
-            (_, Some("reading")) => self.probes[index].reading_key(),
-            ("temperatures", Some("name")) => "mesh_field",
-            (_, Some(other)) => other,
-        };
-        format!("{element}.{part}")
+        KeyPath(section.split('.').map(str::to_owned).collect())
     }
 
-    /// The key of the points of a pre-crack, or of a point that equals its predecessor.
-    fn points_key(&self, index: usize) -> String {
-        let points = self.precracks[index].points.iter();
-        let mut pairs = points.flat_map(|points| points.windows(2));
-        let repeated = pairs.position(|pair| pair[0] == pair[1]);
-        repeated.map_or("points".to_owned(), |before| {
-            format!("points.{}", before + 1)
-        })
-    }
-
-    /// Whether one property varies at random, which is a table and no list.
-    fn varies_once(&self) -> bool {
-        let fracture = self.fracture.as_ref();
-        let scatter = fracture.and_then(|it| it.scatter.as_ref());
-        scatter.is_some_and(|it| it.0.len() == 1)
-    }
-
-    /// The key for the place of an element of a list.
-    fn place_key(&self, list: &str, index: usize) -> &'static str {
-        let (corners, at) = match list {
-            "supports" => (self.supports[index].r#box, self.supports[index].at),
-            "loads" => (self.loads[index].r#box, self.loads[index].at),
-            "temperatures" => (self.temperatures[index].r#box, None),
-            "initial_velocities" => {
-                let initial = &self.initial_velocities[index];
-                (initial.r#box, initial.at)
-            }
-            "quiet" => (None, None),
-            "far_field.near" => {
-                let near = self.far_field.iter().flat_map(|it| &it.near);
-                (near.clone().nth(index).and_then(|it| it.r#box), None)
-            }
-            _ => (self.no_fail[index].r#box, None),
-        };
-        match (corners, at) {
-            (Some(_), _) => "box",
-            (None, Some(_)) => "at",
-            (None, None) => "group",
+    /// The key of a point of a pre-crack that equals its predecessor, or of all points.
+    fn repeated_point(&self, index: usize, points: KeyPath) -> KeyPath {
+        let given = self.precracks[index].points.iter();
+        let mut pairs = given.flat_map(|points| points.windows(2));
+        match pairs.position(|pair| pair[0] == pair[1]) {
+            Some(before) => points.child(before + 1),
+            None => points,
         }
     }
 
@@ -167,13 +145,12 @@ impl Case {
 }
 
 /// The key of a material that is responsible for a part of the setup's material.
-fn missing_key(field: Field) -> &'static str {
-    match field.part {
-        Some("elasticity.poisson") => "poisson_12",
-        Some("elasticity.out_of_plane") => "young_3",
-        Some("expansion") => "thermal_expansion",
-        Some("expansion.across") => "thermal_expansion_3",
-        Some(part) => part.trim_start_matches("elasticity."),
-        None => "",
+fn key_of_material(part: &'static str) -> &'static str {
+    match part {
+        "elasticity.poisson" => "poisson_12",
+        "elasticity.out_of_plane" => "young_3",
+        "expansion" => "thermal_expansion",
+        "expansion.across" => "thermal_expansion_3",
+        part => part.trim_start_matches("elasticity."),
     }
 }

@@ -12,9 +12,9 @@ use serde_json::Map;
 
 use super::decode::decode;
 use super::document::{Node, Value};
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{missing, require_unique};
+use super::values::{missing, require_unique, required};
 use kind::Kind;
 use ligament::setup::MaterialRegion;
 
@@ -104,19 +104,13 @@ pub struct Material {
     pub thermal_expansion_3: Option<f64>,
 }
 
-/// The fault of a missing key that is required for a reason.
-fn required(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
-    let reason = reason.to_owned();
-    KeyFault::new(table.child(key), Fault::Required { key, reason })
-}
-
 impl Material {
     /// Key path of the material's table in the case file.
     pub fn key(&self) -> String {
         self.key_path().to_string()
     }
 
-    fn key_path(&self) -> KeyPath {
+    pub(super) fn key_path(&self) -> KeyPath {
         key_of(self.name.as_ref())
     }
 

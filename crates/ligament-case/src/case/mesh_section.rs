@@ -20,11 +20,9 @@ pub struct MeshSection {
     #[schemars(length(min = 1))]
     pub file: PathBuf,
     /// Thickness of a body in the plane, m; a mesh of solid cells has none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0, "x-unit" = "m"))]
     pub thickness: Option<f64>,
     /// Plane stress or plane strain of a body in the plane; a mesh of solid cells has none.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("default" = "stress"))]
     pub plane: Option<Plane>,
     /// Whether the cells of the mesh are solid; not if it cannot be read.
@@ -50,12 +48,14 @@ impl MeshSection {
             (None, Err(error)) => self.unread = Some(error.to_string()),
         }
         if self.is_solid {
-            let given = [
-                ("thickness", self.thickness.is_some()),
-                ("plane", self.plane.is_some()),
-            ];
             let reason = "only bodies in the plane have it";
-            return refuse(key, given, "a mesh of solid cells", reason);
+            return refuse(
+                key,
+                self,
+                &["thickness", "plane"],
+                "a mesh of solid cells",
+                reason,
+            );
         }
         self.plane.get_or_insert_default();
         Ok(())

@@ -99,22 +99,18 @@ impl ModelSection {
 
     /// Refuses keys for the size of the rotational stiffness where there is none, and both keys together.
     fn check_rotational_scale(&self, key: &KeyPath, law: &Law) -> Result<(), KeyFault> {
-        let given = [
-            ("rotational_factor", self.rotational_factor.is_some()),
-            ("cosserat_length", self.cosserat_length.is_some()),
-        ];
+        let keys = ["rotational_factor", "cosserat_length"];
         let Some(profile) = law.rotational_profile() else {
             let setting = format!("law = \"{}\"", law.name());
-            return refuse(key, given, &setting, "its points have no rotations");
+            return refuse(key, self, &keys, &setting, "its points have no rotations");
         };
         if profile.rotational == RotationalStiffness::Zero {
             let reason = "there is no rotational stiffness to scale";
-            return refuse(key, given, "rotational_stiffness = \"none\"", reason);
+            return refuse(key, self, &keys, "rotational_stiffness = \"none\"", reason);
         }
         let reason = "both scale the rotational stiffness";
-        let length = [given[1]];
         match self.rotational_factor {
-            Some(_) => refuse(key, length, "rotational_factor", reason),
+            Some(_) => refuse(key, self, &keys[1..], "rotational_factor", reason),
             None => Ok(()),
         }
     }

@@ -37,14 +37,11 @@ pub struct Precrack {
     #[schemars(extend("x-unit" = "rad"))]
     pub angle: Option<f64>,
     /// Normal of a disk in a solid.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub normal: Option<Coordinates>,
     /// Radius of a disk in a solid, m.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
     pub radius: Option<f64>,
     /// The faces of this physical surface of a solid mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
     /// Whether bonds that only touch the crack are cut.
     #[serde(default)]
@@ -64,22 +61,14 @@ impl Precrack {
     }
 
     fn line(&self, key: &KeyPath) -> Result<Vec<Point>, KeyFault> {
-        let of_solids = [
-            ("normal", self.normal.is_some()),
-            ("radius", self.radius.is_some()),
-            ("group", self.group.is_some()),
-        ];
+        let of_solids = ["normal", "radius", "group"];
         let reason = "only pre-cracks of solids, which are surfaces, have it";
-        refuse(key, of_solids, "a body in the plane", reason)?;
-        let straight = [
-            ("centre", self.centre.is_some()),
-            ("length", self.length.is_some()),
-            ("angle", self.angle.is_some()),
-        ];
+        refuse(key, self, &of_solids, "a body in the plane", reason)?;
+        let straight = ["centre", "length", "angle"];
         match &self.points {
             Some(points) => {
                 let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
-                refuse(key, straight, "`points`", reason)?;
+                refuse(key, self, &straight, "`points`", reason)?;
                 let key = key.child("points");
                 let corners = points.iter().enumerate();
                 let vertex = |(index, it): (usize, &Coordinates)| {
@@ -88,7 +77,7 @@ impl Precrack {
                 };
                 corners.map(vertex).collect()
             }
-            None if first_given(straight).is_some() => Ok(self.ends_of_line(key)?.to_vec()),
+            None if first_given(self, &straight).is_some() => Ok(self.ends_of_line(key)?.to_vec()),
             None => {
                 let keys = [("points", false), ("centre", false)];
                 Err(not_exactly_one(key, &keys))
@@ -97,16 +86,8 @@ impl Precrack {
     }
 
     fn surface(&self, key: &KeyPath) -> Result<CrackShape, KeyFault> {
-        let of_lines = [
-            ("length", self.length.is_some()),
-            ("angle", self.angle.is_some()),
-        ];
-        refuse(
-            key,
-            of_lines,
-            "a solid",
-            "only pre-cracks in the plane, which are lines, have it",
-        )?;
+        let reason = "only pre-cracks in the plane, which are lines, have it";
+        refuse(key, self, &["length", "angle"], "a solid", reason)?;
         let points = self.points.as_ref().map(|points| {
             let key = key.child("points");
             let corners = points.iter().enumerate();
@@ -126,15 +107,6 @@ impl Precrack {
             key,
             [("points", points), ("centre", disk), ("group", group)],
         )?
-    }
-
-    /// Key of the surface of a pre-crack of a solid.
-    pub(crate) fn surface_key(&self) -> &'static str {
-        let given = [
-            ("points", self.points.is_some()),
-            ("centre", self.centre.is_some()),
-        ];
-        first_given(given).unwrap_or("group")
     }
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {

@@ -4,9 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::coordinates::Coordinates;
-use super::fault::{Fault, KeyFault};
+use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{exactly_one, first_given, one_of, require_column_name};
+use super::values::{exactly_one, one_of, require_column_name, required};
 use super::word::Word;
 use ligament::setup::{self, Axis, Reading};
 use ligament_analysis::Component;
@@ -106,18 +106,4 @@ impl Probe {
         let field = self.field.map(|it| it.0);
         field.ok_or_else(|| required(key, "field", "with `at`, to say what to read"))
     }
-
-    /// Key of the reading.
-    pub(crate) fn reading_key(&self) -> &'static str {
-        let keys = [
-            ("between", self.between.is_some()),
-            ("at", self.at.is_some()),
-        ];
-        first_given(keys).unwrap_or("section")
-    }
-}
-
-fn required(key: &KeyPath, name: &'static str, reason: &str) -> KeyFault {
-    let reason = reason.to_owned();
-    KeyFault::new(key.child(name), Fault::Required { key: name, reason })
 }

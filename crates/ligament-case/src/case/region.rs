@@ -158,3 +158,17 @@ pub(super) fn place(
     let at = at.map(|it| it.for_body(&key.child("at"), dimensions).map(Place::At));
     one_of(key, [("group", group), ("box", corners), ("at", at)])?
 }
+
+/// The place of a table, which has at most one; without any the whole body.
+pub(super) fn place_or_everywhere(
+    key: &KeyPath,
+    dimensions: usize,
+    group: Option<&String>,
+    corners: Option<Corners>,
+    at: Option<Coordinates>,
+) -> Result<Place, KeyFault> {
+    match (group, corners, at) {
+        (None, None, None) => Ok(Place::Everywhere),
+        _ => place(key, dimensions, group, corners, at),
+    }
+}

@@ -57,9 +57,14 @@ impl Scatter {
     pub(super) fn setup(&self, key: &KeyPath) -> Result<scatter::Scatter, KeyFault> {
         let distribution = match self.distribution {
             Distribution::Weibull => {
-                let given = [("deviation", self.deviation.is_some())];
                 let reason = "its deviation comes from its modulus";
-                refuse(key, given, "distribution = \"weibull\"", reason)?;
+                refuse(
+                    key,
+                    self,
+                    &["deviation"],
+                    "distribution = \"weibull\"",
+                    reason,
+                )?;
                 let modulus = self.modulus.ok_or_else(|| missing(key, "modulus"))?;
                 scatter::Distribution::Weibull { modulus }
             }
@@ -82,8 +87,7 @@ impl Scatter {
 
     /// The deviation of a distribution that has no modulus, with the words for it.
     fn given_deviation(&self, key: &KeyPath, words: &'static str) -> Result<f64, KeyFault> {
-        let given = [("modulus", self.modulus.is_some())];
-        refuse(key, given, words, "it has a `deviation`")?;
+        refuse(key, self, &["modulus"], words, "it has a `deviation`")?;
         self.deviation.ok_or_else(|| missing(key, "deviation"))
     }
 }

@@ -53,14 +53,12 @@ pub struct Case {
     pub analysis: Option<Analysis>,
     /// Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load, otherwise
     /// the temperature, otherwise the first rigid body that moves.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub curve: Option<String>,
     /// The body, meshed by Gmsh; or a `[lattice]`.
     pub mesh: Option<MeshSection>,
     /// The body as a rectangle of equal cells with a point at the centre of each; or a `[mesh]`.
     pub lattice: Option<LatticeSection>,
     /// The body as a box of equal cells in space with a point at the centre of each; or a `[mesh]` of solid cells.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub solid_lattice: Option<SolidLatticeSection>,
     /// The material of the whole body; or a table `[material.NAME]` with a `group` for each of several.
     #[serde(
@@ -107,7 +105,6 @@ pub struct Case {
     #[serde(rename = "rigid", default, skip_serializing_if = "Vec::is_empty")]
     pub rigid_bodies: Vec<Rigid>,
     /// Linear finite elements in place of bonds, away from parts of a meshed body.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub far_field: Option<FarField>,
     /// Parts of the body where bonds never break.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -120,7 +117,6 @@ pub struct Case {
     /// Natural modes that are wanted, with `analysis = "modal"`.
     pub modal: Option<Modal>,
     /// A motion in time under loads that depend on time.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSettings>,
     /// How the equations are solved; nothing need be said.
     #[serde(default, deserialize_with = "solver::read")]
@@ -388,8 +384,8 @@ impl Case {
     /// A substitute for the body before it is built, of the same kind, with at most one point.
     pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
         Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
-            (true, _, Some(lattice)) => AnyBody::from(lattice_keys::stand_in(lattice)?),
-            (false, Some(lattice), _) => AnyBody::from(lattice_keys::stand_in(lattice)?),
+            (true, _, Some(lattice)) => AnyBody::from(lattice_keys::stand_in(lattice.grid())?),
+            (false, Some(lattice), _) => AnyBody::from(lattice_keys::stand_in(lattice.grid())?),
             (true, _, None) => AnyMesh::Solid(SolidMesh::default()).into(),
             (false, None, _) => AnyMesh::Plane(Mesh::default()).into(),
         })
@@ -399,22 +395,17 @@ impl Case {
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         let law = self.model.law.0.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);
+        let stress = root().child("output").child("stress");
         if self.far_field.is_some() && has_traction {
             let reason = "forces through planes at points are summed over bonds, and the far field has elements: take \"material\" or \"virial\"";
-            return Err(KeyFault::new(
-                root().child("output").child("stress"),
-                reason,
-            ));
+            return Err(KeyFault::new(stress, reason));
         }
         if !law.couples_ends_alone && has_traction && self.modal.is_none() {
             let reason = format!(
                 "the elements of {} couple up to six points, so that their forces go through no line: take \"material\" or \"virial\"",
                 law.quoted()
             );
-            return Err(KeyFault::new(
-                root().child("output").child("stress"),
-                reason,
-            ));
+            return Err(KeyFault::new(stress, reason));
         }
         let field = (self.temperatures.iter()).position(|it| it.mesh_field.is_some());
         if let (Some(index), Some(_)) = (field, &self.lattice) {

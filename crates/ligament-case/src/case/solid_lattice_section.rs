@@ -6,7 +6,7 @@ use ligament_model::shape::SolidShape;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::lattice_keys::{HoleKeys, LatticeKeys, SetKeys};
+use super::lattice_keys::{Grid, Shapes, Sides};
 use super::values::exactly_one;
 
 /// A box of equal cells, a point at the centre of each.
@@ -108,41 +108,28 @@ pub struct Cylinder {
     pub radius: f64,
 }
 
-impl LatticeKeys<3> for SolidLatticeSection {
-    const SECTION: &'static str = "solid_lattice";
-    const AXES: &'static str = "each axis";
-
-    type Shape = SolidShape;
-    type Hole = SolidHoleKeys;
-    type Set = SolidCellSetKeys;
-
-    fn cells(&self) -> [u32; 3] {
-        self.cells
-    }
-
-    fn spacing(&self) -> [f64; 3] {
-        self.spacing
-    }
-
-    fn corner(&self) -> [f64; 3] {
-        self.corner
-    }
-
-    fn holes(&self) -> &[SolidHoleKeys] {
-        &self.remove
-    }
-
-    fn sets(&self) -> &BTreeMap<String, SolidCellSetKeys> {
-        &self.sets
+impl SolidLatticeSection {
+    /// What the section says of the lattice.
+    pub(crate) fn grid(&self) -> Grid<3, SolidShape> {
+        let holes = self.remove.iter();
+        let sets = self.sets.iter();
+        Grid {
+            section: "solid_lattice",
+            axes: "each axis",
+            cells: self.cells,
+            spacing: self.spacing,
+            corner: self.corner,
+            thickness: 1.0,
+            holes: holes.map(|it| (it.name.clone(), it.shapes())).collect(),
+            sets: sets
+                .map(|(name, it)| (name.clone(), (it.sides(), it.shapes())))
+                .collect(),
+        }
     }
 }
 
-impl HoleKeys<SolidShape> for SolidHoleKeys {
-    fn name(&self) -> Option<&String> {
-        self.name.as_ref()
-    }
-
-    fn shapes(&self) -> Vec<(&'static str, Option<SolidShape>)> {
+impl SolidHoleKeys {
+    fn shapes(&self) -> Shapes<SolidShape> {
         let outside_sphere = self
             .outside_sphere
             .map(|Sphere { centre, radius }| SolidShape::OutsideSphere { centre, radius });
@@ -159,8 +146,8 @@ impl HoleKeys<SolidShape> for SolidHoleKeys {
     }
 }
 
-impl SetKeys<3, SolidShape> for SolidCellSetKeys {
-    fn sides(&self) -> Vec<(&'static str, Option<u32>, [i8; 3])> {
+impl SolidCellSetKeys {
+    fn sides(&self) -> Sides<3> {
         vec![
             ("left", self.left, [-1, 0, 0]),
             ("right", self.right, [1, 0, 0]),
@@ -171,7 +158,7 @@ impl SetKeys<3, SolidShape> for SolidCellSetKeys {
         ]
     }
 
-    fn shapes(&self) -> Vec<(&'static str, Option<SolidShape>)> {
+    fn shapes(&self) -> Shapes<SolidShape> {
         vec![
             ("box", self.r#box.map(SolidShape::between)),
             ("sphere", self.sphere.map(SolidShape::from)),

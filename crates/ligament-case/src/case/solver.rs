@@ -22,7 +22,6 @@ pub struct Solver {
     pub method: Word<Option<Method>>,
     /// Force that the iteration leaves out of balance after a breakage, relative to the forces that may act at a point: 1e-8. Bonds that
     /// are nearer to each other than a hundred times this, relatively, break together.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 1e-10, max = 1e-3))]
     pub tolerance: Option<f64>,
     /// The factorisation of the stiffness.

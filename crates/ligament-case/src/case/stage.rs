@@ -2,15 +2,14 @@
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fmt;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Error, SeqAccess, Visitor};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{exactly_one, one_of, require_column_name};
+use super::values::{Numbers, exactly_one, numbers, one_of, require_column_name};
 use ligament::setup;
 
 /// Largest number of load steps of a stage: each has a row in the history.
@@ -126,39 +125,22 @@ const EXPECTED: &str = "a factor, a list of factors one after the other, or a li
 
 impl<'de> Deserialize<'de> for Factors {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(FactorsVisitor)
-    }
-}
-
-struct FactorsVisitor;
-
-impl<'de> Visitor<'de> for FactorsVisitor {
-    type Value = Factors;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(EXPECTED)
-    }
-
-    fn visit_i64<E>(self, factor: i64) -> Result<Factors, E> {
-        Ok(Factors::End(factor as f64))
-    }
-
-    fn visit_f64<E>(self, factor: f64) -> Result<Factors, E> {
-        Ok(Factors::End(factor))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Factors, A::Error> {
+        let elements = match numbers(deserializer, EXPECTED)? {
+            Numbers::Integer(factor) => return Ok(Self::End(factor as f64)),
+            Numbers::Float(factor) => return Ok(Self::End(factor)),
+            Numbers::List(elements) => elements,
+        };
         let (mut factors, mut points) = (Vec::new(), Vec::new());
-        while let Some(element) = elements.next_element()? {
+        for element in elements {
             match element {
                 Element::Factor(factor) => factors.push(factor),
                 Element::Point(point) => points.push(point),
             }
         }
         match (factors.is_empty(), points.is_empty()) {
-            (_, true) => Ok(Factors::EqualParts(factors)),
-            (true, _) => Ok(Factors::Table(points)),
-            _ => Err(A::Error::custom(format_args!(
+            (_, true) => Ok(Self::EqualParts(factors)),
+            (true, _) => Ok(Self::Table(points)),
+            _ => Err(D::Error::custom(format_args!(
                 "must be {EXPECTED}, found both"
             ))),
         }
@@ -173,33 +155,17 @@ enum Element {
 
 impl<'de> Deserialize<'de> for Element {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ElementVisitor)
-    }
-}
-
-struct ElementVisitor;
-
-impl<'de> Visitor<'de> for ElementVisitor {
-    type Value = Element;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a factor or a pair [share of the stage, factor]")
-    }
-
-    fn visit_i64<E>(self, factor: i64) -> Result<Element, E> {
-        Ok(Element::Factor(factor as f64))
-    }
-
-    fn visit_f64<E>(self, factor: f64) -> Result<Element, E> {
-        Ok(Element::Factor(factor))
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Element, A::Error> {
-        let mut next = |place| {
-            let number = elements.next_element()?;
-            number.ok_or_else(|| A::Error::invalid_length(place, &self))
+        let expected = "a factor or a pair [share of the stage, factor]";
+        let list = match numbers(deserializer, expected)? {
+            Numbers::Integer(factor) => return Ok(Self::Factor(factor as f64)),
+            Numbers::Float(factor) => return Ok(Self::Factor(factor)),
+            Numbers::List(list) => list,
         };
-        Ok(Element::Point([next(0)?, next(1)?]))
+        match list[..] {
+            [share, factor] => Ok(Self::Point([share, factor])),
+            [] | [_] => Err(D::Error::invalid_length(list.len(), &expected)),
+            _ => Err(D::Error::invalid_length(list.len(), &"2 elements")),
+        }
     }
 }
 

@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
-use super::region::{Corners, Region};
-use super::values::{exactly_one, first_given, one_of, refuse};
-use ligament::setup::{self, Place, TemperatureChange};
+use super::region::{Corners, place_or_everywhere};
+use super::values::{exactly_one, one_of, refuse};
+use ligament::setup::{self, TemperatureChange};
 
 /// A change of temperature at load factor 1. Where several reach, the last of them holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -48,12 +48,14 @@ impl Temperature {
             self.reference.get_or_insert(0.0);
             return Ok(());
         }
-        let given = [
-            ("time_step", self.time_step.is_some()),
-            ("reference", self.reference.is_some()),
-        ];
         let reason = "it belongs to a `mesh_field`";
-        refuse(key, given, "`change` or `file`", reason)
+        refuse(
+            key,
+            self,
+            &["time_step", "reference"],
+            "`change` or `file`",
+            reason,
+        )
     }
 
     /// The change of temperature; for a file still without its rows.
@@ -73,26 +75,10 @@ impl Temperature {
             ("file", table.map(|_| TemperatureChange::Table(Vec::new()))),
             ("mesh_field", field),
         ];
-        let region = Region {
-            group: self.group.clone(),
-            r#box: self.r#box,
-        };
-        let is_part = self.group.is_some() || self.r#box.is_some();
+        let group = self.group.as_ref();
         Ok(setup::Temperature {
             change: one_of(key, changes)?,
-            place: match is_part {
-                true => region.place(key, dimensions)?,
-                false => Place::Everywhere,
-            },
+            place: place_or_everywhere(key, dimensions, group, self.r#box, None)?,
         })
-    }
-
-    /// Key of the change.
-    pub(crate) fn change_key(&self) -> &'static str {
-        let keys = [
-            ("change", self.change.is_some()),
-            ("file", self.file.is_some()),
-        ];
-        first_given(keys).unwrap_or("mesh_field")
     }
 }

@@ -1,9 +1,10 @@
 //! Checks of single values for several sections.
 
 use std::fmt;
+use std::marker::PhantomData;
 
-use serde::Deserializer;
 use serde::de::{SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
@@ -55,11 +56,6 @@ pub(super) fn one_of<T>(
     }
 }
 
-/// The first given key.
-pub(super) fn first_given<const N: usize>(keys: [(&'static str, bool); N]) -> Option<&'static str> {
-    keys.into_iter().find(|(_, given)| *given).map(|it| it.0)
-}
-
 /// The fault of none or several given keys among alternatives.
 pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
     let names = |wanted: &dyn Fn(bool) -> bool| {
@@ -75,14 +71,15 @@ pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
     KeyFault::new(table.clone(), fault)
 }
 
-/// Fails at the first given key among keys that do not apply with a setting.
-pub(super) fn refuse<const N: usize>(
+/// Fails at the first given key of a section among keys that do not apply with a setting.
+pub(super) fn refuse(
     table: &KeyPath,
-    keys: [(&'static str, bool); N],
+    section: &impl Serialize,
+    keys: &[&'static str],
     setting: &str,
     reason: &'static str,
 ) -> Result<(), KeyFault> {
-    let Some(key) = first_given(keys) else {
+    let Some(key) = first_given(section, keys) else {
         return Ok(());
     };
     let setting = setting.to_owned();
@@ -94,6 +91,13 @@ pub(super) fn refuse<const N: usize>(
     Err(KeyFault::new(table.child(key), fault))
 }
 
+/// The first key of a section that is given, of some that are optional.
+pub(super) fn first_given(section: &impl Serialize, keys: &[&'static str]) -> Option<&'static str> {
+    let section = serde_json::to_value(section).unwrap_or_default();
+    let mut keys = keys.iter().copied();
+    keys.find(|key| !section[key].is_null())
+}
+
 /// The fault of a missing key that a table must have.
 pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
     let fault = Fault::MissingKey {
@@ -102,6 +106,12 @@ pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
         unit: None,
     };
     KeyFault::new(table.child(key), fault)
+}
+
+/// The fault of a missing key that is required for a reason.
+pub(super) fn required(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
+    let reason = reason.to_owned();
+    KeyFault::new(table.child(key), Fault::Required { key, reason })
 }
 
 /// Default thickness of a body in the plane, m.
@@ -162,39 +172,39 @@ pub fn require_unique<'a>(
     Ok(())
 }
 
-/// Value of a key with a number or a list of numbers.
-pub(super) enum Numbers {
+/// Value of a key with a number or a list, mostly of numbers.
+pub(super) enum Numbers<T = f64> {
     Integer(i64),
     Float(f64),
-    List(Vec<f64>),
+    List(Vec<T>),
 }
 
-/// Reads a number or a list of numbers; `expected` describes the expected value.
-pub(super) fn numbers<'de, D: Deserializer<'de>>(
+/// Reads a number or a list; `expected` describes the expected value.
+pub(super) fn numbers<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
     deserializer: D,
     expected: &'static str,
-) -> Result<Numbers, D::Error> {
-    deserializer.deserialize_any(NumbersVisitor(expected))
+) -> Result<Numbers<T>, D::Error> {
+    deserializer.deserialize_any(NumbersVisitor(expected, PhantomData))
 }
 
-struct NumbersVisitor(&'static str);
+struct NumbersVisitor<T>(&'static str, PhantomData<T>);
 
-impl<'de> Visitor<'de> for NumbersVisitor {
-    type Value = Numbers;
+impl<'de, T: Deserialize<'de>> Visitor<'de> for NumbersVisitor<T> {
+    type Value = Numbers<T>;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.0)
     }
 
-    fn visit_i64<E>(self, value: i64) -> Result<Numbers, E> {
+    fn visit_i64<E>(self, value: i64) -> Result<Numbers<T>, E> {
         Ok(Numbers::Integer(value))
     }
 
-    fn visit_f64<E>(self, value: f64) -> Result<Numbers, E> {
+    fn visit_f64<E>(self, value: f64) -> Result<Numbers<T>, E> {
         Ok(Numbers::Float(value))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Numbers, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Numbers<T>, A::Error> {
         let mut numbers = Vec::new();
         while let Some(number) = elements.next_element()? {
             numbers.push(number);

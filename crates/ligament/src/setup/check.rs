@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt::Debug;
 
 use ligament_analysis::Component;
+use ligament_model::case_type::{OutOfRange, Ranged};
 use ligament_model::correction::patch;
 use ligament_model::law::{BondLaw, Materials, PaperCorrection, suited};
 use ligament_model::{Advice, Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
@@ -224,9 +225,14 @@ impl Setup {
     }
 
     fn check_load_factors(&self) -> Checked {
+        let stop = Field::whole("analysis.stop");
+        if let Analysis::Event(settings) = &self.analysis {
+            in_range(&settings.stop, |key| stop.part(key))?;
+        }
         let Analysis::Stepped(settings) = &self.analysis else {
             return Ok(());
         };
+        in_range(&settings.stop, |key| stop.part(key))?;
         if !self.stages.is_empty() {
             return Ok(());
         }
@@ -425,11 +431,31 @@ pub(super) fn require(
     Err(field.error(Fault::OutOfRange { expected, found }))
 }
 
+/// Refuses numbers out of the ranges of their keys; `field` is the field of a key.
+pub(super) fn in_range(of: &impl Ranged, field: impl Fn(&'static str) -> Field) -> Checked {
+    let Some(OutOfRange {
+        key,
+        expected,
+        found,
+    }) = of.out_of_range()
+    else {
+        return Ok(());
+    };
+    let expected = expected.into();
+    Err(field(key).error(Fault::OutOfRange { expected, found }))
+}
+
 /// Refuses a value that is not finite and greater than zero; no value passes.
 pub(super) fn positive(field: Field, value: Option<f64>) -> Checked {
     let value = value.unwrap_or(1.0);
     require(!value.is_infinite(), field, "a finite number", value)?;
     require(value > 0.0, field, "greater than 0", value)
+}
+
+/// Refuses a value that is negative or not finite.
+pub(super) fn not_negative(field: Field, value: f64) -> Checked {
+    let holds = value >= 0.0 && value.is_finite();
+    require(holds, field, "at least 0", value)
 }
 
 pub(crate) fn contradiction(field: Field, reason: impl Into<Advice<Setting>>) -> Checked {

@@ -2,8 +2,8 @@
 
 use ligament_analysis::load_program::Amplitude;
 
-use super::check::{Checked, contradiction, positive, require, require_unique};
-use super::{ContactLaw, Rigid, RigidForm, Setup, SurfaceContact};
+use super::check::{Checked, contradiction, in_range, positive, require, require_unique};
+use super::{Rigid, RigidForm, Setup, SurfaceContact};
 use crate::error::Field;
 
 impl Setup {
@@ -15,7 +15,7 @@ impl Setup {
     pub(super) fn check_contacts(&self) -> Checked {
         for (index, contact) in self.contacts.iter().enumerate() {
             let field = Field::element("contacts", index);
-            check_law(field, contact.law())?;
+            in_range(contact, |key| field.part(key))?;
             if let Some([one, other]) = &contact.between
                 && one == other
             {
@@ -36,7 +36,7 @@ impl Setup {
         )?;
         for (index, body) in self.rigid_bodies.iter().enumerate() {
             let field = Field::element("rigid_bodies", index);
-            check_law(field, body.law)?;
+            in_range(&SurfaceContact::from(body.law), |key| field.part(key))?;
             positive(field.part("mass"), body.mass)?;
             positive(field.part("inertia"), body.inertia)?;
             self.check_free(field, body)?;
@@ -107,16 +107,4 @@ impl Setup {
             }
         }
     }
-}
-
-fn check_law(field: Field, law: ContactLaw) -> Checked {
-    let friction = law.friction;
-    let is_coefficient = friction >= 0.0 && friction.is_finite();
-    require(
-        is_coefficient,
-        field.part("friction"),
-        "0 or more",
-        friction,
-    )?;
-    positive(field.part("stiffness"), Some(law.stiffness))
 }

@@ -1,8 +1,8 @@
 //! Checks of a motion in time, and of what only a motion has.
 
-use ligament_analysis::motion::{MOST_DISSIPATION, MotionSettings};
+use ligament_analysis::motion::MotionSettings;
 
-use super::check::{Checked, contradiction, missing, positive, require};
+use super::check::{Checked, contradiction, in_range, missing, require};
 use super::check_dimension::NO_Z;
 use super::{Action, Analysis, Load, Place, Setup};
 use crate::error::Field;
@@ -48,32 +48,9 @@ impl Setup {
 
 fn check_settings(settings: &MotionSettings) -> Checked {
     let field = Field::whole("motion");
-    positive(field.part("duration"), Some(settings.duration))?;
-    let rows = settings.rows;
-    require(rows > 0, field.part("rows"), "at least 1", rows)?;
-    positive(field.part("step"), settings.step)?;
-    let safety = settings.safety;
-    let is_share = safety > 0.0 && safety < 1.0;
-    let expected = "greater than 0 and less than 1: the share of the critical step, beyond which an explicit scheme is unstable";
-    require(is_share, field.part("safety"), expected, safety)?;
-    let dissipation = settings.dissipation;
-    let is_fit = (0.0..=MOST_DISSIPATION).contains(&dissipation);
-    require(is_fit, field.part("dissipation"), "0 to 1/3", dissipation)?;
-    let share = settings.statics;
-    let is_share = share > 0.0 && share < 1.0;
-    let expected = "greater than 0 and less than 1";
-    require(is_share, field.part("statics"), expected, share)?;
-    let factor = settings.rotary_inertia;
-    positive(field.part("rotary_inertia"), Some(factor))?;
-    for (part, value) in [
-        ("damping.mass", settings.damping.mass),
-        ("damping.stiffness", settings.damping.stiffness),
-    ] {
-        let damps = value >= 0.0 && value.is_finite();
-        let expected = "at least 0: a negative damping would feed energy to the body";
-        require(damps, field.part(part), expected, value)?;
-    }
-    positive(field.part("stop.wall_time"), settings.stop.wall_time)
+    in_range(settings, |key| field.part(key))?;
+    in_range(&settings.damping, |key| field.part("damping").key(key))?;
+    in_range(&settings.stop, |key| field.part("stop").key(key))
 }
 
 /// Refuses displacements that jump at time zero or later.

@@ -31,25 +31,25 @@ case_type! {
     #[case(schemars(extend("minProperties" = 1)))]
     pub struct Displacement {
         /// Along x, m.
-        #[case(schemars(extend("x-unit" = "m")))]
+        #[unit("m")]
         pub x: Option<f64>,
         /// Along y, m.
-        #[case(schemars(extend("x-unit" = "m")))]
+        #[unit("m")]
         pub y: Option<f64>,
         /// Rotation in the plane, rad, counter-clockwise.
-        #[case(schemars(extend("x-unit" = "rad")))]
+        #[unit("rad")]
         pub rotation: Option<f64>,
         /// Along z of a solid, m.
-        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "m")))]
+        #[unit("m")]
         pub z: Option<f64>,
         /// Rotation about x in a solid, rad, right-handed.
-        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "rad")))]
+        #[unit("rad")]
         pub rotation_x: Option<f64>,
         /// Rotation about y in a solid, rad, right-handed.
-        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "rad")))]
+        #[unit("rad")]
         pub rotation_y: Option<f64>,
         /// Rotation about z in a solid, rad, right-handed.
-        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("x-unit" = "rad")))]
+        #[unit("rad")]
         pub rotation_z: Option<f64>,
     }
 }
@@ -60,19 +60,23 @@ case_type! {
     #[case(schemars(extend("minProperties" = 1)))]
     pub struct SpringStiffness {
         /// Along x, N/m.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("N/m")]
         pub x: Option<f64>,
         /// Along y, N/m.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("N/m")]
         pub y: Option<f64>,
         /// Against rotations of the points, in N m/rad.
-        #[case(schemars(extend("exclusiveMinimum" = 0)))]
+        #[range("exclusiveMinimum" = 0)]
         pub rotation: Option<f64>,
         /// Along z of a solid, N/m.
-        #[case(serde(skip_serializing_if = "Option::is_none"), schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("N/m")]
         pub z: Option<f64>,
         /// Along the `normal` of the support, N/m.
-        #[case(schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m")))]
+        #[range("exclusiveMinimum" = 0)]
+        #[unit("N/m")]
         pub normal: Option<f64>,
     }
 }

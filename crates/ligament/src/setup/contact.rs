@@ -10,13 +10,14 @@ case_type! {
     #[derive(Debug, Clone, PartialEq)]
     pub struct SurfaceContact {
         /// Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start.
-        #[case(serde(skip_serializing_if = "Option::is_none"))]
         pub between: Option<[String; 2]>,
         /// Coefficient of Coulomb's friction.
-        #[case(serde(default), schemars(range(min = 0)))]
+        #[range("minimum" = 0; "0 or more")]
+        #[case(serde(default))]
         pub friction: f64,
         /// Stiffness of the contact over E'/h of the material, with the spacing h of the points.
-        #[case(serde(default = "stiffness"), schemars(extend("exclusiveMinimum" = 0)))]
+        #[range("exclusiveMinimum" = 0)]
+        #[case(serde(default = "stiffness"))]
         pub stiffness: f64,
         /// Whether the faces of cracks take part, also those that come about; without `between` all fragments then meet each other.
         #[case(serde(default))]
@@ -38,6 +39,23 @@ impl SurfaceContact {
         ContactLaw {
             friction: self.friction,
             stiffness: self.stiffness,
+        }
+    }
+}
+
+impl From<ContactLaw> for SurfaceContact {
+    /// The contact between all parts of the body under a law.
+    fn from(
+        ContactLaw {
+            friction,
+            stiffness,
+        }: ContactLaw,
+    ) -> Self {
+        Self {
+            between: None,
+            friction,
+            stiffness,
+            cracks: false,
         }
     }
 }

@@ -16,7 +16,6 @@ mod not_together;
 mod precrack;
 mod probe;
 mod restraint;
-mod rotation;
 mod scatter;
 mod section;
 pub mod setting;

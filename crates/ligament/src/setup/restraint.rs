@@ -3,7 +3,7 @@
 use ligament_analysis::Component;
 use ligament_model::Advice;
 
-use super::check::{Checked, contradiction, positive};
+use super::check::{Checked, contradiction, in_range, positive};
 use super::conditions::axis_along;
 use super::setting::Setting;
 use super::{Action, Analysis, Form, Load, Position, Setup, Support};
@@ -101,13 +101,7 @@ fn check_support(field: Field, support: &Support, dimensions: usize) -> Checked 
         stiffness,
         ..
     } = support;
-    let springs = stiffness.along_axes().components();
-    for value in springs
-        .map(|(_, value)| Some(value))
-        .chain([stiffness.normal])
-    {
-        positive(field.part("stiffness"), value)?;
-    }
+    in_range(stiffness, |_| field.part("stiffness"))?;
     if let Some(normal) = normal {
         if *normal == [0.0; 3] || !normal.iter().all(|it| it.is_finite()) {
             let reason = format!("must be a direction other than {:?}", vec![0; dimensions]);

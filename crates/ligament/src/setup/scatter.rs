@@ -4,7 +4,7 @@ use ligament_model::Advice;
 use ligament_model::scatter::{Distribution, Scatter, Scattered};
 
 use super::Setup;
-use super::check::{Checked, contradiction, require};
+use super::check::{Checked, contradiction, not_negative, require};
 use super::setting::Setting;
 use crate::error::Field;
 
@@ -60,13 +60,6 @@ fn check_range(scatter: &Scatter, field: Field) -> Checked {
             deviation,
         )?,
     }
-    let length = scatter.correlation_length;
-    let is_length = length >= 0.0 && length.is_finite();
-    let expected = "at least 0";
-    require(
-        is_length,
-        field.part("correlation_length"),
-        expected,
-        length,
-    )
+    let length = field.part("correlation_length");
+    not_negative(length, scatter.correlation_length)
 }
