@@ -122,7 +122,3 @@ fn target_energies<const D: usize>(
         .map(|point| cloud.mean_property(point, &energies))
         .collect()
 }
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
-mod tests;

@@ -207,6 +207,3 @@ fn opposite([a, b, c, d]: [u32; 4], node: u32) -> [u32; 3] {
         [a, c, b]
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,9 +1,11 @@
-use super::*;
-use crate::bonds::BondSet;
-use crate::bonds::outline::{bonds_outside, spacing_inside};
-use crate::horizon::Horizons;
-use crate::tensor::dot;
-use ligament_mesh::{MeshCell, SolidMesh};
+//! The outline of a mesh of solids: bonds leave the body where points along them are in no cell.
+
+use ligament_mesh::{MeshCell, SolidCell, SolidMesh};
+use ligament_model::bonds::BondSet;
+use ligament_model::bonds::outline::{Outline, SolidOutline, bonds_outside, spacing_inside};
+use ligament_model::cloud::PointCloud;
+use ligament_model::horizon::Horizons;
+use ligament_model::tensor::{cross, dot, norm};
 
 const N: u32 = 6;
 

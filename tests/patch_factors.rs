@@ -1,12 +1,17 @@
-use ligament_mesh::{SolidCell, SolidMesh};
+//! Factors of the patch correction in space: the equations that they meet, turned bodies, threads, and the forces of the cells.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
-use super::*;
-use crate::cloud::PointCloud;
-use crate::horizon::Horizons;
-use crate::law::Law;
-use crate::material::Space;
-use crate::material::{Elasticity, Isotropic, Plane, Stiffness};
-use crate::tensor::{cross, dot, minus, norm};
+use std::f64::consts::FRAC_1_SQRT_2;
+
+use ligament_mesh::{SolidCell, SolidMesh};
+use ligament_model::bonds::BondSet;
+use ligament_model::cloud::PointCloud;
+use ligament_model::correction::Correction;
+use ligament_model::correction::patch::{CellForces, Points, Settings, correct, of_solid_mesh};
+use ligament_model::horizon::Horizons;
+use ligament_model::law::{BondStiffness, Law};
+use ligament_model::material::{Elasticity, Isotropic, Plane, Space, Stiffness};
+use ligament_model::tensor::{SymTensor, cross, dot, minus, norm};
 
 const MATERIAL: Isotropic = Isotropic {
     young: 3.0,
@@ -105,7 +110,13 @@ impl Case {
     /// formulas for a bond and the stress of the continuum.
     fn left(&self, axial: impl Fn(usize) -> f64, shear: impl Fn(usize) -> f64) -> Vec<[f64; 2]> {
         let mut all = vec![[0.0; 2]; self.cloud.len()];
-        for (number, strain) in uniform_strains::<3>().enumerate() {
+        for (number, &[i, j]) in SymTensor::<3>::COMPONENTS.iter().enumerate() {
+            let size = if i == j { 1.0 } else { FRAC_1_SQRT_2 };
+            let is_component = |row, column| [row, column] == [i, j];
+            let strain = SymTensor::<3>::from_fn(|row, column| match is_component(row, column) {
+                true => size,
+                false => 0.0,
+            });
             let mut sums: Vec<[[f64; 3]; 2]> = (self.forces.of_points())
                 .map(|forces| [forces[number].map(|it| -it), [0.0; 3]])
                 .collect();
@@ -241,7 +252,7 @@ fn cells_give_tractions() {
     let mut side = [0.0; 3];
     for (forces, position) in forces.of_points().zip(&mesh.positions) {
         // eps_xx = 1 and gamma_xy = 1.
-        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let half = FRAC_1_SQRT_2;
         let force = minus(forces[0], forces[2].map(|it| -half * it));
         if position.iter().all(|it| (1.0..=3.0).contains(it)) {
             assert!(norm(force) < 1e-14);

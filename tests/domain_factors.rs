@@ -1,11 +1,16 @@
-use super::*;
-use crate::correction::length::length_factors;
-use crate::correction::surface::surface_factors;
-use crate::correction::{CorrectionReport, StopRule};
-use crate::horizon::Horizons;
-use crate::law::Law;
-use crate::material::Space;
-use crate::material::{Elasticity, Isotropic, Plane};
+//! Factors of the domain correction in space, and of the volumes of families.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use ligament_model::bonds::BondSet;
+use ligament_model::cloud::PointCloud;
+use ligament_model::correction::domain::iterate;
+use ligament_model::correction::length::length_factors;
+use ligament_model::correction::surface::surface_factors;
+use ligament_model::correction::{CorrectionReport, StopRule, Sweeps, energy_ratios};
+use ligament_model::fixed::EnergyRatio;
+use ligament_model::horizon::Horizons;
+use ligament_model::law::{BondStiffness, Law};
+use ligament_model::material::{Elasticity, Isotropic, Plane, Space, Stiffness};
 
 const MATERIAL: Isotropic = Isotropic {
     young: 15e9,
