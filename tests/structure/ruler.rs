@@ -15,7 +15,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-cli", 54_045),
     ("ligament-linalg", 22_625),
     ("ligament-mesh", 36_006),
-    ("ligament-model", 198_637),
+    ("ligament-model", 198_840),
     ("ligament-output", 73_843),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_113),
