@@ -10,19 +10,19 @@ use super::trees;
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
     ("ligament", 99_030),
-    ("ligament-analysis", 205_092),
+    ("ligament-analysis", 204_642),
     ("ligament-case", 63_265),
     ("ligament-cli", 54_045),
     ("ligament-linalg", 22_625),
     ("ligament-mesh", 36_006),
-    ("ligament-model", 199_537),
-    ("ligament-output", 73_843),
+    ("ligament-model", 200_442),
+    ("ligament-output", 73_852),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_113),
-    ("ligament-post", 26_671),
+    ("ligament-post", 26_704),
     ("ligament-python", 11_635),
     ("ligament-report", 18_514),
-    ("ligament-run", 29_865),
+    ("ligament-run", 29_869),
     ("ligament-study", 63_782),
     ("ligament-verify", 74_204),
 ];
@@ -30,7 +30,7 @@ const TOKENS: [(&str, usize); 16] = [
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
     ("ligament", 23),
-    ("ligament-analysis", 19),
+    ("ligament-analysis", 15),
     ("ligament-case", 5),
     ("ligament-cli", 13),
     ("ligament-linalg", 5),

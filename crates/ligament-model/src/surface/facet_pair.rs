@@ -9,7 +9,7 @@ use super::pair::{Missed, Pose, Step, SurfacePair};
 use super::rigid::{RigidShape, in_space, turned};
 use super::search::{Search, Sought};
 use super::touch::{Touch, Vector, held_slip};
-use super::{Corners, normal, tangential, weighted};
+use super::{Corners, extent, normal, tangential, weighted};
 use crate::geometry::bounding_box;
 use crate::tensor::{cross, dot, minus, norm};
 
@@ -88,6 +88,8 @@ struct Present<'a, const D: usize> {
     now: Vec<Corners<D>>,
     /// Outward normals; none of a facet without area.
     normals: Vec<Option<[f64; D]>>,
+    /// Largest distances of a corner from the first one, m.
+    extents: Vec<f64>,
     /// Largest gap below which an integration point meets what it faces, m.
     within: f64,
 }
@@ -156,9 +158,24 @@ impl<const D: usize> FacetPair<D> {
             numbers,
             before: moved(step.before),
             normals: now.par_iter().map(normal).collect(),
+            extents: now.par_iter().map(extent).collect(),
             now,
             within,
         }
+    }
+
+    /// Those among some facets, by their places, that a facet at a place faces.
+    fn facing(at: usize, present: &Present<'_, D>, near: &[u32]) -> Vec<(usize, [f64; D])> {
+        let Some(own_normal) = present.normals[at] else {
+            return Vec::new();
+        };
+        let with_normal = |&other: &u32| {
+            let other = other as usize;
+            present.normals[other].map(|normal| (other, normal))
+        };
+        let is_turned_away = |(_, normal): &(usize, [f64; D])| dot(*normal, own_normal) >= FACING;
+        let all = near.iter().filter_map(with_normal);
+        all.filter(|it| !is_turned_away(it)).collect()
     }
 
     /// Whether one facet may ever meet another one of the surface.
@@ -181,31 +198,27 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// The facet that an integration point of the facet at a place meets, among some places: the nearest one within reach that faces its own, if
-    /// the gap to it is less than the largest one. A facet behind it is not met, however deep the overlap.
+    /// The facet that an integration point of the facet at a place meets, among those that this one [faces](Self::facing): the nearest one within
+    /// reach, if the gap to it is less than the largest one. A facet behind it is not met, however deep the overlap.
     fn facet_met(
         &self,
         (at, place): (usize, Place),
         present: &Present<'_, D>,
-        near: &[u32],
+        facing: &[(usize, [f64; D])],
         bonds: Bonded<'_>,
     ) -> Option<Meeting<D>> {
         let position = weighted(&present.now[at], &place.weights);
-        let own_normal = present.normals[at]?;
         let mut nearest = self.reach.max(present.within);
         let mut met = None;
-        for &other in near {
-            let other = other as usize;
-            let Some(normal) = present.normals[other] else {
-                continue;
-            };
-            if dot(normal, own_normal) >= FACING {
-                continue;
-            }
+        for &(other, normal) in facing {
             let corners = &present.now[other];
-            // No place of a facet is nearer than its plane, up to rounding.
-            let height = dot(minus(position, corners[0]), normal);
-            if height.abs() > nearest * (1.0 + ROUNDING) {
+            // No place of a facet is nearer than its plane, nor than the sphere around it, up to rounding.
+            let from_first = minus(position, corners[0]);
+            let height = dot(from_first, normal);
+            let farthest = (nearest + present.extents[other]) * (1.0 + ROUNDING);
+            if height.abs() > nearest * (1.0 + ROUNDING)
+                || dot(from_first, from_first) > farthest * farthest
+            {
                 continue;
             }
             let weights = nearest_weights(corners, position);
@@ -221,8 +234,8 @@ impl<const D: usize> FacetPair<D> {
             let [deepest, aside] = self.limits(&own, &facet, -gap);
             let [one, another] = [own, facet].map(|it| it.corners[0].point);
             let is_free =
-                !matches!(self.opposite, Opposite::Unbonded) || !bonds.joins(one, another);
-            if beside <= aside && -gap < deepest && is_free {
+                || !(matches!(self.opposite, Opposite::Unbonded) && bonds.joins(one, another));
+            if beside <= aside && -gap < deepest && is_free() {
                 nearest = distance;
                 met = Some((other, weights, normal, -gap));
             }
@@ -330,14 +343,13 @@ impl<const D: usize> FacetPair<D> {
             let known = before.binary_search_by_key(&place.number, |it| it.place);
             known.ok().map(|it| &before[it])
         };
-        let of_facet = |at: usize| (0..D as u32).map(move |corner| (at, corner));
-        let place = |(at, corner): (usize, u32)| (at, Self::place(D as u32 * facets[at] + corner));
-        let places = (0..facets.len())
-            .into_par_iter()
-            .flat_map_iter(of_facet)
-            .map(place);
+        let places = |at: usize| {
+            let first = D as u32 * facets[at];
+            (0..D as u32).map(move |corner| (at, Self::place(first + corner)))
+        };
+        let of_facets = (0..facets.len()).into_par_iter();
         let mut touches: Vec<Touch> = if let Opposite::Rigid(shape, _) = &self.opposite {
-            let met = places.filter_map(|place| {
+            let met = of_facets.flat_map_iter(places).filter_map(|place| {
                 let meeting = Self::shape_met(shape, place, &present, step.rigid)?;
                 Some(self.touch(place, &meeting, &present, known(place.1)))
             });
@@ -351,10 +363,13 @@ impl<const D: usize> FacetPair<D> {
             };
             search.update(&sought, skin);
             let search = &*search;
-            let met = places.filter_map(|place| {
-                let near = search.near(place.0);
-                let meeting = self.facet_met(place, &present, near, step.bonds)?;
-                Some(self.touch(place, &meeting, &present, known(place.1)))
+            let met = of_facets.flat_map_iter(|at| {
+                let facing = Self::facing(at, &present, search.near(at));
+                let present = &present;
+                places(at).filter_map(move |place| {
+                    let meeting = self.facet_met(place, present, &facing, step.bonds)?;
+                    Some(self.touch(place, &meeting, present, known(place.1)))
+                })
             });
             met.collect()
         };
@@ -770,7 +785,98 @@ fn passes<const D: usize>(corners: &Corners<D>, from: [f64; D], to: [f64; D]) ->
 
 #[cfg(test)]
 mod tests {
+    use super::super::facet::Corner;
     use super::*;
+    use crate::bonds::Incidence;
+    use crate::interface::Topology;
+    use crate::layout::{Component, Layout};
+
+    /// Facets of two sides, of all sizes up to 1 m and in all directions, in a box of 3 m.
+    fn two_sides<const D: usize>() -> FacetPair<D> {
+        let mut last = 1_u64;
+        let mut number = move || {
+            last = last.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (last >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let facets = (0..300).map(|point| {
+            let (middle, size): ([f64; D], f64) = ([(); D].map(|()| 3.0 * number()), number());
+            let corner = |_| middle.map(|x| x + 0.5 * size * (number() - 0.5));
+            let corners = std::array::from_fn(corner).map(|position| Corner {
+                point,
+                others: None,
+                position,
+                arm: [0.0; D],
+            });
+            let facet = Facet { corners, area: 1.0 };
+            (facet, point % 2, 1e9)
+        });
+        let layout = Layout {
+            n_points: 300,
+            components: Component::in_dimensions(D),
+        };
+        let surface = Surface::new(layout, facets.collect());
+        FacetPair::new(surface, Opposite::OtherSides, 0.0)
+    }
+
+    /// The facet that an integration point meets, by its number, among all of the other side.
+    fn met_among_all<const D: usize>(pair: &FacetPair<D>, place: Place) -> Option<u32> {
+        let corners = |facet: usize| pair.surface.facets[facet].corners.map(|it| it.position);
+        let own = corners(place.facet);
+        let position = weighted(&own, &place.weights);
+        let own_normal = normal(&own)?;
+        let mut nearest = (pair.reach, None);
+        for other in (0..300).filter(|it| it % 2 != place.facet % 2) {
+            let corners = corners(other);
+            let normal = normal(&corners)?;
+            let way = minus(
+                position,
+                weighted(&corners, &nearest_weights(&corners, position)),
+            );
+            let overlap = -dot(way, normal);
+            let seam = SEAM * pair.surface.facets[other].length();
+            let is_beside = norm(tangential(way, normal)) > seam.max(overlap);
+            if dot(normal, own_normal) < FACING && !is_beside && norm(way) < nearest.0 {
+                nearest = (norm(way), (overlap > 0.0).then_some(other as u32));
+            }
+        }
+        nearest.1
+    }
+
+    fn meets_the_nearest<const D: usize>() {
+        let pair = two_sides::<D>();
+        let incidence = Incidence::from_pairs(std::iter::empty(), 300);
+        let still = vec![0.0; pair.surface.layout.n_degrees_of_freedom()];
+        let step = Step {
+            before: &still,
+            now: &still,
+            rigid: [Pose::default(); 2],
+            bonds: Bonded {
+                topology: Topology {
+                    ends: &[],
+                    incidence: &incidence,
+                    far: None,
+                },
+                intact: &[],
+            },
+        };
+        let mut search = Search::default();
+        search.join(0..300);
+        let found = pair.met(&mut search, step, &[], 0.0);
+        let found: Vec<(u32, Option<u32>)> = found.iter().map(|it| (it.place, it.onto)).collect();
+        let all =
+            (0..300 * D as u32).map(|it| (it, met_among_all(&pair, FacetPair::<D>::place(it))));
+        let expected: Vec<(u32, Option<u32>)> = all.filter(|it| it.1.is_some()).collect();
+        assert!(found.len() > 50, "{}", found.len());
+        assert_eq!(found, expected);
+    }
+
+    /// What a search leaves out by boxes, normals, planes and spheres is not met: each integration point meets the same facet as by a comparison
+    /// with all of them.
+    #[test]
+    fn what_is_left_out_is_not_met() {
+        meets_the_nearest::<2>();
+        meets_the_nearest::<3>();
+    }
 
     /// Ways through a segment and a triangle, beside them, and out of the body.
     #[test]

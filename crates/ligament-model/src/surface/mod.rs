@@ -48,6 +48,12 @@ fn normal<const D: usize>(corners: &Corners<D>) -> Option<[f64; D]> {
     (size > 0.0).then(|| vector.map(|it| it / size))
 }
 
+/// Largest distance of a corner of a facet from its first one, m.
+fn extent<const D: usize>(corners: &Corners<D>) -> f64 {
+    let distances = corners.iter().map(|it| norm(minus(*it, corners[0])));
+    distances.fold(0.0, f64::max)
+}
+
 /// Outward normal of a facet times its length in the plane, m, or its area in space, m^2: the body is on the left of a segment, and
 /// triangles are counter-clockwise from outside.
 fn area_vector<const D: usize>(corners: &Corners<D>) -> [f64; D] {
