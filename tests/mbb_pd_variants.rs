@@ -4,8 +4,8 @@
 use ligament_analysis::history::BreakRecord;
 use ligament_case::case::CaseFile;
 use ligament_model::element::{BondDeformation, ElementKind};
+use ligament_model::failure::Surroundings;
 use ligament_model::failure::crack_at_points::CrackAtPoints;
-use ligament_model::failure::surroundings::Surroundings;
 use tempfile::TempDir;
 use verification::bench::{self, Bench, Run};
 use verification::numbers::relative_error;

@@ -48,7 +48,7 @@ mod unfit;
 
 pub use basis::Basis;
 pub use choosing::criteria;
-pub use criterion::{Criteria, Criterion, Verdict};
+pub use criterion::{Criteria, Criterion, Surroundings, Verdict};
 pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::Measure;
 pub use measure::Weakened;
