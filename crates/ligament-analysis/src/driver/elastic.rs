@@ -4,6 +4,7 @@ use super::outcome::{Outcome, Rows};
 use super::record::StepCounters;
 use super::run::Run;
 use super::run::StopRules;
+use super::way::Stop;
 use crate::breakage::Breakage;
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
@@ -34,10 +35,11 @@ pub fn run(
         }
         let balanced = match run.next_equilibrium([step, 0], &nothing) {
             Ok(balanced) => balanced,
-            Err(stop) => {
-                termination = stop.termination()?;
+            Err(Stop::End(end)) => {
+                termination = end;
                 break;
             }
+            Err(Stop::Failed(error)) => return Err(error),
         };
         let counters = StepCounters {
             step,

@@ -14,7 +14,6 @@ mod passing;
 mod proportional;
 
 use std::cell::OnceCell;
-use std::convert::Infallible;
 use std::io::Read;
 use std::mem;
 use std::rc::Rc;
@@ -23,7 +22,8 @@ use super::checkpoint::{Place, Restored, ToEvent};
 use super::outcome::{Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{Energies, StepCounters, largest_ratio};
-use super::run::{Prepared, Run, Stop, StopRules};
+use super::run::{Prepared, Run, StopRules};
+use super::way::{Stop, Way};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -107,7 +107,7 @@ fn run_begun(
     }
     run.enter(1, 0)?;
     match run.balance(1, &Breakage::default())? {
-        Attempt::Balanced(line) => Following::new(run, settings, (1, line), Vec::new()).outcome(),
+        Attempt::Balanced(line) => ExactPath::new(run, settings, (1, line), Vec::new()).follow(),
         Attempt::Unbalanced(reason) => {
             let end = Termination::NoEquilibrium { step: 1, reason };
             Ok(run.into_outcome(end, Rows::Events))
@@ -194,17 +194,18 @@ pub fn resume(
     };
     let (step, growth) = (*step, mem::take(growth));
     let (run, line) = Run::go_on(settings.stop, restored, observer);
-    Following::new(run, settings, (step, line), growth).outcome()
+    ExactPath::new(run, settings, (step, line), growth).follow()
 }
 
 /// Run along the exact path.
-struct Following<'a> {
+struct ExactPath<'a> {
     run: Run<'a>,
     /// Number of the next event.
     step: usize,
     /// Equilibrium on the line to it.
     line: Balanced,
-    way: Box<dyn EquilibriumLine>,
+    /// What finds the end of the line.
+    goals: Box<dyn EquilibriumLine>,
     tie_tolerance: f64,
     /// Parts of the body whose displacements may be updated later; built when events may first be skipped.
     body: OnceCell<Option<Rc<Body>>>,
@@ -237,7 +238,7 @@ impl Before {
     }
 }
 
-impl<'a> Following<'a> {
+impl<'a> ExactPath<'a> {
     /// The path from an equilibrium on the line to an event of this number.
     fn new(
         run: Run<'a>,
@@ -248,7 +249,7 @@ impl<'a> Following<'a> {
         let loads = &*run.problem.loads;
         let choice = run.equilibrium.choice();
         let tie_tolerance = choice.tie_tolerance(settings.tie_tolerance);
-        let way: Box<dyn EquilibriumLine> = match loads.course() {
+        let goals: Box<dyn EquilibriumLine> = match loads.course() {
             Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
             None if !run.problem.contact.is_empty() => {
                 Box::new(in_contact::InContact::new(tie_tolerance, growth))
@@ -259,43 +260,44 @@ impl<'a> Following<'a> {
             run,
             step,
             line,
-            way,
+            goals,
             tie_tolerance,
             body: OnceCell::new(),
         }
     }
+}
 
-    /// Follows the path to the end of the run.
-    fn outcome(mut self) -> Result<Outcome, SetupError> {
-        let Err(stop) = self.follow();
-        Ok(self.run.into_outcome(stop.termination()?, Rows::Events))
-    }
-
-    /// Follows the path from event to event until the run stops.
-    fn follow(&mut self) -> Result<Infallible, Stop> {
-        loop {
-            let (critical, breakage) = match self.pass()? {
-                Some(broken) => broken,
-                None => self.break_at_end_of_line()?,
-            };
-            if self.run.collapsed {
-                let end = Termination::Collapsed;
+impl Way for ExactPath<'_> {
+    /// Goes on to the next event at which bonds break, and breaks them.
+    fn advance(&mut self) -> Result<(), Stop> {
+        let (critical, breakage) = match self.pass()? {
+            Some(broken) => broken,
+            None => self.break_at_end_of_line()?,
+        };
+        if self.run.collapsed {
+            let end = Termination::Collapsed;
+            return Err(end_of(&mut self.run, self.step + 1, &critical, end));
+        }
+        self.line = match self.run.next_equilibrium([self.step, 1], &breakage) {
+            Err(Stop::End(end)) => {
                 return Err(end_of(&mut self.run, self.step + 1, &critical, end));
             }
-            self.line = match self.run.next_equilibrium([self.step, 1], &breakage) {
-                Err(Stop::End(end)) => {
-                    return Err(end_of(&mut self.run, self.step + 1, &critical, end));
-                }
-                line => line?,
-            };
-            self.step += 1;
-            // Contacts may carry what the bonds do not.
-            if self.run.problem.contact.is_empty() && self.run.carries_nothing(&self.line) {
-                return Err(self.end(Termination::FellApart));
-            }
+            line => line?,
+        };
+        self.step += 1;
+        // Contacts may carry what the bonds do not.
+        if self.run.problem.contact.is_empty() && self.run.carries_nothing(&self.line) {
+            return Err(self.end(Termination::FellApart));
         }
+        Ok(())
     }
 
+    fn outcome(self, end: Termination) -> Result<Outcome, SetupError> {
+        Ok(self.run.into_outcome(end, Rows::Events))
+    }
+}
+
+impl ExactPath<'_> {
     /// Skips events for which nobody needs the whole body; returns a breakage that cannot be applied to delayed parts, with the equilibrium
     /// before it.
     fn pass(&mut self) -> Result<Option<(Balanced, Breakage)>, Stop> {
@@ -334,7 +336,7 @@ impl<'a> Following<'a> {
     /// Follows lines to the next event at which bonds break, and breaks them; returns the critical equilibrium and the breakage.
     fn break_at_end_of_line(&mut self) -> Result<(Balanced, Breakage), Stop> {
         loop {
-            let goal = match self.way.goal(&mut self.run, &self.line) {
+            let goal = match self.goals.goal(&mut self.run, &self.line) {
                 Ok(goal) => goal,
                 Err(reason) => {
                     let end = self.run.without_equilibrium(self.step, reason);
@@ -342,7 +344,7 @@ impl<'a> Following<'a> {
                 }
             };
             let before = Before::new(&self.run);
-            let critical = (self.way).follow(&mut self.run, &self.line, goal.load_factor);
+            let critical = (self.goals).follow(&mut self.run, &self.line, goal.load_factor);
             self.run
                 .account(self.step, &Breakage::default(), &critical)?;
             if goal.event == Event::ContactChangesBeyond {
@@ -402,7 +404,7 @@ impl<'a> Following<'a> {
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         before.swap(&mut self.run);
-        let (step, growth) = (self.step, self.way.growth());
+        let (step, growth) = (self.step, self.goals.growth());
         let place = || {
             let growth = growth.to_vec();
             Place::Event(ToEvent { step, growth })

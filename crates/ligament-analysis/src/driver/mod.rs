@@ -12,6 +12,7 @@ mod run;
 mod run_messages;
 mod start;
 pub mod stepped;
+mod way;
 
 pub use crate::problem::Problem;
 pub use checkpoint::Restored;

@@ -14,6 +14,7 @@ use super::outcome::{Outcome, Rows};
 use super::record::{Energies, StepCounters, offer, step_record};
 use super::run_messages;
 use super::start::{Start, begin, report_detached_parts, report_mechanisms};
+use super::way::Stop;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;
@@ -32,32 +33,6 @@ use crate::state::{Solution, State};
 use crate::termination::Verdict;
 use crate::unbalanced::Unbalanced;
 use crate::user_message::Message;
-
-/// Reason why the loop of a driver stops: the run ends, or it fails.
-pub(super) enum Stop {
-    End(Termination),
-    Failed(SetupError),
-}
-
-impl<E: Into<SetupError>> From<E> for Stop {
-    fn from(error: E) -> Self {
-        Self::Failed(error.into())
-    }
-}
-
-impl Stop {
-    /// The end of the run.
-    ///
-    /// # Errors
-    ///
-    /// If it failed.
-    pub(super) fn termination(self) -> Result<Termination, SetupError> {
-        match self {
-            Self::End(termination) => Ok(termination),
-            Self::Failed(error) => Err(error),
-        }
-    }
-}
 
 /// State of a run.
 pub(super) struct Run<'a> {

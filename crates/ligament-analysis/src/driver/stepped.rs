@@ -10,8 +10,9 @@ use super::checkpoint::{InLoadStep, Place, Restored};
 use super::outcome::{LoadPoint, Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{StepCounters, largest_ratio};
-use super::run::{Prepared, Run, Stop, StopRules};
+use super::run::{Prepared, Run, StopRules};
 use super::start::ElasticAnswer;
+use super::way::{Stop, Way};
 use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
@@ -74,14 +75,14 @@ fn run_begun(
     }
     let (mut run, _, plan) = planned((run, at_one), settings)?;
     run.soften();
-    let mut stepping = Stepping {
+    let steps = LoadSteps {
         run,
         settings,
-        plan: &plan,
+        plan,
+        next: 0,
+        begun: None,
     };
-    let termination = stepping.steps_from(0)?;
-    stepping.run.report_past_peak(&termination)?;
-    Ok(stepping.run.into_outcome(termination, Rows::LoadSteps))
+    steps.follow()
 }
 
 /// Predicts the first failure in the load steps.
@@ -160,19 +161,16 @@ pub fn resume(
         return Err(CheckpointError::OtherDriver.into());
     };
     let plan = plan(&restored.problem, settings, &restored.progress.elastic);
-    let (run, balanced) = Run::go_on(settings.stop, restored, observer);
-    let mut stepping = Stepping {
+    let (mut run, balanced) = Run::go_on(settings.stop, restored, observer);
+    run.aim(plan[counters.step].load_factor);
+    let steps = LoadSteps {
         run,
         settings,
-        plan: &plan,
+        plan,
+        next: counters.step,
+        begun: Some((counters, balanced)),
     };
-    stepping.run.aim(plan[counters.step].load_factor);
-    let termination = match stepping.break_until_admissible(counters, balanced) {
-        Ok(()) => stepping.steps_from(counters.step + 1)?,
-        Err(stop) => stop.termination()?,
-    };
-    stepping.run.report_past_peak(&termination)?;
-    Ok(stepping.run.into_outcome(termination, Rows::LoadSteps))
+    steps.follow()
 }
 
 /// A load step.
@@ -234,39 +232,52 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
 }
 
 /// Run through load steps.
-struct Stepping<'a, 'b> {
+struct LoadSteps<'a, 'b> {
     run: Run<'a>,
     settings: &'b SteppedSettings,
     /// All load steps, the unloaded body first.
-    plan: &'b [LoadStep],
+    plan: Vec<LoadStep>,
+    /// Number of the next load step.
+    next: usize,
+    /// Equilibrium within the next load step from which a restored run goes on.
+    begun: Option<(StepCounters, Balanced)>,
 }
 
-impl Stepping<'_, '_> {
-    /// Performs the load steps from `first` on, and returns the reason why the run ends.
-    fn steps_from(&mut self, first: usize) -> Result<Termination, SetupError> {
-        let mut steps = first..self.plan.len();
-        match steps.try_for_each(|step| self.load_step(step)) {
-            Ok(()) => Ok(Termination::StepsDone),
-            Err(stop) => stop.termination(),
-        }
-    }
-
+impl Way for LoadSteps<'_, '_> {
     /// Performs one load step.
-    fn load_step(&mut self, step: usize) -> Result<(), Stop> {
-        let LoadStep { part, load_factor } = self.plan[step];
-        self.run.begin_part(part);
-        self.run.aim(load_factor);
-        if !self.run.is_controlled() {
-            self.run.state.load_factor = load_factor;
-        }
-        let balanced = self.run.next_equilibrium([step, 0], &Breakage::default())?;
-        let counters = StepCounters {
-            step,
-            ..Default::default()
+    fn advance(&mut self) -> Result<(), Stop> {
+        let step = self.next;
+        let (counters, balanced) = match self.begun.take() {
+            Some(begun) => begun,
+            None => {
+                let Some(&LoadStep { part, load_factor }) = self.plan.get(step) else {
+                    return Err(Stop::End(Termination::StepsDone));
+                };
+                self.run.begin_part(part);
+                self.run.aim(load_factor);
+                if !self.run.is_controlled() {
+                    self.run.state.load_factor = load_factor;
+                }
+                let counters = StepCounters {
+                    step,
+                    ..Default::default()
+                };
+                let nothing = Breakage::default();
+                (counters, self.run.next_equilibrium([step, 0], &nothing)?)
+            }
         };
-        self.break_until_admissible(counters, balanced)
+        self.break_until_admissible(counters, balanced)?;
+        self.next += 1;
+        Ok(())
     }
 
+    fn outcome(mut self, end: Termination) -> Result<Outcome, SetupError> {
+        self.run.report_past_peak(&end)?;
+        Ok(self.run.into_outcome(end, Rows::LoadSteps))
+    }
+}
+
+impl LoadSteps<'_, '_> {
     /// Breaks bonds in a load step, from an equilibrium on, until none is left to break.
     ///
     /// Where a breakage leaves no equilibrium, the step records the last one before it.

@@ -7,7 +7,6 @@
 //! that are linear in the displacements: 1/2 (M a + M a')^T (u' - u) is the change of the kinetic energy.
 
 use std::collections::BTreeMap;
-use std::convert::Infallible;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -24,9 +23,9 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::driver::outcome::Outcome;
 use crate::driver::record::Energies;
-use crate::driver::run::Stop;
+use crate::driver::way::{Stop, Way};
 use crate::error::SetupError;
-use crate::history::Observer;
+use crate::history::{Observer, Termination};
 use crate::motion::contact::ContactForces;
 use crate::motion::{MotionError, MotionProblem, MotionSettings, critical_step};
 use crate::serial::Sink;
@@ -34,7 +33,7 @@ use crate::solver::{ExplicitChoice, SolverChoice};
 use crate::vectors::{CHUNK, sum_of_chunks};
 
 /// Motion in explicit steps.
-struct Explicit<'a> {
+struct ExplicitSteps<'a> {
     settings: &'a MotionSettings,
     choice: ExplicitChoice,
     inertia: Inertia,
@@ -91,7 +90,7 @@ pub(super) fn run(
         energies,
         progress,
     };
-    let mut motion = Explicit::new(problem, settings, choice, parts, observer);
+    let mut motion = ExplicitSteps::new(problem, settings, choice, parts, observer);
     motion.begin(&problem.initial_velocity);
     motion.follow()
 }
@@ -124,7 +123,7 @@ pub(super) fn resume(
         energies,
         progress,
     };
-    let mut motion = Explicit::new(&problem, settings, choice, parts, observer);
+    let mut motion = ExplicitSteps::new(&problem, settings, choice, parts, observer);
     motion.apply_loads();
     motion.follow()
 }
@@ -148,7 +147,7 @@ pub(super) fn chosen(
     Ok((clock, ExplicitChoice { step, critical }))
 }
 
-impl<'a> Explicit<'a> {
+impl<'a> ExplicitSteps<'a> {
     fn new(
         problem: &MotionProblem,
         settings: &'a MotionSettings,
@@ -226,32 +225,31 @@ impl<'a> Explicit<'a> {
             self.kinetic_energy() + self.body.balanced.stored_energy;
         self.damp();
     }
+}
 
-    /// Follows the motion row by row.
-    fn follow(mut self) -> Result<Outcome, SetupError> {
-        let Err(stop) = self.rows();
-        let termination = stop.termination()?;
+impl Way for ExplicitSteps<'_> {
+    /// Records a row of the history and moves to the next one.
+    fn advance(&mut self) -> Result<(), Stop> {
+        self.record()?;
+        let (row, time) = (self.progress.history.len(), self.body.state.load_factor);
+        self.observer.round(row, 0, time, self.body.broken)?;
+        for _ in 0..self.progress.clock.steps_per_row {
+            self.step(row)?;
+        }
+        Ok(())
+    }
+
+    fn outcome(self, end: Termination) -> Result<Outcome, SetupError> {
         let velocity = self.velocities.at_time(self.inertia.step());
         let rates = self.velocities.rates(&velocity);
-        let now = self
-            .body
-            .now(&self.energies, rates, self.choice.of_critical());
+        let of_critical = self.choice.of_critical();
+        let now = self.body.now(&self.energies, rates, of_critical);
         let solver = SolverChoice::Explicit(self.choice);
-        Ok(record::outcome(&now, self.progress, solver, termination))
+        Ok(record::outcome(&now, self.progress, solver, end))
     }
+}
 
-    /// Records rows of the history and moves from each to the next until the motion stops.
-    fn rows(&mut self) -> Result<Infallible, Stop> {
-        loop {
-            self.record()?;
-            let (row, time) = (self.progress.history.len(), self.body.state.load_factor);
-            self.observer.round(row, 0, time, self.body.broken)?;
-            for _ in 0..self.progress.clock.steps_per_row {
-                self.step(row)?;
-            }
-        }
-    }
-
+impl ExplicitSteps<'_> {
     /// Records the present time as a row, and stops where the motion ends there.
     fn record(&mut self) -> Result<(), Stop> {
         self.progress.motion.kinetic_energy = self.kinetic_energy();

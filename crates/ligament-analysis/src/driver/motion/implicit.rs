@@ -5,7 +5,6 @@
 //!
 //! Points with a prescribed motion have no mass here: the trapezoidal rule would let the acceleration of a prescribed motion ring.
 
-use std::convert::Infallible;
 use std::time::Instant;
 
 use super::checkpoint::{ImplicitCheckpoint, RestoredRecord};
@@ -20,7 +19,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::driver::outcome::Outcome;
 use crate::driver::record::Energies;
-use crate::driver::run::Stop;
+use crate::driver::way::{Stop, Way};
 use crate::error::SetupError;
 use crate::history::{Observer, Termination};
 use crate::motion::contact::{RigidBody, RigidMotion};
@@ -32,7 +31,7 @@ use crate::state::State;
 use crate::user_message::Message;
 
 /// Motion in implicit steps.
-struct Implicit<'a> {
+struct ImplicitSteps<'a> {
     settings: &'a MotionSettings,
     problem: MotionProblem,
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
@@ -69,7 +68,7 @@ pub(super) fn run(
     let scheme = scheme(settings, &clock, pace);
     let mut stepping = Stepping::new(problem, scheme, &masses, (&mut state, settings))?;
     let balanced = stepping.equilibrium.measured(&mut state);
-    let mut motion = Implicit {
+    let mut motion = ImplicitSteps {
         here: MotionState {
             motion: Motion::with_velocity(problem.initial_velocity.to_vec(), &balanced),
             state,
@@ -110,7 +109,7 @@ pub(super) fn resume(
         stepping,
         pace,
     } = checkpoint;
-    let motion = Implicit {
+    let motion = ImplicitSteps {
         masses: free_masses(&problem, settings.rotary_inertia),
         started: Instant::now(),
         settings,
@@ -125,7 +124,7 @@ pub(super) fn resume(
     motion.follow()
 }
 
-impl Implicit<'_> {
+impl ImplicitSteps<'_> {
     /// Sets accelerations and energies of time zero.
     fn begin(&mut self) {
         let MotionState { state, motion, .. } = &self.here;
@@ -160,30 +159,27 @@ impl Implicit<'_> {
         self.progress.motion.initial_energy = kinetic + balanced.stored_energy;
         self.progress.motion.kinetic_energy = kinetic;
     }
+}
 
-    /// Follows the motion row by row.
-    fn follow(mut self) -> Result<Outcome, SetupError> {
-        let Err(stop) = self.rows();
-        let termination = stop.termination()?;
+impl Way for ImplicitSteps<'_> {
+    /// Records a row of the history and moves to the next one.
+    fn advance(&mut self) -> Result<(), Stop> {
+        self.record()?;
+        let (row, time) = (self.progress.history.len(), self.here.state.load_factor);
+        self.observer.round(row, 0, time, self.here.broken)?;
+        self.move_to_row(row)
+    }
+
+    fn outcome(self, end: Termination) -> Result<Outcome, SetupError> {
         let solver = *self.stepping.equilibrium.choice();
         let costs = self.stepping.costs();
-        let records = (&self.energies, &costs);
-        let now = self
-            .stepping
-            .now(&self.problem.problem, &self.here, records);
-        Ok(record::outcome(&now, self.progress, solver, termination))
+        let (problem, records) = (&self.problem.problem, (&self.energies, &costs));
+        let now = self.stepping.now(problem, &self.here, records);
+        Ok(record::outcome(&now, self.progress, solver, end))
     }
+}
 
-    /// Records rows of the history and moves from each to the next until the motion stops.
-    fn rows(&mut self) -> Result<Infallible, Stop> {
-        loop {
-            self.record()?;
-            let (row, time) = (self.progress.history.len(), self.here.state.load_factor);
-            self.observer.round(row, 0, time, self.here.broken)?;
-            self.move_to_row(row)?;
-        }
-    }
-
+impl ImplicitSteps<'_> {
     /// Takes steps up to a row of the history; stops where a step does not converge however small it is.
     fn move_to_row(&mut self, row: usize) -> Result<(), Stop> {
         let Clock {
