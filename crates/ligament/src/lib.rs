@@ -36,7 +36,7 @@
 //! ```
 //!
 //! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::NoObserver) receives the load steps of a run;
-//! [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
+//! [`run::begin`] goes on by hand, row by row; [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
 //!
 //! This crate is the one to depend on: [`analysis`], [`mechanics`] and [`mesh`] are the crates beneath it, for whatever a program needs of
 //! them.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ligament_analysis::Observer;
 use ligament_analysis::checkpoint::CheckpointError;
 use ligament_analysis::distributed_matrix::Communicator;
-use ligament_analysis::driver::{self, Outcome, Problem, motion};
+use ligament_analysis::driver::{self, Outcome, Problem, Way, motion};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
 use ligament_analysis::motion::MotionProblem;
@@ -117,33 +117,50 @@ impl<'a> From<&'a MotionProblem> for Posed<'a> {
     }
 }
 
-/// Solves a problem, or follows its loading up to failure or its motion up to the end.
+/// Begins to solve a problem, or to follow its loading or its motion, by hand: row by row of the history.
 ///
 /// # Errors
 ///
 /// If the analysis is of natural modes or does not fit the problem, or the equations cannot be set up.
-pub fn follow<'a>(
+pub fn begin<'a>(
     posed: impl Into<Posed<'a>>,
-    analysis: &Analysis,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, Error> {
+    analysis: &'a Analysis,
+    observer: &'a mut dyn Observer,
+) -> Result<Box<dyn Way + 'a>, Error> {
     let problem = match (posed.into(), analysis) {
         (Posed::Motion(problem), Analysis::Motion(settings)) => {
-            return Ok(motion::run(problem, settings, observer)?);
+            return Ok(motion::begin(problem, settings, observer)?);
         }
         (Posed::Motion(_), _) => return Err(other_analysis(analysis, "a motion")),
         (Posed::Statics(problem), _) => problem,
     };
     Ok(match analysis {
-        Analysis::Elastic { energy_tolerance } => {
-            driver::elastic::run(problem, *energy_tolerance, observer)?
+        Analysis::Elastic { energy_tolerance } => Box::new(driver::elastic::begin(
+            problem,
+            *energy_tolerance,
+            observer,
+        )?),
+        Analysis::Stepped(settings) => {
+            Box::new(driver::stepped::begin(problem, settings, observer)?)
         }
-        Analysis::Stepped(settings) => driver::stepped::run(problem, settings, observer)?,
-        Analysis::Event(settings) => driver::event::run(problem, settings, observer)?,
+        Analysis::Event(settings) => Box::new(driver::event::begin(problem, settings, observer)?),
         Analysis::Modal(_) | Analysis::Motion(_) => {
             return Err(other_analysis(analysis, "the response to loads"));
         }
     })
+}
+
+/// Solves a problem, or follows its loading up to failure or its motion up to the end.
+///
+/// # Errors
+///
+/// As those of [`begin`], or if the run fails.
+pub fn follow<'a>(
+    posed: impl Into<Posed<'a>>,
+    analysis: &'a Analysis,
+    observer: &'a mut dyn Observer,
+) -> Result<Outcome, Error> {
+    Ok(begin(posed, analysis, observer)?.follow()?)
 }
 
 /// The run of a checkpoint, for [`resume`].

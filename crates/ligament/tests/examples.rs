@@ -17,8 +17,10 @@ mod elastic_plate;
 mod resumed_plate;
 #[path = "../examples/splitting_solid.rs"]
 mod splitting_solid;
+#[path = "../examples/steps_by_hand.rs"]
+mod steps_by_hand;
 #[path = "../examples/watched_plate.rs"]
-mod watched_plate;
+pub(crate) mod watched_plate;
 
 #[test]
 fn an_elastic_plate_from_arrays() {
@@ -43,4 +45,9 @@ fn an_observer_watches_and_stops_a_run() {
 #[test]
 fn a_run_goes_on_from_its_checkpoint() {
     resumed_plate::main().unwrap();
+}
+
+#[test]
+fn load_steps_are_taken_by_hand() {
+    steps_by_hand::main().unwrap();
 }

@@ -1,5 +1,6 @@
 //! The library from outside: bodies and setups that are refused, programmes of loads, the examples.
 
+mod by_hand;
 mod examples;
 mod half_a_body;
 mod motion;

@@ -28,7 +28,7 @@ use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
-use crate::history::{Observer, Termination};
+use crate::history::{Observer, StepRecord, Termination};
 use crate::lagging::Body;
 use crate::problem::Problem;
 use crate::state::State;
@@ -47,18 +47,35 @@ pub struct EventSettings {
     pub stop: StopRules,
 }
 
-/// Follows the path; the criteria of the problem must be brittle.
+/// Begins with the unloaded body, whose criteria must be brittle.
 ///
 /// The history contains the unloaded body, then a record for each event: the state in which its bonds break, just before breakage.
 /// The last record is the end of the run, without breakage.
+///
+/// # Errors
+///
+/// If the path cannot be followed ([`refuse`]), the equations cannot be set up, nothing resists the loads, or the observer fails.
+pub fn begin<'a>(
+    problem: &Problem,
+    settings: &EventSettings,
+    observer: &'a mut dyn Observer,
+) -> Result<ExactPath<'a>, SetupError> {
+    refuse(problem)?;
+    let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    ExactPath::begun(begun, settings)
+}
+
+/// Follows the path from its beginning to the end of the run.
+///
+/// # Errors
+///
+/// As those of [`begin`], or if the run fails.
 pub fn run(
     problem: &Problem,
     settings: &EventSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    refuse(problem)?;
-    let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
-    run_begun(begun, settings)
+    Box::new(begin(problem, settings, observer)?).follow()
 }
 
 /// Follows the path of a problem that differs from the prepared one in its criteria, to the bits of [`run`].
@@ -73,46 +90,8 @@ pub fn run_from(
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
     refuse(problem)?;
-    run_begun(prepared.begun(problem, settings.stop, observer)?, settings)
-}
-
-/// Follows the path from the unloaded body; with its equilibrium at load factor one, if there is one.
-fn run_begun(
-    (mut run, at_one): (Run<'_>, Option<State>),
-    settings: &EventSettings,
-) -> Result<Outcome, SetupError> {
-    if let Some(end) = run.end_if_unstable()? {
-        return Ok(run.into_outcome(end, Rows::Events));
-    }
-    run.require_resistance(at_one.as_ref())?;
-    let is_staged = run.problem.loads.course().is_some();
-    let begins_unloaded = is_staged || !run.problem.contact.is_empty();
-    let unloaded = match run.balance(0, &Breakage::default())? {
-        Attempt::Balanced(balanced) => balanced,
-        Attempt::Unbalanced(reason) => {
-            let end = Termination::NoEquilibrium { step: 0, reason };
-            return Ok(run.into_outcome(end, Rows::Events));
-        }
-    };
-    let counters = StepCounters {
-        at_rest: true,
-        ..Default::default()
-    };
-    run.record(&unloaded, counters, false)?;
-    // A missing equilibrium at load factor one is reported by the first event, with its reason.
-    match at_one.filter(|_| !begins_unloaded) {
-        Some(at_one) => run.state = at_one,
-        None if begins_unloaded => {}
-        None => run.state.load_factor = 1.0,
-    }
-    run.enter(1, 0)?;
-    match run.balance(1, &Breakage::default())? {
-        Attempt::Balanced(line) => ExactPath::new(run, settings, (1, line), Vec::new()).follow(),
-        Attempt::Unbalanced(reason) => {
-            let end = Termination::NoEquilibrium { step: 1, reason };
-            Ok(run.into_outcome(end, Rows::Events))
-        }
-    }
+    let begun = prepared.begun(problem, settings.stop, observer)?;
+    Box::new(ExactPath::begun(begun, settings)?).follow()
 }
 
 /// Predicts the first failure on the path.
@@ -194,11 +173,11 @@ pub fn resume(
     };
     let (step, growth) = (*step, mem::take(growth));
     let (run, line) = Run::go_on(settings.stop, restored, observer);
-    ExactPath::new(run, settings, (step, line), growth).follow()
+    Box::new(ExactPath::new(run, settings, (step, line), growth)).follow()
 }
 
 /// Run along the exact path.
-struct ExactPath<'a> {
+pub struct ExactPath<'a> {
     run: Run<'a>,
     /// Number of the next event.
     step: usize,
@@ -209,6 +188,8 @@ struct ExactPath<'a> {
     tie_tolerance: f64,
     /// Parts of the body whose displacements may be updated later; built when events may first be skipped.
     body: OnceCell<Option<Rc<Body>>>,
+    /// Reason why the run ended before its first event.
+    ended: Option<Termination>,
 }
 
 /// State before a move along a line.
@@ -239,6 +220,25 @@ impl Before {
 }
 
 impl<'a> ExactPath<'a> {
+    /// The path from the unloaded body; with its equilibrium at load factor one, if there is one.
+    fn begun(
+        (mut run, at_one): (Run<'a>, Option<State>),
+        settings: &EventSettings,
+    ) -> Result<Self, SetupError> {
+        let unloaded = Balanced::unloaded(&*run.problem.system);
+        let line = match run.end_if_unstable()? {
+            Some(end) => Err(Stop::End(end)),
+            None => first_line(&mut run, at_one),
+        };
+        let (line, ended) = match line {
+            Ok(line) => (line, None),
+            Err(Stop::End(end)) => (unloaded, Some(end)),
+            Err(Stop::Failed(error)) => return Err(error),
+        };
+        let path = Self::new(run, settings, (1, line), Vec::new());
+        Ok(Self { ended, ..path })
+    }
+
     /// The path from an equilibrium on the line to an event of this number.
     fn new(
         run: Run<'a>,
@@ -263,13 +263,16 @@ impl<'a> ExactPath<'a> {
             goals,
             tie_tolerance,
             body: OnceCell::new(),
+            ended: None,
         }
     }
 }
 
 impl Way for ExactPath<'_> {
-    /// Goes on to the next event at which bonds break, and breaks them.
     fn advance(&mut self) -> Result<(), Stop> {
+        if let Some(end) = self.ended.take() {
+            return Err(Stop::End(end));
+        }
         let (critical, breakage) = match self.pass()? {
             Some(broken) => broken,
             None => self.break_at_end_of_line()?,
@@ -292,7 +295,15 @@ impl Way for ExactPath<'_> {
         Ok(())
     }
 
-    fn outcome(self, end: Termination) -> Result<Outcome, SetupError> {
+    fn state(&self) -> &State {
+        &self.run.state
+    }
+
+    fn history(&self) -> &[StepRecord] {
+        &self.run.progress.history
+    }
+
+    fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
         Ok(self.run.into_outcome(end, Rows::Events))
     }
 }
@@ -418,6 +429,32 @@ impl ExactPath<'_> {
     fn end(&mut self, end: Termination) -> Stop {
         end_of(&mut self.run, self.step, &self.line, end)
     }
+}
+
+/// Records the unloaded body, and finds the equilibrium on the line to the first event.
+fn first_line(run: &mut Run<'_>, at_one: Option<State>) -> Result<Balanced, Stop> {
+    run.require_resistance(at_one.as_ref())?;
+    let is_staged = run.problem.loads.course().is_some();
+    let begins_unloaded = is_staged || !run.problem.contact.is_empty();
+    let nothing = Breakage::default();
+    let balance = |run: &mut Run<'_>, step| match run.balance(step, &nothing)? {
+        Attempt::Balanced(balanced) => Ok(balanced),
+        Attempt::Unbalanced(reason) => Err(Stop::End(Termination::NoEquilibrium { step, reason })),
+    };
+    let unloaded = balance(run, 0)?;
+    let counters = StepCounters {
+        at_rest: true,
+        ..Default::default()
+    };
+    run.record(&unloaded, counters, false)?;
+    // A missing equilibrium at load factor one is reported by the first event, with its reason.
+    match at_one.filter(|_| !begins_unloaded) {
+        Some(at_one) => run.state = at_one,
+        None if begins_unloaded => {}
+        None => run.state.load_factor = 1.0,
+    }
+    run.enter(1, 0)?;
+    balance(run, 1)
 }
 
 /// Ends a run with a last record after a breakage; at rest only where the body fell apart.

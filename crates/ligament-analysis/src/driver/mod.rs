@@ -20,3 +20,4 @@ pub use outcome::{LoadPoint, Outcome, Rows};
 pub use prediction::{FirstFailure, Prediction, StepOfFailure};
 pub use run::{Prepared, StopRules};
 pub use start::stability_of;
+pub use way::{Stop, Way};

@@ -52,7 +52,7 @@ pub(super) struct Run<'a> {
 impl<'a> Run<'a> {
     /// Begins with the unloaded body; also returns the equilibrium at load factor one, if there is one.
     pub(super) fn begin(
-        problem: &'a Problem,
+        problem: &Problem,
         energy_tolerance: f64,
         stop: StopRules,
         observer: &'a mut dyn Observer,
@@ -812,7 +812,7 @@ impl Prepared {
     /// factor one, if there is one.
     pub(super) fn begun<'a>(
         &self,
-        problem: &'a Problem,
+        problem: &Problem,
         stop: StopRules,
         observer: &'a mut dyn Observer,
     ) -> Result<(Run<'a>, Option<State>), SetupError> {

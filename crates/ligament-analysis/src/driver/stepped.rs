@@ -18,7 +18,7 @@ use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
-use crate::history::{Observer, Termination};
+use crate::history::{Observer, StepRecord, Termination};
 use crate::load_program::Part;
 use crate::problem::Problem;
 use crate::state::State;
@@ -41,14 +41,31 @@ pub struct SteppedSettings {
     pub stop: StopRules,
 }
 
-/// Follows the load program.
+/// Begins with the unloaded body.
+///
+/// # Errors
+///
+/// If the equations cannot be set up, nothing resists the loads, or the observer fails.
+pub fn begin<'a>(
+    problem: &Problem,
+    settings: &'a SteppedSettings,
+    observer: &'a mut dyn Observer,
+) -> Result<LoadSteps<'a>, SetupError> {
+    let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
+    LoadSteps::begun(begun, settings)
+}
+
+/// Follows the load program from its beginning to the end of the run.
+///
+/// # Errors
+///
+/// As those of [`begin`], or if the run fails.
 pub fn run(
     problem: &Problem,
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
-    run_begun(begun, settings)
+    Box::new(begin(problem, settings, observer)?).follow()
 }
 
 /// Follows the load program of a problem that differs from the prepared one in its criteria, to the bits of [`run`].
@@ -62,27 +79,8 @@ pub fn run_from(
     settings: &SteppedSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    run_begun(prepared.begun(problem, settings.stop, observer)?, settings)
-}
-
-/// Follows the load program from the unloaded body; with its equilibrium at load factor one, if there is one.
-fn run_begun(
-    (mut run, at_one): (Run<'_>, Option<State>),
-    settings: &SteppedSettings,
-) -> Result<Outcome, SetupError> {
-    if let Some(end) = run.end_if_unstable()? {
-        return Ok(run.into_outcome(end, Rows::LoadSteps));
-    }
-    let (mut run, _, plan) = planned((run, at_one), settings)?;
-    run.soften();
-    let steps = LoadSteps {
-        run,
-        settings,
-        plan,
-        next: 0,
-        begun: None,
-    };
-    steps.follow()
+    let begun = prepared.begun(problem, settings.stop, observer)?;
+    Box::new(LoadSteps::begun(begun, settings)?).follow()
 }
 
 /// Predicts the first failure in the load steps.
@@ -169,8 +167,9 @@ pub fn resume(
         plan,
         next: counters.step,
         begun: Some((counters, balanced)),
+        ended: None,
     };
-    steps.follow()
+    Box::new(steps).follow()
 }
 
 /// A load step.
@@ -232,20 +231,24 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
 }
 
 /// Run through load steps.
-struct LoadSteps<'a, 'b> {
+pub struct LoadSteps<'a> {
     run: Run<'a>,
-    settings: &'b SteppedSettings,
+    settings: &'a SteppedSettings,
     /// All load steps, the unloaded body first.
     plan: Vec<LoadStep>,
     /// Number of the next load step.
     next: usize,
     /// Equilibrium within the next load step from which a restored run goes on.
     begun: Option<(StepCounters, Balanced)>,
+    /// Reason why the run ended before its first load step.
+    ended: Option<Termination>,
 }
 
-impl Way for LoadSteps<'_, '_> {
-    /// Performs one load step.
+impl Way for LoadSteps<'_> {
     fn advance(&mut self) -> Result<(), Stop> {
+        if let Some(end) = self.ended.take() {
+            return Err(Stop::End(end));
+        }
         let step = self.next;
         let (counters, balanced) = match self.begun.take() {
             Some(begun) => begun,
@@ -271,13 +274,49 @@ impl Way for LoadSteps<'_, '_> {
         Ok(())
     }
 
-    fn outcome(mut self, end: Termination) -> Result<Outcome, SetupError> {
+    fn state(&self) -> &State {
+        &self.run.state
+    }
+
+    fn history(&self) -> &[StepRecord] {
+        &self.run.progress.history
+    }
+
+    fn outcome(mut self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
         self.run.report_past_peak(&end)?;
         Ok(self.run.into_outcome(end, Rows::LoadSteps))
     }
 }
 
-impl LoadSteps<'_, '_> {
+impl<'a> LoadSteps<'a> {
+    /// Load steps from the unloaded body; with its equilibrium at load factor one, if there is one.
+    fn begun(
+        (mut run, at_one): (Run<'a>, Option<State>),
+        settings: &'a SteppedSettings,
+    ) -> Result<Self, SetupError> {
+        let mut plan = Vec::new();
+        let ended = run.end_if_unstable()?;
+        if ended.is_none() {
+            (run, _, plan) = planned((run, at_one), settings)?;
+            run.soften();
+        }
+        Ok(Self {
+            run,
+            settings,
+            plan,
+            next: 0,
+            begun: None,
+            ended,
+        })
+    }
+
+    /// Gives the next load step another load factor; in stages, another share of the motion or energy of its part.
+    pub fn set_next_load_factor(&mut self, load_factor: f64) {
+        if let Some(next) = self.plan.get_mut(self.next) {
+            next.load_factor = load_factor;
+        }
+    }
+
     /// Breaks bonds in a load step, from an equilibrium on, until none is left to break.
     ///
     /// Where a breakage leaves no equilibrium, the step records the last one before it.

@@ -2,26 +2,39 @@
 
 use super::outcome::Outcome;
 use crate::error::SetupError;
-use crate::history::Termination;
+use crate::history::{StepRecord, Termination};
+use crate::state::State;
 
-/// A way to follow a load program: load steps, the exact path, or a motion in explicit or implicit steps.
-pub(super) trait Way: Sized {
-    /// Goes on to the next row of the history.
+/// A way to follow a load program: elastic solutions, load steps, the exact path, or a motion in explicit or implicit steps.
+///
+/// Who calls [`advance`](Self::advance) by hand sees the body between two rows of the history, and decides when to stop.
+pub trait Way {
+    /// Goes on by a row of the history: a load step, an event of the exact path, or a row of times.
+    ///
+    /// # Errors
+    ///
+    /// Where the run ended, or failed.
     fn advance(&mut self) -> Result<(), Stop>;
+
+    /// The present state of the body.
+    fn state(&self) -> &State;
+
+    /// The records so far.
+    fn history(&self) -> &[StepRecord];
 
     /// Result of a run that ended.
     ///
     /// # Errors
     ///
-    /// If an observer fails.
-    fn outcome(self, end: Termination) -> Result<Outcome, SetupError>;
+    /// If the observer fails.
+    fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError>;
 
     /// Follows the load program to the end of the run.
     ///
     /// # Errors
     ///
     /// If the run fails.
-    fn follow(mut self) -> Result<Outcome, SetupError> {
+    fn follow(mut self: Box<Self>) -> Result<Outcome, SetupError> {
         loop {
             match self.advance() {
                 Ok(()) => {}
@@ -32,9 +45,12 @@ pub(super) trait Way: Sized {
     }
 }
 
-/// Reason why a run does not go on: it ended, or it failed.
-pub(super) enum Stop {
+/// Reason why a run does not go on.
+#[derive(Debug)]
+pub enum Stop {
+    /// The run ended.
     End(Termination),
+    /// The run failed.
     Failed(SetupError),
 }
 

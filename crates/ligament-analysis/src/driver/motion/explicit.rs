@@ -25,15 +25,16 @@ use crate::driver::outcome::Outcome;
 use crate::driver::record::Energies;
 use crate::driver::way::{Stop, Way};
 use crate::error::SetupError;
-use crate::history::{Observer, Termination};
+use crate::history::{Observer, StepRecord, Termination};
 use crate::motion::contact::ContactForces;
 use crate::motion::{MotionError, MotionProblem, MotionSettings, critical_step};
 use crate::serial::Sink;
 use crate::solver::{ExplicitChoice, SolverChoice};
+use crate::state::State;
 use crate::vectors::{CHUNK, sum_of_chunks};
 
 /// Motion in explicit steps.
-struct ExplicitSteps<'a> {
+pub(super) struct ExplicitSteps<'a> {
     settings: &'a MotionSettings,
     choice: ExplicitChoice,
     inertia: Inertia,
@@ -65,12 +66,12 @@ struct Parts {
     progress: Progress,
 }
 
-/// Follows a motion from time zero to its end.
-pub(super) fn run(
+/// Begins a motion at time zero.
+pub(super) fn begin<'a>(
     problem: &MotionProblem,
-    settings: &MotionSettings,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
+    settings: &'a MotionSettings,
+    observer: &'a mut dyn Observer,
+) -> Result<ExplicitSteps<'a>, SetupError> {
     let (clock, choice) = chosen(problem, settings)?;
     observer.begins(clock.ahead(false));
     let numbers = BondNumbers::new(&*problem.problem.system)?;
@@ -92,7 +93,7 @@ pub(super) fn run(
     };
     let mut motion = ExplicitSteps::new(problem, settings, choice, parts, observer);
     motion.begin(&problem.initial_velocity);
-    motion.follow()
+    Ok(motion)
 }
 
 /// Continues a motion from a checkpoint.
@@ -125,7 +126,7 @@ pub(super) fn resume(
     };
     let mut motion = ExplicitSteps::new(&problem, settings, choice, parts, observer);
     motion.apply_loads();
-    motion.follow()
+    Box::new(motion).follow()
 }
 
 /// Times of a motion, with the critical step.
@@ -228,7 +229,6 @@ impl<'a> ExplicitSteps<'a> {
 }
 
 impl Way for ExplicitSteps<'_> {
-    /// Records a row of the history and moves to the next one.
     fn advance(&mut self) -> Result<(), Stop> {
         self.record()?;
         let (row, time) = (self.progress.history.len(), self.body.state.load_factor);
@@ -239,7 +239,15 @@ impl Way for ExplicitSteps<'_> {
         Ok(())
     }
 
-    fn outcome(self, end: Termination) -> Result<Outcome, SetupError> {
+    fn state(&self) -> &State {
+        &self.body.state
+    }
+
+    fn history(&self) -> &[StepRecord] {
+        &self.progress.history
+    }
+
+    fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
         let velocity = self.velocities.at_time(self.inertia.step());
         let rates = self.velocities.rates(&velocity);
         let of_critical = self.choice.of_critical();

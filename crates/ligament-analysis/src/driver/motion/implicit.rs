@@ -21,7 +21,7 @@ use crate::driver::outcome::Outcome;
 use crate::driver::record::Energies;
 use crate::driver::way::{Stop, Way};
 use crate::error::SetupError;
-use crate::history::{Observer, Termination};
+use crate::history::{Observer, StepRecord, Termination};
 use crate::motion::contact::{RigidBody, RigidMotion};
 use crate::motion::{MotionError, MotionProblem, MotionSettings};
 use crate::problem::Problem;
@@ -31,7 +31,7 @@ use crate::state::State;
 use crate::user_message::Message;
 
 /// Motion in implicit steps.
-struct ImplicitSteps<'a> {
+pub(super) struct ImplicitSteps<'a> {
     settings: &'a MotionSettings,
     problem: MotionProblem,
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
@@ -45,12 +45,12 @@ struct ImplicitSteps<'a> {
     started: Instant,
 }
 
-/// Follows a motion from time zero to its end.
-pub(super) fn run(
+/// Begins a motion at time zero.
+pub(super) fn begin<'a>(
     problem: &MotionProblem,
-    settings: &MotionSettings,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
+    settings: &'a MotionSettings,
+    observer: &'a mut dyn Observer,
+) -> Result<ImplicitSteps<'a>, SetupError> {
     check(problem, settings)?;
     let clock = Clock::implicit(settings)?;
     if settings.share_of_statics().is_none() {
@@ -86,7 +86,7 @@ pub(super) fn run(
         observer,
     };
     motion.begin();
-    motion.follow()
+    Ok(motion)
 }
 
 /// Continues a motion from a checkpoint.
@@ -121,7 +121,7 @@ pub(super) fn resume(
         pace,
         observer,
     };
-    motion.follow()
+    Box::new(motion).follow()
 }
 
 impl ImplicitSteps<'_> {
@@ -162,7 +162,6 @@ impl ImplicitSteps<'_> {
 }
 
 impl Way for ImplicitSteps<'_> {
-    /// Records a row of the history and moves to the next one.
     fn advance(&mut self) -> Result<(), Stop> {
         self.record()?;
         let (row, time) = (self.progress.history.len(), self.here.state.load_factor);
@@ -170,7 +169,15 @@ impl Way for ImplicitSteps<'_> {
         self.move_to_row(row)
     }
 
-    fn outcome(self, end: Termination) -> Result<Outcome, SetupError> {
+    fn state(&self) -> &State {
+        &self.here.state
+    }
+
+    fn history(&self) -> &[StepRecord] {
+        &self.progress.history
+    }
+
+    fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
         let solver = *self.stepping.equilibrium.choice();
         let costs = self.stepping.costs();
         let (problem, records) = (&self.problem.problem, (&self.energies, &costs));

@@ -23,25 +23,38 @@ use crate::history::Observer;
 use crate::motion::{MotionProblem, MotionSettings, Scheme, critical_step};
 use crate::solver::ExplicitChoice;
 
-use super::Outcome;
+use super::{Outcome, Way};
 pub use checkpoint::Restored;
 use checkpoint::SchemeCheckpoint;
 use clock::Clock;
+
+/// Begins a motion at time zero.
+///
+/// # Errors
+///
+/// If the motion cannot be computed ([`MotionError`](crate::motion::MotionError)), or an observer fails.
+pub fn begin<'a>(
+    problem: &MotionProblem,
+    settings: &'a MotionSettings,
+    observer: &'a mut dyn Observer,
+) -> Result<Box<dyn Way + 'a>, SetupError> {
+    Ok(match settings.scheme {
+        Scheme::Explicit => Box::new(explicit::begin(problem, settings, observer)?),
+        Scheme::Implicit | Scheme::Auto => Box::new(implicit::begin(problem, settings, observer)?),
+    })
+}
 
 /// Follows a motion to its end.
 ///
 /// # Errors
 ///
-/// If the motion cannot be computed ([`MotionError`](crate::motion::MotionError)), or an observer fails.
+/// As those of [`begin`], or if the motion fails.
 pub fn run(
     problem: &MotionProblem,
     settings: &MotionSettings,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    match settings.scheme {
-        Scheme::Explicit => explicit::run(problem, settings, observer),
-        Scheme::Implicit | Scheme::Auto => implicit::run(problem, settings, observer),
-    }
+    begin(problem, settings, observer)?.follow()
 }
 
 /// Time step of a motion, with the critical one, as [`run`] chooses them.
