@@ -1,10 +1,9 @@
 //! Linear elastic driver: one solve at load factor one, or one at the end of each part of a programme.
 
-use super::outcome::{Outcome, Rows};
 use super::record::StepCounters;
 use super::run::Run;
 use super::run::StopRules;
-use super::way::{Stop, Way};
+use super::way::{Outcome, Rows, Stop, Way};
 use crate::breakage::Breakage;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};

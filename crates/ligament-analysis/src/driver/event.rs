@@ -19,11 +19,10 @@ use std::mem;
 use std::rc::Rc;
 
 use super::checkpoint::{Place, Restored, ToEvent};
-use super::outcome::{Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{Energies, StepCounters, largest_ratio};
 use super::run::{Prepared, Run, StopRules};
-use super::way::{Stop, Way};
+use super::way::{Outcome, Rows, Stop, Way};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;

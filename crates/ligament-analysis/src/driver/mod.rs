@@ -5,7 +5,6 @@ mod checkpoint;
 pub mod elastic;
 pub mod event;
 pub mod motion;
-mod outcome;
 mod prediction;
 mod record;
 mod run;
@@ -16,8 +15,7 @@ mod way;
 
 pub use crate::problem::Problem;
 pub use checkpoint::Restored;
-pub use outcome::{LoadPoint, Outcome, Rows};
 pub use prediction::{FirstFailure, Prediction, StepOfFailure};
 pub use run::{Prepared, StopRules};
 pub use start::stability_of;
-pub use way::{Stop, Way};
+pub use way::{LoadPoint, Outcome, Rows, Stop, Way};

@@ -8,10 +8,10 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::CriteriaInState;
 use rayon::prelude::*;
 
-use super::outcome::LoadPoint;
 use super::record::largest_ratio;
 use super::run::Run;
 use super::start::NoObserver;
+use super::way::LoadPoint;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;

@@ -10,11 +10,10 @@ use ligament_model::failure::CriteriaInState;
 
 use super::breaks::{self, Breaking};
 use super::checkpoint::{CheckValues, Place, Progress, Restored};
-use super::outcome::{Outcome, Rows};
 use super::record::{Energies, StepCounters, offer, step_record};
 use super::run_messages;
 use super::start::{Start, begin, report_detached_parts, report_mechanisms};
-use super::way::Stop;
+use super::way::{Outcome, Rows, Stop};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;

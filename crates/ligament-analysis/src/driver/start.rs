@@ -1,7 +1,7 @@
 //! First step of every driver: fixes detached parts and solves the elastic problem.
 
-use super::outcome::LoadPoint;
 use super::record::{Energies, StepCounters, largest_ratio_by, step_record};
+use super::way::LoadPoint;
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;

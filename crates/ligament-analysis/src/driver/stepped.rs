@@ -7,12 +7,11 @@ use std::io::Read;
 use std::time::Instant;
 
 use super::checkpoint::{InLoadStep, Place, Restored};
-use super::outcome::{LoadPoint, Outcome, Rows};
 use super::prediction::{self, Prediction};
 use super::record::{StepCounters, largest_ratio};
 use super::run::{Prepared, Run, StopRules};
 use super::start::ElasticAnswer;
-use super::way::{Stop, Way};
+use super::way::{LoadPoint, Outcome, Rows, Stop, Way};
 use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingRule, next_to_break};

@@ -1,8 +1,11 @@
-//! A way to follow a load program, and the loop that all ways have in common.
+//! A way to follow a load program, the loop that all ways have in common, and its result with the evaluation of the force-displacement curve.
 
-use super::outcome::Outcome;
+use crate::balanced::Stability;
+use crate::costs::Costs;
 use crate::error::SetupError;
-use crate::history::{StepRecord, Termination};
+use crate::history::{LargestOverlap, StepRecord, Termination};
+use crate::serial;
+use crate::solver::SolverChoice;
 use crate::state::State;
 
 /// A way to follow a load program: elastic solutions, load steps, the exact path, or a motion in explicit or implicit steps.
@@ -57,5 +60,156 @@ pub enum Stop {
 impl<E: Into<SetupError>> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Failed(error.into())
+    }
+}
+
+/// Result of a run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Records of all load steps, or of all events.
+    pub history: Vec<StepRecord>,
+    /// Kind of the records.
+    pub rows: Rows,
+    /// Last state; on a divided body, with the local bonds of this process.
+    pub state: State,
+    /// Number of broken bonds.
+    pub broken_bonds: usize,
+    /// Number of unbroken bonds that have begun to soften.
+    pub softened_bonds: usize,
+    /// Reason why the run ended.
+    pub termination: Termination,
+    /// Force over displacement of the control load before the first breakage, N/m.
+    pub elastic_stiffness: f64,
+    /// Point at which the first bond breaks, if the loading reaches it.
+    pub first_break: Option<LoadPoint>,
+    /// Largest overlap of crack faces, if it exceeds the limit for valid results.
+    pub overlap: Option<LargestOverlap>,
+    /// Inertia of the intact stiffness, where it may be indefinite.
+    pub stability: Option<Stability>,
+    /// Costs of the equations.
+    pub costs: Costs,
+    /// Solver of the equations.
+    pub solver: SolverChoice,
+}
+
+/// Kind of the records of a history.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rows {
+    /// Equilibrium states at the ends of load steps.
+    LoadSteps,
+    /// States of the exact path, each just before its bonds break.
+    Events,
+    /// States at times of a motion.
+    Times,
+}
+
+/// A point of the force-displacement curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadPoint {
+    /// Displacement of the control load, m.
+    pub displacement: f64,
+    /// Force of the control load, N.
+    pub reaction: f64,
+    /// Load factor.
+    pub load_factor: f64,
+}
+
+serial!(LoadPoint {
+    displacement,
+    reaction,
+    load_factor
+});
+
+impl Outcome {
+    /// Whether the run ended without any equilibrium of the loaded body; false for a run that was stopped, which may still reach
+    /// one.
+    pub fn is_without_equilibrium(&self) -> bool {
+        let needs_rest = self.termination.row().verdict.needs_rest();
+        needs_rest && !self.at_rest().any(|it| it.step > 0)
+    }
+
+    /// Records whose numbers are results: those at rest.
+    pub fn at_rest(&self) -> impl DoubleEndedIterator<Item = &StepRecord> {
+        self.history.iter().filter(|it| it.at_rest)
+    }
+
+    /// Record at rest with the largest reaction.
+    pub fn peak(&self) -> Option<LoadPoint> {
+        let largest = self.at_rest().reduce(|best, step| {
+            if step.reaction > best.reaction {
+                step
+            } else {
+                best
+            }
+        });
+        largest.map(LoadPoint::from)
+    }
+
+    /// Curve of a test with increasing displacement: the load steps at rest, or the points of the exact path beyond all
+    /// displacements before them.
+    ///
+    /// Where the exact path returns from a snap-back, the curve drops at the largest displacement so far onto the line through the
+    /// origin to the next event; in stages, whose lines do not pass through the origin, the next event follows directly.
+    pub fn envelope(&self) -> Vec<LoadPoint> {
+        let is_proportional = self.history.iter().all(|step| step.factors.is_empty());
+        let points = self.at_rest().map(LoadPoint::from);
+        if self.rows == Rows::LoadSteps {
+            return points.collect();
+        }
+        let mut curve: Vec<LoadPoint> = Vec::new();
+        for point in points {
+            match curve.last() {
+                Some(last) if point.displacement <= last.displacement => {}
+                Some(last) if last.displacement > 0.0 && is_proportional => {
+                    curve.push(point.scaled(last.displacement / point.displacement));
+                    curve.push(point);
+                }
+                _ => curve.push(point),
+            }
+        }
+        curve
+    }
+
+    /// Point of the [envelope](Self::envelope) with the largest reaction before the reaction first fell by more than the fraction
+    /// `drop`.
+    ///
+    /// A body that is split may carry more load again, as the halves of a disk between platens do; this point is the strength of
+    /// the whole body. It is the peak where the load never falls that far.
+    pub fn first_peak(&self, drop: f64) -> Option<LoadPoint> {
+        let mut best: Option<LoadPoint> = None;
+        for point in self.envelope() {
+            match best {
+                // A negative reaction, due to another load, is no peak.
+                Some(peak)
+                    if peak.reaction > 0.0 && point.reaction < (1.0 - drop) * peak.reaction =>
+                {
+                    break;
+                }
+                Some(peak) if point.reaction <= peak.reaction => {}
+                _ => best = Some(point),
+            }
+        }
+        best
+    }
+}
+
+impl LoadPoint {
+    /// Point on the line through the origin, scaled by a factor.
+    fn scaled(self, factor: f64) -> Self {
+        Self {
+            displacement: factor * self.displacement,
+            reaction: factor * self.reaction,
+            load_factor: factor * self.load_factor,
+        }
+    }
+}
+
+impl From<&StepRecord> for LoadPoint {
+    fn from(step: &StepRecord) -> Self {
+        Self {
+            displacement: step.displacement,
+            reaction: step.reaction,
+            load_factor: step.load_factor,
+        }
     }
 }

@@ -9,10 +9,9 @@ use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
 use crate::connectivity::Fragments;
 use crate::costs::Costs;
-use crate::driver::outcome::{Outcome, Rows};
 use crate::driver::record::{Energies, StepCounters, largest_ratio, offer, step_record};
 use crate::driver::run_messages;
-use crate::driver::way::Stop;
+use crate::driver::way::{Outcome, Rows, Stop};
 use crate::history::{
     InMotion, LargestOverlap, Observer, ObserverError, Rates, StepRecord, Termination, View,
 };
