@@ -154,7 +154,7 @@ pub fn begin<'a>(
 ///
 /// # Errors
 ///
-/// As those of [`begin`], or if the run fails.
+/// As in [`begin`], or if the run fails.
 pub fn follow<'a>(
     posed: impl Into<Posed<'a>>,
     analysis: &'a Analysis,

@@ -39,7 +39,7 @@ pub fn begin<'a>(
 ///
 /// # Errors
 ///
-/// As those of [`begin`], or if the run fails.
+/// As in [`begin`], or if the run fails.
 pub fn run(
     problem: &Problem,
     energy_tolerance: f64,

@@ -68,11 +68,11 @@ impl Stresses {
 pub struct StateVariables {
     /// Stresses across the bonds; None where the measure takes none.
     stress: Option<Stresses>,
-    /// Present limit of each bond, shape (n_bonds); None where it is that of the criterion.
+    /// Limit of each bond in the state, shape (n_bonds); None where the criterion has no other.
     limit: Option<Arc<Vec<f64>>>,
-    /// Present law after the limit; None where it is that of the criterion.
+    /// Law after the limit in the state; None where the criterion has no other.
     after: Option<Arc<AfterLimit>>,
-    /// Measure of the bonds that did not begin to soften yet; None where it is that of the criterion.
+    /// Measure of bonds of which none has begun to soften; None where the criterion has no other.
     before_softening: Option<Measure>,
 }
 
@@ -106,8 +106,8 @@ impl Criteria {
         }
     }
 
-    /// Stresses across the bonds in a motion of a body of which some bonds are left, with the deformations (n_bonds) in it, for each
-    /// criterion; None for those that take none.
+    /// Stresses across the bonds for each criterion, in a motion of the bonds that are left with its deformations (n_bonds); None for a
+    /// criterion that takes no stress.
     pub fn stresses(
         &self,
         system: &dyn Bonds,
@@ -269,8 +269,8 @@ impl<'a> CriteriaInState<'a> {
         self
     }
 
-    /// The criteria of a body of which no bond began to soften, in a motion: those by which bonds begin see the stress around each bond over the
-    /// strength, with the limit 1. In proportion to the load that is proportional too.
+    /// The criteria in a motion of a body in which no bond has begun to soften: a criterion by which bonds begin measures the stress around each
+    /// bond over the strength, with the limit 1. That measure grows in proportion to the load.
     pub fn before_softening(
         mut self,
         system: &dyn Bonds,
@@ -383,8 +383,8 @@ impl<'a> CriteriaInState<'a> {
         worst
     }
 
-    /// The criteria on the straight line between two motions, of the same body with the same bonds: from that of some criteria, or none
-    /// from the unloaded body, to that of these, at a share of it. Limits are those of these.
+    /// The criteria at a share of the straight line from another motion of the same bonds to this one; without another one, from the unloaded
+    /// body. The limits stay as they are here.
     pub fn on_line(&self, from: Option<&Self>, share: f64) -> Self {
         self.with_stresses(|place, there| {
             let there = there.scaled(share);
@@ -395,7 +395,7 @@ impl<'a> CriteriaInState<'a> {
         })
     }
 
-    /// The criteria of a motion + t another one, of the same body with the same bonds, from those of both.
+    /// The criteria in the sum of this motion and t times another motion of the same bonds, `rates`.
     pub fn ahead(&self, rates: &Self, t: f64) -> Self {
         self.with_stresses(|place, here| match &rates.of(place).1.stress {
             Some(rate) => here.plus(rate, t),

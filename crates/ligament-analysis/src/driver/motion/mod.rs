@@ -48,7 +48,7 @@ pub fn begin<'a>(
 ///
 /// # Errors
 ///
-/// As those of [`begin`], or if the motion fails.
+/// As in [`begin`], or if the motion fails.
 pub fn run(
     problem: &MotionProblem,
     settings: &MotionSettings,
