@@ -15,7 +15,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-cli", 54_045),
     ("ligament-linalg", 22_625),
     ("ligament-mesh", 36_006),
-    ("ligament-model", 200_442),
+    ("ligament-model", 200_444),
     ("ligament-output", 73_852),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_113),
@@ -30,7 +30,7 @@ const TOKENS: [(&str, usize); 16] = [
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
     ("ligament", 23),
-    ("ligament-analysis", 15),
+    ("ligament-analysis", 14),
     ("ligament-case", 5),
     ("ligament-cli", 13),
     ("ligament-linalg", 5),

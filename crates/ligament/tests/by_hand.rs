@@ -6,14 +6,22 @@ use ligament::analysis::driver::{Outcome, Stop};
 use ligament::analysis::motion::{MotionSettings, Scheme};
 use ligament::prelude::*;
 use ligament::run::{Posed, begin, follow};
+use ligament::setup::InitialVelocity;
 
 use crate::examples::watched_plate::plate;
 
 /// The plate of the example under another analysis.
 fn plate_under(analysis: Analysis) -> Model {
     let mut setup = plate().unwrap();
-    for region in &mut setup.materials {
-        region.material.density = Some(2400.0);
+    if matches!(analysis, Analysis::Motion(_)) {
+        for region in &mut setup.materials {
+            region.material.density = Some(2400.0);
+        }
+        setup.loads.clear();
+        setup.initial_velocities = vec![InitialVelocity {
+            place: Place::Group("top".into()),
+            velocity: [0.0, 2.0, 0.0],
+        }];
     }
     setup.analysis = analysis;
     Model::build(setup, &mut ()).unwrap()

@@ -326,8 +326,9 @@ impl<'a> Run<'a> {
             &dyn Fn(usize, usize) -> BondDeformation,
         ),
         internal: &InternalForces,
-        [step, round]: [usize; 2],
+        at: [usize; 2],
     ) -> Result<Breakage, SetupError> {
+        let [step, round] = at;
         let breaking = Breaking {
             problem: &self.problem,
             numbers: self.equilibrium.numbers(),

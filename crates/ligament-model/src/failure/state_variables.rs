@@ -301,7 +301,7 @@ impl<'a> CriteriaInState<'a> {
 
     /// A criterion with its state variables.
     #[inline]
-    fn of(&self, place: usize) -> (&'a Criterion, &StateVariables) {
+    fn criterion(&self, place: usize) -> (&'a Criterion, &StateVariables) {
         let variables = self.variables.get(place).unwrap_or(&NO_VARIABLES);
         (&self.criteria.list[place], variables)
     }
@@ -309,28 +309,28 @@ impl<'a> CriteriaInState<'a> {
     /// Stress across a bond over E' that a criterion takes; zero where it takes none.
     #[inline]
     pub(super) fn stress(&self, place: usize, bond: usize) -> StressAcross {
-        let stress = self.of(place).1.stress.as_ref();
+        let stress = self.criterion(place).1.stress.as_ref();
         stress.map_or_else(StressAcross::default, |it| it.of_bond(bond))
     }
 
     /// Limit of each bond by a criterion, shape (n_bonds); infinite where it never fails.
     #[inline]
     pub fn limits(&self, place: usize) -> &[f64] {
-        let (criterion, variables) = self.of(place);
+        let (criterion, variables) = self.criterion(place);
         variables.limit.as_ref().unwrap_or(&criterion.limit)
     }
 
     /// What happens after the limit of a criterion.
     #[inline]
     pub fn after(&self, place: usize) -> &AfterLimit {
-        let (criterion, variables) = self.of(place);
+        let (criterion, variables) = self.criterion(place);
         variables.after(criterion)
     }
 
     /// The measure of a deformation of a bond by a criterion.
     #[inline]
     pub fn measure(&self, place: usize, bond: usize, deformation: &BondDeformation) -> f64 {
-        let (criterion, variables) = self.of(place);
+        let (criterion, variables) = self.criterion(place);
         let measure = variables.before_softening.unwrap_or(criterion.measure);
         measure.value(deformation, criterion.coefficients(bond), || {
             self.stress(place, bond)
@@ -388,7 +388,7 @@ impl<'a> CriteriaInState<'a> {
     pub fn on_line(&self, from: Option<&Self>, share: f64) -> Self {
         self.with_stresses(|place, there| {
             let there = there.scaled(share);
-            match from.and_then(|it| it.of(place).1.stress.as_ref()) {
+            match from.and_then(|it| it.criterion(place).1.stress.as_ref()) {
                 Some(from) => there.plus(from, 1.0 - share),
                 None => there,
             }
@@ -397,7 +397,7 @@ impl<'a> CriteriaInState<'a> {
 
     /// The criteria in the sum of this motion and t times another motion of the same bonds, `rates`.
     pub fn ahead(&self, rates: &Self, t: f64) -> Self {
-        self.with_stresses(|place, here| match &rates.of(place).1.stress {
+        self.with_stresses(|place, here| match &rates.criterion(place).1.stress {
             Some(rate) => here.plus(rate, t),
             None => here.clone(),
         })

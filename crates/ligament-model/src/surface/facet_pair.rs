@@ -164,7 +164,7 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// Those among some facets, by their places, that a facet at a place faces.
+    /// Facets among those at some places that the facet at a place faces, with their places and normals.
     fn facing(at: usize, present: &Present<'_, D>, near: &[u32]) -> Vec<(usize, [f64; D])> {
         let Some(own_normal) = present.normals[at] else {
             return Vec::new();

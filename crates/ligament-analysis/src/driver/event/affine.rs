@@ -92,9 +92,8 @@ impl EquilibriumLine for Affine {
             },
             Some([_, upper]) => {
                 let at = line.deformations.ahead(&slopes, upper);
-                let tie = self.tie_tolerance;
                 let criteria = criteria.ahead(&rates, upper);
-                let first = run.first_to_break(tie, &at, &criteria);
+                let first = run.first_to_break(self.tie_tolerance, &at, &criteria);
                 let is_at_end = upper == reach[1];
                 let is_gone = dissipates.filter(|it| run.dissipated_energy() >= *it);
                 let ends_part = is_at_end || is_gone.is_some();
