@@ -326,7 +326,7 @@ impl Equilibrium {
         breakage
     }
 
-    /// Takes breakages back: the equations are those of the bonds of a state again.
+    /// Takes breakages back, so that the equations hold for the bonds of a state again.
     pub(crate) fn return_to(&mut self, state: &State) {
         let Equations {
             problem,

@@ -34,7 +34,7 @@ pub(crate) struct Grid<const D: usize, S> {
     pub(crate) sets: BTreeMap<String, (Sides<D>, Shapes<S>)>,
 }
 
-/// The possible shapes by their keys, at most one of which is given.
+/// Shapes by their keys; a section gives one at most.
 pub(crate) type Shapes<S> = Vec<(&'static str, Option<S>)>;
 
 /// Numbers of layers at the sides of a lattice, by their keys, with the outward normals of the sides.

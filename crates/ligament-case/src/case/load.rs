@@ -17,7 +17,7 @@ use super::region::{Corners, place, place_or_everywhere};
 use super::values::{exactly_one, missing, one_of, refuse, require_column_name};
 use ligament::setup::{self, Action, Axis, Displacement, Position, begins_as_formula};
 
-/// Keys of the actions, of which a load has one.
+/// Keys of the actions; a load has one of them.
 pub(super) const ACTIONS: [&str; 11] = [
     "displacement",
     "velocity",

@@ -12,7 +12,7 @@ use super::setting;
 use super::source::Source;
 use crate::point_table;
 
-/// Parts of the elements of a setup's lists with their keys, of which a case gives one; the last stands for none.
+/// Parts of the elements of a setup's lists, each with the keys by which a case may give it; the last key is named where none is given.
 const PARTS: [(&str, &[&str]); 5] = [
     ("place", &["box", "at", "group"]),
     ("action", &ACTIONS),

@@ -72,7 +72,7 @@ pub struct StateVariables {
     limit: Option<Arc<Vec<f64>>>,
     /// Law after the limit in the state; None where the criterion has no other.
     after: Option<Arc<AfterLimit>>,
-    /// Measure of bonds of which none has begun to soften; None where the criterion has no other.
+    /// Measure before any bond begins to soften; None where the criterion has no other.
     before_softening: Option<Measure>,
 }
 

@@ -234,7 +234,7 @@ pub(super) fn outcome(
     }
 }
 
-/// First byte of the checkpoint of an explicit motion; those of statics begin with 0 or 1.
+/// First byte of the checkpoint of an explicit motion; checkpoints of statics begin with 0 or 1.
 pub(super) const EXPLICIT: u8 = 2;
 
 /// First byte of the checkpoint of an implicit motion.

@@ -12,7 +12,7 @@ use crate::problem::Problem;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// A step that was taken.
+/// A step on trial, which is accepted or dropped.
 pub(super) struct TrialStep {
     pub(super) state: State,
     pub(super) balanced: Balanced,
@@ -55,7 +55,7 @@ pub(super) fn attempt(
     problem: &Problem,
     equilibrium: &mut Equilibrium,
     (state, balanced): (State, Balanced),
-    trial: &StepSettings,
+    settings: &StepSettings,
 ) -> Result<TrialStep, Rejected> {
     let mut taken = TrialStep {
         state,
@@ -80,18 +80,18 @@ pub(super) fn attempt(
         if problem.begin_softening(&mut taken.state, &taken.balanced) {
             continue;
         }
-        let next = next(problem, &trial.rule, equilibrium, &taken);
+        let next = next(problem, &settings.rule, equilibrium, &taken);
         if next.is_empty() {
             breaks::soften(problem, &mut taken.state);
             return Ok(taken);
         }
         rounds += 1;
-        if trial.rounds.is_some_and(|most| rounds > most) {
+        if settings.rounds.is_some_and(|most| rounds > most) {
             return Err(Rejected::Rounds);
         }
         let moment = BreakRecord {
-            order: trial.broken + taken.broken.len(),
-            step: trial.row,
+            order: settings.broken + taken.broken.len(),
+            step: settings.row,
             round: rounds,
             ..BreakRecord::default()
         };
