@@ -36,7 +36,7 @@ stage = [{ name = "press", loads = { press = 1.0 }, steps = 1 }, { name = "slide
 
 /// Contacts that press in the last equilibrium.
 fn pressed(outcome: &Outcome) -> Vec<Touch> {
-    let all = outcome.state.surfaces.touching().touches.iter().flatten();
+    let all = outcome.state.surfaces.touching().touches();
     all.filter(|it| it.depth() > 0.0).copied().collect()
 }
 

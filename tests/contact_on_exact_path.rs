@@ -65,7 +65,7 @@ fracture = { control = "event", criterion = [{ kind = "tension" }] }
     let outcome = solved(BLOCK, &[]).outcome;
     assert_eq!(outcome.termination, Termination::FullLoad);
     let floor = &outcome.history.last().unwrap().contacts[0];
-    let all = outcome.state.surfaces.touching().touches.iter().flatten();
+    let all = outcome.state.surfaces.touching().touches();
     let pressures = all
         .filter(|it| it.depth() > 0.0)
         .map(|it| it.stiffness * it.depth() / it.area);

@@ -10,10 +10,10 @@ use ligament::setup::{
     SurfaceContact,
 };
 use ligament_analysis::Component;
+use ligament_analysis::contact::{LastTouching, RigidRates, Touching};
 use ligament_analysis::history::StepRecord;
 use ligament_analysis::load_program::{self, Amplitude};
 use ligament_analysis::motion::MotionSettings;
-use ligament_analysis::motion::contact::{ContactForces, ContactState};
 use ligament_analysis::serial::Serial;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_model::shape::Shape;
@@ -194,7 +194,7 @@ fn groups_of_a_mesh_meet() {
         let mut impact = meeting(setup, 12.5 * SIDE, -0.999 * SIDE);
         let [drift, error] = watched(&mut impact, 5e-6);
         assert!(drift < 1e-12 && error < 1e-11, "{drift} {error}");
-        (impact.contacts.readings()[0], impact.contacts.energies())
+        (impact.contacts.readings()[0], impact.contacts.energies)
     };
     let ((one, energies), (other, _)) = (run(["left", "right"]), run(["right", "left"]));
     assert!(one.normal_force[0] < 0.0 && energies.dissipated > 0.0);
@@ -220,7 +220,7 @@ fn an_overlap_at_the_start_is_no_force() {
     impact.follow(100.0 * impact.step, &Drive::NONE);
     // Rounding of bonds whose ends have the same displacement.
     assert!(impact.ledger().kinetic < 1e-20, "{:?}", impact.ledger());
-    assert_eq!(impact.contacts.energies().stored, 0.0);
+    assert_eq!(impact.contacts.energies.stored, 0.0);
     assert_eq!(impact.contacts.readings()[0].area, 0.0);
 }
 
@@ -326,7 +326,7 @@ fn on_slope(friction: f64) -> [f64; 2] {
     let total = impact.momentum(0, |_| true) - start;
     let mass: f64 = 1000.0 * 32.0 * SIDE * SIDE;
     let moved = impact.displacement(0, |_| true) - place;
-    let energies = impact.contacts.energies();
+    let energies = impact.contacts.energies;
     println!(
         "mu {friction}: {energies:?} {:?}",
         impact.contacts.readings()[0]
@@ -386,10 +386,10 @@ fn a_sphere_gives_its_momentum_to_a_block() {
         impact.advance(&Drive::NONE);
         let now = impact.ledger();
         assert!(imbalance(&impact, &start, &now, start.kinetic).abs() < 1e-11);
-        let sphere = impact.contacts.rigid_bodies()[0];
+        let (sphere, force) = (impact.contacts.rates[0], impact.contacts.force_on(0));
         for (axis, first) in velocity.into_iter().enumerate() {
             // Half a step later, as the velocities of the points.
-            let own = 1e-3 * sphere.velocity[axis] + 0.5 * impact.step * sphere.force[axis];
+            let own = 1e-3 * sphere.velocity[axis] + 0.5 * impact.step * force[axis];
             let all = own + impact.momentum(axis, |_| true);
             assert!((all - 1e-3 * first).abs() < 1e-15, "{all} {axis}");
         }
@@ -419,14 +419,19 @@ fn states_and_threads_keep_all_bits() {
     assert!(!one.contacts.readings()[0].area.is_nan());
     assert_eq!(bits(&one), bits(&two));
     let mut bytes = Vec::new();
-    two.contacts.state().write(&mut bytes);
-    let state = ContactState::read(&mut bytes.as_slice()).unwrap();
-    two.contacts = ContactForces::resumed(two.problem.clone(), &two.motions, state, two.bonded());
+    two.contacts.last.touching().write(&mut bytes);
+    two.contacts.rates.write(&mut bytes);
+    let mut stored = bytes.as_slice();
+    let touching = Touching::read(&mut stored).unwrap();
+    let rates = Vec::<RigidRates>::read(&mut stored).unwrap();
+    let last = LastTouching::new(touching.into(), &two.motions);
+    two.contacts = two.contacts.resumed(two.layout(), last, rates);
     for impact in [&mut one, &mut two] {
         impact.follow(200.0 * impact.step, &Drive::NONE);
     }
     assert_eq!(bits(&one), bits(&two));
-    assert_eq!(one.contacts.state(), two.contacts.state());
+    assert_eq!(one.contacts.last, two.contacts.last);
+    assert_eq!(one.contacts.rates, two.contacts.rates);
 }
 
 /// Rows of a motion of a setup with contact.

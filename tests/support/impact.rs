@@ -6,9 +6,12 @@ use ligament::Model;
 use ligament::loading::contact_problem;
 use ligament::setup::{ContactLaw, Rigid, RigidForm, Setup};
 use ligament_analysis::Layout;
+use ligament_analysis::contact::{
+    ContactProblem, ContactReading, ContactStep, LastTouching, RigidRates, SurfaceEnergy,
+    SurfaceSearch,
+};
 use ligament_analysis::load_program::Amplitude;
-use ligament_analysis::motion::contact::{ContactEnergies, ContactForces, ContactProblem};
-use ligament_model::surface::Bonded;
+use ligament_model::surface::{Bonded, Pose, Vector};
 use ligament_model::{Bonds, LumpedMass, UnbrokenBonds};
 
 /// A rigid body without a velocity, friction or mass.
@@ -35,7 +38,7 @@ pub struct Impact {
     /// Contacts.
     pub problem: ContactProblem,
     /// Contacts at the time.
-    pub contacts: ContactForces,
+    pub contacts: Contacts,
     /// Masses and inertias, shape (n_degrees_of_freedom).
     pub mass: Vec<f64>,
     /// Time, s.
@@ -52,6 +55,100 @@ pub struct Impact {
     intact: Vec<bool>,
     acceleration: Vec<f64>,
     load: Vec<f64>,
+}
+
+/// Contacts of a body along its motion, with its rigid bodies.
+pub struct Contacts {
+    problem: ContactProblem,
+    search: SurfaceSearch,
+    /// Contact at the time.
+    pub last: LastTouching,
+    /// Places of the rigid bodies.
+    pub poses: Vec<Pose>,
+    /// Rates of the rigid bodies.
+    pub rates: Vec<RigidRates>,
+    energy: SurfaceEnergy,
+    /// Energies so far.
+    pub energies: ContactEnergies,
+}
+
+/// Energies of contacts so far, J.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ContactEnergies {
+    /// Stored in the contacts at the time.
+    pub stored: f64,
+    /// Taken by friction and by contacts that begin and end.
+    pub dissipated: f64,
+    /// Work of what moves rigid bodies.
+    pub driving_work: f64,
+}
+
+impl Contacts {
+    /// Contacts at time zero, for the motions then (n_degrees_of_freedom).
+    pub fn new(
+        problem: &ContactProblem,
+        layout: Layout,
+        motions: &[f64],
+        bonds: Bonded<'_>,
+    ) -> Self {
+        let mut contacts = Self {
+            problem: problem.clone(),
+            search: SurfaceSearch::new(problem, layout),
+            last: LastTouching::new(Arc::default(), motions),
+            poses: Vec::new(),
+            rates: Vec::new(),
+            energy: SurfaceEnergy::default(),
+            energies: ContactEnergies::default(),
+        };
+        contacts.advance(0.0, 0.0, motions, bonds);
+        contacts.rates = problem.rates_at_start(contacts.last.touching());
+        contacts
+    }
+
+    /// Contacts with the state that others had at these motions.
+    pub fn resumed(&self, layout: Layout, last: LastTouching, rates: Vec<RigidRates>) -> Self {
+        Self {
+            problem: self.problem.clone(),
+            search: SurfaceSearch::new(&self.problem, layout),
+            poses: last.touching().rigid.clone(),
+            energy: SurfaceEnergy::new(&self.problem, last.clone()),
+            energies: self.energies,
+            last,
+            rates,
+        }
+    }
+
+    /// Moves to a time (s), by a step (s) to motions (n_degrees_of_freedom).
+    pub fn advance(&mut self, time: f64, step: f64, motions: &[f64], bonds: Bonded<'_>) {
+        let problem = &self.problem;
+        problem.advance(step, &self.rates, &mut self.poses);
+        let from = ContactStep {
+            last: &self.last,
+            bonds,
+            motions,
+        };
+        let touching = (self.search).touching_in_time(from, (time, &self.poses));
+        problem.accelerate(step, &touching, &mut self.rates);
+        self.last = LastTouching::new(touching.into(), motions);
+        if step == 0.0 {
+            self.energy = SurfaceEnergy::new(problem, self.last.clone());
+            return;
+        }
+        let work = self.energy.follow(problem, &self.last, motions.len());
+        self.energies.stored = work.stored;
+        self.energies.dissipated += work.dissipated;
+        self.energies.driving_work += work.driving;
+    }
+
+    /// Resultants of each contact.
+    pub fn readings(&self) -> Vec<ContactReading> {
+        self.last.touching().readings(&self.problem)
+    }
+
+    /// Force of the contacts on a rigid body, N.
+    pub fn force_on(&self, body: usize) -> Vector {
+        self.last.touching().forces_on_rigid_bodies(&self.problem)[body]
+    }
 }
 
 /// What a motion is loaded and slowed down by.
@@ -112,7 +209,7 @@ impl Impact {
             topology: system.topology(),
             intact: &intact,
         };
-        let contacts = ContactForces::new(problem.clone(), &motions, bonds, 0.0);
+        let contacts = Contacts::new(&problem, layout, &motions, bonds);
         let mass = masses(&model, layout);
         let mut impact = Self {
             acceleration: vec![0.0; mass.len()],
@@ -142,14 +239,6 @@ impl Impact {
     /// Layout of the degrees of freedom.
     pub fn layout(&self) -> Layout {
         self.system.layout()
-    }
-
-    /// The bonds, which never break.
-    pub fn bonded(&self) -> Bonded<'_> {
-        Bonded {
-            topology: self.system.topology(),
-            intact: &self.intact,
-        }
     }
 
     /// Forces K u of the bonds.
@@ -199,7 +288,8 @@ impl Impact {
             intact: &self.intact,
         };
         self.contacts.advance(self.time, step, &self.motions, bonds);
-        self.contacts.add_forces(1.0, &mut forces);
+        let touching = self.contacts.last.touching();
+        touching.add_forces(&self.problem, 1.0, &mut forces);
         let mut load = (drive.load)(self.time);
         load.resize(internal.len(), 0.0);
         for dof in 0..internal.len() {
@@ -232,11 +322,11 @@ impl Impact {
             .zip(&self.motions)
             .map(|(f, u)| 0.5 * f * u)
             .sum();
-        let contact = self.contacts.energies();
+        let of_rigid = self.problem.kinetic_energy(self.step, &self.contacts.rates);
         Ledger {
-            kinetic: kinetic + contact.kinetic,
+            kinetic: kinetic + of_rigid,
             strain,
-            contact,
+            contact: self.contacts.energies,
         }
     }
 

@@ -1,15 +1,15 @@
 //! Equilibrium states, and reasons for a missing equilibrium.
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use ligament_model::Bonds;
 use ligament_model::contact::{ClosedPair, Rubbing};
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Stresses;
 
+use crate::contact::Touching;
 use crate::internal::InternalForces;
 use crate::serial;
-use crate::surfaces::Touching;
 use crate::unbalanced::Unbalanced;
 
 /// Result of an attempt to bring a state into equilibrium.
@@ -58,7 +58,7 @@ pub struct Balanced {
     /// Closed pairs across cracks, in the order of their numbers; none where faces do not close.
     pub closed: Vec<ClosedPair>,
     /// Contact between surfaces.
-    pub touching: Touching,
+    pub touching: Arc<Touching>,
     /// Stresses across the bonds for each criterion, once some criterion was [asked](crate::problem::Problem::criteria_in).
     pub(crate) stresses: OnceLock<Vec<Option<Stresses>>>,
 }
@@ -82,7 +82,7 @@ impl Balanced {
             negative_energy: None,
             mechanisms: Vec::new(),
             closed: Vec::new(),
-            touching: Touching::default(),
+            touching: Arc::default(),
             stresses: OnceLock::new(),
         }
     }
@@ -117,7 +117,7 @@ impl Balanced {
                     ..*it
                 })
                 .collect(),
-            touching: Touching::default(),
+            touching: Arc::default(),
             stresses: match self.stresses.get() {
                 Some(stresses) => {
                     let of_criteria = stresses.iter();

@@ -14,7 +14,6 @@ mod iterate;
 mod line;
 mod line_search;
 mod mechanism;
-mod meeting;
 mod newton;
 mod on_rigid;
 mod residual;
@@ -35,7 +34,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
-use crate::contact::Contact;
+use crate::contact::faces;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
@@ -321,7 +320,7 @@ impl Equilibrium {
                 state.held[dof] = true;
             }
         }
-        meeting.faces = Contact::new(system, &state.intact);
+        meeting.faces = faces::FacePairs::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
     }
@@ -337,7 +336,7 @@ impl Equilibrium {
         } = &mut self.equations;
         let system = &*problem.system;
         self.connectivity = Connectivity::held(system, &state.intact);
-        meeting.faces = Contact::new(system, &state.intact);
+        meeting.faces = faces::FacePairs::new(system, &state.intact);
         *earlier = EarlierEquilibria::default();
         solver.discard();
     }

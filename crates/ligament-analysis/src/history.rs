@@ -7,9 +7,9 @@ use thiserror::Error;
 
 use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
+use crate::contact::{ContactReading, RigidRates, RigidState};
 use crate::costs::Costs;
 use crate::load_program::LoadProgram;
-use crate::motion::contact::{ContactReading, RigidState};
 use crate::serial;
 use crate::serial::Sink;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
@@ -274,6 +274,8 @@ pub struct Rates<'a> {
     pub velocity: &'a [f64],
     /// Accelerations, shape (n_degrees_of_freedom), m/s^2 and rad/s^2.
     pub acceleration: &'a [f64],
+    /// Rates of the rigid bodies.
+    pub rigid: &'a [RigidRates],
 }
 
 impl View<'_> {

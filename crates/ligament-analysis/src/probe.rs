@@ -2,7 +2,7 @@
 
 use ligament_model::stress::carried::StrainReading;
 
-use crate::contact;
+use crate::contact::faces;
 use crate::history::Rates;
 use crate::material_stress::MaterialStress;
 use crate::result_fields::{FIELDS, FieldReading, Solution, unit_of};
@@ -405,7 +405,7 @@ impl Reading {
                 PointReading::Stress(component) => {
                     let deformations = &balanced.deformations;
                     let mut stress = system.stress(state.bonds(), deformations, point);
-                    contact::add_virial(system, &balanced.closed, point, &mut stress);
+                    faces::add_virial(system, &balanced.closed, point, &mut stress);
                     stress.get(component as usize).copied().unwrap_or(0.0)
                 }
                 PointReading::Scalar(at) => at(solution, point),
@@ -420,7 +420,7 @@ impl Reading {
                 if balanced.closed.is_empty() {
                     return force;
                 }
-                force + contact::force_through(&balanced.closed, bonds, *component)
+                force + faces::force_through(&balanced.closed, bonds, *component)
             }
         }
     }

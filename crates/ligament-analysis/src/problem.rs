@@ -7,8 +7,8 @@ use ligament_model::failure::{Criteria, CriteriaInState};
 use ligament_model::stress::point_strain::Motion;
 
 use crate::balanced::Balanced;
+use crate::contact::ContactProblem;
 use crate::load_program::LoadProgram;
-use crate::motion::contact::ContactProblem;
 use crate::probe::Probe;
 use crate::result_fields::Solution;
 use crate::solver::SolverSettings;

@@ -5,14 +5,13 @@ use std::io::Read;
 use ligament_model::Bonds;
 pub use ligament_model::UnbrokenBonds;
 use ligament_model::failure::Criteria;
-use ligament_model::surface::Vector;
+use ligament_model::surface::Pose;
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::friction::Friction;
+use crate::contact::{Friction, LastTouching};
 use crate::serial::{Serial, Sink};
 use crate::softening::Softening;
-use crate::surfaces::LastTouching;
 
 /// Motion of the points and state of the bonds.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,12 +30,12 @@ pub struct State {
     pub dissipated: Vec<f64>,
     /// Whether each degree of freedom has an added support, for want of stiffness, shape (n_degrees_of_freedom).
     pub held: Vec<bool>,
-    /// Friction on the faces of cracks in the last equilibrium.
+    /// Friction on the faces of cracks in the last equilibrium, or after the last time step.
     pub friction: Friction,
-    /// Contact between surfaces in the last equilibrium.
+    /// Contact between surfaces in the last equilibrium, or after the last time step.
     pub surfaces: LastTouching,
-    /// Displacement of each rigid body that moves by itself, zero of others, m; those at the end may be missing as long as they rest.
-    pub rigid: Vec<Vector>,
+    /// Place of each rigid body that moves by itself, zero of others; those at the end may be missing as long as they rest.
+    pub rigid: Vec<Pose>,
 }
 
 /// Fields of a state that a solution for equilibrium changes, beside its added supports.
@@ -47,7 +46,7 @@ pub(crate) struct Solution {
     softening: Softening,
     friction: Friction,
     surfaces: LastTouching,
-    rigid: Vec<Vector>,
+    rigid: Vec<Pose>,
 }
 
 impl State {

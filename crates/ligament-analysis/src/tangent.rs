@@ -14,8 +14,8 @@ use ligament_linalg::{FactorError, Factorisation, ForwardSubstituted, Inertia};
 
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
+use crate::contact::resisting::Resisting;
 use crate::costs::Costs;
-use crate::resisting::Resisting;
 use crate::serial::Sink;
 use crate::state::State;
 use ligament_model::thermal::ThermalStrain;

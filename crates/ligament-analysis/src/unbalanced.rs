@@ -5,7 +5,7 @@ use std::fmt::{self, Display, Formatter};
 use ligament_linalg::FactorError;
 use ligament_model::surface::Missed;
 
-use crate::motion::contact::ContactProblem;
+use crate::contact::ContactProblem;
 use crate::unknowns::Component;
 
 /// Advice to the user for [`Unbalanced::RanksDisagree`].

@@ -21,8 +21,8 @@ pub(super) struct Pressed {
 /// Hertz's pressure is p = p_0 sqrt(1 - r^2/a^2) at the distance r from the middle (Johnson 1985, sections 4.2 and 4.3), so that p^2 is a straight line over
 /// r^2, whose value at r = 0 is p_0^2. The mean of r^2, weighted by p, is a^2/4 over a strip and 2 a^2/5 over a disk.
 pub(super) fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow::Result<Pressed> {
-    let touches = &solution.outcome.state.surfaces.touching().touches;
-    let all = touches.first().context("no contact")?.iter();
+    let pairs = &solution.outcome.state.surfaces.touching().pairs;
+    let all = pairs.first().context("no contact")?.touches.iter();
     let all: Vec<_> = all.filter(|it| it.depth() > 0.0).collect();
     let force: f64 = all.iter().map(|it| it.stiffness * it.depth()).sum();
     let squares = |arm: &[f64]| -> f64 { arm.iter().take(along).map(|it| it * it).sum() };

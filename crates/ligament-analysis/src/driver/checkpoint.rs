@@ -2,7 +2,8 @@
 
 use std::io::Read;
 
-use super::record::{Energies, StepCounters};
+use super::energies::Energies;
+use super::record::StepCounters;
 use super::start::ElasticAnswer;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;

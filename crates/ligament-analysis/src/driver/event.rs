@@ -19,19 +19,20 @@ use std::mem;
 use std::rc::Rc;
 
 use super::checkpoint::{Place, Restored, ToEvent};
+use super::energies::Energies;
 use super::prediction::{self, Prediction};
-use super::record::{Energies, StepCounters, largest_ratio};
+use super::record::{StepCounters, largest_ratio};
 use super::run::{Prepared, Run, StopRules};
 use super::way::{Outcome, Rows, Stop, Way};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
+use crate::contact::LastTouching;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
 use crate::lagging::Body;
 use crate::problem::Problem;
 use crate::state::State;
-use crate::surfaces::LastTouching;
 use equilibrium_line::{EquilibriumLine, Event, Goal};
 use passing::Passed;
 

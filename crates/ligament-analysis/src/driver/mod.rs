@@ -3,6 +3,7 @@
 mod breaks;
 mod checkpoint;
 pub mod elastic;
+mod energies;
 pub mod event;
 pub mod motion;
 mod prediction;

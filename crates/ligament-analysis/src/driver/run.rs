@@ -10,7 +10,8 @@ use ligament_model::failure::CriteriaInState;
 
 use super::breaks::{self, Breaking};
 use super::checkpoint::{CheckValues, Place, Progress, Restored};
-use super::record::{Energies, StepCounters, offer, step_record};
+use super::energies::Energies;
+use super::record::{RunView, StepCounters, offer};
 use super::run_messages;
 use super::start::{Start, begin, report_detached_parts, report_mechanisms};
 use super::way::{Outcome, Rows, Stop};
@@ -21,7 +22,7 @@ use crate::breaking::{FirstToBreak, first_of_all};
 use crate::connectivity::AddedSupport;
 use crate::equilibrium::{ControlledQuantity, Dissipation, Equilibrium, IntactEquilibrium, Target};
 use crate::error::SetupError;
-use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, Termination, View};
+use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, Termination};
 use crate::internal::InternalForces;
 use crate::load_program::{ControlKind, LoadCourse, PartControl};
 use crate::problem::Problem;
@@ -274,9 +275,8 @@ impl<'a> Run<'a> {
         breakage: &Breakage,
         balanced: &Balanced,
     ) -> Result<(), SetupError> {
-        self.energies.add_work(&self.problem, &self.state, balanced);
-        self.energies
-            .add_released(&self.problem, &self.state, breakage, balanced);
+        let at = (&self.state, balanced);
+        self.energies.account(&self.problem, at, breakage);
         (self.energies).add_contact(&self.problem, &self.state, breakage, balanced);
         breaks::soften(&self.problem, &mut self.state);
         report_mechanisms(step, balanced, self.observer)?;
@@ -385,15 +385,7 @@ impl<'a> Run<'a> {
         counters: StepCounters,
         is_last: bool,
     ) -> Result<(), SetupError> {
-        let record = self.show(balanced, counters, [is_last, true])?;
-        let fragments = self.equilibrium.fragments();
-        let Progress { overlap, .. } = &mut self.progress;
-        if let Some(message) =
-            run_messages::overlap(&self.problem, &self.state, fragments, record.step, overlap)
-        {
-            self.observer.message(message)?;
-        }
-        self.keep(record)
+        self.record_shown(balanced, counters, [is_last, true])
     }
 
     /// Records an equilibrium that is known only at supported and loaded points.
@@ -402,60 +394,54 @@ impl<'a> Run<'a> {
         balanced: &Balanced,
         counters: StepCounters,
     ) -> Result<(), SetupError> {
-        let record = self.show(balanced, counters, [false, false])?;
-        self.keep(record)
+        self.record_shown(balanced, counters, [false, false])
     }
 
-    /// Record of an equilibrium, passed to the observer.
-    fn show(
+    fn record_shown(
         &mut self,
         balanced: &Balanced,
         counters: StepCounters,
         [is_last, is_whole]: [bool; 2],
-    ) -> Result<StepRecord, SetupError> {
-        let counters = StepCounters {
-            broken: self.progress.broken,
-            solves: self.progress.solves[0] - self.progress.solves[1],
-            negative_eigenvalues: self.progress.negative_eigenvalues,
-            ..counters
-        };
-        self.progress.solves[1] = self.equilibrium.costs().solves;
-        let record = step_record(
-            &self.problem,
-            self.problem.solution(&self.state, balanced),
-            &self.energies,
-            self.equilibrium.fragments(),
-            counters,
-        );
-        self.progress.peak = self.progress.peak.max(record.reaction);
-        let force = balanced.internal.force_scale;
-        self.progress.largest_force = self.progress.largest_force.max(force);
-        let criteria = self.problem.criteria_in(&self.state, balanced);
-        let view = View {
-            softened: self.softened(),
-            system: &*self.problem.system,
-            state: &self.state,
+    ) -> Result<(), SetupError> {
+        let Self {
+            problem,
+            observer,
+            equilibrium,
+            state,
+            energies,
+            progress,
+            ..
+        } = self;
+        let view = RunView {
+            problem,
+            numbers: equilibrium.numbers(),
+            fragments: equilibrium.fragments(),
+            state,
             balanced,
-            loads: &*self.problem.loads,
-            criteria: &criteria,
-            fragments: self.equilibrium.fragments(),
-            costs: self.equilibrium.costs(),
-            motion: None,
-            is_last,
-            is_whole,
+            energies,
+            costs: equilibrium.costs(),
+            rates: None,
         };
-        self.observer.step(&record, &view)?;
-        Ok(record)
-    }
-
-    /// Adds a record to the history, with messages about its energies.
-    fn keep(&mut self, record: StepRecord) -> Result<(), SetupError> {
-        let history = &mut self.progress.history;
-        if let Some(message) = run_messages::energies(&self.problem, &record, history.last()) {
-            self.observer.message(message)?;
+        let record = view.record(StepCounters {
+            broken: progress.broken,
+            solves: progress.solves[0] - progress.solves[1],
+            negative_eigenvalues: progress.negative_eigenvalues,
+            ..counters
+        });
+        progress.solves[1] = equilibrium.costs().solves;
+        progress.peak = progress.peak.max(record.reaction);
+        progress.largest_force = progress.largest_force.max(balanced.internal.force_scale);
+        view.show(&record, [is_last, is_whole], *observer)?;
+        if is_whole {
+            view.report_overlap(record.step, &mut progress.overlap, *observer)?;
         }
-        if let Some(message) = run_messages::dissipation(&record, history) {
-            self.observer.message(message)?;
+        let history = &mut progress.history;
+        let messages = [
+            run_messages::energies(problem, &record, history.last()),
+            run_messages::dissipation(&record, history),
+        ];
+        for message in messages.into_iter().flatten() {
+            observer.message(message)?;
         }
         history.push(record);
         Ok(())

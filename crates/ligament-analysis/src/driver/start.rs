@@ -1,6 +1,7 @@
 //! First step of every driver: fixes detached parts and solves the elastic problem.
 
-use super::record::{Energies, StepCounters, largest_ratio_by, step_record};
+use super::energies::Energies;
+use super::record::{StepCounters, largest_ratio_by, step_record};
 use super::way::LoadPoint;
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::connectivity::{AddedSupport, Fragments};

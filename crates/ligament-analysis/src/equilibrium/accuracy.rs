@@ -7,10 +7,9 @@ use super::residual::{
     Extents, LocalStiffness, OF_GAPS, RESIDUAL_TOLERANCE, Residual, Rounded, Scales,
 };
 use crate::breakage::Breakage;
+use crate::contact::{ContactProblem, SurfaceSearch, Touching};
 use crate::load_program::LoadProgram;
-use crate::motion::contact::ContactProblem;
 use crate::state::State;
-use crate::surfaces::{Surfaces, Touching};
 use crate::tangent::AllowedResidual;
 use crate::unknowns::{Layout, Unknowns};
 
@@ -170,7 +169,7 @@ impl Accuracy {
         &self,
         layout: Layout,
         state: &State,
-        (surfaces, touching): (&Surfaces, &Touching),
+        (surfaces, touching): (&SurfaceSearch, &Touching),
     ) -> Vec<f64> {
         let tolerance = self.tolerance.unwrap_or_default();
         let times = (tolerance / RESIDUAL_TOLERANCE).max(1.0);

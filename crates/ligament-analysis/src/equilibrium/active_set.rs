@@ -16,11 +16,11 @@ use super::residual::Residual;
 use super::rigid::{self, Correction};
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
-use crate::contact;
+use crate::contact::faces;
 use crate::history::{Observer, ObserverError};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
-use ligament_model::surface::Vector;
+use ligament_model::surface::Pose;
 
 /// Largest number of iterations. Faces that close as a whole take some five; a detached part that is pushed away takes all.
 pub(super) const ITERATION_LIMIT: usize = 60;
@@ -107,7 +107,7 @@ pub(super) fn balance(
             Ok(next) => next,
             Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
         };
-        let (opened, closed) = contact::changes(&iterate.met.closed, &next.met.closed);
+        let (opened, closed) = faces::changes(&iterate.met.closed, &next.met.closed);
         let is_same = opened.is_empty() && closed.is_empty();
         if is_same && next.residual.relative > fall.slowly * residual.relative {
             equations.solver.discard();
@@ -177,7 +177,7 @@ struct Nearest {
     /// Motions of all points, shape (n_degrees_of_freedom).
     motions: Vec<f64>,
     /// Displacements of rigid bodies that move by themselves, m.
-    rigid: Vec<Vector>,
+    rigid: Vec<Pose>,
 }
 
 /// Records the residual and displacements of an iterate without forces at added supports, if its residual is at most `largest` and

@@ -9,8 +9,8 @@ use super::active_set::{ACCEPTED_SLOPE, FALLS, ITERATION_LIMIT, Moved, REFINED, 
 use super::equations::Equations;
 use super::line::{self, Forces};
 use super::residual::RESIDUAL_TOLERANCE;
+use crate::contact::resisting::{self, Resisting};
 use crate::load_program::LoadProgram;
-use crate::resisting::{self, Resisting};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 use ligament_model::contact::ClosedPair;

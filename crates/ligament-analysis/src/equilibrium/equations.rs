@@ -13,14 +13,14 @@ use super::accuracy::{Accuracy, Loaded};
 use super::earlier_equilibria::EarlierEquilibria;
 use super::iterate::Iterate;
 use super::mechanism::Measure;
-use super::meeting::{Meeting, Met};
 use super::on_rigid;
 use super::residual::{Extents, OF_GAPS, ROUNDING, Residual, Rounded};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::contact::Contact;
+use crate::contact::faces::FacePairs;
+use crate::contact::{ContactSearch, Contacts};
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::halo::HaloExchange;
@@ -56,7 +56,7 @@ pub(super) struct Equations<S: ?Sized = dyn TangentSolver> {
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
     pub(super) accuracy: Accuracy,
-    pub(super) meeting: Meeting,
+    pub(super) meeting: ContactSearch,
     /// Earlier equilibria of softening bonds.
     pub(super) earlier: EarlierEquilibria,
     pub(super) costs: Costs,
@@ -95,7 +95,7 @@ impl Equations {
                 0.0
             },
             accuracy,
-            meeting: Meeting::new(problem),
+            meeting: ContactSearch::new(problem),
             earlier: EarlierEquilibria::default(),
             costs: Costs {
                 analysis: analysis.unwrap_or_default(),
@@ -154,7 +154,7 @@ impl Equations {
         if self.problem.criteria.soften() {
             self.earlier = EarlierEquilibria::restored(from, (numbers, &self.unknowns))?;
         }
-        self.meeting.faces = Contact::new(&*self.problem.system, &state.intact);
+        self.meeting.faces = FacePairs::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
         self.costs = costs;
         Ok(measured)
@@ -467,7 +467,7 @@ impl Equations {
         state: &mut State,
         iterate: &Iterate,
     ) -> Result<Vec<u32>, Unbalanced> {
-        let Met {
+        let Contacts {
             closed, touching, ..
         } = &iterate.met;
         let resisting = self.meeting.resisting(closed, touching);

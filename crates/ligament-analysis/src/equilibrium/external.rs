@@ -3,7 +3,7 @@
 use super::equations::Equations;
 use crate::balanced::Balanced;
 use crate::connectivity::Fragments;
-use crate::contact;
+use crate::contact::faces;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
@@ -80,7 +80,7 @@ fn external_forces(equations: &Equations, state: &State, balanced: &Balanced) ->
         }
     }
     let closed = balanced.closed.iter();
-    let closed_forces = closed.flat_map(|it| contact::end_forces(it, layout));
+    let closed_forces = closed.flat_map(|it| faces::end_forces(it, layout));
     // Forces that other parts exert through closed faces are external to a part.
     for (dof, force) in closed_forces {
         external[dof] -= force;

@@ -5,9 +5,9 @@ use std::sync::OnceLock;
 use ligament_model::deformation::Deformations;
 use ligament_model::surface::Vector;
 
-use super::meeting::Met;
 use super::residual::{Extents, Residual};
 use crate::balanced::Balanced;
+use crate::contact::Contacts;
 use crate::internal::InternalForces;
 
 /// Deformations, forces, energy and residual of a state during the iteration.
@@ -19,7 +19,7 @@ pub(super) struct Iterate {
     pub(super) residual: Residual,
     pub(super) extents: Extents,
     pub(super) negative_energy: Option<f64>,
-    pub(super) met: Met,
+    pub(super) met: Contacts,
     /// Residual forces on rigid bodies with a mass, in the order of the loads on them, N.
     pub(super) on_rigid: Vec<Vector>,
 }
@@ -37,7 +37,7 @@ impl Iterate {
             negative_energy: self.negative_energy,
             mechanisms,
             closed: self.met.closed,
-            touching: self.met.touching,
+            touching: self.met.touching.into(),
             stresses: OnceLock::new(),
         }
     }

@@ -4,10 +4,9 @@ use ligament_model::surface::Vector;
 use ligament_model::tensor::{minus, norm};
 
 use super::residual::{OF_GAPS, RESIDUAL_TOLERANCE};
+use crate::contact::{ContactProblem, Touching};
 use crate::load_program::RigidLoad;
-use crate::motion::contact::ContactProblem;
 use crate::state::State;
-use crate::surfaces::Touching;
 
 /// Residual forces on the bodies of some loads in a state, N.
 pub(super) fn out_of_balance(
@@ -19,7 +18,7 @@ pub(super) fn out_of_balance(
     if loads.is_empty() {
         return Vec::new();
     }
-    let of_contacts = touching.on_rigid_bodies(problem);
+    let of_contacts = touching.forces_on_rigid_bodies(problem);
     let of_load = |load: &RigidLoad| -> Vector {
         let spring = displacement(state, load).map(|it| load.stiffness * it);
         let given = minus(load.force, spring);
@@ -52,5 +51,6 @@ pub(super) fn relative(
 
 /// Displacement of the body of a load, m.
 fn displacement(state: &State, load: &RigidLoad) -> Vector {
-    state.rigid.get(load.body).copied().unwrap_or_default()
+    let pose = state.rigid.get(load.body).copied();
+    pose.unwrap_or_default().displacement
 }

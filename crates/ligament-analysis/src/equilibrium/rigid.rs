@@ -9,14 +9,14 @@
 //! with the tangent stiffness K against rigid bodies at rest: dq from the Schur complement D - B^T K^-1 B, which has the displacements of the
 //! rigid bodies alone, and du from K^-1 (r + B dq).
 
-use ligament_model::surface::Vector;
+use ligament_model::surface::{Pose, Vector};
 use ligament_model::tensor::dot;
 use nalgebra::{DMatrix, DVector};
 
 use super::equations::Equations;
 use super::iterate::Iterate;
-use super::meeting::Met;
-use crate::resisting::Resisting;
+use crate::contact::Contacts;
+use crate::contact::resisting::Resisting;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
@@ -35,9 +35,9 @@ impl Correction {
         let loads = equations.problem.loads.on_rigid_bodies();
         for (load, way) in loads.iter().zip(&self.rigid) {
             if state.rigid.len() <= load.body {
-                state.rigid.resize(load.body + 1, Vector::default());
+                state.rigid.resize(load.body + 1, Pose::default());
             }
-            for (place, way) in state.rigid[load.body].iter_mut().zip(way) {
+            for (place, way) in state.rigid[load.body].displacement.iter_mut().zip(way) {
                 *place += part * way;
             }
         }
@@ -128,7 +128,7 @@ struct Coupling {
 }
 
 impl Coupling {
-    fn new(equations: &Equations, met: &Met) -> Self {
+    fn new(equations: &Equations, met: &Contacts) -> Self {
         let loads = equations.problem.loads.on_rigid_bodies();
         let components = equations.layout().components.iter();
         let axes = components.filter(|it| !it.is_rotation()).count();

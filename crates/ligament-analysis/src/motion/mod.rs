@@ -3,11 +3,7 @@
 //! The loads of the [`Problem`] are functions of time: the load factor of a [`State`](crate::State) is the time, s.
 //! [`driver::motion`](crate::driver::motion) integrates the equations.
 
-mod energy_bound;
-pub(crate) mod rigid;
 mod stable_step;
-
-pub mod contact;
 
 use std::sync::Arc;
 

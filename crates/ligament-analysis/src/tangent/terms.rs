@@ -6,7 +6,7 @@ use ligament_model::element::{StiffnessFactors, Term};
 use rayon::prelude::*;
 
 use crate::breakage::Breakage;
-use crate::resisting::Resisting;
+use crate::contact::resisting::Resisting;
 use crate::state::State;
 use crate::unknowns::Unknowns;
 

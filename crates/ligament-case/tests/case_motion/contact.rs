@@ -1,7 +1,7 @@
 //! `[[contact]]` and `[[rigid]]`: what they make, and what is refused.
 
 use ligament::setup::RigidForm;
-use ligament_analysis::motion::contact::RigidMotion;
+use ligament_analysis::contact::RigidMotion;
 use ligament_analysis::{Amplitude, Shape};
 
 use super::{BAR, motion, read};

@@ -5,9 +5,9 @@
 
 use std::time::Duration;
 
+use ligament_analysis::contact::{ContactReading, RigidState};
 use ligament_analysis::costs::Costs;
 use ligament_analysis::history::{BreakRecord, ContactAtRest, InMotion, StepRecord};
-use ligament_analysis::motion::contact::{ContactReading, RigidState};
 use ligament_analysis::probe::{PointField, motion_unit};
 
 use crate::csv::Value;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use ligament_analysis::motion::contact::{ContactProblem, RigidBody, RigidMotion, SurfaceContact};
+use ligament_analysis::contact::{ContactProblem, RigidBody, RigidMotion, SurfaceContact};
 use ligament_model::System;
 use ligament_model::surface::{
     Bonded, Boundaries, CellFaces, CrackFaces, Facet, FacetPair, Opposite, RigidShape, Surface,

@@ -14,9 +14,9 @@ mod vibration;
 
 use std::sync::Arc;
 
+use ligament_analysis::contact::ContactProblem;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::motion::MotionProblem;
-use ligament_analysis::motion::contact::ContactProblem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
 use ligament_analysis::{LoadProgram, LoadsInTime, ProportionalLoading, StagedLoading};

@@ -1,29 +1,31 @@
 //! Bonds of a body in motion: their forces at a time, and those that break then.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{CriteriaInState, Criterion};
 use ligament_model::product::NearLimits;
-use ligament_model::surface::Bonded;
 use ligament_model::thermal::ThermalStrain;
 
-use super::face_friction::{FaceFriction, FrictionEnergies};
 use super::record::MotionView;
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::breaking::{BreakingOrder, BreakingRule, next_of_near, next_to_break};
 use crate::connectivity::decremental::Connectivity;
-use crate::contact::{self, Contact};
+use crate::contact::faces::{self, FacePairs};
+use crate::contact::{ContactSearch, LastTouching, RigidRates};
 use crate::costs::Costs;
 use crate::driver::breaks::{self, Breaking};
-use crate::driver::record::Energies;
+use crate::driver::energies::Energies;
+use crate::driver::record::RunView;
 use crate::error::SetupError;
 use crate::history::{BreakRecord, Observer, Rates};
 use crate::problem::Problem;
 use crate::softening::Softening;
 use crate::state::State;
+use crate::unbalanced::Unbalanced;
 
 /// All bonds at their limits break in a step, with those that differ from the first of them by rounding.
 const RULE: BreakingRule = BreakingRule {
@@ -43,10 +45,9 @@ pub(super) struct Body {
     pub(super) problem: Problem,
     pub(super) numbers: BondNumbers,
     pub(super) connectivity: Connectivity,
-    contact: Contact,
-    /// Friction on the faces of cracks, with its energies in the last step.
-    pub(super) friction: FaceFriction,
-    pub(super) of_friction: FrictionEnergies,
+    contact: ContactSearch,
+    /// Surfaces that moved through each other unseen in a step so far.
+    missed: Option<Unbalanced>,
     pub(super) state: State,
     /// Deformations, forces and energy of the bonds at the time of the state.
     pub(super) balanced: Balanced,
@@ -54,8 +55,6 @@ pub(super) struct Body {
     in_one_sweep: bool,
     /// Number of broken bonds.
     pub(super) broken: usize,
-    /// Bonds that broke in the last step.
-    pub(super) broken_last: Vec<u32>,
     pub(super) costs: Costs,
 }
 
@@ -103,12 +102,7 @@ fn in_one_sweep(problem: &Problem) -> bool {
 
 impl Body {
     /// Unloaded body with all its bonds, or the body of a restored state.
-    pub(super) fn new(
-        problem: &Problem,
-        numbers: BondNumbers,
-        friction: FaceFriction,
-        restored: Option<State>,
-    ) -> Self {
+    pub(super) fn new(problem: &Problem, numbers: BondNumbers, restored: Option<State>) -> Self {
         let system = &*problem.system;
         let n_bonds = system.ends().len();
         let state = restored.unwrap_or_else(|| State {
@@ -116,14 +110,17 @@ impl Body {
             ..State::fresh(system)
         });
         let broken = state.broken_bonds();
+        let mut contact = ContactSearch::new(problem);
+        contact.faces = FacePairs::new(system, &state.intact);
+        let numbered = (0..).zip(&state.intact).filter(|it| !it.1);
+        contact.surfaces.join(numbered.map(|it| it.0));
         Self {
             connectivity: match broken {
                 0 => Connectivity::new(system),
                 _ => Connectivity::held(system, &state.intact),
             },
-            contact: Contact::new(system, &state.intact),
-            friction,
-            of_friction: FrictionEnergies::default(),
+            contact,
+            missed: None,
             balanced: Balanced::unloaded(system),
             in_one_sweep: in_one_sweep(problem),
             problem: problem.clone(),
@@ -131,15 +128,6 @@ impl Body {
             numbers,
             state,
             broken,
-            broken_last: Vec::new(),
-        }
-    }
-
-    /// Bonds that are left.
-    pub(super) fn bonded(&self) -> Bonded<'_> {
-        Bonded {
-            topology: self.problem.system.topology(),
-            intact: &self.state.intact,
         }
     }
 
@@ -153,7 +141,6 @@ impl Body {
         observer: &mut dyn Observer,
     ) -> Result<Breakage, SetupError> {
         let start = Instant::now();
-        self.broken_last.clear();
         let breakage = match self.in_one_sweep && !is_whole {
             true => self.move_in_one_sweep(step, observer)?,
             false => self.move_with_deformations(step, observer)?,
@@ -181,20 +168,11 @@ impl Body {
                 deformations,
             };
             breakage = self.break_bonds(&beyond, &criteria, step, observer)?;
-            let intact = &self.state.intact;
-            self.contact.follow(&*problem.system, intact, &beyond.bonds);
             if breakage.n_elements() != beyond.bonds.len() {
                 self.deform();
             }
         }
         self.sum_forces();
-        let layout = self.problem.system.layout();
-        self.of_friction = self.friction.advance(
-            (self.contact.pairs(), &self.balanced.closed),
-            layout,
-            &self.state.displacement,
-            &mut self.balanced.internal.values,
-        );
         Ok(breakage)
     }
 
@@ -250,19 +228,20 @@ impl Body {
     ) -> MotionView<'a> {
         let square = of_critical.min(NEARLY_CRITICAL).powi(2);
         MotionView {
-            contacts: None,
+            missed: self.missed.as_ref(),
             below_zero: square / (1.0 - square),
             rounding: 0.0,
-            problem: &self.problem,
-            numbers: &self.numbers,
-            fragments: self.connectivity.fragments(),
-            state: &self.state,
-            balanced: &self.balanced,
-            energies,
-            costs: &self.costs,
-            rates,
-            rigid: &[],
             broken: self.broken,
+            body: RunView {
+                problem: &self.problem,
+                numbers: &self.numbers,
+                fragments: self.connectivity.fragments(),
+                state: &self.state,
+                balanced: &self.balanced,
+                energies,
+                costs: &self.costs,
+                rates: Some(rates),
+            },
         }
     }
 
@@ -270,10 +249,45 @@ impl Body {
     pub(super) fn measure(&mut self) {
         self.deform();
         self.sum_forces();
-        let layout = self.problem.system.layout();
-        let internal = &mut self.balanced.internal.values;
-        self.friction
-            .add_forces(self.contact.pairs(), layout, internal);
+        self.balanced.touching = self.state.surfaces.shared();
+        self.load_by_surfaces();
+    }
+
+    /// Begins the contact between surfaces at the present motions, without force where surfaces overlap; returns the rates of the rigid bodies.
+    pub(super) fn begin_contact(&mut self) -> Vec<RigidRates> {
+        self.state.surfaces = LastTouching::new(Arc::default(), &self.state.displacement);
+        self.touch(0.0, &mut []);
+        self.problem.contact.rates_at_start(&self.balanced.touching)
+    }
+
+    /// Moves friction and contact by a step (s) to the present motions, with the forces of contact on the points and on the rigid bodies.
+    pub(super) fn touch(&mut self, step: f64, rates: &mut [RigidRates]) {
+        let Self {
+            problem,
+            contact,
+            state,
+            balanced,
+            missed,
+            ..
+        } = self;
+        let surfaces = &problem.contact;
+        if !surfaces.is_empty() {
+            surfaces.advance(step, rates, &mut state.rigid);
+            let touching = contact.touching_in_time(state);
+            *missed = missed.take().or_else(|| contact.missed(state, &touching));
+            surfaces.accelerate(step, &touching, rates);
+            balanced.touching = touching.into();
+        }
+        contact.settle(state, balanced);
+        self.load_by_surfaces();
+    }
+
+    /// Adds the forces of contact between surfaces to those of the bonds.
+    fn load_by_surfaces(&mut self) {
+        let (surfaces, balanced) = (&self.problem.contact, &mut self.balanced);
+        let (touching, internal) = (&balanced.touching, &mut balanced.internal);
+        touching.add_forces(surfaces, -1.0, &mut internal.values);
+        internal.on_rigid_bodies = touching.forces_on_rigid_bodies(surfaces);
     }
 
     fn deform(&mut self) {
@@ -356,27 +370,21 @@ impl Body {
         let breakage = Breakage::new(system, expansion, &self.state, bonds);
         self.state.displacement = now;
         self.broken += bonds.len();
-        self.broken_last.clone_from(bonds);
         self.connectivity
             .bonds_broke(system, &mut self.state.intact, bonds);
+        self.contact.follow(&self.state.intact, bonds);
         Ok(breakage)
     }
 
     /// Forces and energy of the bonds and of closed pairs across cracks.
     fn sum_forces(&mut self) {
         let problem = &self.problem;
-        let State {
-            displacement,
-            load_factor,
-            ..
-        } = &self.state;
-        let expansion = problem.loads.thermal_strain(*load_factor);
+        let expansion = problem.loads.thermal_strain(self.state.load_factor);
         let deformations = std::mem::take(&mut self.balanced.deformations);
         let mut swept = (problem.system).forces(self.state.bonds(), deformations, expansion);
-        let gaps = self.contact.gaps(displacement, expansion);
-        self.balanced.closed = self.contact.closed(&gaps);
+        self.balanced.closed = self.contact.closed(&self.state, expansion).1;
         let layout = problem.system.layout();
-        contact::add_to(&mut swept, &self.balanced.closed, layout, expansion);
+        faces::add_to(&mut swept, &self.balanced.closed, layout, expansion);
         self.balanced.deformations = swept.deformations;
         self.balanced.internal = swept.internal;
         self.balanced.stored_energy = swept.stored_energy;

@@ -4,7 +4,6 @@ use std::io::Read;
 
 use super::body::Body;
 use super::clock::Clock;
-use super::face_friction::FaceFriction;
 use super::inertia::Velocities;
 use super::motion_state::{Motion, MotionState, free_masses};
 use super::record::{EXPLICIT, IMPLICIT, Progress};
@@ -13,11 +12,9 @@ use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::costs::Costs;
 use crate::driver::checkpoint::CheckValues;
-use crate::driver::record::Energies;
+use crate::driver::energies::Energies;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
-use crate::friction::Anchored;
-use crate::motion::contact::{ContactForces, ContactState};
 use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::serial::{Serial, Sink, require_end};
@@ -27,23 +24,13 @@ use crate::state::State;
 pub(super) struct ExplicitCheckpoint {
     pub(super) body: Body,
     pub(super) velocities: Velocities,
-    pub(super) contacts: Option<ContactForces>,
 }
 
 impl ExplicitCheckpoint {
     /// Appends the motion at a row, with its forces: inertia and damping are in them, and do not follow from the state.
-    pub(super) fn write(
-        body: &Body,
-        velocities: &Velocities,
-        contacts: Option<&ContactForces>,
-        out: &mut dyn Sink,
-    ) {
+    pub(super) fn write(body: &Body, velocities: &Velocities, out: &mut dyn Sink) {
         body.state.write(&body.numbers, out);
         velocities.write(out);
-        let anchored = body.friction.pairs.iter();
-        let anchored: Vec<(u32, Anchored)> = anchored.map(|(pair, it)| (*pair, *it)).collect();
-        anchored.write(out);
-        contacts.map(|it| it.state().clone()).write(out);
         body.costs.write(out);
         CheckValues::new(&body.problem, &body.balanced).write(out);
         let internal = &body.balanced.internal;
@@ -58,34 +45,19 @@ impl ExplicitCheckpoint {
         let n_components = problem.problem.system.layout().components.len();
         let state = State::read((&numbers, n_components), &problem.problem.criteria, from)?;
         let velocities: Velocities = Serial::read(from).map_err(damaged)?;
-        let anchored: Vec<(u32, Anchored)> = Serial::read(from).map_err(damaged)?;
-        let contact: Option<ContactState> = Serial::read(from).map_err(damaged)?;
         let costs = Serial::read(from).map_err(damaged)?;
         let system = &*problem.problem.system;
         let lengths = [velocities.half.len(), velocities.acceleration.len()];
         let fits = state.fits(system, system.ends().len(), &problem.problem.criteria);
-        let can_touch = match &contact {
-            Some(contact) => contact.fits(&problem.problem.contact),
-            None => problem.problem.contact.is_empty(),
-        };
+        let contact = &problem.problem.contact;
+        let n_rigid = contact.rigid_bodies.len();
+        let can_touch = state.surfaces.fits(contact) && velocities.rigid.len() == n_rigid;
         if !fits || !can_touch || lengths != [state.displacement.len(); 2] {
             return Err(CheckpointError::OtherModel.into());
         }
-        let friction = FaceFriction::new(
-            problem.problem.face_friction,
-            anchored.into_iter().collect(),
-        );
-        let mut body = Body::new(&problem.problem, numbers, friction, Some(state));
+        let mut body = Body::new(&problem.problem, numbers, Some(state));
         body.costs = costs;
         body.measure();
-        let resumed = |it| {
-            let motions = &body.state.displacement;
-            ContactForces::resumed(problem.problem.contact.clone(), motions, it, body.bonded())
-        };
-        let contacts = contact.map(resumed);
-        if let Some(contacts) = &contacts {
-            contacts.add_forces(-1.0, &mut body.balanced.internal.values);
-        }
         let values_then = CheckValues::read(from).map_err(damaged)?;
         if !CheckValues::new(&body.problem, &body.balanced).agrees(&values_then) {
             return Err(CheckpointError::OtherArithmetic.into());
@@ -96,11 +68,7 @@ impl ExplicitCheckpoint {
         }
         body.balanced.internal.values = values;
         body.balanced.internal.on_rigid_bodies = Serial::read(from).map_err(damaged)?;
-        Ok(Self {
-            body,
-            velocities,
-            contacts,
-        })
+        Ok(Self { body, velocities })
     }
 }
 

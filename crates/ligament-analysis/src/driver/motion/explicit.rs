@@ -6,7 +6,6 @@
 //! With the kinetic energy 1/2 v-^T M v+ and the trapezoidal rule for work, damping and released energy the energies balance to rounding for forces
 //! that are linear in the displacements: 1/2 (M a + M a')^T (u' - u) is the change of the kinetic energy.
 
-use std::collections::BTreeMap;
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -14,18 +13,15 @@ use rayon::prelude::*;
 use super::body::{Body, TimeStep};
 use super::checkpoint::{ExplicitCheckpoint, RestoredRecord};
 use super::clock::Clock;
-use super::face_friction::{FaceFriction, FrictionEnergies};
 use super::inertia::{Inertia, Velocities};
-use super::record::{self, MotionView};
-use super::record::{EXPLICIT, Progress};
+use super::record::{self, EXPLICIT, Progress};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::driver::record::Energies;
+use crate::driver::energies::Energies;
 use crate::driver::way::{Outcome, Stop, Way};
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
-use crate::motion::contact::ContactForces;
 use crate::motion::{MotionError, MotionProblem, MotionSettings, critical_step};
 use crate::serial::Sink;
 use crate::solver::{ExplicitChoice, SolverChoice};
@@ -41,7 +37,6 @@ pub(super) struct ExplicitSteps<'a> {
     velocities: Velocities,
     energies: Energies,
     progress: Progress,
-    contacts: Option<ContactForces>,
     /// Degrees of freedom that are prescribed or loaded, ascending.
     loaded: Vec<u32>,
     /// External forces, shape (n_degrees_of_freedom), N and N m.
@@ -60,7 +55,6 @@ pub(super) struct ExplicitSteps<'a> {
 struct Parts {
     body: Body,
     velocities: Velocities,
-    contacts: Option<ContactForces>,
     energies: Energies,
     progress: Progress,
 }
@@ -74,17 +68,16 @@ pub(super) fn begin<'a>(
     let (clock, choice) = chosen(problem, settings)?;
     observer.begins(clock.ahead(false));
     let numbers = BondNumbers::new(&*problem.problem.system)?;
-    let friction = FaceFriction::new(problem.problem.face_friction, BTreeMap::new());
-    let body = Body::new(&problem.problem, numbers, friction, None);
+    let body = Body::new(&problem.problem, numbers, None);
     let n = body.state.displacement.len();
     let velocities = Velocities {
         half: vec![0.0; n],
         acceleration: vec![0.0; n],
+        rigid: Vec::new(),
     };
     let energies = Energies::unloaded(&problem.problem);
     let progress = Progress::at_start(clock);
     let parts = Parts {
-        contacts: None,
         body,
         velocities,
         energies,
@@ -107,11 +100,7 @@ pub(super) fn resume(
         energies,
         progress,
     } = record;
-    let ExplicitCheckpoint {
-        body,
-        velocities,
-        contacts,
-    } = checkpoint;
+    let ExplicitCheckpoint { body, velocities } = checkpoint;
     let (clock, choice) = chosen(&problem, settings)?;
     if clock != progress.clock {
         return Err(CheckpointError::OtherTimes.into());
@@ -119,7 +108,6 @@ pub(super) fn resume(
     let parts = Parts {
         body,
         velocities,
-        contacts,
         energies,
         progress,
     };
@@ -158,7 +146,6 @@ impl<'a> ExplicitSteps<'a> {
         let Parts {
             body,
             velocities,
-            contacts,
             energies,
             progress,
         } = parts;
@@ -179,7 +166,6 @@ impl<'a> ExplicitSteps<'a> {
             velocities,
             energies,
             progress,
-            contacts,
             observer,
             started: Instant::now(),
         }
@@ -188,18 +174,9 @@ impl<'a> ExplicitSteps<'a> {
     /// Sets the velocities and the energies of time zero.
     fn begin(&mut self, velocity: &[f64]) {
         let loads = self.body.problem.loads.clone();
-        let contact = self.body.problem.contact.clone();
         loads.prescribe(0.0, &mut self.body.state.displacement);
         self.body.measure();
-        if !contact.is_empty() {
-            let motions = &self.body.state.displacement;
-            self.contacts = Some(ContactForces::new(
-                contact,
-                motions,
-                self.body.bonded(),
-                self.inertia.step(),
-            ));
-        }
+        self.velocities.rigid = self.body.begin_contact();
         self.apply_loads();
         let internal = &self.body.balanced.internal.values;
         let forces = self.external.iter().zip(internal);
@@ -217,10 +194,10 @@ impl<'a> ExplicitSteps<'a> {
             balanced,
             ..
         } = &self.body;
-        self.energies.add_work(problem, state, balanced);
         let nothing = Breakage::default();
-        self.energies
-            .add_released(problem, state, &nothing, balanced);
+        (self.energies).account(problem, (state, balanced), &nothing);
+        // The first step goes on from the contact at the start, which has no energy.
+        self.energies.follow_surfaces(problem, state);
         self.progress.motion.initial_energy =
             self.kinetic_energy() + self.body.balanced.stored_energy;
         self.damp();
@@ -265,20 +242,16 @@ impl ExplicitSteps<'_> {
             velocities,
             energies,
             progress,
-            contacts,
             observer,
             ..
         } = self;
         let velocity = velocities.at_time(self.inertia.step());
         let of_critical = self.choice.of_critical();
-        let now = MotionView {
-            contacts: contacts.as_ref(),
-            ..body.now(energies, velocities.rates(&velocity), of_critical)
-        };
+        let now = body.now(energies, velocities.rates(&velocity), of_critical);
         let stop = (&self.settings.stop, self.started);
         let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
             let state = |out: &mut dyn Sink| {
-                ExplicitCheckpoint::write(body, velocities, contacts.as_ref(), out);
+                ExplicitCheckpoint::write(body, velocities, out);
             };
             progress.write_all(energies, EXPLICIT, &state, out);
         };
@@ -299,12 +272,8 @@ impl ExplicitSteps<'_> {
         };
         let is_row = time_step == row * self.progress.clock.steps_per_row;
         let breakage = self.body.move_to(&step, is_row, self.observer)?;
-        let FrictionEnergies { stored, work } = self.body.of_friction;
-        let motion = &mut self.progress.motion;
-        motion.friction_energy += work - (stored - self.progress.sticking);
-        motion.contact_energy = stored;
-        self.progress.sticking = stored;
-        self.apply_contacts();
+        let length = self.inertia.step();
+        self.body.touch(length, &mut self.velocities.rigid);
         self.apply_loads();
         self.advance();
         let Body {
@@ -313,11 +282,9 @@ impl ExplicitSteps<'_> {
             balanced,
             ..
         } = &self.body;
-        self.energies.add_work(problem, state, balanced);
-        self.energies
-            .add_released(problem, state, &breakage, balanced);
-        let loss = (self.energies).follow_contact(problem, (state, balanced), &breakage.bonds);
-        self.progress.motion.friction_energy += loss.closure;
+        let (at, motion) = ((state, balanced), &mut self.progress.motion);
+        self.energies.account(problem, at, &breakage);
+        (self.energies).add_contact_in_motion(problem, at, &breakage.bonds, motion);
         self.damp();
         Ok(())
     }
@@ -341,33 +308,11 @@ impl ExplicitSteps<'_> {
         }
     }
 
-    /// Subtracts the forces of contacts between surfaces from those of the bonds, and adds up the energies of the contacts.
-    fn apply_contacts(&mut self) {
-        let Some(contacts) = &mut self.contacts else {
-            return;
-        };
-        let before = contacts.energies();
-        let (body, step) = (&mut self.body, self.inertia.step());
-        if !body.broken_last.is_empty() {
-            contacts.join(&body.broken_last);
-        }
-        let (time, motions) = (body.state.load_factor, &body.state.displacement);
-        let now = contacts.advance(time, step, motions, body.bonded());
-        let internal = &mut body.balanced.internal;
-        contacts.add_forces(-1.0, &mut internal.values);
-        let rigid = contacts.rigid_bodies().iter();
-        internal.on_rigid_bodies = rigid.map(|it| it.force).collect();
-        let motion = &mut self.progress.motion;
-        motion.contact_energy += now.stored;
-        motion.friction_energy += now.dissipated - before.dissipated;
-        self.energies
-            .add_driving_work(now.driving_work - before.driving_work);
-    }
-
     /// Kinetic energy of the body and of free rigid bodies, J.
     fn kinetic_energy(&self) -> f64 {
-        let rigid = self.contacts.as_ref().map(|it| it.energies().kinetic);
-        self.inertia.kinetic_energy(&self.velocities) + rigid.unwrap_or(0.0)
+        let contact = &self.body.problem.contact;
+        let rigid = contact.kinetic_energy(self.inertia.step(), &self.velocities.rigid);
+        self.inertia.kinetic_energy(&self.velocities) + rigid
     }
 
     /// Sets the external forces of the time, and the prescribed displacements of the end of the next step.
@@ -428,7 +373,9 @@ impl ExplicitSteps<'_> {
         }
         let earlier = &self.progress.damping_forces;
         if !earlier.is_empty() {
-            let Velocities { half, acceleration } = &self.velocities;
+            let Velocities {
+                half, acceleration, ..
+            } = &self.velocities;
             let step = self.inertia.step();
             self.progress.motion.damping_energy += sum_of_chunks(n, |range| {
                 let of = |dof: usize| {

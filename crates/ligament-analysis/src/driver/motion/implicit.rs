@@ -17,11 +17,11 @@ use super::trial_step::{self, Rejected, StepSettings, TrialStep};
 use super::{quasi_static, rigid_step};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
-use crate::driver::record::Energies;
+use crate::contact::{RigidBody, RigidMotion};
+use crate::driver::energies::Energies;
 use crate::driver::way::{Outcome, Stop, Way};
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
-use crate::motion::contact::{RigidBody, RigidMotion};
 use crate::motion::{MotionError, MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::serial::Sink;
@@ -140,7 +140,7 @@ impl ImplicitSteps<'_> {
         }
         (motion.external, motion.damping) = (external, damping);
         let problem = &self.problem.problem;
-        motion.rigid = rigid_step::at_start(&problem.contact, &self.here.balanced);
+        motion.rigid = problem.contact.rates_at_start(&self.here.balanced.touching);
         self.here.balance_forces(problem, &self.masses);
         let MotionState {
             state,
@@ -149,11 +149,9 @@ impl ImplicitSteps<'_> {
             ..
         } = &self.here;
         let problem = &self.problem.problem;
-        self.energies.add_work(problem, state, balanced);
         let nothing = Breakage::default();
-        self.energies
-            .add_released(problem, state, &nothing, balanced);
-        let rigid = rigid_step::kinetic_energy(&problem.contact, &motion.rigid);
+        (self.energies).account(problem, (state, balanced), &nothing);
+        let rigid = problem.contact.kinetic_energy(0.0, &motion.rigid);
         let kinetic = motion.kinetic_energy(masses) + rigid;
         self.progress.motion.initial_energy = kinetic + balanced.stored_energy;
         self.progress.motion.kinetic_energy = kinetic;
@@ -425,15 +423,10 @@ impl ImplicitSteps<'_> {
                 state, balanced, ..
             },
         ) = (&self.problem.problem, &self.here);
-        self.energies.add_work(problem, state, balanced);
-        self.energies
-            .add_released(problem, state, &breakage, balanced);
+        (self.energies).account(problem, (state, balanced), &breakage);
         if self.pace.has_inertia {
-            let loss = (self.energies).follow_contact(problem, (state, balanced), &breakage.bonds);
-            let surfaces = self.energies.follow_surfaces(problem, state, balanced);
-            let motion = &mut self.progress.motion;
-            motion.friction_energy += loss.closure + loss.friction + surfaces.dissipated;
-            motion.contact_energy = surfaces.stored;
+            let (at, motion) = ((state, balanced), &mut self.progress.motion);
+            (self.energies).add_contact_in_motion(problem, at, &breakage.bonds, motion);
         } else {
             let taken = (self.energies).add_contact(problem, state, &breakage, balanced);
             let motion = &mut self.progress.motion;
@@ -446,16 +439,15 @@ impl ImplicitSteps<'_> {
     /// Adds the energies of the rigid bodies with a mass in a step.
     fn move_rigid_bodies(&mut self, taken: &TrialStep, after: &Motion) {
         let contact = &self.problem.problem.contact;
-        let kinetic = |it: &Motion| rigid_step::kinetic_energy(contact, &it.rigid);
+        let kinetic = |it: &Motion| contact.kinetic_energy(0.0, &it.rigid);
         let [before, now] = [&self.here.motion, after].map(kinetic);
-        let here = (&self.here.state, &self.here.balanced);
-        let works = rigid_step::works(contact, here, (&taken.state, &taken.balanced));
         let motion = &mut self.progress.motion;
         motion.kinetic_energy += now;
         if self.settings.dissipation > 0.0 {
-            motion.damping_energy += works.of_all - (now - before);
+            let here = (&self.here.state, &self.here.balanced);
+            let work = rigid_step::work(contact, here, (&taken.state, &taken.balanced));
+            motion.damping_energy += work - (now - before);
         }
-        self.energies.add_driving_work(works.of_accelerations);
     }
 
     /// Records the present time as a row, and stops where the motion ends there.

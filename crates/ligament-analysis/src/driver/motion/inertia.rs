@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
 
+use crate::contact::RigidRates;
 use crate::history::Rates;
 use crate::motion::MotionProblem;
 use crate::serial;
@@ -44,9 +45,15 @@ pub(super) struct Velocities {
     pub(super) half: Vec<f64>,
     /// Accelerations at the time, m/s^2 and rad/s^2.
     pub(super) acceleration: Vec<f64>,
+    /// Rates of the rigid bodies at the time.
+    pub(super) rigid: Vec<RigidRates>,
 }
 
-serial!(Velocities { half, acceleration });
+serial!(Velocities {
+    half,
+    acceleration,
+    rigid
+});
 
 impl Velocities {
     /// Velocities (n_degrees_of_freedom) and accelerations for results.
@@ -54,6 +61,7 @@ impl Velocities {
         Rates {
             velocity,
             acceleration: &self.acceleration,
+            rigid: &self.rigid,
         }
     }
 
@@ -156,7 +164,9 @@ impl Inertia {
 
     /// Kinetic energy 1/2 v-^T M v+, J.
     pub(super) fn kinetic_energy(&self, velocities: &Velocities) -> f64 {
-        let Velocities { half, acceleration } = velocities;
+        let Velocities {
+            half, acceleration, ..
+        } = velocities;
         sum_of_chunks(half.len(), |range| {
             let of = |dof: usize| {
                 let (after, change) = (half[dof], self.step * acceleration[dof]);
@@ -176,7 +186,9 @@ impl Inertia {
         displacement: &[f64],
         ahead: &[f64],
     ) {
-        let Velocities { half, acceleration } = velocities;
+        let Velocities {
+            half, acceleration, ..
+        } = velocities;
         let of =
             |list: &[u32]| -> Vec<f64> { list.iter().map(|&dof| half[dof as usize]).collect() };
         let prescribed_before = of(&self.prescribed);
@@ -237,7 +249,9 @@ impl Inertia {
         displacement: &[f64],
         ahead: &[f64],
     ) {
-        let Velocities { half, acceleration } = velocities;
+        let Velocities {
+            half, acceleration, ..
+        } = velocities;
         let (step, alpha) = (self.step, self.alpha);
         for (&dof, before) in self.prescribed.iter().zip(before) {
             let dof = dof as usize;

@@ -4,7 +4,6 @@ mod body;
 mod checkpoint;
 mod clock;
 mod explicit;
-mod face_friction;
 mod implicit;
 mod inertia;
 mod motion_state;

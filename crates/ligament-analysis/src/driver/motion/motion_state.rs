@@ -1,7 +1,7 @@
 //! An implicit motion at a time: state, velocities and forces.
 
-use super::rigid_step::RigidRates;
 use crate::balanced::Balanced;
+use crate::contact::RigidRates;
 use crate::history::Rates;
 use crate::motion::{Damping, MotionProblem};
 use crate::problem::Problem;
@@ -31,7 +31,7 @@ pub(super) struct Motion {
     /// Forces of damping, N and N m.
     pub(super) damping: Vec<f64>,
     /// Rates of the rigid bodies; empty in equilibria without inertia.
-    pub(super) rigid: RigidRates,
+    pub(super) rigid: Vec<RigidRates>,
 }
 
 serial!(Motion {
@@ -93,6 +93,7 @@ impl Motion {
         Rates {
             velocity: &self.velocity,
             acceleration: &self.acceleration,
+            rigid: &self.rigid,
         }
     }
 

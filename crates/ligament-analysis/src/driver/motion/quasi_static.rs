@@ -14,7 +14,7 @@ use super::stepping::{HALVINGS, Pace};
 use super::trial_step::TrialStep;
 use crate::balanced::Balanced;
 use crate::bond_numbers::sum_over_bonds;
-use crate::driver::record::Energies;
+use crate::driver::energies::Energies;
 use crate::equilibrium::Equilibrium;
 use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
@@ -97,7 +97,7 @@ pub(super) fn set_free(
     let now = (&taken.state, &taken.balanced);
     let mut onward = energies.clone();
     let faces = onward.follow_contact(problem, now, &taken.broken);
-    let surfaces = onward.follow_surfaces(problem, now.0, now.1);
+    let surfaces = onward.follow_surfaces(problem, now.0);
     let kept = surfaces.stored - here.balanced.touching.energy();
     // Faces close and open without force on the way, which the trapezoidal rule counts as work.
     let closure = if taken.broken.is_empty() {

@@ -2,28 +2,17 @@
 
 use std::time::Instant;
 
-use ligament_model::surface::Vector;
-
 use super::clock::Clock;
-use crate::balanced::Balanced;
-use crate::bond_numbers::BondNumbers;
-use crate::connectivity::Fragments;
-use crate::costs::Costs;
-use crate::driver::record::{Energies, StepCounters, largest_ratio, offer, step_record};
+use crate::contact::RigidMotion;
+use crate::driver::energies::Energies;
+use crate::driver::record::{RunView, StepCounters, largest_ratio, offer};
 use crate::driver::run_messages;
 use crate::driver::way::{Outcome, Rows, Stop};
-use crate::history::{
-    InMotion, LargestOverlap, Observer, ObserverError, Rates, StepRecord, Termination, View,
-};
+use crate::history::{InMotion, LargestOverlap, Observer, StepRecord, Termination};
 use crate::motion::MotionStop;
-use crate::motion::contact::{ContactForces, RigidMotion};
-use crate::problem::Problem;
-use crate::result_fields::Solution;
 use crate::serial;
 use crate::serial::{Serial, Sink};
-use crate::softened::SoftenedOfAll;
 use crate::solver::SolverChoice;
-use crate::state::State;
 use crate::termination::{Growth, Verdict};
 use crate::unbalanced::Unbalanced;
 
@@ -32,17 +21,9 @@ const GROWN: f64 = 0.02;
 
 /// A body in motion at a row of its history.
 pub(super) struct MotionView<'a> {
-    pub(super) problem: &'a Problem,
-    pub(super) numbers: &'a BondNumbers,
-    pub(super) fragments: &'a Fragments,
-    pub(super) state: &'a State,
-    pub(super) balanced: &'a Balanced,
-    pub(super) energies: &'a Energies,
-    pub(super) costs: &'a Costs,
-    pub(super) rates: Rates<'a>,
-    /// Rates of the rigid bodies in implicit steps.
-    pub(super) rigid: &'a [[Vector; 2]],
-    pub(super) contacts: Option<&'a ContactForces>,
+    pub(super) body: RunView<'a>,
+    /// Surfaces that moved through each other unseen in a step so far.
+    pub(super) missed: Option<&'a Unbalanced>,
     /// Number of broken bonds.
     pub(super) broken: usize,
     /// Share of the energy by which the kinetic energy of the scheme may be negative in a stable motion.
@@ -71,20 +52,21 @@ impl MotionView<'_> {
         let end = end.filter(|it| row > 0 || is_lost(it)).or(done);
         let verdict = end.as_ref().map(|it| it.row().verdict);
         record.at_rest = verdict != Some(Verdict::Invalid);
-        let end = offer(observer, self.numbers, end, &|out| {
-            checkpoint(progress, out)
-        })?;
-        self.show(&record, end.is_some(), observer)?;
-        let (problem, state) = (self.problem, self.state);
-        let overlap = &mut progress.overlap;
-        if record.at_rest
-            && let Some(message) =
-                run_messages::overlap(problem, state, self.fragments, row, overlap)
-        {
-            observer.message(message)?;
+        let RunView {
+            problem,
+            numbers,
+            fragments,
+            state,
+            ..
+        } = self.body;
+        let end = offer(observer, numbers, end, &|out| checkpoint(progress, out))?;
+        self.body.show(&record, [end.is_some(), true], observer)?;
+        if record.at_rest {
+            let overlap = &mut progress.overlap;
+            self.body.report_overlap(row, overlap, observer)?;
         }
         if !progress.has_turned
-            && let Some(message) = run_messages::turned(problem, state, self.fragments, row)
+            && let Some(message) = run_messages::turned(problem, state, fragments, row)
         {
             progress.has_turned = true;
             observer.message(message)?;
@@ -97,7 +79,12 @@ impl MotionView<'_> {
     }
 
     fn row(&self, row: usize, progress: &Progress) -> StepRecord {
-        let (problem, state, balanced) = (self.problem, self.state, self.balanced);
+        let RunView {
+            problem,
+            state,
+            balanced,
+            ..
+        } = self.body;
         let before = progress.history.last();
         let counters = StepCounters {
             step: row,
@@ -107,55 +94,24 @@ impl MotionView<'_> {
             largest_ratio: largest_ratio(problem, state, balanced),
             ..Default::default()
         };
-        let solution = Solution {
-            motion: Some(self.rates),
-            ..problem.solution(state, balanced)
-        };
-        let mut record = step_record(problem, solution, self.energies, self.fragments, counters);
+        let mut record = self.body.record(counters);
         record.motion = Some(progress.motion);
         record.energy_floor = record.energy_floor.max(self.rounding);
-        // Explicit steps have contacts of their own, implicit ones those of their equilibria.
-        if let Some(contacts) = self.contacts {
-            record.contacts = contacts.readings();
-            record.rigid_bodies = contacts.rigid_bodies().to_vec();
-            return record;
-        }
-        let bodies = &problem.contact.rigid_bodies;
-        for (place, body) in record.rigid_bodies.iter_mut().zip(bodies) {
-            place.velocity = body.motion.velocity(state.load_factor);
-        }
-        for (index, place) in record.rigid_bodies.iter_mut().enumerate() {
-            if matches!(bodies[index].motion, RigidMotion::Free { .. }) {
-                place.velocity = self.rigid[index][0];
+        let bodies = problem.contact.rigid_bodies.iter().enumerate();
+        for (place, (index, body)) in record.rigid_bodies.iter_mut().zip(bodies) {
+            match body.motion {
+                RigidMotion::Prescribed { .. } => {
+                    place.velocity = body.motion.velocity(state.load_factor);
+                }
+                RigidMotion::Free { .. } => {
+                    let rates = self.body.rates.map(|it| it.rigid[index]);
+                    let rates = rates.unwrap_or_default();
+                    place.velocity = rates.velocity;
+                    place.angular_velocity = rates.angular_velocity;
+                }
             }
         }
         record
-    }
-
-    /// Passes a record to the observer.
-    fn show(
-        &self,
-        record: &StepRecord,
-        is_last: bool,
-        observer: &mut dyn Observer,
-    ) -> Result<(), ObserverError> {
-        let (problem, state) = (self.problem, self.state);
-        let system = &*problem.system;
-        let criteria = problem.criteria_in(state, self.balanced);
-        let view = View {
-            system,
-            state,
-            balanced: self.balanced,
-            loads: &*problem.loads,
-            criteria: &criteria,
-            fragments: self.fragments,
-            costs: self.costs,
-            softened: SoftenedOfAll::in_state(state, self.numbers, system.ends()),
-            is_last,
-            motion: Some(self.rates),
-            is_whole: true,
-        };
-        observer.step(record, &view)
     }
 
     /// Reason why the motion ends at a row before its time.
@@ -164,11 +120,10 @@ impl MotionView<'_> {
         record: &StepRecord,
         (stop, started): (&MotionStop, Instant),
     ) -> Option<Termination> {
-        if let Some(missed) = self.contacts.and_then(ContactForces::missed) {
-            let reason = Unbalanced::missed(&self.problem.contact, missed);
+        if let Some(missed) = self.missed {
             return Some(Termination::NoEquilibrium {
                 step: record.step,
-                reason,
+                reason: missed.clone(),
             });
         }
         if let Some(growth) = self.growth(record) {
@@ -194,11 +149,16 @@ impl MotionView<'_> {
         }
         let scale = record.external_work.abs() + motion.initial_energy;
         let scale = scale.max(record.energy_floor);
-        let is_heated = self.problem.loads.temperature_factor(record.load_factor) != 0.0;
+        let is_heated = self
+            .body
+            .problem
+            .loads
+            .temperature_factor(record.load_factor)
+            != 0.0;
         let is_stored = is_heated || record.stored_energy >= -GROWN * scale;
         let is_moving = motion.kinetic_energy >= -(self.below_zero + GROWN) * scale;
         let error = record.energy_error();
-        let has_energy = self.problem.system.has_energy();
+        let has_energy = self.body.problem.system.has_energy();
         let balances = error.is_finite() && (error.abs() <= GROWN || !has_energy);
         let grown = [
             (!error.is_finite(), Growth::NoNumber),
@@ -217,20 +177,19 @@ pub(super) fn outcome(
     solver: SolverChoice,
     termination: Termination,
 ) -> Outcome {
-    let softened = SoftenedOfAll::in_state(now.state, now.numbers, now.problem.system.ends());
     Outcome {
         history: progress.history,
         rows: Rows::Times,
         broken_bonds: now.broken,
-        softened_bonds: softened.bonds,
+        softened_bonds: now.body.softened().bonds,
         termination,
         elastic_stiffness: f64::NAN,
         first_break: None,
         overlap: progress.overlap,
         stability: None,
-        costs: *now.costs,
+        costs: *now.body.costs,
         solver,
-        state: now.state.clone(),
+        state: now.body.state.clone(),
     }
 }
 
@@ -248,8 +207,6 @@ pub(super) struct Progress {
     pub(super) motion: InMotion,
     /// Forces of damping at the time (n_degrees_of_freedom), N and N m; empty where nothing damps.
     pub(super) damping_forces: Vec<f64>,
-    /// Energy stored in faces of cracks that stick, J.
-    pub(super) sticking: f64,
     /// Time at which the body last lost its balance, s, with the number of bonds broken before.
     pub(super) moving_since: (f64, usize),
     pub(super) history: Vec<StepRecord>,
@@ -263,7 +220,6 @@ serial!(Progress {
     clock,
     motion,
     damping_forces,
-    sticking,
     moving_since,
     history,
     overlap,
@@ -276,7 +232,6 @@ impl Progress {
             clock,
             motion: InMotion::default(),
             damping_forces: Vec::new(),
-            sticking: 0.0,
             moving_since: (0.0, 0),
             history: Vec::new(),
             overlap: None,

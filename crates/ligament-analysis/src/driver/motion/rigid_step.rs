@@ -8,13 +8,9 @@ use ligament_model::tensor::{dot, minus};
 
 use super::newmark::Newmark;
 use crate::balanced::Balanced;
+use crate::contact::{ContactProblem, RigidMotion, RigidRates, add};
 use crate::load_program::RigidLoad;
-use crate::motion::contact::{ContactProblem, RigidMotion};
-use crate::motion::rigid::add;
 use crate::state::State;
-
-/// Velocity and acceleration of each rigid body, zero of those with a prescribed motion, shape (n_rigid), m/s and m/s^2.
-pub(super) type RigidRates = Vec<[Vector; 2]>;
 
 /// A rigid body with a mass.
 struct Free {
@@ -43,28 +39,17 @@ fn free(problem: &ContactProblem) -> impl Iterator<Item = Free> {
 impl Free {
     /// Force of contacts and of the own acceleration in a balanced state, N.
     fn force(&self, problem: &ContactProblem, balanced: &Balanced) -> Vector {
-        let mut force = balanced.touching.on_rigid_bodies(problem)[self.body];
+        let mut force = balanced.touching.forces_on_rigid_bodies(problem)[self.body];
         add(&mut force, self.mass, self.acceleration);
         force
     }
-}
-
-/// Rates at time zero, with the forces of a state then.
-pub(super) fn at_start(problem: &ContactProblem, balanced: &Balanced) -> RigidRates {
-    let mut rates = vec![[Vector::default(); 2]; problem.rigid_bodies.len()];
-    for it in free(problem) {
-        let velocity = problem.rigid_bodies[it.body].motion.velocity(0.0);
-        let force = it.force(problem, balanced);
-        rates[it.body] = [velocity, force.map(|force| force / it.mass)];
-    }
-    rates
 }
 
 /// Springs and forces on the bodies in a step from a balanced state; the springs alone without one.
 pub(super) fn loads(
     problem: &ContactProblem,
     scheme: &Newmark,
-    from: Option<(&State, &Balanced, &RigidRates)>,
+    from: Option<(&State, &Balanced, &[RigidRates])>,
 ) -> Vec<RigidLoad> {
     let of_body = |it: Free| {
         let stiffness = it.mass * scheme.acceleration() / (1.0 - scheme.dissipation);
@@ -91,13 +76,17 @@ pub(super) fn loads(
 pub(super) fn after(
     problem: &ContactProblem,
     scheme: &Newmark,
-    (before, rates): (&State, &RigidRates),
+    (before, rates): (&State, &[RigidRates]),
     now: &State,
-) -> RigidRates {
-    let mut after = rates.clone();
+) -> Vec<RigidRates> {
+    let mut after = rates.to_vec();
     let (dt, gamma) = (scheme.step, scheme.gamma());
     for it in free(problem) {
-        let [velocity, acceleration] = &mut after[it.body];
+        let RigidRates {
+            velocity,
+            acceleration,
+            ..
+        } = &mut after[it.body];
         let from = predicted(scheme, before, rates, it.body);
         let changed = minus(displacement(now, it.body), from);
         add(velocity, dt * (1.0 - gamma), *acceleration);
@@ -107,46 +96,28 @@ pub(super) fn after(
     after
 }
 
-/// Kinetic energy of the bodies, J.
-pub(super) fn kinetic_energy(problem: &ContactProblem, rates: &RigidRates) -> f64 {
-    free(problem).fold(0.0, |sum, it| {
-        let [velocity, _] = rates[it.body];
-        sum + 0.5 * it.mass * dot(velocity, velocity)
-    })
-}
-
-/// Works over a step, J.
-#[derive(Default)]
-pub(super) struct Works {
-    /// Of the accelerations of the bodies.
-    pub(super) of_accelerations: f64,
-    /// Of contacts and accelerations.
-    pub(super) of_all: f64,
-}
-
-/// Works on the bodies over a step.
-pub(super) fn works(
+/// Work of contacts and accelerations on the bodies over a step, J.
+pub(super) fn work(
     problem: &ContactProblem,
     before: (&State, &Balanced),
     now: (&State, &Balanced),
-) -> Works {
-    let mut works = Works::default();
-    for it in free(problem) {
-        let way = minus(
-            displacement(now.0, it.body),
-            displacement(before.0, it.body),
-        );
+) -> f64 {
+    let on_body = |it: Free| {
+        let [from, to] = [before.0, now.0].map(|state| displacement(state, it.body));
         let mut mean = it.force(problem, before.1).map(|force| 0.5 * force);
         add(&mut mean, 0.5, it.force(problem, now.1));
-        works.of_accelerations += it.mass * dot(it.acceleration, way);
-        works.of_all += dot(mean, way);
-    }
-    works
+        dot(mean, minus(to, from))
+    };
+    free(problem).map(on_body).fold(0.0, |sum, it| sum + it)
 }
 
 /// Displacement q~ of a body that the rates of a state predict for the end of a step.
-fn predicted(scheme: &Newmark, state: &State, rates: &RigidRates, body: usize) -> Vector {
-    let [velocity, acceleration] = rates[body];
+fn predicted(scheme: &Newmark, state: &State, rates: &[RigidRates], body: usize) -> Vector {
+    let RigidRates {
+        velocity,
+        acceleration,
+        ..
+    } = rates[body];
     let (dt, beta) = (scheme.step, scheme.beta());
     let mut place = displacement(state, body);
     add(&mut place, dt, velocity);
@@ -155,5 +126,10 @@ fn predicted(scheme: &Newmark, state: &State, rates: &RigidRates, body: usize) -
 }
 
 fn displacement(state: &State, body: usize) -> Vector {
-    state.rigid.get(body).copied().unwrap_or_default()
+    state
+        .rigid
+        .get(body)
+        .copied()
+        .unwrap_or_default()
+        .displacement
 }

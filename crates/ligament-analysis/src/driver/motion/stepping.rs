@@ -9,7 +9,8 @@ use super::record::MotionView;
 use super::rigid_step;
 use super::trial_step::TrialStep;
 use crate::costs::Costs;
-use crate::driver::record::Energies;
+use crate::driver::energies::Energies;
+use crate::driver::record::RunView;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::load_program::LoadProgram;
@@ -212,7 +213,7 @@ impl Stepping {
             let force = mass * of_mass * predicted[dof] - scheme.of_start() * at_start - *sum;
             *sum = if mass > 0.0 { factor * force } else { 0.0 };
         }
-        let from = Some((state, &here.balanced, rigid));
+        let from = Some((state, &here.balanced, &**rigid));
         Arc::new(StepLoads {
             base,
             restraints: self.restraints.clone(),
@@ -262,19 +263,20 @@ impl Stepping {
         (energies, costs): (&'a Energies, &'a Costs),
     ) -> MotionView<'a> {
         MotionView {
-            contacts: None,
-            numbers: self.equilibrium.numbers(),
-            fragments: self.equilibrium.fragments(),
-            state: &here.state,
-            balanced: &here.balanced,
-            rates: here.motion.rates(),
-            rigid: &here.motion.rigid,
+            missed: None,
             broken: here.broken,
             below_zero: 0.0,
             rounding: 0.0,
-            energies,
-            problem,
-            costs,
+            body: RunView {
+                numbers: self.equilibrium.numbers(),
+                fragments: self.equilibrium.fragments(),
+                state: &here.state,
+                balanced: &here.balanced,
+                rates: Some(here.motion.rates()),
+                energies,
+                problem,
+                costs,
+            },
         }
     }
 }

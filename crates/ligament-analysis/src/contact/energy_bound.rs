@@ -1,4 +1,4 @@
-//! Contacts of explicit steps that never give energy.
+//! Contacts of a pair of surfaces, which in explicit steps never give energy.
 //!
 //! An integration point with the stored energy U and the force F before a step, U' and F' after it, whose surfaces move by s against each other in
 //! the step, takes the energy
@@ -29,25 +29,33 @@ const ROUNDING: f64 = 1e-13;
 
 /// Force on surfaces that were in contact, against their motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Drag {
+pub struct Drag {
     /// Contact before the step.
-    pub(super) touch: Touch,
+    pub touch: Touch,
     /// Force on its integration point, N.
-    pub(super) force: Vector,
+    pub force: Vector,
 }
 
 /// Contacts of a pair of surfaces.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct PairContacts {
+pub struct PairContacts {
     /// Integration points in contact, ascending.
-    pub(super) touches: Vec<Touch>,
-    pub(super) drags: Vec<Drag>,
-    /// Energy that contacts which have ended took across the surfaces, and that others may give back, J.
-    credit: f64,
+    pub touches: Vec<Touch>,
+    /// Forces on contacts that ended, for a step; none but in explicit steps.
+    pub drags: Vec<Drag>,
+    /// Energy that contacts which have ended took across the surfaces, and that others may give back, J; 0 but in explicit steps.
+    pub credit: f64,
 }
 
 impl PairContacts {
-    /// Contacts after a step, given what integration points met there, ascending.
+    /// Forces of the contacts on their integration points, N.
+    pub(super) fn forces(&self) -> impl Iterator<Item = (&Touch, Vector)> {
+        let pressed = self.touches.iter().filter(|it| it.depth() > 0.0);
+        let touches = pressed.map(|it| (it, it.force()));
+        touches.chain(self.drags.iter().map(|it| (&it.touch, it.force)))
+    }
+
+    /// Contacts after an explicit step, given what integration points met there, ascending.
     pub(super) fn after(
         &self,
         surfaces: &dyn SurfacePair,
@@ -178,6 +186,20 @@ fn bound(touch: &mut Touch, way: Vector, left: Left, rounding: f64) {
     }
 }
 
+serial!(Touch {
+    place,
+    onto,
+    weights,
+    arm,
+    normal,
+    overlap,
+    offset,
+    slip,
+    stiffness,
+    credit,
+    area,
+    is_first
+});
 serial!(Drag { touch, force });
 serial!(PairContacts {
     touches,

@@ -4,8 +4,8 @@
 //! anchor s follows. The anchor of a pair that was never open is zero, so that the force along the crack begins from that of its bond; the
 //! anchor of an open pair follows its faces.
 //!
-//! In equilibria the friction of each follows from that of the last one, which a [`Friction`] keeps: the return mapping of implicit steps
-//! (Wriggers 2006, chapter 10).
+//! The friction of each equilibrium, and of each explicit step, follows from that of the last one, which a [`Friction`] keeps: the return
+//! mapping of implicit steps (Wriggers 2006, chapter 10).
 
 use std::io::Read;
 
@@ -22,13 +22,13 @@ const ROUNDING: f64 = 1e-12;
 
 /// Motion along the crack at which a pair of faces carries no force, and the force that it carries.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Anchored {
+struct Anchored {
     /// Anchor s, m.
-    pub(crate) anchor: Vector,
+    anchor: Vector,
     /// Force of friction on the second end, N.
-    pub(crate) force: Vector,
+    force: Vector,
     /// Motion of the faces against each other along the crack, P w, m.
-    pub(crate) slip: Vector,
+    slip: Vector,
 }
 
 serial!(Anchored {
@@ -39,7 +39,7 @@ serial!(Anchored {
 
 impl Anchored {
     /// Returns the force to Coulomb's limit, N, for a stiffness, N/m; the share of the elastic force that is left.
-    pub(crate) fn load(&mut self, stiffness: f64, limit: f64) -> f64 {
+    fn load(&mut self, stiffness: f64, limit: f64) -> f64 {
         let trial = minus(self.slip, self.anchor).map(|it| stiffness * it);
         let size = norm(trial);
         let share = if size > limit { limit / size } else { 1.0 };
@@ -51,7 +51,7 @@ impl Anchored {
     }
 }
 
-/// Friction of the faces of cracks in the last equilibrium; empty without friction.
+/// Friction of the faces of cracks in the last equilibrium or after the last time step; empty without friction.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Friction {
     /// Pairs by their numbers, ascending.

@@ -1,0 +1,200 @@
+//! Rigid bodies that move as prescribed, or with a mass by velocity Verlet.
+
+use ligament_model::surface::{Pose, Vector};
+use ligament_model::tensor::dot;
+
+use crate::load_program::Amplitude;
+use crate::serial;
+
+/// A rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigidBody {
+    /// Name in results.
+    pub name: String,
+    /// How it moves.
+    pub motion: RigidMotion,
+}
+
+/// Motion of a rigid body.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RigidMotion {
+    /// A prescribed velocity.
+    Prescribed {
+        /// Velocity at amplitude 1, m/s; in statics the load factor is the time, and this is the displacement at load factor 1.
+        velocity: Vector,
+        /// Factor as a function of time.
+        amplitude: Amplitude,
+    },
+    /// A mass that contacts and a constant acceleration move.
+    Free {
+        /// Mass, kg.
+        mass: f64,
+        /// Moment of inertia about its middle, kg m^2; infinite where it does not turn. In the plane about z.
+        inertia: f64,
+        /// Velocity at time zero, m/s.
+        velocity: Vector,
+        /// Acceleration without contacts, such as gravity, m/s^2.
+        acceleration: Vector,
+    },
+}
+
+/// State of a rigid body in a record.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RigidState {
+    /// Displacement since time zero, m.
+    pub displacement: Vector,
+    /// Velocity, m/s.
+    pub velocity: Vector,
+    /// Force of the contacts on it, N.
+    pub force: Vector,
+    /// Angles about the axes since time zero, rad.
+    pub rotation: Vector,
+    /// Angular velocity, rad/s.
+    pub angular_velocity: Vector,
+    /// Moment of the contacts about its middle, N m.
+    pub moment: Vector,
+}
+
+/// Velocities and accelerations of a free rigid body; zero where the motion is prescribed.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct RigidRates {
+    /// Velocity, m/s.
+    pub velocity: Vector,
+    /// Acceleration, m/s^2.
+    pub acceleration: Vector,
+    /// Angular velocity, rad/s.
+    pub angular_velocity: Vector,
+    /// Angular acceleration, rad/s^2.
+    pub angular_acceleration: Vector,
+}
+
+/// Force on a rigid body and moment about its middle, N and N m.
+pub(super) type Resultant = [Vector; 2];
+
+impl RigidMotion {
+    /// Displacement since time zero of a body with a prescribed motion, m; zero of a free one.
+    pub(crate) fn displacement(&self, time: f64) -> Vector {
+        match self {
+            Self::Prescribed {
+                velocity,
+                amplitude,
+            } => {
+                let so_far = amplitude.integral(time);
+                velocity.map(|it| so_far * it)
+            }
+            Self::Free { .. } => Vector::default(),
+        }
+    }
+
+    /// Velocity at a time (s) of a body with a prescribed motion, m/s; of a free one that at time zero.
+    pub(crate) fn velocity(&self, time: f64) -> Vector {
+        match self {
+            Self::Prescribed {
+                velocity,
+                amplitude,
+            } => {
+                let factor = amplitude.value(time);
+                velocity.map(|it| factor * it)
+            }
+            Self::Free { velocity, .. } => *velocity,
+        }
+    }
+
+    /// Place of a body at a time (s), where `free` is the place of a free one.
+    pub(crate) fn pose(&self, time: f64, free: Option<&Pose>) -> Pose {
+        match self {
+            Self::Prescribed { .. } => Pose {
+                displacement: self.displacement(time),
+                ..Pose::default()
+            },
+            Self::Free { .. } => free.copied().unwrap_or_default(),
+        }
+    }
+
+    /// Moves a free body by a step (s) of velocity Verlet.
+    pub(super) fn advance(&self, step: f64, rates: &RigidRates, pose: &mut Pose) {
+        if let Self::Free { .. } = self {
+            let half = 0.5 * step * step;
+            add(&mut pose.displacement, step, rates.velocity);
+            add(&mut pose.displacement, half, rates.acceleration);
+            add(&mut pose.rotation, step, rates.angular_velocity);
+            add(&mut pose.rotation, half, rates.angular_acceleration);
+        }
+    }
+
+    /// Rates of a free body at the end of a step (s) of velocity Verlet, under the load of the contacts there.
+    pub(super) fn accelerated(
+        &self,
+        step: f64,
+        before: &RigidRates,
+        [force, moment]: Resultant,
+    ) -> RigidRates {
+        let Self::Free {
+            mass,
+            inertia,
+            acceleration,
+            ..
+        } = self
+        else {
+            return *before;
+        };
+        let mut now = RigidRates {
+            acceleration: force.map(|it| it / mass),
+            angular_acceleration: moment.map(|it| it / inertia),
+            ..*before
+        };
+        add(&mut now.acceleration, 1.0, *acceleration);
+        for of in [*before, now] {
+            add(&mut now.velocity, 0.5 * step, of.acceleration);
+            add(
+                &mut now.angular_velocity,
+                0.5 * step,
+                of.angular_acceleration,
+            );
+        }
+        now
+    }
+
+    /// Kinetic energy of a free body, J: with the velocities half a step (s) before and after, which velocity Verlet conserves, or at the
+    /// time with a step of zero.
+    pub(super) fn kinetic_energy(&self, step: f64, rates: &RigidRates) -> f64 {
+        let Self::Free { mass, inertia, .. } = self else {
+            return 0.0;
+        };
+        let square = |velocity: Vector, acceleration: Vector| {
+            let change = acceleration.map(|it| 0.5 * step * it);
+            dot(velocity, velocity) - dot(change, change)
+        };
+        let moving = 0.5 * mass * square(rates.velocity, rates.acceleration);
+        if inertia.is_infinite() {
+            return moving;
+        }
+        moving + 0.5 * inertia * square(rates.angular_velocity, rates.angular_acceleration)
+    }
+}
+
+/// Adds a vector times a factor.
+pub(crate) fn add(sum: &mut Vector, factor: f64, vector: Vector) {
+    for (sum, value) in sum.iter_mut().zip(vector) {
+        *sum += factor * value;
+    }
+}
+
+serial!(RigidState {
+    displacement,
+    velocity,
+    force,
+    rotation,
+    angular_velocity,
+    moment
+});
+serial!(RigidRates {
+    velocity,
+    acceleration,
+    angular_velocity,
+    angular_acceleration
+});
+serial!(Pose {
+    displacement,
+    rotation
+});
