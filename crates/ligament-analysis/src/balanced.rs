@@ -1,5 +1,6 @@
 //! Equilibrium states, and reasons for a missing equilibrium.
 
+use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
 use ligament_model::Bonds;
@@ -9,7 +10,6 @@ use ligament_model::failure::Stresses;
 
 use crate::contact::Touching;
 use crate::internal::InternalForces;
-use crate::serial;
 use crate::unbalanced::Unbalanced;
 
 /// Result of an attempt to bring a state into equilibrium.
@@ -132,15 +132,13 @@ impl Balanced {
 }
 
 /// Actual and expected numbers of negative eigenvalues of the stiffness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Stability {
     /// Number of negative eigenvalues of the stiffness.
     pub negative: usize,
     /// Number of negative eigenvalues of the rotation block: the stiffness of a stable intact model has no others.
     pub expected: usize,
 }
-
-serial!(Stability { negative, expected });
 
 impl Stability {
     /// Whether the stiffness has more negative eigenvalues than the rotations explain.

@@ -14,7 +14,7 @@ use thiserror::Error;
 
 use crate::checkpoint::CheckpointError;
 use crate::lists_of_all::{read_by_index, write_by_index, write_rows};
-use crate::serial::{Damaged, Serial, Sink, write_list};
+use crate::serial::{Damaged, Serial, Sink, read_values, write_values};
 
 /// Bit that marks a list of several processes in a checkpoint, beside the number of bonds of the body.
 const SPARSE: u64 = 1 << 63;
@@ -137,8 +137,8 @@ impl BondNumbers {
         self.subdomain.count(owned.filter(|it| it.1).count())
     }
 
-    /// Reads the values of all bonds of the body, and returns those of the local bonds (n_bonds), `usual` where several processes wrote none; an
-    /// empty list stays empty.
+    /// Reads the values of all bonds of the body, and returns those of the local bonds (n_bonds), of which `usual` is the one that takes
+    /// a bit; an empty list stays empty.
     ///
     /// # Errors
     ///
@@ -159,9 +159,9 @@ impl BondNumbers {
                     return Err(CheckpointError::OtherModel);
                 }
                 let numbers = it.numbers.iter().map(|&number| number as usize);
-                Ok(read_by_index(count, numbers, from)?)
+                Ok(read_by_index(count, &usual, numbers, from)?)
             }
-            StoredBonds::All(_) | StoredBonds::Some(_) => Ok(T::read_list(count, from)?),
+            StoredBonds::All(_) | StoredBonds::Some(_) => Ok(all(count, &usual, from)?),
         }
     }
 
@@ -194,22 +194,23 @@ impl BondNumbers {
     /// # Errors
     ///
     /// If the bytes are damaged, or belong to a body with another number of points.
-    pub(crate) fn read_points<T: Serial>(
+    pub(crate) fn read_points<T: Serial + Clone>(
         &self,
         n_values: usize,
+        usual: T,
         from: &mut dyn Read,
     ) -> Result<Vec<T>, CheckpointError> {
         let subdomain = &self.subdomain;
-        if subdomain.is_whole() {
-            return Ok(Serial::read(from)?);
-        }
         let count = usize::read(from)?;
+        if subdomain.is_whole() {
+            return Ok(all(count, &usual, from)?);
+        }
         if count != n_values * subdomain.n_all() {
             return Err(CheckpointError::OtherModel);
         }
         let local = 0..n_values * subdomain.n_points();
         let indices = local.map(|index| subdomain.index_in_body(index, n_values));
-        Ok(read_by_index(count, indices, from)?)
+        Ok(read_by_index(count, &usual, indices, from)?)
     }
 
     /// Appends values at all points of the body, as many per point as `n_values`, from those at the local points; on a divided body rank 0
@@ -224,7 +225,7 @@ impl BondNumbers {
     {
         let subdomain = &self.subdomain;
         if subdomain.is_whole() {
-            return write_list(local, out);
+            return write_all(local, &usual, out);
         }
         let of_point = |point: u32| n_values * point as usize..n_values * (point as usize + 1);
         let owned = subdomain.owned().flat_map(of_point);
@@ -254,9 +255,22 @@ impl BondNumbers {
                 (SPARSE + it.n_all as u64).write(out);
                 write_rows(&self.subdomain, rows, out);
             }
-            StoredBonds::All(_) | StoredBonds::Some(_) => write_list(local, out),
+            StoredBonds::All(_) | StoredBonds::Some(_) => write_all(local, &usual, out),
         }
     }
+}
+
+/// Appends the number of some values and these, with a `usual` one.
+fn write_all<T: Serial>(values: &[T], usual: &T, out: &mut dyn Sink) {
+    values.len().write(out);
+    write_values(values, usual, out);
+}
+
+/// Reads `count` values, with a `usual` one.
+fn all<T: Serial + Clone>(count: usize, usual: &T, from: &mut dyn Read) -> Result<Vec<T>, Damaged> {
+    let mut values = Vec::new();
+    read_values(count, usual, from, |value| values.push(value))?;
+    Ok(values)
 }
 
 impl LocalBonds {

@@ -1,11 +1,10 @@
 //! Costs of the equations.
 
+use serde::{Deserialize, Serialize};
 use std::time::Duration;
 
-use crate::serial;
-
 /// Accumulated costs of the equations.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Costs {
     /// Number of factorisations; with an iterative solver, of its coarse space.
     pub factorisations: usize,
@@ -32,21 +31,6 @@ pub struct Costs {
     /// Time of the search for detached parts.
     pub connectivity: Duration,
 }
-
-serial!(Costs {
-    factorisations,
-    changes,
-    solves,
-    iterations,
-    analysis,
-    assembly,
-    factorisation,
-    change,
-    backward,
-    solve,
-    bonds,
-    connectivity,
-});
 
 impl Costs {
     /// Sum of the costs of two successive equations.

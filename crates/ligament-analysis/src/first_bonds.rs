@@ -1,13 +1,13 @@
 //! First failure of a body: the first bond that broke, and the first that began to soften.
 
 use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
-use crate::serial;
+use serde::{Deserialize, Serialize};
 
 /// The first bonds that broke and softened.
 ///
 /// As an observer it records them in a run. Softening is detected in the equilibria at the ends of load steps: of several bonds
 /// that began to soften in one step, the one farthest beyond its limit counts.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct FirstBonds {
     /// The first bond that broke.
     pub broken: Option<FirstBond>,
@@ -16,7 +16,7 @@ pub struct FirstBonds {
 }
 
 /// First bond to break or soften, with its load step.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FirstBond {
     /// Global number of the bond.
     pub bond: u32,
@@ -33,17 +33,6 @@ pub struct FirstBond {
     /// Force of the control load, N.
     pub reaction: f64,
 }
-
-serial!(FirstBond {
-    bond,
-    ends,
-    criterion,
-    step,
-    load_factor,
-    displacement,
-    reaction
-});
-serial!(FirstBonds { broken, softened });
 
 impl Observer for FirstBonds {
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {

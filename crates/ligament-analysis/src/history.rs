@@ -3,6 +3,7 @@
 use ligament_model::Bonds;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::CriteriaInState;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::balanced::Balanced;
@@ -10,7 +11,6 @@ use crate::connectivity::Fragments;
 use crate::contact::{ContactReading, RigidRates, RigidState};
 use crate::costs::Costs;
 use crate::load_program::LoadProgram;
-use crate::serial;
 use crate::serial::Sink;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
@@ -19,7 +19,7 @@ use crate::user_message::Message;
 
 /// Record of a load step at rest (or where the run was stopped), or of an event of the exact path: the state at the load at which
 /// the next bonds break, just before breakage.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
     /// Number of the step; 0 for the unloaded body.
     pub step: usize,
@@ -78,7 +78,7 @@ pub struct StepRecord {
 }
 
 /// Energies of contact in statics.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactAtRest {
     /// Energy stored in contacts between surfaces, J.
     pub contact_energy: f64,
@@ -86,13 +86,8 @@ pub struct ContactAtRest {
     pub friction_energy: f64,
 }
 
-serial!(ContactAtRest {
-    contact_energy,
-    friction_energy
-});
-
 /// Time steps and energies of a motion.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct InMotion {
     /// Number of time steps so far.
     pub time_steps: usize,
@@ -108,15 +103,6 @@ pub struct InMotion {
     /// Energy that friction and the birth and end of contacts have taken so far, J.
     pub friction_energy: f64,
 }
-
-serial!(InMotion {
-    time_steps,
-    initial_energy,
-    kinetic_energy,
-    damping_energy,
-    contact_energy,
-    friction_energy,
-});
 
 impl InMotion {
     /// Energies that are positive or zero, whatever happens, by their names, J.
@@ -135,35 +121,6 @@ impl InMotion {
         now - self.initial_energy
     }
 }
-
-serial!(StepRecord {
-    step,
-    load_factor,
-    part,
-    factors,
-    displacement,
-    reaction,
-    stored_energy,
-    released_energy,
-    dissipated_energy,
-    contact,
-    external_work,
-    energy_floor,
-    broken_bonds,
-    broken_in_step,
-    largest_ratio,
-    rounds,
-    solves,
-    fragments,
-    at_rest,
-    negative_eigenvalues,
-    closed_pairs,
-    group_forces,
-    probes,
-    motion,
-    contacts,
-    rigid_bodies,
-});
 
 impl StepRecord {
     /// [Energy imbalance](Self::missing_energy) over the external work or the energy floor, whichever is larger; 0 without work. In a
@@ -224,7 +181,7 @@ pub struct BreakRecord {
 }
 
 /// Largest overlap of crack faces in a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LargestOverlap {
     /// Depth of the overlap, m.
     pub depth: f64,
@@ -233,8 +190,6 @@ pub struct LargestOverlap {
     /// Load step, or event.
     pub step: usize,
 }
-
-serial!(LargestOverlap { depth, ends, step });
 
 /// Equilibrium state, for observers that read fields.
 ///

@@ -9,7 +9,7 @@ use std::iter;
 use ligament_model::communicator::Wire;
 use ligament_model::subdomain::Subdomain;
 
-use crate::serial::{Damaged, SLICE, Serial, Sink};
+use crate::serial::{Damaged, SLICE, Serial, Sink, read_values, write_values};
 
 /// Appends a list of `n_all` values, each with its index from the process that owns it (ascending on each), and `usual` where no process has
 /// one. Rank 0 alone appends bytes; collective.
@@ -31,24 +31,25 @@ pub fn write_by_index<T, const N: usize>(
         if subdomain.communicator().is_root() {
             let mut slice = vec![usual; end - begin];
             rows.for_each(|(index, value)| slice[index - begin] = value);
-            T::write_list(&slice, out);
+            write_values(&slice, &usual, out);
         }
     }
 }
 
-/// Reads a list of `count` values, and returns those with some indices (ascending).
+/// Reads a list of `count` values with a `usual` one, and returns those with some indices (ascending).
 ///
 /// # Errors
 ///
 /// If the bytes are damaged.
-pub fn read_by_index<T: Serial>(
+pub fn read_by_index<T: Serial + Clone>(
     count: usize,
+    usual: &T,
     indices: impl Iterator<Item = usize>,
     from: &mut dyn Read,
 ) -> Result<Vec<T>, Damaged> {
     let mut kept = Vec::new();
     let (mut next, mut index) = (indices.peekable(), 0);
-    T::read_each(count, from, |value| {
+    read_values(count, usual, from, |value| {
         if next.next_if_eq(&index).is_some() {
             kept.push(value);
         }

@@ -141,12 +141,12 @@ impl State {
     ) -> Result<Self, CheckpointError> {
         let mut state = Self {
             load_factor: Serial::read(from)?,
-            displacement: numbers.read_points(n_components, from)?,
+            displacement: numbers.read_points(n_components, 0.0, from)?,
             intact: numbers.read(true, from)?,
             broken_by: numbers.read(None, from)?,
             softening: Softening::read(numbers, criteria, from)?,
             dissipated: numbers.read(0.0, from)?,
-            held: numbers.read_points(n_components, from)?,
+            held: numbers.read_points(n_components, false, from)?,
             friction: Serial::read(from)?,
             surfaces: LastTouching::default(),
             rigid: Vec::new(),

@@ -1,11 +1,9 @@
 //! Messages to the user about a model, its run or its modes.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
 use std::io::Read;
-
-use crate::serial;
-use crate::serial::{Damaged, Serial, Sink};
 
 /// Largest number of points that one message names.
 const SHOWN: usize = 5;
@@ -23,7 +21,7 @@ pub trait PointNames {
 }
 
 /// Where in a run a message applies.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Place {
     /// The model, before the run.
     Model,
@@ -34,7 +32,7 @@ pub enum Place {
 }
 
 /// A message to the user.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Message {
     /// Where in the run it applies.
     pub place: Place,
@@ -48,14 +46,6 @@ pub struct Message {
     /// What the user can do about it, if anything is known.
     pub advice: Option<String>,
 }
-
-serial!(Message {
-    place,
-    kind,
-    text,
-    points,
-    advice
-});
 
 impl Message {
     /// A message about a model.
@@ -171,38 +161,6 @@ impl fmt::Display for Message {
             Some(advice) => write!(formatter, "; {advice}"),
             None => Ok(()),
         }
-    }
-}
-
-impl Serial for Place {
-    fn write(&self, out: &mut dyn Sink) {
-        let (tag, value): (u8, u64) = match *self {
-            Self::Model => (0, 0),
-            Self::Step(step) => (1, step as u64),
-            Self::Time(time) => (2, time.to_bits()),
-        };
-        tag.write(out);
-        value.write(out);
-    }
-
-    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
-        let (tag, value) = (u8::read(from)?, u64::read(from)?);
-        match tag {
-            0 => Ok(Self::Model),
-            1 => value.try_into().map(Self::Step).map_err(|_| Damaged),
-            2 => Ok(Self::Time(f64::from_bits(value))),
-            _ => Err(Damaged),
-        }
-    }
-}
-
-impl Serial for Cow<'static, str> {
-    fn write(&self, out: &mut dyn Sink) {
-        self.clone().into_owned().write(out);
-    }
-
-    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
-        String::read(from).map(Self::Owned)
     }
 }
 

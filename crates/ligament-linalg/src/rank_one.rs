@@ -1,7 +1,9 @@
 //! A change of a matrix of rank one.
 
+use serde::{Deserialize, Serialize};
+
 /// A term c w w^T of a change of the matrix.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RankOne {
     /// Factor c: positive where stiffness is added, negative where it is removed.
     pub weight: f64,

@@ -1,7 +1,10 @@
 //! Interface of all cells, planar cells, and faces of solid cells.
 
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
 /// Interface of a cell in D dimensions.
-pub trait MeshCell<const D: usize>: Copy + Sync {
+pub trait MeshCell<const D: usize>: Copy + Sync + Serialize + DeserializeOwned {
     /// The cell with given corner nodes, in their order; `None` where no kind of cell has so many.
     fn from_corners(corners: &[u32]) -> Option<Self>;
 
@@ -24,7 +27,7 @@ pub trait MeshCell<const D: usize>: Copy + Sync {
 
 /// A planar cell given by its corner nodes (indices into the mesh's nodes), counter-clockwise; in space the face of a solid cell, whose
 /// corners are counter-clockwise seen from its front.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Cell {
     /// Three corners.
     Triangle([u32; 3]),

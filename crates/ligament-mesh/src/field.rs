@@ -1,7 +1,9 @@
 //! Values at the nodes from a mesh file.
 
+use serde::{Deserialize, Serialize};
+
 /// A view of a post-processing program at one time: a section `$NodeData`.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct NodeField {
     /// Name of the view.
     pub name: String,

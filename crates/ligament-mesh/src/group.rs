@@ -1,9 +1,11 @@
 //! Physical groups.
 
+use serde::{Deserialize, Serialize};
+
 use crate::cell::Cell;
 
 /// A physical group of the mesh file: a named set of nodes, with its edges, faces or cells.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct Group {
     /// Name of the group; for an unnamed group its number in decimal.
     pub name: String,

@@ -12,13 +12,13 @@
 //! bytes. A file is written under a temporary name and renamed when it is complete and synced to disk; the previous checkpoint is kept, in
 //! case the newest one is damaged later.
 
+use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::hash::Hasher;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use ligament_analysis::Message;
-use ligament_analysis::serial;
 use ligament_analysis::serial::{Serial, Sink};
 use twox_hash::XxHash64;
 
@@ -43,7 +43,7 @@ const DIGEST: u64 = size_of::<u64>() as u64;
 const AT_ONCE: usize = 1 << 16;
 
 /// The state of a run except its solution.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Version of the program that wrote the checkpoint.
     pub version: String,
@@ -55,23 +55,14 @@ pub struct Checkpoint {
     pub messages: Vec<Message>,
 }
 
-serial!(Checkpoint {
-    version,
-    inputs,
-    results,
-    messages
-});
-
 /// Place of the solution and of the state of the driver in the file of a checkpoint.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StoredSolution {
     /// Index in [`NAMES`] of the file.
     file: usize,
     /// First byte and length.
     bytes: [u64; 2],
 }
-
-serial!(StoredSolution { file, bytes });
 
 impl StoredSolution {
     /// Opens the solution in the folder of the results.

@@ -1,23 +1,21 @@
 //! Length and digest of a written file, to detect later changes.
 
+use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use ligament_analysis::serial;
 use std::hash::Hasher;
 use twox_hash::XxHash64;
 
 /// Length and digest of the beginning of a written file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Written {
     /// Length, bytes.
     pub length: u64,
     /// XXH64 digest of these bytes.
     pub digest: u64,
 }
-
-serial!(Written { length, digest });
 
 /// Size of a buffer for reading, bytes.
 const AT_ONCE: usize = 1 << 16;

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use ligament_analysis::messages::{Way, of_first, receive, send};
-use ligament_analysis::serial::{Damaged, Serial, write_list};
+use ligament_analysis::serial::{self, Damaged, Serial};
 use ligament_model::PointCloud;
 use ligament_model::communicator::Communicator;
 
@@ -90,7 +90,7 @@ fn of_first_process<const D: usize>(
         return Ok((cloud, part.map_err(unreadable)?));
     };
     let spacing = &whole.cloud.spacing;
-    send(together, Way::ToAll, |out| write_list(spacing, out));
+    send(together, Way::ToAll, |out| serial::write(&**spacing, out));
     let near = near_points(setup, &mut whole.cloud, communicator);
     let own = whole.cloud.box_around(near.iter().copied());
     let boxes = together.all_gather_list(own.to_vec());

@@ -21,14 +21,13 @@
 
 use ligament_model::surface::{Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{dot, norm};
-
-use crate::serial;
+use serde::{Deserialize, Serialize};
 
 /// Depth over the length of the longest edge of a facet that is rounding of positions.
 const ROUNDING: f64 = 1e-13;
 
 /// Force on surfaces that were in contact, against their motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Drag {
     /// Contact before the step.
     pub touch: Touch,
@@ -37,7 +36,7 @@ pub struct Drag {
 }
 
 /// Contacts of a pair of surfaces.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct PairContacts {
     /// Integration points in contact, ascending.
     pub touches: Vec<Touch>,
@@ -185,24 +184,3 @@ fn bound(touch: &mut Touch, way: Vector, left: Left, rounding: f64) {
         touch.slip = touch.slip.map(|it| factor * it);
     }
 }
-
-serial!(Touch {
-    place,
-    onto,
-    weights,
-    arm,
-    normal,
-    overlap,
-    offset,
-    slip,
-    stiffness,
-    credit,
-    area,
-    is_first
-});
-serial!(Drag { touch, force });
-serial!(PairContacts {
-    touches,
-    drags,
-    credit
-});

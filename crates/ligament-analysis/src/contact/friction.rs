@@ -7,21 +7,18 @@
 //! The friction of each equilibrium, and of each explicit step, follows from that of the last one, which a [`Friction`] keeps: the return
 //! mapping of implicit steps (Wriggers 2006, chapter 10).
 
-use std::io::Read;
+use serde::{Deserialize, Serialize};
 
 use ligament_model::contact::{ClosedPair, ContactPair, Rubbing};
 use ligament_model::layout::Layout;
 use ligament_model::surface::Vector;
 use ligament_model::tensor::{minus, norm};
 
-use crate::serial;
-use crate::serial::{Damaged, Serial, Sink};
-
 /// Rounding by which a force may exceed its limit where nothing has moved.
 const ROUNDING: f64 = 1e-12;
 
 /// Motion along the crack at which a pair of faces carries no force, and the force that it carries.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Anchored {
     /// Anchor s, m.
     anchor: Vector,
@@ -30,12 +27,6 @@ struct Anchored {
     /// Motion of the faces against each other along the crack, P w, m.
     slip: Vector,
 }
-
-serial!(Anchored {
-    anchor,
-    force,
-    slip
-});
 
 impl Anchored {
     /// Returns the force to Coulomb's limit, N, for a stiffness, N/m; the share of the elastic force that is left.
@@ -52,22 +43,10 @@ impl Anchored {
 }
 
 /// Friction of the faces of cracks in the last equilibrium or after the last time step; empty without friction.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Friction {
     /// Pairs by their numbers, ascending.
     pairs: Vec<(u32, Anchored)>,
-}
-
-impl Serial for Friction {
-    fn write(&self, out: &mut dyn Sink) {
-        self.pairs.write(out);
-    }
-
-    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
-        let pairs: Vec<(u32, Anchored)> = Serial::read(from)?;
-        let is_ascending = pairs.is_sorted_by(|one, other| one.0 < other.0);
-        is_ascending.then_some(Self { pairs }).ok_or(Damaged)
-    }
 }
 
 impl Friction {

@@ -1,5 +1,6 @@
 //! What may come into contact in a problem: surfaces and rigid bodies, the stiffness that contacts can have, and their resultants.
 
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 use ligament_model::layout::Layout;
@@ -7,7 +8,6 @@ use ligament_model::surface::{Missed, Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{minus, norm};
 
 use super::rigid_body::{RigidBody, RigidMotion, add};
-use crate::serial;
 
 /// Contacts of a body and its rigid bodies. A copy shares the surfaces.
 #[derive(Debug, Clone, Default)]
@@ -101,7 +101,7 @@ impl ContactProblem {
 }
 
 /// Resultants of a contact.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactReading {
     /// Pressing force on the first surface, N; against a rigid body that on the surface of the deformable body.
     pub normal_force: Vector,
@@ -145,11 +145,3 @@ pub struct ContactStiffness {
     /// Bound of the squared frequency of free rigid bodies, 1/s^2.
     pub squared_frequency: f64,
 }
-
-serial!(ContactReading {
-    normal_force,
-    friction_force,
-    pressing,
-    area,
-    penetration
-});

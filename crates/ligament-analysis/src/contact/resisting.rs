@@ -6,8 +6,7 @@ use ligament_model::held::{ACROSS_THE_WAY, held_motions};
 use ligament_model::layout::Layout;
 use ligament_model::surface::Vector;
 use ligament_model::tensor::dot;
-
-use crate::serial;
+use serde::{Deserialize, Serialize};
 
 /// Least cosine between the ways of two terms that pass for the same in a factor: those of sliding pairs change with every iterate, and
 /// matter little.
@@ -17,7 +16,7 @@ const NEAR: f64 = 0.99;
 const AS_STIFF: f64 = 0.5;
 
 /// A motion c . u that a contact resists with a stiffness k: the term k c c^T.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Resisting {
     /// Number of the contact, and which of its motions this is ([`ACROSS`] and further ones). Pairs across cracks have the numbers of their
     /// bonds, of 32 bits; integration points of surfaces have theirs, with the number of their contact from one on in the upper 32 bits.
@@ -29,13 +28,6 @@ pub(crate) struct Resisting {
     /// Degrees of freedom with their coefficients c.
     pub(crate) row: Vec<(usize, f64)>,
 }
-
-serial!(Resisting {
-    key,
-    way,
-    stiffness,
-    row
-});
 
 /// Motion across the faces.
 pub(crate) const ACROSS: usize = 0;

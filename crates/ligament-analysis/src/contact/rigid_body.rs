@@ -2,9 +2,9 @@
 
 use ligament_model::surface::{Pose, Vector};
 use ligament_model::tensor::dot;
+use serde::{Deserialize, Serialize};
 
 use crate::load_program::Amplitude;
-use crate::serial;
 
 /// A rigid body.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +39,7 @@ pub enum RigidMotion {
 }
 
 /// State of a rigid body in a record.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct RigidState {
     /// Displacement since time zero, m.
     pub displacement: Vector,
@@ -56,7 +56,7 @@ pub struct RigidState {
 }
 
 /// Velocities and accelerations of a free rigid body; zero where the motion is prescribed.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct RigidRates {
     /// Velocity, m/s.
     pub velocity: Vector,
@@ -179,22 +179,3 @@ pub(crate) fn add(sum: &mut Vector, factor: f64, vector: Vector) {
         *sum += factor * value;
     }
 }
-
-serial!(RigidState {
-    displacement,
-    velocity,
-    force,
-    rotation,
-    angular_velocity,
-    moment
-});
-serial!(RigidRates {
-    velocity,
-    acceleration,
-    angular_velocity,
-    angular_acceleration
-});
-serial!(Pose {
-    displacement,
-    rotation
-});

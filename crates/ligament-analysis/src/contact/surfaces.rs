@@ -3,6 +3,7 @@
 //! The law ([`ligament_model::surface`]) is one of steps at the present positions. Friction and the depth of contacts that began with an
 //! overlap follow from the last time step, or from the last equilibrium.
 
+use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -16,7 +17,6 @@ use super::energy_bound::PairContacts;
 use super::problem::{ContactProblem, ContactReading, SurfaceContact};
 use super::resisting::{ACROSS, Resisting};
 use super::rigid_body::{Resultant, RigidState, add};
-use crate::serial;
 
 /// Share of the length of a facet by which surfaces move in an iteration at most: deeper overlaps than a facet is long are not seen.
 const FARTHEST: f64 = 0.25;
@@ -28,15 +28,13 @@ const SLIDING: f64 = 0.5;
 const ROUNDING: f64 = 1e-10;
 
 /// Contact between surfaces in a state.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Touching {
     /// Contacts of each pair of surfaces; none before the first search.
     pub pairs: Vec<PairContacts>,
     /// Place of each rigid body.
     pub rigid: Vec<Pose>,
 }
-
-serial!(Touching { pairs, rigid });
 
 impl Touching {
     /// Integration points in contact.

@@ -1,5 +1,6 @@
 //! Progress of a run: contents of a checkpoint other than the state, and the run restored from one.
 
+use serde::{Deserialize, Serialize};
 use std::io::Read;
 
 use super::energies::Energies;
@@ -13,11 +14,11 @@ use crate::error::SetupError;
 use crate::history::{LargestOverlap, StepRecord};
 use crate::load_program::LoadCourse;
 use crate::problem::Problem;
-use crate::serial;
-use crate::serial::{Damaged, Serial, Sink, require_end};
+use crate::serial::{Damaged, Serial, require_end};
 use crate::state::State;
 
 /// Progress of a run.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Progress {
     pub(super) elastic: ElasticAnswer,
     pub(super) broken: usize,
@@ -39,21 +40,6 @@ pub(super) struct Progress {
     pub(super) overlap: Option<LargestOverlap>,
 }
 
-serial!(Progress {
-    elastic,
-    broken,
-    history,
-    peak,
-    energy_was_negative,
-    solves,
-    negative_eigenvalues,
-    part_start,
-    part,
-    control_start,
-    largest_force,
-    overlap,
-});
-
 impl Progress {
     /// Problem with the loads of the present part of its programme; None where the progress belongs to another programme.
     fn problem(&self, problem: &Problem) -> Option<Problem> {
@@ -71,6 +57,7 @@ impl Progress {
 }
 
 /// Position of a driver.
+#[derive(Serialize, Deserialize)]
 pub(super) enum Place {
     /// Before an event of the exact path.
     Event(ToEvent),
@@ -79,6 +66,7 @@ pub(super) enum Place {
 }
 
 /// Position before an event.
+#[derive(Serialize, Deserialize)]
 pub(super) struct ToEvent {
     /// Number of the event.
     pub(super) step: usize,
@@ -86,41 +74,12 @@ pub(super) struct ToEvent {
     pub(super) growth: Vec<f64>,
 }
 
-serial!(ToEvent { step, growth });
-
 /// Position within a load step.
+#[derive(Serialize, Deserialize)]
 pub(super) struct InLoadStep {
     pub(super) counters: StepCounters,
     /// Load factors of the steps up to the present one, that of the unloaded body first.
     pub(super) load_factors: Vec<f64>,
-}
-
-serial!(InLoadStep {
-    counters,
-    load_factors,
-});
-
-impl Serial for Place {
-    fn write(&self, out: &mut dyn Sink) {
-        match self {
-            Self::Event(place) => {
-                false.write(out);
-                place.write(out);
-            }
-            Self::LoadStep(place) => {
-                true.write(out);
-                place.write(out);
-            }
-        }
-    }
-
-    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
-        Ok(if bool::read(from)? {
-            Self::LoadStep(Serial::read(from)?)
-        } else {
-            Self::Event(Serial::read(from)?)
-        })
-    }
 }
 
 /// A restored run, in equilibrium and ready to continue.
@@ -211,18 +170,13 @@ impl Restored {
 const OTHER_SUMS: f64 = 1e-9;
 
 /// Check values of an equilibrium, which hardly agree for another one.
+#[derive(Serialize, Deserialize)]
 pub(super) struct CheckValues {
     /// Number of processes over which the body is divided; 0 where one has all of it.
     n_ranks: usize,
     stored_energy: f64,
     force_scale: f64,
 }
-
-serial!(CheckValues {
-    n_ranks,
-    stored_energy,
-    force_scale
-});
 
 impl CheckValues {
     /// Check values of an equilibrium of a problem.

@@ -1,5 +1,6 @@
 //! Energies along a run, as all drivers count them.
 
+use serde::{Deserialize, Serialize};
 use std::io::Read;
 
 use ligament_model::deformation::Deformations;
@@ -13,7 +14,6 @@ use crate::contact::faces::{FaceEnergy, FaceLoss};
 use crate::contact::{LastTouching, SurfaceEnergy, SurfaceWork};
 use crate::history::{ContactAtRest, InMotion};
 use crate::problem::Problem;
-use crate::serial;
 use crate::serial::{Serial, Sink};
 use crate::state::State;
 
@@ -51,16 +51,11 @@ pub(super) struct Energies {
 }
 
 /// Force and displacement of a degree of freedom in the last state.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, Serialize, Deserialize)]
 struct Loaded {
     force: f64,
     displacement: f64,
 }
-
-serial!(Loaded {
-    force,
-    displacement
-});
 
 impl Energies {
     /// Appends the data that do not follow from the problem and the state.

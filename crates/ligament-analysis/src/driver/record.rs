@@ -1,5 +1,6 @@
 //! Records and checkpoints of the times of a run, as all drivers make them.
 
+use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
 use ligament_model::failure::CriteriaInState;
@@ -19,13 +20,12 @@ use crate::load_program::groups_of_reactions;
 use crate::probe;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
-use crate::serial;
 use crate::serial::Sink;
 use crate::softened::SoftenedOfAll;
 use crate::state::State;
 
 /// Counters of a load step.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct StepCounters {
     pub(super) step: usize,
     pub(super) broken: usize,
@@ -36,17 +36,6 @@ pub(super) struct StepCounters {
     pub(super) negative_eigenvalues: usize,
     pub(super) largest_ratio: f64,
 }
-
-serial!(StepCounters {
-    step,
-    broken,
-    broken_in_step,
-    rounds,
-    solves,
-    at_rest,
-    negative_eigenvalues,
-    largest_ratio,
-});
 
 /// A body at a time of its run, as records and observers see it.
 #[derive(Clone, Copy)]

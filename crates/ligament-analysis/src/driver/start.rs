@@ -7,11 +7,12 @@ use crate::balanced::{Attempt, Balanced, Stability};
 use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
+use crate::gauges;
 use crate::history::{Ahead, Observer, ObserverError, StepRecord, Termination, View};
 use crate::problem::Problem;
 use crate::state::State;
 use crate::user_message::Message;
-use crate::{gauges, serial};
+use serde::{Deserialize, Serialize};
 
 /// State and elastic solution before the first load step.
 #[derive(Clone)]
@@ -26,19 +27,13 @@ pub(super) struct Start {
 }
 
 /// Results of the elastic solution.
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 pub(super) struct ElasticAnswer {
     /// Force over displacement of the control load, N/m; NaN where there is no equilibrium or nothing resists the load.
     pub(super) stiffness: f64,
     pub(super) first_break: Option<LoadPoint>,
     pub(super) stability: Option<Stability>,
 }
-
-serial!(ElasticAnswer {
-    stiffness,
-    first_break,
-    stability
-});
 
 /// Fixes detached parts, and solves once at load factor one for the stiffness, the first breakage and the inertia.
 ///

@@ -4,9 +4,9 @@ use crate::balanced::Stability;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{LargestOverlap, StepRecord, Termination};
-use crate::serial;
 use crate::solver::SolverChoice;
 use crate::state::State;
+use serde::{Deserialize, Serialize};
 
 /// A way to follow a load program: elastic solutions, load steps, the exact path, or a motion in explicit or implicit steps.
 ///
@@ -104,7 +104,7 @@ pub enum Rows {
 }
 
 /// A point of the force-displacement curve.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LoadPoint {
     /// Displacement of the control load, m.
     pub displacement: f64,
@@ -113,12 +113,6 @@ pub struct LoadPoint {
     /// Load factor.
     pub load_factor: f64,
 }
-
-serial!(LoadPoint {
-    displacement,
-    reaction,
-    load_factor
-});
 
 impl Outcome {
     /// Whether the run ended without any equilibrium of the loaded body; false for a run that was stopped, which may still reach

@@ -75,9 +75,12 @@ impl EarlierEquilibria {
     ) -> Result<Self, CheckpointError> {
         let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
         let values = |from: &mut dyn Read| match usize::read(from)? {
-            count if count == own.n_all => {
-                Ok(read_by_index(count, own.places.iter().copied(), from)?)
-            }
+            count if count == own.n_all => Ok(read_by_index(
+                count,
+                &0.0,
+                own.places.iter().copied(),
+                from,
+            )?),
             _ => Err(CheckpointError::OtherModel),
         };
         let curvature = Curvature::read(values, from)?;
@@ -86,7 +89,7 @@ impl EarlierEquilibria {
         let mut precedent = || {
             Ok(Precedent {
                 load_factor: Serial::read(from)?,
-                displacement: numbers.read_points(n_components, from)?,
+                displacement: numbers.read_points(n_components, 0.0, from)?,
             })
         };
         let equilibria: Result<Vec<Precedent>, CheckpointError> =

@@ -4,15 +4,13 @@
 //! times the largest deformation. Relative to the stiffest point alone, two nearly coincident points would hide the residuals of
 //! all others.
 
-use std::io::Read;
+use serde::{Deserialize, Serialize};
 
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
 use ligament_model::subdomain::Subdomain;
 
 use crate::restraints::Restraints;
-use crate::serial;
-use crate::serial::{Damaged, Serial, Sink};
 use crate::unknowns::Layout;
 
 /// Residual, relative to the forces that may act at a point, below which a state is in equilibrium.
@@ -44,7 +42,7 @@ pub(super) struct LocalStiffness {
 }
 
 /// Largest of some forces, and largest ratio of these forces to the stiffness of their points.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct Extent {
     /// N, of moments N m.
     force: f64,
@@ -53,20 +51,8 @@ struct Extent {
 }
 
 /// Extents of forces and of moments.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 pub(super) struct Extents([Extent; 2]);
-
-serial!(Extent { force, deformation });
-
-impl Serial for Extents {
-    fn write(&self, out: &mut dyn Sink) {
-        self.0.write(out);
-    }
-
-    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
-        Serial::read(from).map(Self)
-    }
-}
 
 /// Forces to which a residual is relative.
 #[derive(Debug, Clone, Copy)]

@@ -4,6 +4,7 @@
 //! its factor is computed from the recorded bonds and updated by the recorded terms. The record takes a few kilobytes, the values
 //! of the factor most of the memory of the run.
 
+use serde::{Deserialize, Serialize};
 use std::io::Read;
 use std::sync::Arc;
 
@@ -13,14 +14,13 @@ use ligament_model::{Bonds, UnbrokenBonds};
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
-use crate::serial;
-use crate::serial::{Damaged, Serial, Sink};
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 use crate::stiffness::Stiffness;
 use crate::unknowns::Unknowns;
 
 /// Bonds and supports from which a factor was computed, and all updates since.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct FactorRecord {
     /// Whether each bond was intact, shape (n_bonds).
     pub(super) intact: Vec<bool>,
@@ -33,14 +33,6 @@ pub(super) struct FactorRecord {
     /// Updates in place, in order.
     pub(super) changes: Vec<Vec<RankOne>>,
 }
-
-serial!(FactorRecord {
-    intact,
-    remaining,
-    held,
-    beside,
-    changes
-});
 
 impl FactorRecord {
     /// Record of a new factor of a state, with its decoupled degrees of freedom and additional terms.
@@ -84,7 +76,7 @@ impl FactorRecord {
         Ok(Self {
             intact: numbers.read(true, from)?,
             remaining: numbers.read(StiffnessFactors::WHOLE, from)?,
-            held: numbers.read_points(n_components, from)?,
+            held: numbers.read_points(n_components, false, from)?,
             beside: Serial::read(from)?,
             changes: Serial::read(from)?,
         })
@@ -122,19 +114,5 @@ impl FactorRecord {
             factor.change(terms, &[]).ok()?;
         }
         Some(factor)
-    }
-}
-
-impl Serial for RankOne {
-    fn write(&self, out: &mut dyn Sink) {
-        self.weight.write(out);
-        self.entries.write(out);
-    }
-
-    fn read(from: &mut dyn Read) -> Result<Self, Damaged> {
-        Ok(Self {
-            weight: Serial::read(from)?,
-            entries: Serial::read(from)?,
-        })
     }
 }

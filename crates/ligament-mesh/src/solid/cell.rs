@@ -1,11 +1,13 @@
 //! Solid cells.
 
+use serde::{Deserialize, Serialize};
+
 use crate::cell::{Cell, MeshCell};
 
 /// A solid cell given by its corner nodes (indices into the mesh's nodes), in the order of Gmsh.
 ///
 /// The volume is positive: seen from the top (or the apex), the corners of the base are counter-clockwise.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum SolidCell {
     /// A triangle and the apex over it.
     Tetrahedron([u32; 4]),

@@ -1,7 +1,9 @@
 //! Strains of a bond that criteria measure.
 
+use serde::{Deserialize, Serialize};
+
 /// Deformation of a bond: the strains of its element, in the order of [`ElementKind::strain_names`](super::ElementKind::strain_names).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct BondDeformation {
     strains: [f64; 3],
 }

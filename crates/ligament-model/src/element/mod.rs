@@ -22,6 +22,8 @@ pub mod spring;
 pub mod strain_stiffness;
 pub mod true_strain;
 
+use serde::{Deserialize, Serialize};
+
 use crate::bonds::{BondSet, Incidence};
 use crate::communicator::Wire;
 use crate::deformation::Deformation;
@@ -119,7 +121,7 @@ impl Rigidities {
 }
 
 /// Remaining stiffness of a bond: factors of its rigidities.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StiffnessFactors {
     /// Factor of the axial rigidity.
     pub axial: f64,

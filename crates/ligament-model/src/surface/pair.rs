@@ -1,5 +1,7 @@
 //! Surfaces that may come into contact, without their coordinates.
 
+use serde::{Deserialize, Serialize};
+
 use std::fmt::Debug;
 
 use super::cells::Bonded;
@@ -20,7 +22,7 @@ pub struct Step<'a> {
 }
 
 /// Displacement of a rigid body and its rotation about its middle.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Pose {
     /// Displacement, m.
     pub displacement: Vector,

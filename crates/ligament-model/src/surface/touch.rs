@@ -1,12 +1,14 @@
 //! An integration point of a surface in contact, with its history.
 
+use serde::{Deserialize, Serialize};
+
 use crate::tensor::{dot, norm};
 
 /// A vector of space; in the plane without a third component.
 pub type Vector = [f64; 3];
 
 /// An integration point of a surface in contact.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Touch {
     /// Number of the integration point.
     pub place: u32,

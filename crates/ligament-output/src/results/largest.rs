@@ -1,8 +1,8 @@
 //! Largest utilisations of the bonds.
 
 use ligament_analysis::history::View;
-use ligament_analysis::serial;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::vtu::Field;
 
@@ -13,25 +13,18 @@ const TASK: usize = 4096;
 const SAME: f64 = 1.0 + 2e-7;
 
 /// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Largest {
     of_bonds: Vec<Seen>,
 }
 
 /// The largest utilisation of a bond so far.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 struct Seen {
     utilisation: f32,
     step: u32,
     criterion: u32,
 }
-
-serial!(Seen {
-    utilisation,
-    step,
-    criterion
-});
-serial!(Largest { of_bonds });
 
 /// Arrays for a file.
 pub(super) struct Columns {

@@ -2,7 +2,7 @@
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
-use ligament_analysis::serial;
+use serde::{Deserialize, Serialize};
 
 use super::largest::Largest;
 use super::softening_table::{self, SofteningProgress};
@@ -11,7 +11,7 @@ use crate::folder::{Kind, ResultFolder};
 use crate::written::Written;
 
 /// State of the written results of a run.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OutputState {
     pub(super) tables: Progress,
     pub(super) softening: Option<SofteningProgress>,
@@ -26,17 +26,6 @@ pub struct OutputState {
     /// Names of the completed files, with their contents' lengths and digests.
     pub(super) whole: Vec<(String, Written)>,
 }
-
-serial!(OutputState {
-    tables,
-    softening,
-    first,
-    fields,
-    bonds,
-    breaks,
-    largest,
-    whole
-});
 
 impl OutputState {
     /// Whether the state matches a problem.

@@ -2,9 +2,9 @@
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{StepRecord, View};
-use ligament_analysis::serial;
 use ligament_model::BodyGrid;
 use ligament_model::failure::Weakened;
+use serde::{Deserialize, Serialize};
 
 use super::columns::{SOFTENED_BY, SOFTENING, names};
 use super::tables::{ends, labels_of};
@@ -83,13 +83,11 @@ pub(super) struct SoftenedBond {
 }
 
 /// State of the table in a checkpoint.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct SofteningProgress {
     pub(super) written: Written,
     pub(super) of_bonds: Vec<u8>,
 }
-
-serial!(SofteningProgress { written, of_bonds });
 
 impl SofteningProgress {
     /// Whether it can be that of a run with so many bonds.

@@ -1,10 +1,11 @@
 //! The CSV tables of a run.
 
+use ligament_analysis::Bonds;
 use ligament_analysis::costs::Costs;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{BreakRecord, StepRecord, View};
-use ligament_analysis::{Bonds, serial};
 use ligament_model::BodyGrid;
+use serde::{Deserialize, Serialize};
 
 use super::columns::{
     BREAKS, CLOSING, CONTACT, CONTACTS, CRITERIA, ENDS, FAILURE, HISTORY, ITERATIONS, MOTION,
@@ -72,15 +73,13 @@ fn stage_columns(problem: &Problem) -> Vec<String> {
 type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
 
 /// State of the tables of a run in a checkpoint.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Progress {
     /// Length and digest of each of [`FILES`].
     pub(super) of_files: [Written; 4],
     /// Costs up to the last row of timings.
     costs: Costs,
 }
-
-serial!(Progress { of_files, costs });
 
 pub(super) struct Tables {
     history: Table,

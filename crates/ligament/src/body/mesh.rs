@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::io::Read;
 use std::sync::Arc;
 
-use ligament_analysis::serial::{Damaged, Serial, Sink};
+use ligament_analysis::serial::{Damaged, Sink};
 use ligament_mesh::{Cell, Group, Mesh, MeshCell, NodeField, Numbering, SolidCell};
 use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
@@ -414,14 +414,14 @@ impl<const D: usize, C: BodyCell<D>> MeshedBody<D> for BodyOnMesh<D, C> {
     }
 
     fn write_nodes(&self, out: &mut dyn Sink) {
-        Serial::write(&self.without_cells(), out);
+        self.without_cells().write(out);
     }
 
     fn write(&self, out: &mut dyn Sink) {
-        Serial::write(self, out);
+        self.write(out);
     }
 
     fn read(&self, from: &mut dyn Read) -> Result<Arc<dyn Geometry<D>>, Damaged> {
-        Ok(Arc::new(<Self as Serial>::read(from)?))
+        Ok(Arc::new(Self::read(from)?))
     }
 }

@@ -2,13 +2,13 @@
 
 use crate::history::Ahead;
 use crate::motion::{MotionError, MotionSettings, Scheme};
-use crate::serial;
+use serde::{Deserialize, Serialize};
 
 /// Largest number of time steps: a step of the smallest body takes a microsecond, so that these take eleven days.
 const MOST_STEPS: f64 = 1e12;
 
 /// Times of a motion.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Clock {
     /// Duration, s.
     pub(super) duration: f64,
@@ -17,12 +17,6 @@ pub(super) struct Clock {
     /// Number of time steps between two rows.
     pub(super) steps_per_row: usize,
 }
-
-serial!(Clock {
-    duration,
-    rows,
-    steps_per_row,
-});
 
 impl Clock {
     /// Times with the largest step that divides the time between two rows and is not larger than `at_most`, s.

@@ -3,6 +3,7 @@
 //! With the velocities v- and v+ in the middles of the steps before and after a time, a = (v+ - v-)/dt and v = (v+ + v-)/2, so that damping alpha M
 //! and dashpots are implicit in the velocity: v+ = (M/dt + C/2)^-1 ((M/dt - C/2) v- + F - f).
 
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
@@ -11,7 +12,6 @@ use rayon::prelude::*;
 use crate::contact::RigidRates;
 use crate::history::Rates;
 use crate::motion::MotionProblem;
-use crate::serial;
 use crate::vectors::{CHUNK, sum_of_chunks};
 
 /// Masses and damping of a body for a time step.
@@ -40,6 +40,7 @@ struct Dashed {
 }
 
 /// Motions of the points at a time, each of shape (n_degrees_of_freedom).
+#[derive(Serialize, Deserialize)]
 pub(super) struct Velocities {
     /// Velocities in the middle of the step, m/s and rad/s: before [`Inertia::advance`] of the last one, after it of the next one.
     pub(super) half: Vec<f64>,
@@ -48,12 +49,6 @@ pub(super) struct Velocities {
     /// Rates of the rigid bodies at the time.
     pub(super) rigid: Vec<RigidRates>,
 }
-
-serial!(Velocities {
-    half,
-    acceleration,
-    rigid
-});
 
 impl Velocities {
     /// Velocities (n_degrees_of_freedom) and accelerations for results.

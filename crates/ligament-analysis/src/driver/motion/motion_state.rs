@@ -5,9 +5,9 @@ use crate::contact::RigidRates;
 use crate::history::Rates;
 use crate::motion::{Damping, MotionProblem};
 use crate::problem::Problem;
-use crate::serial;
 use crate::state::State;
 use crate::vectors::{sum_of_chunks, weighted_square};
+use serde::{Deserialize, Serialize};
 
 /// Motion at a time.
 pub(super) struct MotionState {
@@ -20,7 +20,7 @@ pub(super) struct MotionState {
 }
 
 /// Velocities and forces at a time, each of shape (n_degrees_of_freedom).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Motion {
     pub(super) velocity: Vec<f64>,
     pub(super) acceleration: Vec<f64>,
@@ -33,15 +33,6 @@ pub(super) struct Motion {
     /// Rates of the rigid bodies; empty in equilibria without inertia.
     pub(super) rigid: Vec<RigidRates>,
 }
-
-serial!(Motion {
-    velocity,
-    acceleration,
-    internal,
-    external,
-    damping,
-    rigid,
-});
 
 /// Masses and damping of a body.
 #[derive(Clone, Copy)]

@@ -1,5 +1,6 @@
 //! Rows of the history of a motion, and its progress.
 
+use serde::{Deserialize, Serialize};
 use std::time::Instant;
 
 use super::clock::Clock;
@@ -10,7 +11,6 @@ use crate::driver::run_messages;
 use crate::driver::way::{Outcome, Rows, Stop};
 use crate::history::{InMotion, LargestOverlap, Observer, StepRecord, Termination};
 use crate::motion::MotionStop;
-use crate::serial;
 use crate::serial::{Serial, Sink};
 use crate::solver::SolverChoice;
 use crate::termination::{Growth, Verdict};
@@ -200,7 +200,7 @@ pub(super) const EXPLICIT: u8 = 2;
 pub(super) const IMPLICIT: u8 = 3;
 
 /// Progress of a motion.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Progress {
     pub(super) clock: Clock,
     /// Energies and number of time steps.
@@ -215,16 +215,6 @@ pub(super) struct Progress {
     /// Whether a part has turned beyond small angles.
     pub(super) has_turned: bool,
 }
-
-serial!(Progress {
-    clock,
-    motion,
-    damping_forces,
-    moving_since,
-    history,
-    overlap,
-    has_turned,
-});
 
 impl Progress {
     pub(super) fn at_start(clock: Clock) -> Self {

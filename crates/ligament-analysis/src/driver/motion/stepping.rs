@@ -1,5 +1,6 @@
 //! Implicit steps of one length: their equations, their loads, and the motion after them.
 
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 use super::clock::Clock;
@@ -17,7 +18,6 @@ use crate::load_program::LoadProgram;
 use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
 use crate::restraints::Restraints;
-use crate::serial;
 use crate::state::State;
 
 /// Largest number of times that a step is halved.
@@ -37,7 +37,7 @@ pub(super) struct Stepping {
 }
 
 /// Kind and length of the steps.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub(super) struct Pace {
     /// Whether the steps have inertia; steps without it are equilibria.
     pub(super) has_inertia: bool,
@@ -46,12 +46,6 @@ pub(super) struct Pace {
     /// Number of steps since the last halving or breakage.
     pub(super) calm: usize,
 }
-
-serial!(Pace {
-    has_inertia,
-    halvings,
-    calm
-});
 
 impl Pace {
     /// Steps without inertia from row to row.
