@@ -1,12 +1,12 @@
 //! Equilibrium states, and reasons for a missing equilibrium.
 
-use serde::{Deserialize, Serialize};
 use std::sync::{Arc, OnceLock};
 
 use ligament_model::Bonds;
 use ligament_model::contact::{ClosedPair, Rubbing};
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Stresses;
+use serde::{Deserialize, Serialize};
 
 use crate::contact::Touching;
 use crate::internal::InternalForces;

@@ -1,7 +1,8 @@
 //! Costs of the equations.
 
-use serde::{Deserialize, Serialize};
 use std::time::Duration;
+
+use serde::{Deserialize, Serialize};
 
 /// Accumulated costs of the equations.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]

@@ -1,7 +1,8 @@
 //! First failure of a body: the first bond that broke, and the first that began to soften.
 
-use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use serde::{Deserialize, Serialize};
+
+use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 
 /// The first bonds that broke and softened.
 ///

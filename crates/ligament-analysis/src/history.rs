@@ -14,6 +14,7 @@ use crate::load_program::LoadProgram;
 use crate::serial::Sink;
 use crate::softened::{FarthestSoftened, SoftenedOfAll};
 use crate::state::State;
+
 pub use crate::termination::Termination;
 use crate::user_message::Message;
 

@@ -1,9 +1,9 @@
 //! Messages to the user about a model, its run or its modes.
 
-use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::fmt;
-use std::io::Read;
+
+use serde::{Deserialize, Serialize};
 
 /// Largest number of points that one message names.
 const SHOWN: usize = 5;
@@ -167,6 +167,7 @@ impl fmt::Display for Message {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::serial::Serial;
 
     /// Names of nodes, which the user numbers backwards.
     struct Nodes;

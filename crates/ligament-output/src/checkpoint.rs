@@ -12,7 +12,6 @@
 //! bytes. A file is written under a temporary name and renamed when it is complete and synced to disk; the previous checkpoint is kept, in
 //! case the newest one is damaged later.
 
-use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::hash::Hasher;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
@@ -20,6 +19,7 @@ use std::path::Path;
 
 use ligament_analysis::Message;
 use ligament_analysis::serial::{Serial, Sink};
+use serde::{Deserialize, Serialize};
 use twox_hash::XxHash64;
 
 use crate::Error;

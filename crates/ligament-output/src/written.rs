@@ -1,11 +1,11 @@
 //! Length and digest of a written file, to detect later changes.
 
-use serde::{Deserialize, Serialize};
 use std::fs::File;
+use std::hash::Hasher;
 use std::io::{self, Read};
 use std::path::Path;
 
-use std::hash::Hasher;
+use serde::{Deserialize, Serialize};
 use twox_hash::XxHash64;
 
 /// Length and digest of the beginning of a written file.

@@ -7,12 +7,11 @@
 //! The friction of each equilibrium, and of each explicit step, follows from that of the last one, which a [`Friction`] keeps: the return
 //! mapping of implicit steps (Wriggers 2006, chapter 10).
 
-use serde::{Deserialize, Serialize};
-
 use ligament_model::contact::{ClosedPair, ContactPair, Rubbing};
 use ligament_model::layout::Layout;
 use ligament_model::surface::Vector;
 use ligament_model::tensor::{minus, norm};
+use serde::{Deserialize, Serialize};
 
 /// Rounding by which a force may exceed its limit where nothing has moved.
 const ROUNDING: f64 = 1e-12;

@@ -1,11 +1,11 @@
 //! What may come into contact in a problem: surfaces and rigid bodies, the stiffness that contacts can have, and their resultants.
 
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 use ligament_model::layout::Layout;
 use ligament_model::surface::{Missed, Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{minus, norm};
+use serde::{Deserialize, Serialize};
 
 use super::rigid_body::{RigidBody, RigidMotion, add};
 

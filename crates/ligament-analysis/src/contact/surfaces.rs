@@ -3,7 +3,6 @@
 //! The law ([`ligament_model::surface`]) is one of steps at the present positions. Friction and the depth of contacts that began with an
 //! overlap follow from the last time step, or from the last equilibrium.
 
-use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -12,6 +11,7 @@ use ligament_model::layout::Layout;
 use ligament_model::surface::{Bonded, Missed, Pose, Search, Step, Touch, Vector};
 use ligament_model::sweep::BondSweep;
 use ligament_model::tensor::{cross, dot, norm};
+use serde::{Deserialize, Serialize};
 
 use super::energy_bound::PairContacts;
 use super::problem::{ContactProblem, ContactReading, SurfaceContact};

@@ -1,7 +1,8 @@
 //! Progress of a run: contents of a checkpoint other than the state, and the run restored from one.
 
-use serde::{Deserialize, Serialize};
 use std::io::Read;
+
+use serde::{Deserialize, Serialize};
 
 use super::energies::Energies;
 use super::record::StepCounters;

@@ -1,10 +1,10 @@
 //! Energies along a run, as all drivers count them.
 
-use serde::{Deserialize, Serialize};
 use std::io::Read;
 
 use ligament_model::deformation::Deformations;
 use ligament_model::element::StiffnessFactors;
+use serde::{Deserialize, Serialize};
 
 use crate::balanced::Balanced;
 use crate::bond_numbers::add_over_bonds;

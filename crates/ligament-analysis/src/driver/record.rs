@@ -1,10 +1,10 @@
 //! Records and checkpoints of the times of a run, as all drivers make them.
 
-use serde::{Deserialize, Serialize};
 use std::cell::Cell;
 
 use ligament_model::failure::CriteriaInState;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use super::energies::Energies;
 use super::run_messages;

@@ -1,5 +1,7 @@
 //! First step of every driver: fixes detached parts and solves the elastic problem.
 
+use serde::{Deserialize, Serialize};
+
 use super::energies::Energies;
 use super::record::{StepCounters, largest_ratio_by, step_record};
 use super::way::LoadPoint;
@@ -12,7 +14,6 @@ use crate::history::{Ahead, Observer, ObserverError, StepRecord, Termination, Vi
 use crate::problem::Problem;
 use crate::state::State;
 use crate::user_message::Message;
-use serde::{Deserialize, Serialize};
 
 /// State and elastic solution before the first load step.
 #[derive(Clone)]

@@ -1,12 +1,13 @@
 //! A way to follow a load program, the loop that all ways have in common, and its result with the evaluation of the force-displacement curve.
 
+use serde::{Deserialize, Serialize};
+
 use crate::balanced::Stability;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{LargestOverlap, StepRecord, Termination};
 use crate::solver::SolverChoice;
 use crate::state::State;
-use serde::{Deserialize, Serialize};
 
 /// A way to follow a load program: elastic solutions, load steps, the exact path, or a motion in explicit or implicit steps.
 ///

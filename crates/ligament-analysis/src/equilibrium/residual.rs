@@ -4,11 +4,10 @@
 //! times the largest deformation. Relative to the stiffest point alone, two nearly coincident points would hide the residuals of
 //! all others.
 
-use serde::{Deserialize, Serialize};
-
 use ligament_model::Bonds;
 use ligament_model::interface::PointStiffness;
 use ligament_model::subdomain::Subdomain;
+use serde::{Deserialize, Serialize};
 
 use crate::restraints::Restraints;
 use crate::unknowns::Layout;

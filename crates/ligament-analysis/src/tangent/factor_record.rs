@@ -4,13 +4,13 @@
 //! its factor is computed from the recorded bonds and updated by the recorded terms. The record takes a few kilobytes, the values
 //! of the factor most of the memory of the run.
 
-use serde::{Deserialize, Serialize};
 use std::io::Read;
 use std::sync::Arc;
 
 use ligament_linalg::{Factorisation, RankOne, SymmetricMatrix};
 use ligament_model::element::StiffnessFactors;
 use ligament_model::{Bonds, UnbrokenBonds};
+use serde::{Deserialize, Serialize};
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;

@@ -31,6 +31,7 @@ use crate::ghosts::Ghosts;
 use crate::layout::{Component, Layout};
 use crate::subdomain::Subdomain;
 use crate::tensor::SymTensor;
+
 pub use bond_deformation::BondDeformation;
 use strain_stiffness::StrainStiffness;
 

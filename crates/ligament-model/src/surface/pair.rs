@@ -1,8 +1,8 @@
 //! Surfaces that may come into contact, without their coordinates.
 
-use serde::{Deserialize, Serialize};
-
 use std::fmt::Debug;
+
+use serde::{Deserialize, Serialize};
 
 use super::cells::Bonded;
 use super::search::Search;

@@ -1,8 +1,9 @@
 //! Times of a motion: equal time steps, of which a fixed number makes a row of the history.
 
+use serde::{Deserialize, Serialize};
+
 use crate::history::Ahead;
 use crate::motion::{MotionError, MotionSettings, Scheme};
-use serde::{Deserialize, Serialize};
 
 /// Largest number of time steps: a step of the smallest body takes a microsecond, so that these take eleven days.
 const MOST_STEPS: f64 = 1e12;

@@ -3,11 +3,11 @@
 //! With the velocities v- and v+ in the middles of the steps before and after a time, a = (v+ - v-)/dt and v = (v+ + v-)/2, so that damping alpha M
 //! and dashpots are implicit in the velocity: v+ = (M/dt + C/2)^-1 ((M/dt - C/2) v- + F - f).
 
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
 
 use crate::contact::RigidRates;
 use crate::history::Rates;

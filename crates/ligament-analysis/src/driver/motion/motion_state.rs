@@ -1,5 +1,7 @@
 //! An implicit motion at a time: state, velocities and forces.
 
+use serde::{Deserialize, Serialize};
+
 use crate::balanced::Balanced;
 use crate::contact::RigidRates;
 use crate::history::Rates;
@@ -7,7 +9,6 @@ use crate::motion::{Damping, MotionProblem};
 use crate::problem::Problem;
 use crate::state::State;
 use crate::vectors::{sum_of_chunks, weighted_square};
-use serde::{Deserialize, Serialize};
 
 /// Motion at a time.
 pub(super) struct MotionState {

@@ -1,7 +1,8 @@
 //! Rows of the history of a motion, and its progress.
 
-use serde::{Deserialize, Serialize};
 use std::time::Instant;
+
+use serde::{Deserialize, Serialize};
 
 use super::clock::Clock;
 use crate::contact::RigidMotion;

@@ -1,7 +1,8 @@
 //! Implicit steps of one length: their equations, their loads, and the motion after them.
 
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+
+use serde::{Deserialize, Serialize};
 
 use super::clock::Clock;
 use super::motion_state::{MassAndDamping, Motion, MotionState};
