@@ -3,7 +3,6 @@
 mod accuracy;
 mod active_set;
 mod contact_line;
-mod controlled;
 mod curvature;
 mod dissipating;
 mod earlier_equilibria;
@@ -48,24 +47,17 @@ use crate::stiffness::Stiffness;
 use crate::tangent::IntactSolver;
 use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
+use active_set::ActiveSet;
 use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
+use iterate::Way;
+use newton::Newton;
+use secant::Secant;
 
 pub(crate) use contact_line::Heading;
 pub(crate) use dissipating::Dissipation;
 pub(crate) use residual::ROUNDING;
 pub(crate) use target::Target;
-
-/// Iteration that solves for equilibrium.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Iteration {
-    /// Newton-Raphson, for bonds that are intact or broken.
-    Newton,
-    /// Newton's method on the set of closed pairs, for bonds that are intact or broken and crack faces that close.
-    ActiveSet,
-    /// Quasi-Newton iteration from secant stiffnesses, for bonds that soften.
-    Secants,
-}
 
 /// Quantity prescribed in place of the load factor, which is then an unknown.
 #[derive(Debug, Clone)]
@@ -82,7 +74,8 @@ pub struct Equilibrium {
     connectivity: Connectivity,
     /// Global numbers of the local bonds.
     numbers: Arc<BondNumbers>,
-    iteration: Iteration,
+    /// Whether bonds may soften, and are not only intact or broken.
+    softens: bool,
     held: Option<ControlledQuantity>,
 }
 
@@ -91,7 +84,8 @@ pub(crate) struct IntactEquilibrium {
     equations: Equations<dyn IntactSolver>,
     connectivity: Connectivity,
     numbers: Arc<BondNumbers>,
-    iteration: Iteration,
+    /// Whether bonds may soften, and are not only intact or broken.
+    softens: bool,
 }
 
 impl IntactEquilibrium {
@@ -104,7 +98,7 @@ impl IntactEquilibrium {
             equations,
             connectivity: self.connectivity.clone(),
             numbers: self.numbers.clone(),
-            iteration: self.iteration,
+            softens: self.softens,
             held: None,
         }
     }
@@ -118,7 +112,7 @@ impl Equilibrium {
             equations: self.equations.with_solver(solver),
             connectivity: self.connectivity.clone(),
             numbers: self.numbers.clone(),
-            iteration: self.iteration,
+            softens: self.softens,
         })
     }
 
@@ -145,11 +139,7 @@ impl Equilibrium {
             equations: Equations::new(problem, &numbers, energy_tolerance)?,
             numbers,
             connectivity: Connectivity::new(&*problem.system),
-            iteration: if problem.may_press() {
-                Iteration::ActiveSet
-            } else {
-                Iteration::Newton
-            },
+            softens: false,
         })
     }
 
@@ -196,9 +186,7 @@ impl Equilibrium {
 
     /// Switches to the iteration for softening bonds if the criteria soften.
     pub fn soften(&mut self) {
-        if self.equations.problem.criteria.soften() {
-            self.iteration = Iteration::Secants;
-        }
+        self.softens |= self.equations.problem.criteria.soften();
     }
 
     /// Replaces the loads of the problem by loads that prescribe the same degrees of freedom.
@@ -471,24 +459,29 @@ impl Equilibrium {
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
-        let attempt = match (&self.held, self.iteration) {
-            (Some(ControlledQuantity::Motion(target)), Iteration::Secants) => {
-                secant::balance_at(equations, state, breakage, target, observer)
+        let target = match &self.held {
+            Some(ControlledQuantity::Energy(goal)) => {
+                let attempt = dissipating::balance(equations, state, breakage, goal, observer)?;
+                return Ok(self.accepted(attempt, state));
             }
-            (Some(ControlledQuantity::Motion(target)), _) => {
-                controlled::balance(equations, state, breakage, target, observer)
-            }
-            (Some(ControlledQuantity::Energy(goal)), _) => {
-                dissipating::balance(equations, state, breakage, goal, observer)
-            }
-            (None, Iteration::Newton) => newton::balance(equations, state, breakage, observer),
-            (None, Iteration::ActiveSet) => {
-                active_set::balance(equations, state, breakage, observer)
-            }
-            (None, Iteration::Secants) => secant::balance(equations, state, breakage, observer),
-        }?;
+            Some(ControlledQuantity::Motion(target)) => Some(target),
+            None => None,
+        };
+        let way: &mut dyn Way = if self.softens {
+            &mut Secant::new(target)
+        } else if target.is_none() && equations.problem.may_press() {
+            &mut ActiveSet::new(equations)
+        } else {
+            &mut Newton { target }
+        };
+        let attempt = iterate::balance(equations, state, breakage, way, observer)?;
+        Ok(self.accepted(attempt, state))
+    }
+
+    /// An equilibrium from which surfaces and friction go on, unless forces on a part do not balance or surfaces missed each other.
+    fn accepted(&self, attempt: Attempt, state: &mut State) -> Attempt {
         let Attempt::Balanced(balanced) = &attempt else {
-            return Ok(attempt);
+            return attempt;
         };
         let fragments = self.connectivity.fragments();
         let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
@@ -496,6 +489,6 @@ impl Equilibrium {
         if reason.is_none() {
             self.equations.meeting.settle(state, balanced);
         }
-        Ok(reason.map_or(attempt, Attempt::Unbalanced))
+        reason.map_or(attempt, Attempt::Unbalanced)
     }
 }

@@ -16,6 +16,7 @@ use super::mechanism::Measure;
 use super::meeting::{Meeting, Met};
 use super::on_rigid;
 use super::residual::{Extents, OF_GAPS, ROUNDING, Residual, Rounded};
+use super::target::Target;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -193,11 +194,6 @@ impl Equations {
         Attempt::Balanced(iterate.balanced(iterations, mechanisms))
     }
 
-    /// Result of an iteration that does not converge.
-    pub(super) fn not_settled(&self, residual: &Residual, iterations: usize) -> Attempt {
-        Attempt::Unbalanced(self.unsettled(residual, iterations))
-    }
-
     /// Reason why an iteration does not converge.
     pub(super) fn unsettled(&self, residual: &Residual, iterations: usize) -> Unbalanced {
         let place = self.place(residual.degree_of_freedom as usize);
@@ -258,25 +254,6 @@ impl Equations {
         correction.is_some()
     }
 
-    /// Whether the energy of an iterate equals that of the previous one to the tolerance (NHPD eq. 21), and its residual is at most
-    /// `largest_residual`.
-    pub(super) fn energy_settled(
-        &self,
-        previous_energy: f64,
-        iterate: &Iterate,
-        largest_residual: f64,
-    ) -> bool {
-        let energy = iterate.stored_energy;
-        let change = ((energy - previous_energy) / energy).abs();
-        change < self.energy_tolerance && iterate.residual.relative <= largest_residual
-    }
-
-    /// Whether a residual is within the tolerance; before the first solution it must be zero, as it is without loads.
-    pub(super) fn is_small(&self, residual: &Residual, tolerance: f64) -> bool {
-        let is_guess = self.costs.solves == 0 && self.costs.changes == 0;
-        residual.relative <= if is_guess { 0.0 } else { tolerance }
-    }
-
     /// Correction K du = F - K u of an iterate (NHPD eqs 19 and 20) for the relative residual `sought`, shape (n_unknowns); appends
     /// the points of mechanisms that the solver found.
     pub(super) fn correction(
@@ -292,6 +269,27 @@ impl Equations {
             .accuracy
             .left(self.loaded(state), iterate.extents, sought);
         self.solve(state, force, left)
+    }
+
+    /// Adds the rate of the displacements with the load factor (n_degrees_of_freedom) to a correction (n_unknowns) so that it brings a motion
+    /// to its value. Returns the change of the load factor.
+    ///
+    /// # Errors
+    ///
+    /// If the load does not move the motion.
+    pub(super) fn constrain(
+        &self,
+        correction: &mut [f64],
+        state: &State,
+        growth: &[f64],
+        target: &Target,
+    ) -> Result<f64, Unbalanced> {
+        let moved = self.at_degrees_of_freedom(correction);
+        let change = target.load_change(&state.displacement, &moved, growth)?;
+        for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
+            *value += change * growth[dof as usize];
+        }
+        Ok(change)
     }
 
     /// Residual forces F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns), N and N m.
