@@ -3,7 +3,6 @@
 mod accuracy;
 mod active_set;
 mod contact_line;
-mod controlled;
 mod curvature;
 mod dissipating;
 mod earlier_equilibria;
@@ -34,7 +33,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
-use crate::contact::faces;
+use crate::contact::faces::FacePairs;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
@@ -47,24 +46,17 @@ use crate::stiffness::Stiffness;
 use crate::tangent::IntactSolver;
 use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
+use active_set::ActiveSet;
 use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
+use iterate::Way;
+use newton::Newton;
+use secant::Secant;
 
 pub(crate) use contact_line::Heading;
 pub(crate) use dissipating::Dissipation;
 pub(crate) use residual::ROUNDING;
 pub(crate) use target::Target;
-
-/// Iteration that solves for equilibrium.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Iteration {
-    /// Newton-Raphson, for bonds that are intact or broken.
-    Newton,
-    /// Newton's method on the set of closed pairs, for bonds that are intact or broken and crack faces that close.
-    ActiveSet,
-    /// Quasi-Newton iteration from secant stiffnesses, for bonds that soften.
-    Secants,
-}
 
 /// Quantity prescribed in place of the load factor, which is then an unknown.
 #[derive(Debug, Clone)]
@@ -81,7 +73,8 @@ pub struct Equilibrium {
     connectivity: Connectivity,
     /// Global numbers of the local bonds.
     numbers: Arc<BondNumbers>,
-    iteration: Iteration,
+    /// Whether bonds may soften, and are not only intact or broken.
+    softens: bool,
     held: Option<ControlledQuantity>,
 }
 
@@ -90,7 +83,8 @@ pub(crate) struct IntactEquilibrium {
     equations: Equations<dyn IntactSolver>,
     connectivity: Connectivity,
     numbers: Arc<BondNumbers>,
-    iteration: Iteration,
+    /// Whether bonds may soften, and are not only intact or broken.
+    softens: bool,
 }
 
 impl IntactEquilibrium {
@@ -103,7 +97,7 @@ impl IntactEquilibrium {
             equations,
             connectivity: self.connectivity.clone(),
             numbers: self.numbers.clone(),
-            iteration: self.iteration,
+            softens: self.softens,
             held: None,
         }
     }
@@ -117,7 +111,7 @@ impl Equilibrium {
             equations: self.equations.with_solver(solver),
             connectivity: self.connectivity.clone(),
             numbers: self.numbers.clone(),
-            iteration: self.iteration,
+            softens: self.softens,
         })
     }
 
@@ -144,11 +138,7 @@ impl Equilibrium {
             equations: Equations::new(problem, &numbers, energy_tolerance)?,
             numbers,
             connectivity: Connectivity::new(&*problem.system),
-            iteration: if problem.may_press() {
-                Iteration::ActiveSet
-            } else {
-                Iteration::Newton
-            },
+            softens: false,
         })
     }
 
@@ -195,9 +185,7 @@ impl Equilibrium {
 
     /// Switches to the iteration for softening bonds if the criteria soften.
     pub fn soften(&mut self) {
-        if self.equations.problem.criteria.soften() {
-            self.iteration = Iteration::Secants;
-        }
+        self.softens |= self.equations.problem.criteria.soften();
     }
 
     /// Replaces the loads of the problem by loads that prescribe the same degrees of freedom.
@@ -294,7 +282,7 @@ impl Equilibrium {
         let Equations {
             problem,
             unknowns,
-            meeting,
+            contact,
             costs,
             ..
         } = &mut self.equations;
@@ -320,7 +308,7 @@ impl Equilibrium {
                 state.held[dof] = true;
             }
         }
-        meeting.faces = faces::FacePairs::new(system, &state.intact);
+        contact.faces = FacePairs::new(system, &state.intact);
         costs.connectivity += start.elapsed();
         breakage
     }
@@ -329,14 +317,14 @@ impl Equilibrium {
     pub(crate) fn return_to(&mut self, state: &State) {
         let Equations {
             problem,
-            meeting,
+            contact,
             solver,
             earlier,
             ..
         } = &mut self.equations;
         let system = &*problem.system;
         self.connectivity = Connectivity::held(system, &state.intact);
-        meeting.faces = faces::FacePairs::new(system, &state.intact);
+        contact.faces = FacePairs::new(system, &state.intact);
         *earlier = EarlierEquilibria::default();
         solver.discard();
     }
@@ -388,13 +376,13 @@ impl Equilibrium {
     /// Measures a state known to be in equilibrium, whose contacts are those of the last equilibrium from then on.
     pub(crate) fn arrived(&mut self, state: &mut State) -> Balanced {
         let balanced = self.equations.measured(state);
-        self.equations.meeting.settle(state, &balanced);
+        self.equations.contact.settle(state, &balanced);
         balanced
     }
 
     /// Reason why a balanced state is no equilibrium after the last one: surfaces moved through each other unseen on the way.
     pub(crate) fn missed(&self, state: &State, balanced: &Balanced) -> Option<Unbalanced> {
-        self.equations.meeting.missed(state, &balanced.touching)
+        self.equations.contact.missed(state, &balanced.touching)
     }
 
     /// Whether [`Equilibrium::update_and_forward_solve`] can update the factor for a breakage.
@@ -470,31 +458,36 @@ impl Equilibrium {
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
-        let attempt = match (&self.held, self.iteration) {
-            (Some(ControlledQuantity::Motion(target)), Iteration::Secants) => {
-                secant::balance_at(equations, state, breakage, target, observer)
+        let target = match &self.held {
+            Some(ControlledQuantity::Energy(goal)) => {
+                let attempt = dissipating::balance(equations, state, breakage, goal, observer)?;
+                return Ok(self.accepted(attempt, state));
             }
-            (Some(ControlledQuantity::Motion(target)), _) => {
-                controlled::balance(equations, state, breakage, target, observer)
-            }
-            (Some(ControlledQuantity::Energy(goal)), _) => {
-                dissipating::balance(equations, state, breakage, goal, observer)
-            }
-            (None, Iteration::Newton) => newton::balance(equations, state, breakage, observer),
-            (None, Iteration::ActiveSet) => {
-                active_set::balance(equations, state, breakage, observer)
-            }
-            (None, Iteration::Secants) => secant::balance(equations, state, breakage, observer),
-        }?;
+            Some(ControlledQuantity::Motion(target)) => Some(target),
+            None => None,
+        };
+        let way: &mut dyn Way = if self.softens {
+            &mut Secant::new(target)
+        } else if target.is_none() && equations.problem.may_press() {
+            &mut ActiveSet::new(equations)
+        } else {
+            &mut Newton { target }
+        };
+        let attempt = iterate::balance(equations, state, breakage, way, observer)?;
+        Ok(self.accepted(attempt, state))
+    }
+
+    /// An equilibrium from which surfaces and friction go on, unless forces on a part do not balance or surfaces missed each other.
+    fn accepted(&self, attempt: Attempt, state: &mut State) -> Attempt {
         let Attempt::Balanced(balanced) = &attempt else {
-            return Ok(attempt);
+            return attempt;
         };
         let fragments = self.connectivity.fragments();
         let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
         let reason = imbalance.or_else(|| self.missed(state, balanced));
         if reason.is_none() {
-            self.equations.meeting.settle(state, balanced);
+            self.equations.contact.settle(state, balanced);
         }
-        Ok(reason.map_or(attempt, Attempt::Unbalanced))
+        reason.map_or(attempt, Attempt::Unbalanced)
     }
 }

@@ -10,14 +10,10 @@
 //! is no energy then; a step ends where the residual forces do no work along it.
 
 use super::equations::Equations;
-use super::iterate::Iterate;
+use super::iterate::{Iterate, Iteration, Method};
 use super::line_search;
-use super::residual::Residual;
 use super::rigid::{self, Correction};
-use crate::balanced::Attempt;
-use crate::breakage::Breakage;
 use crate::contact::faces;
-use crate::history::{Observer, ObserverError};
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 use ligament_model::surface::Pose;
@@ -55,119 +51,18 @@ const LARGEST_RESIDUAL: f64 = 1e-8;
 /// Halvings of a step in the search for the lowest energy, or for where friction turns round, the number of bits of a double.
 const HALVINGS: usize = 53;
 
-/// Brings a state into equilibrium at its load factor.
-pub(super) fn balance(
-    equations: &mut Equations,
-    state: &mut State,
-    breakage: &Breakage,
-    observer: &mut dyn Observer,
-) -> Result<Attempt, ObserverError> {
-    equations.prescribe(state);
-    let mut mechanisms = Vec::new();
-    let sought = equations.accuracy.sought(breakage);
-    let mut iterations = usize::from(equations.follow(state, breakage));
-    let mut iterate = equations.measure(state);
-    let mut before = f64::INFINITY;
-    let largest = sought.max(LARGEST_RESIDUAL);
-    let (limit, mut fall) = pace(equations);
-    // Pairs of parts that only touch each other close and open by rounding, so that a worse iterate can follow a solution.
-    let mut nearest: Option<Nearest> = None;
-    loop {
-        let residual = iterate.residual;
-        if iterations > 0 {
-            observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
-        }
-        let is_over = iterations == limit;
-        // One more iteration removes the residual due to the soft supports of detached parts.
-        let falls = equations.solver.tolerance().is_none() && residual.relative < FALLS * before;
-        let tolerance = match is_over {
-            true => largest,
-            false if falls => REFINED,
-            false => sought,
-        };
-        before = residual.relative;
-        let is_small = equations.is_small(&residual, tolerance);
-        // A force at an added support may in the end be carried by closed faces.
-        if is_small && (residual.carried.is_none() || is_over) {
-            equations.remember(iterate.extents);
-            return Ok(equations.settled(iterate, iterations, mechanisms));
-        }
-        if is_over && let Some(Nearest { motions, rigid, .. }) = nearest {
-            (state.displacement, state.rigid) = (motions, rigid);
-            let iterate = equations.measure(state);
-            equations.remember(iterate.extents);
-            return Ok(equations.settled(iterate, iterations, mechanisms));
-        }
-        if is_over || !residual.relative.is_finite() {
-            return Ok(equations.not_settled(&residual, iterations));
-        }
-        keep_nearer(&mut nearest, &residual, largest, state);
-        let tries = fall.tries(iterations, residual.relative);
-        let next = match next(equations, state, &iterate, sought, tries, &mut mechanisms) {
-            Ok(next) => next,
-            Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
-        };
-        let (opened, closed) = faces::changes(&iterate.met.closed, &next.met.closed);
-        let is_same = opened.is_empty() && closed.is_empty();
-        if is_same && next.residual.relative > fall.slowly * residual.relative {
-            equations.solver.discard();
-        }
-        iterate = next;
-        iterations += 1;
-    }
-}
-
-/// Largest number of iterations, and the fall of the residual before the first one.
-fn pace(equations: &Equations) -> (usize, Fall) {
-    let (limit, slowly) = if equations.meeting.depends_on_way() {
-        (WAY_LIMIT, WAY_FALLS)
-    } else {
-        (ITERATION_LIMIT, FALLS)
-    };
-    let fall = Fall {
-        slowly,
-        lowest: f64::INFINITY,
-        iteration: 0,
-    };
-    (limit, fall)
-}
-
-/// Corrects a state for the relative residual `sought`, with so many `tries` along the correction with friction, and measures it; appends the points
-/// of mechanisms that the solver found.
-fn next(
-    equations: &mut Equations,
-    state: &mut State,
-    iterate: &Iterate,
-    sought: f64,
-    tries: usize,
-    mechanisms: &mut Vec<u32>,
-) -> Result<Iterate, Unbalanced> {
-    let mut correction = rigid::correction(equations, state, iterate, sought, mechanisms)?;
-    correction.shorten(equations);
-    Ok(search(equations, state, iterate, &correction, tries))
-}
-
-/// Where the residual of an iteration last fell.
-struct Fall {
+/// Equilibrium at a load factor where faces and surfaces may meet.
+pub(super) struct ActiveSet {
+    /// Largest number of iterations.
+    limit: usize,
     /// Ratio of residuals below which one falls; the factor is made anew where successive ones do not.
     slowly: f64,
-    lowest: f64,
-    /// Iteration that had it.
-    iteration: usize,
-}
-
-impl Fall {
-    /// Number of trials of the search along the correction of an iterate.
-    fn tries(&mut self, iteration: usize, residual: f64) -> usize {
-        if residual < self.slowly * self.lowest {
-            (self.lowest, self.iteration) = (residual, iteration);
-        }
-        if iteration < self.iteration + PATIENCE {
-            TRIES
-        } else {
-            HALVINGS
-        }
-    }
+    /// Relative residual of the iterate before.
+    before: f64,
+    /// Lowest relative residual, and the iteration that had it.
+    lowest: (f64, usize),
+    /// Pairs of parts that only touch each other close and open by rounding, so that a worse iterate can follow a solution.
+    nearest: Option<Nearest>,
 }
 
 /// The nearest iterate to an equilibrium so far.
@@ -180,16 +75,97 @@ struct Nearest {
     rigid: Vec<Pose>,
 }
 
-/// Records the residual and displacements of an iterate without forces at added supports, if its residual is at most `largest` and
-/// that of the nearest iterate so far.
-fn keep_nearer(nearest: &mut Option<Nearest>, residual: &Residual, largest: f64, state: &State) {
-    let least = nearest.as_ref().map_or(largest, |it| it.residual);
-    if residual.relative <= least && residual.carried.is_none() {
-        *nearest = Some(Nearest {
-            residual: residual.relative,
-            motions: state.displacement.clone(),
-            rigid: state.rigid.clone(),
-        });
+impl ActiveSet {
+    pub(super) fn new(equations: &Equations) -> Self {
+        let (limit, slowly) = match equations.contact.depends_on_way() {
+            true => (WAY_LIMIT, WAY_FALLS),
+            false => (ITERATION_LIMIT, FALLS),
+        };
+        Self {
+            limit,
+            slowly,
+            before: f64::INFINITY,
+            lowest: (f64::INFINITY, 0),
+            nearest: None,
+        }
+    }
+
+    /// Number of trials of the search along the correction of an iterate with friction.
+    fn tries(&mut self, number: usize, residual: f64) -> usize {
+        if residual < self.slowly * self.lowest.0 {
+            self.lowest = (residual, number);
+        }
+        match number < self.lowest.1 + PATIENCE {
+            true => TRIES,
+            false => HALVINGS,
+        }
+    }
+
+    /// Records an iterate without forces at added supports, if its residual is at most `largest` and that of the nearest one so far.
+    fn keep_nearer(&mut self, iterate: &Iterate, state: &State, largest: f64) {
+        let residual = iterate.residual.relative;
+        let least = self.nearest.as_ref().map_or(largest, |it| it.residual);
+        if residual <= least && iterate.residual.carried.is_none() {
+            self.nearest = Some(Nearest {
+                residual,
+                motions: state.displacement.clone(),
+                rigid: state.rigid.clone(),
+            });
+        }
+    }
+}
+
+/// Largest residual of the last iterate, or else of the nearest one, that is accepted.
+fn largest_residual(at: &Iteration<'_>) -> f64 {
+    at.sought().max(LARGEST_RESIDUAL)
+}
+
+impl Method for ActiveSet {
+    fn is_met(&mut self, at: &mut Iteration<'_>, iterate: &mut Iterate) -> bool {
+        let (residual, is_over) = (iterate.residual, self.gives_up(at));
+        // One more iteration removes the residual due to the soft supports of detached parts.
+        let is_exact = at.equations.solver.tolerance().is_none();
+        let tolerance = match is_over {
+            true => largest_residual(at),
+            false if is_exact && residual.relative < FALLS * self.before => REFINED,
+            false => at.sought(),
+        };
+        self.before = residual.relative;
+        // A force at an added support may in the end be carried by closed faces.
+        if at.is_small(iterate, tolerance) && (residual.carried.is_none() || is_over) {
+            return true;
+        }
+        if is_over && let Some(Nearest { motions, rigid, .. }) = self.nearest.take() {
+            (at.state.displacement, at.state.rigid) = (motions, rigid);
+            *iterate = at.measure();
+            return true;
+        }
+        false
+    }
+
+    fn gives_up(&self, at: &Iteration<'_>) -> bool {
+        at.number == self.limit
+    }
+
+    fn correct(
+        &mut self,
+        at: &mut Iteration<'_>,
+        iterate: &Iterate,
+    ) -> Result<Iterate, Unbalanced> {
+        let (residual, sought) = (iterate.residual.relative, at.sought());
+        self.keep_nearer(iterate, at.state, largest_residual(at));
+        let tries = self.tries(at.number, residual);
+        let (equations, state) = (&mut *at.equations, &mut *at.state);
+        let mechanisms = &mut at.mechanisms;
+        let mut correction = rigid::correction(equations, state, iterate, sought, mechanisms)?;
+        correction.shorten(equations);
+        let next = search(equations, state, iterate, &correction, tries);
+        let (opened, closed) = faces::changes(&iterate.met.closed, &next.met.closed);
+        let is_same = opened.is_empty() && closed.is_empty();
+        if is_same && next.residual.relative > self.slowly * residual {
+            equations.solver.discard();
+        }
+        Ok(next)
     }
 }
 
@@ -209,17 +185,17 @@ fn search(
     if start >= 0.0 || end <= -ACCEPTED_SLOPE * start {
         return next;
     }
-    if equations.meeting.depends_on_way() {
-        let (mut at, mut found) = (1.0, next);
-        line_search::part(-start, -end, tries, |part| {
+    if equations.contact.depends_on_way() {
+        let mut at = 1.0;
+        let (_, found) = line_search::part(-start, (-end, next), tries, |part| {
             correction.add_to(equations, state, part - at);
             at = part;
-            found = equations.measure(state);
-            -correction.slope(equations, state, &found)
+            let found = equations.measure(state);
+            (-correction.slope(equations, state, &found), found)
         });
         return found;
     }
-    let pairs = equations.meeting.faces.pairs().iter();
+    let pairs = equations.contact.faces.pairs().iter();
     let gaps = iterate.met.gaps.iter().zip(&next.met.gaps);
     let moved: Vec<Moved> = (pairs.zip(gaps))
         .map(|(pair, (&gap, &next))| Moved {

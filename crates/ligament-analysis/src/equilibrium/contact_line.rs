@@ -141,9 +141,9 @@ fn on_line(
 ) -> Vec<OnLine> {
     let layout = equations.layout();
     let expansion = equations.problem.loads.thermal_strain(state.load_factor);
-    let met = equations.meeting.met(state, expansion);
-    let meeting = &equations.meeting;
-    let pairs = meeting.faces.pairs().iter().zip(&met.gaps);
+    let met = equations.contact.met(state, expansion);
+    let contact = &equations.contact;
+    let pairs = contact.faces.pairs().iter().zip(&met.gaps);
     let pairs: Vec<ClosedPair> = pairs
         .map(|(&pair, &gap)| ClosedPair {
             pair,
@@ -157,7 +157,7 @@ fn on_line(
         let shift = -it.pair.growth(growth);
         (term, it.gap, shift)
     });
-    let of_surfaces = met.touching.gaps(meeting.surfaces.problem());
+    let of_surfaces = met.touching.gaps(contact.surfaces.problem());
     let of_contact = |(term, gap, shift): (Resisting, f64, f64)| {
         let motions = term.row.iter();
         let sizes = motions.map(|(dof, factor)| (factor * state.displacement[*dof]).abs());

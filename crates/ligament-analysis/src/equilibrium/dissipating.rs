@@ -23,8 +23,9 @@ use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::thermal::ThermalStrain;
 
 use super::equations::Equations;
+use super::iterate;
 use super::line;
-use super::secant;
+use super::secant::Secant;
 use super::target::Target;
 use crate::balanced::Attempt;
 use crate::bond_numbers::sum_over_bonds;
@@ -73,10 +74,9 @@ pub(super) fn balance(
     let here = equations.deformations(state);
     let start = dissipated(&equations.problem, state, &here);
     if !breakage.bonds.is_empty() || goal.energy - start <= MISSED * goal.step {
-        let Some(target) = opening(&equations.problem, state, &here, goal) else {
-            return secant::balance(equations, state, breakage, observer);
-        };
-        return secant::balance_at(equations, state, breakage, &target, observer);
+        let target = opening(&equations.problem, state, &here, goal);
+        let mut way = Secant::new(target.as_ref());
+        return iterate::balance(equations, state, breakage, &mut way, observer);
     }
     let ahead = match ahead(equations, state, &here, goal) {
         Ok(ahead) => ahead,
@@ -97,7 +97,8 @@ pub(super) fn balance(
             way: way.next,
             ..there.clone()
         };
-        let attempt = secant::balance_at(equations, state, breakage, &target, observer)?;
+        let mut secant = Secant::new(Some(&target));
+        let attempt = iterate::balance(equations, state, breakage, &mut secant, observer)?;
         let Attempt::Balanced(balanced) = &attempt else {
             return Ok(attempt);
         };

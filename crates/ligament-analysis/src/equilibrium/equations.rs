@@ -15,6 +15,7 @@ use super::iterate::Iterate;
 use super::mechanism::Measure;
 use super::on_rigid;
 use super::residual::{Extents, OF_GAPS, ROUNDING, Residual, Rounded};
+use super::target::Target;
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
@@ -56,7 +57,7 @@ pub(super) struct Equations<S: ?Sized = dyn TangentSolver> {
     /// Relative change of the energy that ends the iteration, NHPD eq. 21.
     pub(super) energy_tolerance: f64,
     pub(super) accuracy: Accuracy,
-    pub(super) meeting: ContactSearch,
+    pub(super) contact: ContactSearch,
     /// Earlier equilibria of softening bonds.
     pub(super) earlier: EarlierEquilibria,
     pub(super) costs: Costs,
@@ -95,7 +96,7 @@ impl Equations {
                 0.0
             },
             accuracy,
-            meeting: ContactSearch::new(problem),
+            contact: ContactSearch::new(problem),
             earlier: EarlierEquilibria::default(),
             costs: Costs {
                 analysis: analysis.unwrap_or_default(),
@@ -128,7 +129,7 @@ impl Equations {
             stiffness: _,
             choice: _,
             energy_tolerance: _,
-            meeting: _,
+            contact: _,
             earlier,
         } = self;
         accuracy.largest_extents.write(out);
@@ -154,7 +155,7 @@ impl Equations {
         if self.problem.criteria.soften() {
             self.earlier = EarlierEquilibria::restored(from, (numbers, &self.unknowns))?;
         }
-        self.meeting.faces = FacePairs::new(&*self.problem.system, &state.intact);
+        self.contact.faces = FacePairs::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
         self.costs = costs;
         Ok(measured)
@@ -191,11 +192,6 @@ impl Equations {
             return Attempt::Unbalanced(Unbalanced::EnergyOutOfRange { energy });
         }
         Attempt::Balanced(iterate.balanced(iterations, mechanisms))
-    }
-
-    /// Result of an iteration that does not converge.
-    pub(super) fn not_settled(&self, residual: &Residual, iterations: usize) -> Attempt {
-        Attempt::Unbalanced(self.unsettled(residual, iterations))
     }
 
     /// Reason why an iteration does not converge.
@@ -258,25 +254,6 @@ impl Equations {
         correction.is_some()
     }
 
-    /// Whether the energy of an iterate equals that of the previous one to the tolerance (NHPD eq. 21), and its residual is at most
-    /// `largest_residual`.
-    pub(super) fn energy_settled(
-        &self,
-        previous_energy: f64,
-        iterate: &Iterate,
-        largest_residual: f64,
-    ) -> bool {
-        let energy = iterate.stored_energy;
-        let change = ((energy - previous_energy) / energy).abs();
-        change < self.energy_tolerance && iterate.residual.relative <= largest_residual
-    }
-
-    /// Whether a residual is within the tolerance; before the first solution it must be zero, as it is without loads.
-    pub(super) fn is_small(&self, residual: &Residual, tolerance: f64) -> bool {
-        let is_guess = self.costs.solves == 0 && self.costs.changes == 0;
-        residual.relative <= if is_guess { 0.0 } else { tolerance }
-    }
-
     /// Correction K du = F - K u of an iterate (NHPD eqs 19 and 20) for the relative residual `sought`, shape (n_unknowns); appends
     /// the points of mechanisms that the solver found.
     pub(super) fn correction(
@@ -292,6 +269,27 @@ impl Equations {
             .accuracy
             .left(self.loaded(state), iterate.extents, sought);
         self.solve(state, force, left)
+    }
+
+    /// Adds the rate of the displacements with the load factor (n_degrees_of_freedom) to a correction (n_unknowns) so that it brings a motion
+    /// to its value. Returns the change of the load factor.
+    ///
+    /// # Errors
+    ///
+    /// If the load does not move the motion.
+    pub(super) fn constrain(
+        &self,
+        correction: &mut [f64],
+        state: &State,
+        growth: &[f64],
+        target: &Target,
+    ) -> Result<f64, Unbalanced> {
+        let moved = self.at_degrees_of_freedom(correction);
+        let change = target.load_change(&state.displacement, &moved, growth)?;
+        for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
+            *value += change * growth[dof as usize];
+        }
+        Ok(change)
     }
 
     /// Residual forces F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns), N and N m.
@@ -353,8 +351,8 @@ impl Equations {
         let start = Instant::now();
         let expansion = self.problem.loads.thermal_strain(state.load_factor);
         let mut swept = (self.problem.system).forces(state.bonds(), deformations, expansion);
-        let met = self.meeting.met(state, expansion);
-        self.meeting.add_to(&mut swept, &met, expansion);
+        let met = self.contact.met(state, expansion);
+        self.contact.add_to(&mut swept, &met, expansion);
         let factor = self.problem.loads.temperature_factor(state.load_factor);
         let energy_of_motion = swept.energy_of_motion(factor);
         self.halo.update_forces(&mut swept.internal.values);
@@ -367,7 +365,7 @@ impl Equations {
         } = swept;
         let extents = self.accuracy.extents(&sizes);
         let displacement = self.accuracy.largest_displacement(self.layout(), state);
-        let coordinate = (self.meeting.surfaces).coordinate(displacement, &met.touching);
+        let coordinate = (self.contact.surfaces).coordinate(displacement, &met.touching);
         let rounded = Rounded {
             displacement,
             coordinate,
@@ -470,7 +468,7 @@ impl Equations {
         let Contacts {
             closed, touching, ..
         } = &iterate.met;
-        let resisting = self.meeting.resisting(closed, touching);
+        let resisting = self.contact.resisting(closed, touching);
         self.solver.close(resisting, &mut self.costs);
         self.prepare_solver(state)
     }

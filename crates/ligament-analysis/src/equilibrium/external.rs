@@ -29,7 +29,7 @@ pub(super) fn imbalance(
     let layout = equations.layout();
     let n_components = layout.components.len();
     let external = external_forces(equations, state, balanced);
-    let surfaces = &equations.meeting.surfaces;
+    let surfaces = &equations.contact.surfaces;
     let rounding = (equations.accuracy).rounding(layout, state, (surfaces, &balanced.touching));
     let mut sums = vec![Sum::default(); n_components * fragments.len()];
     let of_points = external
@@ -85,7 +85,7 @@ fn external_forces(equations: &Equations, state: &State, balanced: &Balanced) ->
     for (dof, force) in closed_forces {
         external[dof] -= force;
     }
-    let surfaces = equations.meeting.surfaces.problem();
+    let surfaces = equations.contact.surfaces.problem();
     let by_surfaces = balanced.touching.forces(surfaces, external.len());
     for (sum, force) in external.iter_mut().zip(by_surfaces) {
         *sum += force;

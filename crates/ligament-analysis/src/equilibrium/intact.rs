@@ -14,7 +14,7 @@ impl<S: ?Sized> Equations<S> {
             choice: self.choice,
             energy_tolerance: self.energy_tolerance,
             accuracy: self.accuracy.clone(),
-            meeting: self.meeting.clone(),
+            contact: self.contact.clone(),
             earlier: self.earlier.clone(),
             costs: self.costs,
         }

@@ -12,31 +12,37 @@ const INSIDE: f64 = 0.1;
 /// Part of a correction du at which the work r . du of the residual force is near zero, the first minimum of the potential energy
 /// along the correction (Nocedal and Wright 2006, section 3.5).
 ///
-/// `work` is the work at part zero, `now` that at part one, and `at` computes it at other parts, found by the secant method; the
-/// last of at most `tries` is returned. Without positive work at the beginning (equations that are not definite) the whole correction is
-/// taken.
-pub(super) fn part(work: f64, mut now: f64, tries: usize, mut at: impl FnMut(f64) -> f64) -> f64 {
+/// `work` is the work at part zero, `now` that at part one with what was measured there, and `at` computes both at other parts, found
+/// by the secant method; the last of at most `tries` is returned. Without positive work at the beginning (equations that are not
+/// definite) the whole correction is taken.
+pub(super) fn part<T>(
+    work: f64,
+    mut now: (f64, T),
+    tries: usize,
+    mut at: impl FnMut(f64) -> (f64, T),
+) -> (f64, T) {
     let mut part = 1.0;
     let mut before = (0.0, work);
     let mut beyond = None;
     for _ in 1..tries {
-        let is_near = now.abs() <= NEAR * work;
+        let left = now.0;
+        let is_near = left.abs() <= NEAR * work;
         // Work that is not finite ends the search.
-        if is_near || work <= 0.0 || !now.is_finite() {
-            return part;
+        if is_near || work <= 0.0 || !left.is_finite() {
+            break;
         }
-        if now > 0.0 {
-            before = (part, now);
+        if left > 0.0 {
+            before = (part, left);
         } else {
-            beyond = Some((part, now));
+            beyond = Some((part, left));
         }
         part = match beyond {
-            None => further(part, now / work),
+            None => further(part, left / work),
             Some(beyond) => between(before, beyond),
         };
         now = at(part);
     }
-    part
+    (part, now.1)
 }
 
 /// Next part where the work is still positive, `share` of that at the beginning.
@@ -58,9 +64,9 @@ mod tests {
 
     fn found(tries: usize, work: impl Fn(f64) -> f64) -> (f64, Vec<f64>) {
         let mut tried = vec![1.0];
-        let part = part(work(0.0), work(1.0), tries, |part| {
+        let (part, ()) = part(work(0.0), (work(1.0), ()), tries, |part| {
             tried.push(part);
-            work(part)
+            (work(part), ())
         });
         assert_eq!(tried.last(), Some(&part));
         (part, tried)

@@ -52,7 +52,7 @@ impl Correction {
 
     /// Shortens the correction where surfaces would move too far at once to see each other.
     pub(super) fn shorten(&mut self, equations: &Equations) {
-        let surfaces = &equations.meeting.surfaces;
+        let surfaces = &equations.contact.surfaces;
         if surfaces.is_empty() {
             return;
         }
@@ -141,7 +141,7 @@ impl Coupling {
         }
         let mut all = vec![vec![0.0; equations.layout().n_degrees_of_freedom()]; n];
         let contacts = &equations.problem.contact.contacts;
-        for it in (equations.meeting).resisting(&met.closed, &met.touching) {
+        for it in (equations.contact).resisting(&met.closed, &met.touching) {
             let contact = it.contact().map(|number| &contacts[number]);
             let body = contact.and_then(|it| it.rigid_body);
             let Some(place) = loads.iter().position(|load| Some(load.body) == body) else {

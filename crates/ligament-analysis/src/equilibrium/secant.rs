@@ -1,16 +1,12 @@
 //! Equilibrium of bonds that soften, by a quasi-Newton iteration from their secant stiffness.
 
-use super::curvature::Curvature;
 use super::earlier_equilibria::EarlierEquilibria;
 use super::equations::Equations;
-use super::iterate::Iterate;
+use super::iterate::{Iterate, Iteration, Method};
 use super::line;
 use super::line_search;
 use super::residual::RESIDUAL_TOLERANCE;
 use super::target::Target;
-use crate::balanced::Attempt;
-use crate::breakage::Breakage;
-use crate::history::{Observer, ObserverError};
 use crate::state::State;
 use crate::tangent::AllowedResidual;
 use crate::unbalanced::Unbalanced;
@@ -54,163 +50,26 @@ const ONE_WAY_AFTER: usize = 150;
 /// it, some point has then moved. Before that a part that hangs by nothing may have moved as far, and is held.
 const DIVERGING: (usize, f64) = (20, 1e6);
 
-/// Brings a state with softening bonds into equilibrium at its load factor.
+/// Equilibrium of softening bonds at a load factor, or at the value of a motion with the load factor as an unknown: the same iteration
+/// in the plane of displacements with that motion, for a body that is stable under such control.
 ///
 /// Every iterate determines the remaining stiffness of the bonds. The secants are positive, so that the secant stiffness K_s is
 /// positive definite where the elastic one is; and since the energy of a bond is concave in the square of its deformation, the
 /// energy with the secants lies above the true one. A correction by K_s therefore lowers the potential energy, but is too short.
-/// Two measures lengthen it: the curvature along the last steps ([`Curvature`]), including steps of earlier equilibria, and a line
-/// search ([`line_search`]). Both lower the energy and end in a stable equilibrium. The factor may differ from the secants, because
-/// both need only an approximate stiffness.
+/// Two measures lengthen it: the curvature along the last steps ([`Curvature`](super::curvature::Curvature)), including steps of
+/// earlier equilibria, and a line search ([`line_search`]). Both lower the energy and end in a stable equilibrium. The factor may
+/// differ from the secants, because both need only an approximate stiffness.
 ///
 /// A load step begins at the extrapolation of the last one if that has the smaller residual. Where faces close, nothing is taken
 /// from earlier equilibria, and after a breakage no curvature. Otherwise the first correction takes the bonds of the last
 /// equilibrium, because bonds next to prescribed motions deform too much until their surroundings follow. The iteration ends by
 /// NHPD's energy rule (eq. 21) with a residual below 1e-8, or with a residual below 1e-10. Extremes of iterates do not count unless
 /// equilibrium is reached ([`Softening::follow`](crate::softening::Softening::follow)).
-pub(super) fn balance(
-    equations: &mut Equations,
-    state: &mut State,
-    breakage: &Breakage,
-    observer: &mut dyn Observer,
-) -> Result<Attempt, ObserverError> {
-    sought(equations, state, breakage, None, observer)
-}
-
-/// Brings a state with softening bonds into equilibrium at the value of a motion, and finds its load factor: the iteration of
-/// [`balance`] in the plane of displacements with that motion, for a body that is stable under such control.
-pub(super) fn balance_at(
-    equations: &mut Equations,
-    state: &mut State,
-    breakage: &Breakage,
-    target: &Target,
-    observer: &mut dyn Observer,
-) -> Result<Attempt, ObserverError> {
-    sought(equations, state, breakage, Some(target), observer)
-}
-
-fn sought(
-    equations: &mut Equations,
-    state: &mut State,
-    breakage: &Breakage,
-    target: Option<&Target>,
-    observer: &mut dyn Observer,
-) -> Result<Attempt, ObserverError> {
-    let mut earlier = applicable_precedents(equations, breakage);
-    let (mut iterate, mut iterations) = begun(equations, state, breakage, target, &earlier);
-    let mut growth = None;
-    let mut mechanisms = Vec::new();
-    let mut previous_energy = f64::NAN;
-    let faces_close = equations.problem.may_press();
-    let largest_residual = largest_residual(target.is_some() || faces_close);
-    loop {
-        let residual = iterate.residual;
-        if iterations > 0 {
-            observer.iteration(iterations, residual.relative, iterate.stored_energy)?;
-        }
-        let energy_settled = equations.energy_settled(previous_energy, &iterate, largest_residual);
-        let is_small = equations.is_small(&residual, RESIDUAL_TOLERANCE);
-        let is_met = target.is_none_or(|it| it.is_met(&state.displacement));
-        // A force at an added support may in the end be carried by closed faces.
-        let may_close = faces_close && iterations < CARRIED_AFTER;
-        let is_carried = may_close && residual.carried.is_some();
-        if (is_small || energy_settled) && is_met && !is_carried {
-            state.softening.settle();
-            equations.remember(iterate.extents);
-            earlier.learn(state, !breakage.bonds.is_empty());
-            equations.earlier = earlier;
-            return Ok(equations.settled(iterate, iterations, mechanisms));
-        }
-        let layout = equations.problem.system.layout();
-        let diverges = iterations >= DIVERGING.0
-            && (equations.accuracy).moves_beyond(layout, state, DIVERGING.1);
-        if iterations == ITERATION_LIMIT || diverges || !residual.relative.is_finite() {
-            return Ok(equations.not_settled(&residual, iterations));
-        }
-        previous_energy = iterate.stored_energy;
-        let is_one_way = iterations > ONE_WAY_AFTER;
-        let curvature = &mut earlier.curvature;
-        equations
-            .solver
-            .update_for_softening(state, &mut equations.costs);
-        let next = equations.make_ready(state, &iterate).and_then(|held| {
-            if !held.is_empty() {
-                curvature.discard();
-                growth = None;
-            }
-            mechanisms.extend(held);
-            let directions = (curvature, &mut growth);
-            next(equations, state, &iterate, directions, target, is_one_way)
-        });
-        iterate = match next {
-            Ok(next) => next,
-            Err(unbalanced) => return Ok(Attempt::Unbalanced(unbalanced)),
-        };
-        iterations += 1;
-    }
-}
-
-/// Largest residual of an equilibrium accepted by the energy rule; `follows` where a motion is prescribed or faces close.
-fn largest_residual(follows: bool) -> f64 {
-    if follows {
-        LARGEST_FOLLOWING
-    } else {
-        LARGEST_RESIDUAL
-    }
-}
-
-/// Precedents that apply to the equilibrium to be found.
-///
-/// Pairs that close and open change the stiffness at once; and where one breakage causes another, curvature from before it would
-/// affect where the drop ends.
-fn applicable_precedents(equations: &mut Equations, breakage: &Breakage) -> EarlierEquilibria {
-    let mut earlier = std::mem::take(&mut equations.earlier);
-    if equations.problem.may_press() {
-        return EarlierEquilibria::default();
-    }
-    if !breakage.bonds.is_empty() {
-        earlier.curvature.discard();
-    }
-    earlier
-}
-
-/// First iterate, and the number of corrections made to reach it.
-fn begun(
-    equations: &mut Equations,
-    state: &mut State,
-    breakage: &Breakage,
-    target: Option<&Target>,
-    earlier: &EarlierEquilibria,
-) -> (Iterate, usize) {
-    equations.prescribe(state);
-    let has_followed = equations.follow(state, breakage);
-    let iterate = equations.measure(state);
-    let is_small = equations.is_small(&iterate.residual, RESIDUAL_TOLERANCE);
-    if has_followed || (is_small && target.is_none()) {
-        return (softened(equations, state, false), usize::from(has_followed));
-    }
-    let is_new = breakage.bonds.is_empty();
-    let ahead = is_new.then(|| earlier.ahead(state, target)).flatten();
-    let Some(mut ahead) = ahead else {
-        return (iterate, 0);
-    };
-    equations.prescribe(&mut ahead);
-    let there = softened(equations, &mut ahead, false);
-    let most = target.map_or(iterate.residual.relative, |_| LARGEST_AHEAD);
-    if there.residual.relative < most {
-        *state = ahead;
-        return (there, 0);
-    }
-    (iterate, 0)
-}
-
-/// Correction of a state, with the residual force that it removes.
-struct Correction {
-    /// Residual force at the corrected load factor, shape (n_unknowns), N.
-    force: Vec<f64>,
-    /// Change of the unknowns, shape (n_unknowns).
-    step: Vec<f64>,
-    load_change: f64,
+pub(super) struct Secant<'a> {
+    target: Option<&'a Target>,
+    earlier: EarlierEquilibria,
+    /// Growth of the state by which an earlier correction brought the motion to its value.
+    growth: Option<Growth>,
 }
 
 /// Growth of a state with the load factor.
@@ -223,141 +82,232 @@ struct Growth {
     used: usize,
 }
 
-/// What earlier corrections say of the stiffness.
-type Directions<'a> = (&'a mut Curvature, &'a mut Option<Growth>);
+/// Correction of a state, with the residual force that it removes.
+struct Direction {
+    /// Residual force at the corrected load factor, shape (n_unknowns), N.
+    force: Vec<f64>,
+    /// Change of the unknowns, shape (n_unknowns).
+    step: Vec<f64>,
+    load_change: f64,
+}
 
-/// Correction by the stiffness with the recorded curvature. The growth with the load of an earlier correction is near enough for an
-/// iterative solver: the motion reaches its value along any growth.
-fn correction(
-    equations: &mut Equations,
-    state: &State,
-    force: &[f64],
-    curvature: &Curvature,
-    target: Option<&Target>,
-    last: &mut Option<Growth>,
-) -> Result<Correction, Unbalanced> {
-    let mut step = solved(equations, state, force, curvature)?;
-    let mut force = force.to_vec();
-    let mut load_change = 0.0;
-    if let Some(target) = target {
-        let is_iterative = equations.solver.tolerance().is_some();
-        let recent = last
-            .take()
-            .filter(|it| is_iterative && it.used < GROWTH_EVERY);
-        let mut grown = match recent {
-            Some(grown) => grown,
-            None => growth(equations, state, curvature, target)?,
+impl Method for Secant<'_> {
+    fn begin(&mut self, at: &mut Iteration<'_>) -> Iterate {
+        let is_new = at.breakage.bonds.is_empty();
+        self.earlier = std::mem::take(&mut at.equations.earlier);
+        // Pairs that close and open change the stiffness at once; and where one breakage causes another, curvature from before it would
+        // affect where the drop ends.
+        if at.equations.problem.may_press() {
+            self.earlier = EarlierEquilibria::default();
+        } else if !is_new {
+            self.earlier.curvature.discard();
+        }
+        let iterate = at.begin();
+        let is_small = at.is_small(&iterate, RESIDUAL_TOLERANCE);
+        if at.number > 0 || (is_small && self.target.is_none()) {
+            return softened(at.equations, at.state, false);
+        }
+        let ahead = is_new.then(|| self.earlier.ahead(at.state, self.target));
+        let Some(mut ahead) = ahead.flatten() else {
+            return iterate;
         };
-        grown.used += 1;
-        let moved = equations.at_degrees_of_freedom(&step);
-        load_change = target.load_change(&state.displacement, &moved, &grown.motion)?;
-        let dofs = equations.degrees_of_freedom();
-        for (value, &dof) in step.iter_mut().zip(dofs) {
-            *value += load_change * grown.motion[dof as usize];
+        at.equations.prescribe(&mut ahead);
+        let there = softened(at.equations, &mut ahead, false);
+        let most = (self.target).map_or(iterate.residual.relative, |_| LARGEST_AHEAD);
+        if there.residual.relative < most {
+            *at.state = ahead;
+            return there;
         }
-        for (value, rate) in force.iter_mut().zip(&grown.force) {
-            *value += load_change * rate;
+        iterate
+    }
+
+    fn is_met(&mut self, at: &mut Iteration<'_>, iterate: &mut Iterate) -> bool {
+        let faces_close = at.equations.problem.may_press();
+        let largest = match self.target.is_some() || faces_close {
+            true => LARGEST_FOLLOWING,
+            false => LARGEST_RESIDUAL,
+        };
+        let is_small = at.is_small(iterate, RESIDUAL_TOLERANCE);
+        // A force at an added support may in the end be carried by closed faces.
+        let may_close = faces_close && at.number < CARRIED_AFTER;
+        (is_small || at.energy_settled(iterate, largest))
+            && !(may_close && iterate.residual.carried.is_some())
+            && self.has_value(at.state)
+    }
+
+    fn settle(&mut self, at: &mut Iteration<'_>) {
+        at.state.softening.settle();
+        let mut earlier = std::mem::take(&mut self.earlier);
+        earlier.learn(at.state, !at.breakage.bonds.is_empty());
+        at.equations.earlier = earlier;
+    }
+
+    fn gives_up(&self, at: &Iteration<'_>) -> bool {
+        let (least, times) = DIVERGING;
+        let layout = at.equations.layout();
+        let accuracy = &at.equations.accuracy;
+        at.number == ITERATION_LIMIT
+            || at.number >= least && accuracy.moves_beyond(layout, at.state, times)
+    }
+
+    fn correct(
+        &mut self,
+        at: &mut Iteration<'_>,
+        iterate: &Iterate,
+    ) -> Result<Iterate, Unbalanced> {
+        let (equations, state) = (&mut *at.equations, &mut *at.state);
+        equations
+            .solver
+            .update_for_softening(state, &mut equations.costs);
+        let held = equations.make_ready(state, iterate)?;
+        if !held.is_empty() {
+            self.forget();
         }
-        *last = Some(grown);
+        at.mechanisms.extend(held);
+        // A motion reaches its value by a whole correction, for which curvature recorded elsewhere may be wrong.
+        let has_value = self.has_value(state);
+        if !has_value {
+            self.earlier.curvature.discard();
+        }
+        let force = equations.out_of_balance(state, iterate);
+        let mut direction = self.direction(equations, state, force.clone())?;
+        if equations.dot(&direction.force, &direction.step) <= 0.0 {
+            self.forget();
+            direction = self.direction(equations, state, force)?;
+        }
+        Ok(self.search(at, direction, has_value))
     }
-    Ok(Correction {
-        force,
-        step,
-        load_change,
-    })
 }
 
-/// Growth of a state with the load factor, for the bonds of the state.
-fn growth(
-    equations: &mut Equations,
-    state: &State,
-    curvature: &Curvature,
-    target: &Target,
-) -> Result<Growth, Unbalanced> {
-    let (mut motion, force) = line::rate(equations, state, &*target.rate);
-    let grown = solved(equations, state, &force, curvature)?;
-    for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
-        motion[dof as usize] = *value;
+impl<'a> Secant<'a> {
+    pub(super) fn new(target: Option<&'a Target>) -> Self {
+        Self {
+            target,
+            earlier: EarlierEquilibria::default(),
+            growth: None,
+        }
     }
-    Ok(Growth {
-        force,
-        motion,
-        used: 0,
-    })
-}
 
-/// Change of the unknowns for a residual force, both of shape (n_unknowns).
-fn solved(
-    equations: &mut Equations,
-    state: &State,
-    force: &[f64],
-    curvature: &Curvature,
-) -> Result<Vec<f64>, Unbalanced> {
-    let subdomain = equations.subdomain().clone();
-    let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
-    let solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
-    curvature.correction(force, &dot, solve)
-}
+    /// Whether the prescribed motion has its value in a state.
+    fn has_value(&self, state: &State) -> bool {
+        (self.target).is_none_or(|it| it.is_met(&state.displacement))
+    }
 
-/// Computes the next iterate: corrects the load factor and moves the state along the correction as far as that lowers the energy.
-fn next(
-    equations: &mut Equations,
-    state: &mut State,
-    iterate: &Iterate,
-    directions: Directions<'_>,
-    target: Option<&Target>,
-    is_one_way: bool,
-) -> Result<Iterate, Unbalanced> {
-    let (curvature, growth) = directions;
-    let force = equations.out_of_balance(state, iterate);
-    // A motion reaches its value by a whole correction, for which curvature recorded elsewhere may be wrong.
-    let is_searched = target.is_none_or(|it| it.is_met(&state.displacement));
-    if !is_searched {
-        curvature.discard();
+    /// Forgets what earlier corrections say of the stiffness.
+    fn forget(&mut self) {
+        self.earlier.curvature.discard();
+        self.growth = None;
     }
-    let mut found = correction(equations, state, &force, curvature, target, growth)?;
-    if equations.dot(&found.force, &found.step) <= 0.0 {
-        curvature.discard();
-        *growth = None;
-        found = correction(equations, state, &force, curvature, target, growth)?;
+
+    /// Correction for a residual force (n_unknowns) by the stiffness with the recorded curvature. The growth with the load of an earlier
+    /// correction is near enough for an iterative solver: the motion reaches its value along any growth.
+    fn direction(
+        &mut self,
+        equations: &mut Equations,
+        state: &State,
+        mut force: Vec<f64>,
+    ) -> Result<Direction, Unbalanced> {
+        let mut step = self.solved(equations, state, &force)?;
+        let mut load_change = 0.0;
+        if let Some(target) = self.target {
+            let is_iterative = equations.solver.tolerance().is_some();
+            let mut growth = match self.growth.take() {
+                Some(recent) if is_iterative && recent.used < GROWTH_EVERY => recent,
+                _ => self.grown(equations, state, target)?,
+            };
+            growth.used += 1;
+            load_change = equations.constrain(&mut step, state, &growth.motion, target)?;
+            for (value, rate) in force.iter_mut().zip(&growth.force) {
+                *value += load_change * rate;
+            }
+            self.growth = Some(growth);
+        }
+        Ok(Direction {
+            force,
+            step,
+            load_change,
+        })
     }
-    let is_short = shorten(equations, &mut found.step);
-    let tries = match equations.meeting.surfaces.is_empty() {
-        true => TRIES,
-        false => TRIES_IN_CONTACT,
-    };
-    let Correction { force, step, .. } = &found;
-    state.load_factor += found.load_change;
-    let start = state.displacement.clone();
-    let subdomain = equations.subdomain().clone();
-    let mut go = |part: f64| {
-        state.displacement.clone_from(&start);
-        equations.add_correction(state, part, step);
-        equations.prescribe(state);
-        let iterate = softened(equations, state, is_one_way);
-        let force = equations.out_of_balance(state, &iterate);
-        (iterate, force)
-    };
-    let (mut iterate, mut left) = go(1.0);
-    let mut part = 1.0;
-    let works = [force, &left].map(|it| dot_of_all(&subdomain, it, step));
-    // Beyond the end of a shortened correction surfaces would not see each other.
-    if is_searched && !(is_short && works[1] >= 0.0) {
-        part = line_search::part(works[0], works[1], tries, |part| {
-            (iterate, left) = go(part);
-            dot_of_all(&subdomain, &left, step)
-        });
+
+    /// Growth of a state with the load factor, for the bonds of the state.
+    fn grown(
+        &self,
+        equations: &mut Equations,
+        state: &State,
+        target: &Target,
+    ) -> Result<Growth, Unbalanced> {
+        let (mut motion, force) = line::rate(equations, state, &*target.rate);
+        let grown = self.solved(equations, state, &force)?;
+        for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
+            motion[dof as usize] = *value;
+        }
+        Ok(Growth {
+            force,
+            motion,
+            used: 0,
+        })
     }
-    let change: Vec<f64> = force.iter().zip(&left).map(|(was, is)| was - is).collect();
-    let taken: Vec<f64> = step.iter().map(|it| part * it).collect();
-    let work = equations.dot(&taken, &change);
-    curvature.learn(taken, change, work);
-    Ok(iterate)
+
+    /// Change of the unknowns for a residual force, both of shape (n_unknowns).
+    fn solved(
+        &self,
+        equations: &mut Equations,
+        state: &State,
+        force: &[f64],
+    ) -> Result<Vec<f64>, Unbalanced> {
+        let subdomain = equations.subdomain().clone();
+        let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
+        let solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
+        self.earlier.curvature.correction(force, &dot, solve)
+    }
+
+    /// Corrects the load factor, moves the state along the direction as far as that lowers the energy, and records the curvature. Where the
+    /// motion does not have its value, the state takes the whole direction.
+    fn search(
+        &mut self,
+        at: &mut Iteration<'_>,
+        mut direction: Direction,
+        has_value: bool,
+    ) -> Iterate {
+        let is_one_way = at.number > ONE_WAY_AFTER;
+        let (equations, state) = (&mut *at.equations, &mut *at.state);
+        let is_short = shorten(equations, &mut direction.step);
+        let Direction {
+            force,
+            step,
+            load_change,
+        } = direction;
+        state.load_factor += load_change;
+        let (start, subdomain) = (state.displacement.clone(), equations.subdomain().clone());
+        let work = dot_of_all(&subdomain, &force, &step);
+        let most = match equations.contact.surfaces.is_empty() {
+            true => TRIES,
+            false => TRIES_IN_CONTACT,
+        };
+        let mut along = |part: f64| {
+            state.displacement.clone_from(&start);
+            equations.add_correction(state, part, &step);
+            equations.prescribe(state);
+            let iterate = softened(equations, state, is_one_way);
+            let left = equations.out_of_balance(state, &iterate);
+            (dot_of_all(&subdomain, &left, &step), (iterate, left))
+        };
+        let whole = along(1.0);
+        // Beyond the end of a shortened correction surfaces would not see each other.
+        let is_searched = has_value && !(is_short && whole.0 >= 0.0);
+        let tries = if is_searched { most } else { 1 };
+        let (part, (iterate, left)) = line_search::part(work, whole, tries, along);
+        let change: Vec<f64> = force.iter().zip(&left).map(|(was, is)| was - is).collect();
+        let moved: Vec<f64> = step.iter().map(|it| part * it).collect();
+        let work = dot_of_all(&subdomain, &moved, &change);
+        self.earlier.curvature.learn(moved, change, work);
+        iterate
+    }
 }
 
 /// Shortens a correction where surfaces would move too far at once to see each other; returns whether it does.
 fn shorten(equations: &Equations, step: &mut [f64]) -> bool {
-    let surfaces = &equations.meeting.surfaces;
+    let surfaces = &equations.contact.surfaces;
     if surfaces.is_empty() {
         return false;
     }
