@@ -49,7 +49,7 @@ use crate::unknowns::Unknowns;
 use active_set::ActiveSet;
 use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
-use iterate::Way;
+use iterate::Method;
 use newton::Newton;
 use secant::Secant;
 
@@ -466,14 +466,14 @@ impl Equilibrium {
             Some(ControlledQuantity::Motion(target)) => Some(target),
             None => None,
         };
-        let way: &mut dyn Way = if self.softens {
+        let method: &mut dyn Method = if self.softens {
             &mut Secant::new(target)
         } else if target.is_none() && equations.problem.may_press() {
             &mut ActiveSet::new(equations)
         } else {
             &mut Newton { target }
         };
-        let attempt = iterate::balance(equations, state, breakage, way, observer)?;
+        let attempt = iterate::balance(equations, state, breakage, method, observer)?;
         Ok(self.accepted(attempt, state))
     }
 
