@@ -13,6 +13,10 @@
 mod breaking_disk;
 #[path = "../examples/elastic_plate.rs"]
 mod elastic_plate;
+#[path = "../examples/own_law.rs"]
+mod own_law;
+#[path = "../examples/own_way.rs"]
+mod own_way;
 #[path = "../examples/resumed_plate.rs"]
 mod resumed_plate;
 #[path = "../examples/splitting_solid.rs"]
@@ -45,6 +49,16 @@ fn an_observer_watches_and_stops_a_run() {
 #[test]
 fn a_run_goes_on_from_its_checkpoint() {
     resumed_plate::main().unwrap();
+}
+
+#[test]
+fn a_plate_breaks_by_a_criterion_and_a_law_of_its_own() {
+    own_law::main().unwrap();
+}
+
+#[test]
+fn a_run_goes_a_way_of_its_own() {
+    own_way::main().unwrap();
 }
 
 #[test]

@@ -14,9 +14,11 @@ mod start;
 pub mod stepped;
 mod way;
 
+pub use crate::breakage::Breakage;
 pub use crate::problem::Problem;
 pub use checkpoint::Restored;
 pub use prediction::{FirstFailure, Prediction, StepOfFailure};
-pub use run::{Prepared, StopRules};
+pub use record::StepCounters;
+pub use run::{Prepared, Run, StopRules};
 pub use start::stability_of;
 pub use way::{LoadPoint, Outcome, Rows, Stop, Way};

@@ -26,15 +26,23 @@ use crate::state::State;
 
 /// Counters of a load step.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
-pub(super) struct StepCounters {
-    pub(super) step: usize,
-    pub(super) broken: usize,
-    pub(super) broken_in_step: usize,
-    pub(super) rounds: usize,
-    pub(super) solves: usize,
-    pub(super) at_rest: bool,
-    pub(super) negative_eigenvalues: usize,
-    pub(super) largest_ratio: f64,
+pub struct StepCounters {
+    /// Number of the step.
+    pub step: usize,
+    /// Number of bonds broken so far.
+    pub broken: usize,
+    /// Number of bonds that break in the step.
+    pub broken_in_step: usize,
+    /// Number of rounds of breaking in the step.
+    pub rounds: usize,
+    /// Number of solves since the last record.
+    pub solves: usize,
+    /// Whether no bond is left to break.
+    pub at_rest: bool,
+    /// Number of negative eigenvalues of the stiffness.
+    pub negative_eigenvalues: usize,
+    /// Largest utilisation of the intact bonds.
+    pub largest_ratio: f64,
 }
 
 /// A body at a time of its run, as records and observers see it.

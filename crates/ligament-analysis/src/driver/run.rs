@@ -34,8 +34,10 @@ use crate::termination::Verdict;
 use crate::unbalanced::Unbalanced;
 use crate::user_message::Message;
 
-/// State of a run.
-pub(super) struct Run<'a> {
+/// A run: the body in its present state, with its equations, its energies and its record.
+///
+/// A [`Way`](super::Way) through a load program is made from its steps: an equilibrium, which bonds break in it, a record.
+pub struct Run<'a> {
     /// Problem with the loads of the present part of its programme.
     pub(super) problem: Problem,
     pub(super) observer: &'a mut dyn Observer,
@@ -50,8 +52,13 @@ pub(super) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// Begins with the unloaded body; also returns the equilibrium at load factor one, if there is one.
-    pub(super) fn begin(
+    /// Begins with the unloaded body; also returns the equilibrium at load factor one, if there is one. Bonds break at their limits until the run
+    /// [softens](Self::soften).
+    ///
+    /// # Errors
+    ///
+    /// If the equations cannot be set up, or the observer fails.
+    pub fn begin(
         problem: &Problem,
         energy_tolerance: f64,
         stop: StopRules,
@@ -107,6 +114,21 @@ impl<'a> Run<'a> {
         (run, at_one)
     }
 
+    /// The present state of the body.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// The records so far.
+    pub fn history(&self) -> &[StepRecord] {
+        &self.progress.history
+    }
+
+    /// Sets the load factor of the next equilibrium.
+    pub fn set_load_factor(&mut self, load_factor: f64) {
+        self.state.load_factor = load_factor;
+    }
+
     /// Refuses loads that cause no deformation; `at_one` is the equilibrium at load factor one, if there is one.
     pub(super) fn require_resistance(&self, at_one: Option<&State>) -> Result<(), SetupError> {
         // Parts that the full load separates may be pressed together by a smaller load.
@@ -138,7 +160,7 @@ impl<'a> Run<'a> {
     }
 
     /// Enables softening from here on, if the criteria soften.
-    pub(super) fn soften(&mut self) {
+    pub fn soften(&mut self) {
         let n_bonds = self.problem.system.ends().len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
         self.equilibrium.soften();
@@ -185,8 +207,12 @@ impl<'a> Run<'a> {
         Ok(attempt)
     }
 
-    /// The equilibrium of a step after a breakage, with its energies accounted for; where there is none, the end of the run.
-    pub(super) fn next_equilibrium(
+    /// The equilibrium of a step and a round after a breakage, with its energies accounted for.
+    ///
+    /// # Errors
+    ///
+    /// If there is none, which ends the run, or the observer fails.
+    pub fn next_equilibrium(
         &mut self,
         [step, round]: [usize; 2],
         breakage: &Breakage,
@@ -268,8 +294,12 @@ impl<'a> Run<'a> {
         Ok(offer(*observer, numbers, end, &checkpoint)?)
     }
 
-    /// Adds work and released energy, and reports mechanisms.
-    pub(super) fn account(
+    /// Adds the work and the released energy up to an equilibrium after a breakage, and reports mechanisms.
+    ///
+    /// # Errors
+    ///
+    /// If the observer fails.
+    pub fn account(
         &mut self,
         step: usize,
         breakage: &Breakage,
@@ -284,7 +314,7 @@ impl<'a> Run<'a> {
     }
 
     /// Bonds that break first under proportional loading, at deformations (n_bonds).
-    pub(super) fn first_to_break(
+    pub fn first_to_break(
         &self,
         tie_tolerance: f64,
         deformations: &[BondDeformation],
@@ -302,8 +332,12 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Breaks bonds of an equilibrium in a step and a round, and fixes detached parts.
-    pub(super) fn break_bonds(
+    /// Breaks bonds of an equilibrium in a step and a round (from 1), and fixes detached parts.
+    ///
+    /// # Errors
+    ///
+    /// If the observer fails.
+    pub fn break_bonds(
         &mut self,
         bonds: &[u32],
         balanced: &Balanced,
@@ -354,7 +388,7 @@ impl<'a> Run<'a> {
     }
 
     /// Criteria with the limits and measures of the bonds in an equilibrium.
-    pub(super) fn criteria(&self, balanced: &Balanced) -> CriteriaInState<'_> {
+    pub fn criteria(&self, balanced: &Balanced) -> CriteriaInState<'_> {
         self.problem.criteria_in(&self.state, balanced)
     }
 
@@ -378,8 +412,12 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Records an equilibrium.
-    pub(super) fn record(
+    /// Records an equilibrium; the numbers of broken bonds, solves and negative eigenvalues are those of the run.
+    ///
+    /// # Errors
+    ///
+    /// If the observer fails.
+    pub fn record(
         &mut self,
         balanced: &Balanced,
         counters: StepCounters,
@@ -454,7 +492,7 @@ impl<'a> Run<'a> {
     }
 
     /// Result of the run.
-    pub(super) fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
+    pub fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
         Outcome {
             broken_bonds: self.equilibrium.broken_bonds(&self.state),
             softened_bonds: self.softened().bonds,
