@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament_analysis::lists_of_all::{read_by_index, write_by_index, write_rows};
-use ligament_analysis::serial::{SLICE, Serial};
+use ligament_analysis::serial::{SLICE, Serial, write_values};
 use ligament_model::communicator::Communicator;
 use ligament_model::subdomain::{Partition, Subdomain};
 use verification::threads_as_ranks::on_ranks;
@@ -91,7 +91,8 @@ fn received<T: Send>(work: impl Fn(&Subdomain) -> T + Sync) -> Vec<(T, usize)> {
 fn a_list_by_index_goes_through_rank_zero_in_slices() {
     let whole: Vec<f64> = (0..3 * POINTS).map(value).collect();
     let mut expected = Vec::new();
-    whole.write(&mut expected);
+    whole.len().write(&mut expected);
+    write_values(&whole, &0.0, &mut expected);
     let of_ranks = received(|subdomain| {
         let points = subdomain.owned().map(|it| subdomain.number(it) as usize);
         let own = points.flat_map(|point| 3 * point..3 * point + 3);
@@ -106,7 +107,7 @@ fn a_list_by_index_goes_through_rank_zero_in_slices() {
         assert!(*largest <= 2 * SLICE, "{largest} values at a time");
         let mut bytes = expected.as_slice();
         let count = usize::read(&mut bytes).unwrap();
-        let read: Vec<f64> = read_by_index(count, own.iter().copied(), &mut bytes).unwrap();
+        let read: Vec<f64> = read_by_index(count, &0.0, own.iter().copied(), &mut bytes).unwrap();
         assert!(read.iter().zip(own).all(|(it, &index)| *it == value(index)));
         assert!(read.len() == own.len() && bytes.is_empty());
     }

@@ -13,7 +13,7 @@ use ligament_analysis::distributed_matrix::{
     DistributedMatrix, MatrixCommunicator, Rows as MatrixRows,
 };
 use ligament_analysis::messages::{LONGEST, Way, receive, send};
-use ligament_analysis::serial::Serial;
+use ligament_analysis::serial::Damaged;
 use ligament_case::case::CaseFile;
 use ligament_mesh::gmsh::holds_solid;
 use ligament_model::PointCloud;
@@ -242,11 +242,15 @@ fn long_values_go_in_bounded_messages() {
         for way in [Way::ToAll, Way::Between { from, to }] {
             let sender = if matches!(way, Way::ToAll) { 0 } else { from };
             for count in [0, 1, LONGEST / 4, LONGEST / 4 + 1, 3 * LONGEST / 4] {
-                let sent: Vec<u32> = (0..count as u32).collect();
+                let sent: Vec<u8> = (0..4 * count).map(|it| it as u8).collect();
                 if ranks.rank() == sender {
-                    send(&recording, way, |out| u32::write_list(&sent, out));
+                    send(&recording, way, |out| out.put(&sent));
                 } else {
-                    let read = receive(&recording, way, |from| u32::read_list(count, from));
+                    let read = receive(&recording, way, |from| {
+                        let mut read = vec![0; 4 * count];
+                        let whole = from.read_exact(&mut read);
+                        whole.map(|()| read).map_err(|_| Damaged)
+                    });
                     assert!(read.unwrap() == sent);
                 }
             }

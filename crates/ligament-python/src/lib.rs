@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `document` | conversion of Python objects to sections of a case |
 //! | `body` | bodies from arrays, as files that a case reads |
+//! | `by_hand` | a run that goes on row by row |
 //! | `case` | cases |
 //! | `keys` | the keys of a case |
 //! | `solution` | a run on a separate thread, with progress and Ctrl-C |
@@ -20,6 +21,7 @@
 
 mod arrays;
 mod body;
+mod by_hand;
 mod calibration;
 mod case;
 mod document;
@@ -36,6 +38,8 @@ mod solution;
 mod native {
     #[pymodule_export]
     use crate::body::{write_mesh, write_points, write_samples};
+    #[pymodule_export]
+    use crate::by_hand::Rows;
     #[pymodule_export]
     use crate::calibration::{next_trial, numbers};
     #[pymodule_export]

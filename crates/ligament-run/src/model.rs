@@ -15,6 +15,8 @@ use crate::processors::{free_threads, tasks_of_others};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::summary;
+
+pub use crate::processes::loading;
 use ligament_case::case::{CaseFile, StressField};
 
 /// Watcher that times the stages of a case and shows their results.

@@ -17,7 +17,7 @@ use crate::memory;
 /// # Errors
 ///
 /// If a name of the case is not in the body, or the requested results need all bonds on one process and the body is divided.
-pub(crate) fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading> {
+pub fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading> {
     ensure!(
         !model.setup.analysis.is_motion() || model.setup.solver.communicator.size() == 1,
         "analysis = \"motion\": several processes cannot compute a motion in time; run the case with one process, without mpirun"

@@ -281,6 +281,11 @@ impl Way for LoadSteps<'_> {
         &self.run.progress.history
     }
 
+    fn set_next_load_factor(&mut self, load_factor: f64) -> bool {
+        let next = self.plan.get_mut(self.next);
+        next.map(|it| it.load_factor = load_factor).is_some()
+    }
+
     fn outcome(mut self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
         self.run.report_past_peak(&end)?;
         Ok(self.run.into_outcome(end, Rows::LoadSteps))
@@ -307,13 +312,6 @@ impl<'a> LoadSteps<'a> {
             begun: None,
             ended,
         })
-    }
-
-    /// Gives the next load step another load factor; in stages, another share of the motion or energy of its part.
-    pub fn set_next_load_factor(&mut self, load_factor: f64) {
-        if let Some(next) = self.plan.get_mut(self.next) {
-            next.load_factor = load_factor;
-        }
     }
 
     /// Breaks bonds in a load step, from an equilibrium on, until none is left to break.

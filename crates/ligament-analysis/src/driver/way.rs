@@ -26,6 +26,11 @@ pub trait Way {
     /// The records so far.
     fn history(&self) -> &[StepRecord];
 
+    /// Gives the next row another load factor, in a controlled stage another share of its motion or energy; whether this way takes one.
+    fn set_next_load_factor(&mut self, _load_factor: f64) -> bool {
+        false
+    }
+
     /// Result of a run that ended.
     ///
     /// # Errors

@@ -72,6 +72,7 @@ use softening_table::SofteningTable;
 pub use surface_files::{SURFACE_FILES, stored_jumps, write_series, write_surface};
 pub use tables::criterion_labels;
 use tables::{CRITERIA_FILE, Tables, deformation_names};
+pub use tables::{history_columns, history_row};
 
 /// Observer that writes the results of a run.
 pub struct ResultWriter<'a> {

@@ -120,7 +120,7 @@ fn named<R>(columns: &'static [Reading<R>], name: &str, in_space: bool) -> Vec<S
 }
 
 /// Names of the columns of the history of a problem.
-pub(super) fn history_columns(problem: &Problem) -> Vec<String> {
+pub fn history_columns(problem: &Problem) -> Vec<String> {
     let groups = problem.loads.groups().iter();
     let of_body = problem.system.layout().of_body();
     let of_groups = groups.flat_map(|group| {
@@ -148,7 +148,7 @@ pub(super) fn history_columns(problem: &Problem) -> Vec<String> {
 }
 
 /// Values of a record in the [columns of the history](history_columns).
-pub(super) fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
+pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
     let mut row: Vec<Value<'_>> = HISTORY.iter().map(|column| column.1(record)).collect();
     if let Some(loads) = view.loads.course() {
         let stage = loads.programme.stage_name(record.part);

@@ -23,6 +23,7 @@ can be kept and opened later. All values are in SI units.
 from typing import TYPE_CHECKING, Any
 
 from ligament import examples
+from ligament._by_hand import Rows, begin
 from ligament._case import Case, Setup
 from ligament._ensemble import Ensemble, Weibull, ensemble
 from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, NotCalibrated, SolutionError
@@ -60,12 +61,14 @@ __all__ = [
     "Modes",
     "NotCalibrated",
     "Result",
+    "Rows",
     "Sections",
     "Setup",
     "SolutionError",
     "Sweep",
     "Weibull",
     "__version__",
+    "begin",
     "calibrate",
     "ensemble",
     "examples",
