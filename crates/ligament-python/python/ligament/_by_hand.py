@@ -61,7 +61,7 @@ class Rows:
     def set_next_load_factor(self, load_factor: float) -> None:
         """Gives the next load step another load factor, or another share of the motion or energy that controls its stage."""
         if not self._native.set_next_load_factor(load_factor):
-            hint = "`fracture.driver=\"steps\"` runs through load steps"
+            hint = "`fracture.control=\"stepped\"` runs through load steps"
             raise LigamentError(f"the run has no further load step that could take a load factor; {hint}", hint=hint)
 
 

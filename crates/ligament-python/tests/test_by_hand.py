@@ -1,0 +1,61 @@
+"""Runs that go on row by row."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+import ligament
+
+PLATE: dict[str, Any] = {
+    "lattice": {
+        "cells": [24, 12], "spacing": 0.0025, "thickness": 0.01, "set": {"left": {"left": 2}, "right": {"right": 2}},
+    },
+    "material": {"young": 15e9, "poisson": 0.21, "tensile_strength": 3.81e6},
+    "model": {"law": "nhpd", "horizon_factor": 3.0},
+    "support": [{"group": "left", "displacement": {"x": 0.0, "y": 0.0}}],
+    "load": [{"group": "right", "displacement": {"x": 2e-5}}],
+    "probe": [{"name": "end", "at": [0.05, 0.015], "component": "x"}],
+    "fracture": {"steps": 10},
+}
+
+
+@pytest.mark.parametrize("changes", [{}, {"fracture__control": "event", "fracture__steps": None}])
+def test_rows_have_the_bits_of_a_run(changes: dict[str, Any]) -> None:
+    rows = ligament.begin(PLATE, **changes)
+    found = list(rows)
+    result = ligament.run(PLATE, progress=False, **changes)
+    assert rows.termination == result.termination
+    assert rows.termination_message
+    history = result.history
+    assert len(found) == len(history["step"]) > 3
+    for name in ["step", "load_factor", "reaction", "stored_energy", "broken_bonds", "end"]:
+        assert [row[name] for row in found] == list(history[name]), name
+    last = result.steps[-1]
+    assert np.array_equal(rows.displacement, result.field("displacement", last))
+    assert np.array_equal(rows.damage, result.field("damage", last))
+
+
+def test_a_run_takes_another_load_and_is_left() -> None:
+    rows = ligament.begin(PLATE)
+    first = next(rows)
+    assert first["load_factor"] == 0.0
+    rows.set_next_load_factor(0.25)
+    second = next(rows)
+    assert second["load_factor"] == 0.25
+    assert rows.displacement.shape == (288, 2)
+    assert rows.displacement[:, 0].max() == pytest.approx(0.25 * 2e-5)
+    assert rows.damage.max() == 0.0
+    assert rows.termination is None
+
+
+def test_what_cannot_be_is_told() -> None:
+    events = ligament.begin(PLATE, fracture__control="event", fracture__steps=None)
+    next(events)
+    with pytest.raises(ligament.LigamentError, match="load step") as caught:
+        events.set_next_load_factor(0.5)
+    assert caught.value.hint is not None
+    with pytest.raises(ligament.CaseError):
+        ligament.begin(PLATE, model__law="nhp")
+    with pytest.raises(ligament.LigamentError, match="nowhere"):
+        ligament.begin(PLATE, load__0__group="nowhere")
