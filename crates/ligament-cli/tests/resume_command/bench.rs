@@ -11,7 +11,7 @@ use tempfile::TempDir;
 
 const CASE: &str = r#"
 lattice = { cells = [24, 24], spacing = 0.001, set = { bottom = { bottom = 1 }, top = { top = 1 } } }
-material = { young = 30e9, poisson = 0.3, fracture_energy = 100.0, tensile_strength = 3e6 }
+material = { young = 30e9, poisson = 0.3, fracture_energy = 100.0, tensile_strength = 3e6, density = 2400.0 }
 model = { law = "mppd", horizon_factor = 3.0 }
 precrack = [{ points = [[-0.001, 0.0121], [0.0081, 0.0121]] }]
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
@@ -26,6 +26,20 @@ output = { fields_every = 20, bonds = true, checkpoint_every = EVERY }";
 pub(super) const SOFTENING: &str = "load = [{ group = \"top\", displacement = { y = 2e-4 } }]
 output = { fields_every = 7, checkpoint_every = EVERY }
 fracture = { steps = 60, stop = { load_fraction = 0.3 }, criterion = [{ kind = \"bond-energy\", limit = 1e-4, after = \"bilinear\" }] }";
+
+/// A ball with a mass hits the body, with friction; in explicit steps it turns.
+pub(super) const EXPLICIT: &str = "analysis = \"motion\"
+motion = { duration = 4e-5, rows = 60 }
+rigid = [{ name = \"ball\", shape = \"circle\", centre = [0.012, 0.02705], radius = 0.003, mass = 0.005, inertia = 1e-8, \
+    velocity = { x = 2.0, y = -20.0 }, friction = 0.3 }]
+fracture = { }
+output = { fields_every = 7, bonds = true, checkpoint_every = EVERY }";
+pub(super) const IMPLICIT: &str = "analysis = \"motion\"
+motion = { scheme = \"implicit\", duration = 4e-5, step = 2e-7, rows = 50 }
+rigid = [{ name = \"ball\", shape = \"circle\", centre = [0.012, 0.02705], radius = 0.003, mass = 0.005, velocity = { x = 2.0, y = -20.0 }, \
+    friction = 0.3 }]
+fracture = { }
+output = { fields_every = 7, bonds = true, checkpoint_every = EVERY }";
 
 /// A place for runs of one case.
 pub(super) struct Bench {

@@ -3,7 +3,9 @@
 use std::fs;
 use std::time::Instant;
 
-use super::bench::{Bench, EVENT, SOFTENING, STEPPED, assert_same, started, succeeded};
+use super::bench::{
+    Bench, EVENT, EXPLICIT, IMPLICIT, SOFTENING, STEPPED, assert_same, started, succeeded,
+};
 
 /// Kills a run, and what goes on with it, again and again at moments of a fixed sequence; what is finished at last is as if nothing
 /// had happened. Gives the number of kills.
@@ -47,7 +49,8 @@ fn kill_and_resume(fracture: &str, n_kills: usize, seed: u64) -> usize {
 
 #[test]
 fn a_killed_run_goes_on() {
-    for (fracture, seed) in [(STEPPED, 1), (EVENT, 2), (SOFTENING, 3)] {
+    let kinds = [STEPPED, EVENT, SOFTENING, EXPLICIT, IMPLICIT];
+    for (fracture, seed) in kinds.into_iter().zip(1..) {
         let killed = kill_and_resume(fracture, 4, seed);
         println!("{killed} kills survived");
     }
@@ -57,7 +60,8 @@ fn a_killed_run_goes_on() {
 #[ignore = "takes minutes"]
 fn hundreds_of_killed_runs_go_on() {
     let mut total = 0;
-    for (fracture, seed) in [(STEPPED, 11), (EVENT, 12), (SOFTENING, 13)] {
+    let kinds = [STEPPED, EVENT, SOFTENING, EXPLICIT, IMPLICIT];
+    for (fracture, seed) in kinds.into_iter().zip(11..) {
         total += kill_and_resume(fracture, 80, seed);
         println!("{total} kills survived so far");
     }
