@@ -302,7 +302,12 @@ impl ContactStep<'_> {
     }
 
     /// The step as a contact sees it, from motions of all points (n_degrees_of_freedom) to a contact after it.
-    fn of<'a>(&'a self, before: &'a [f64], now: &Touching, contact: &SurfaceContact) -> Step<'a> {
+    fn of_contact<'a>(
+        &'a self,
+        before: &'a [f64],
+        now: &Touching,
+        contact: &SurfaceContact,
+    ) -> Step<'a> {
         let pose = |it: &Touching| contact.rigid_body.map(|body| it.pose(body));
         Step {
             before,
@@ -395,7 +400,7 @@ impl SurfaceSearch {
         let before = step.before();
         let contacts = self.problem.contacts.iter().zip(&mut self.searches);
         let pairs = contacts.enumerate().map(|(index, (contact, search))| {
-            let of_contact = step.of(&before, &found, contact);
+            let of_contact = step.of_contact(&before, &found, contact);
             let then = last.touching.touches_of(index);
             PairContacts {
                 touches: contact.surfaces.touches(search, of_contact, then),
@@ -414,7 +419,7 @@ impl SurfaceSearch {
         let contacts = self.problem.contacts.iter().zip(unbounded);
         let first = PairContacts::default();
         let pairs = contacts.enumerate().map(|(index, (contact, pair))| {
-            let of_contact = step.of(&before, &found, contact);
+            let of_contact = step.of_contact(&before, &found, contact);
             let then = step.last.touching.pairs.get(index).unwrap_or(&first);
             then.after(&*contact.surfaces, of_contact, pair.touches)
         });
@@ -434,7 +439,7 @@ impl SurfaceSearch {
         let farthest = of_points.fold(0.0, |largest: f64, it| largest.max(it.abs()));
         let contacts = self.problem.contacts.iter().enumerate();
         let mut missed = contacts.map(|(index, contact)| {
-            let of_contact = step.of(&before, touching, contact);
+            let of_contact = step.of_contact(&before, touching, contact);
             let touches = touching.touches_of(index);
             Some((index, contact.missed(of_contact, farthest, touches)?))
         });
