@@ -3,7 +3,6 @@
 use std::io::Read;
 
 use super::body::Body;
-use super::clock::Clock;
 use super::inertia::Velocities;
 use super::motion_state::{Motion, MotionState, free_masses};
 use super::record::{EXPLICIT, IMPLICIT, Progress};
@@ -20,13 +19,16 @@ use crate::problem::Problem;
 use crate::serial::{Serial, Sink, require_end};
 use crate::state::State;
 
-/// Motion in explicit steps as a checkpoint has it.
-pub(super) struct ExplicitCheckpoint {
+/// Motion in explicit steps at a time.
+pub(super) struct ExplicitMotion {
+    pub(super) problem: MotionProblem,
     pub(super) body: Body,
     pub(super) velocities: Velocities,
+    pub(super) energies: Energies,
+    pub(super) progress: Progress,
 }
 
-impl ExplicitCheckpoint {
+impl ExplicitMotion {
     /// Appends the motion at a row, with its forces: inertia and damping are in them, and do not follow from the state.
     pub(super) fn write(body: &Body, velocities: &Velocities, out: &mut dyn Sink) {
         body.state.write(&body.numbers, out);
@@ -39,7 +41,11 @@ impl ExplicitCheckpoint {
     }
 
     /// Restores the motion of a problem at a row.
-    pub(super) fn read(problem: &MotionProblem, from: &mut dyn Read) -> Result<Self, SetupError> {
+    fn read(
+        problem: &MotionProblem,
+        progress: Progress,
+        from: &mut dyn Read,
+    ) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
         let n_components = problem.problem.system.layout().components.len();
@@ -68,18 +74,28 @@ impl ExplicitCheckpoint {
         }
         body.balanced.internal.values = values;
         body.balanced.internal.on_rigid_bodies = Serial::read(from).map_err(damaged)?;
-        Ok(Self { body, velocities })
+        let energies = Energies::read(&problem.problem, &body.state, &body.balanced, from)?;
+        Ok(Self {
+            problem: problem.clone(),
+            body,
+            velocities,
+            energies,
+            progress,
+        })
     }
 }
 
-/// Motion in implicit steps as a checkpoint has it.
-pub(super) struct ImplicitCheckpoint {
+/// Motion in implicit steps at a time.
+pub(super) struct ImplicitMotion {
+    pub(super) problem: MotionProblem,
     pub(super) here: MotionState,
     pub(super) stepping: Stepping,
     pub(super) pace: Pace,
+    pub(super) energies: Energies,
+    pub(super) progress: Progress,
 }
 
-impl ImplicitCheckpoint {
+impl ImplicitMotion {
     /// Appends the motion at a row.
     pub(super) fn write(
         problem: &Problem,
@@ -96,12 +112,13 @@ impl ImplicitCheckpoint {
     }
 
     /// Restores the motion of a problem at a row.
-    pub(super) fn read(
+    fn read(
         problem: &MotionProblem,
         settings: &MotionSettings,
-        clock: &Clock,
+        progress: Progress,
         from: &mut dyn Read,
     ) -> Result<Self, SetupError> {
+        let clock = &progress.clock;
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
         let n_components = problem.problem.system.layout().components.len();
@@ -138,47 +155,41 @@ impl ImplicitCheckpoint {
             equilibrium,
             costs,
         };
+        let energies = Energies::read(&problem.problem, &here.state, &here.balanced, from)?;
         Ok(Self {
+            problem: problem.clone(),
             here,
             stepping,
             pace,
+            energies,
+            progress,
         })
     }
 }
 
 /// Motion restored from a checkpoint, at a row of its history.
-pub struct Restored {
-    pub(super) record: RestoredRecord,
-    pub(super) scheme: SchemeCheckpoint,
-}
+pub struct Restored(pub(super) RestoredMotion);
 
-/// Problem of a restored motion, and its record up to a row.
-pub(super) struct RestoredRecord {
-    pub(super) problem: MotionProblem,
-    pub(super) energies: Energies,
-    pub(super) progress: Progress,
-}
-
-/// State of a motion under each scheme.
-pub(super) enum SchemeCheckpoint {
-    Explicit(Box<ExplicitCheckpoint>),
-    Implicit(Box<ImplicitCheckpoint>),
+/// Motion of each scheme.
+pub(super) enum RestoredMotion {
+    Explicit(Box<ExplicitMotion>),
+    Implicit(Box<ImplicitMotion>),
 }
 
 impl Restored {
     /// Time of the restored state, s.
     pub fn time(&self) -> f64 {
-        match &self.scheme {
-            SchemeCheckpoint::Explicit(it) => it.body.state.load_factor,
-            SchemeCheckpoint::Implicit(it) => it.here.state.load_factor,
+        match &self.0 {
+            RestoredMotion::Explicit(it) => it.body.state.load_factor,
+            RestoredMotion::Implicit(it) => it.here.state.load_factor,
         }
     }
 
     /// Number of bonds broken up to the restored state.
     pub fn broken_bonds(&self) -> usize {
-        match &self.scheme {
-            SchemeCheckpoint::Explicit(it) => it.body.broken,
-            SchemeCheckpoint::Implicit(it) => it.here.broken,
+        match &self.0 {
+            RestoredMotion::Explicit(it) => it.body.broken,
+            RestoredMotion::Implicit(it) => it.here.broken,
         }
     }
 
@@ -194,30 +205,18 @@ impl Restored {
             return Err(CheckpointError::OtherDriver.into());
         }
         let progress: Progress = Serial::read(from).map_err(damaged)?;
-        let kept = match (scheme, settings.is_explicit()) {
+        let restored = match (scheme, settings.is_explicit()) {
             (EXPLICIT, true) => {
-                SchemeCheckpoint::Explicit(Box::new(ExplicitCheckpoint::read(problem, from)?))
+                let motion = ExplicitMotion::read(problem, progress, from)?;
+                RestoredMotion::Explicit(Box::new(motion))
             }
             (IMPLICIT, false) => {
-                let kept = ImplicitCheckpoint::read(problem, settings, &progress.clock, from)?;
-                SchemeCheckpoint::Implicit(Box::new(kept))
+                let motion = ImplicitMotion::read(problem, settings, progress, from)?;
+                RestoredMotion::Implicit(Box::new(motion))
             }
             _ => return Err(CheckpointError::OtherDriver.into()),
         };
-        let (state, balanced) = match &kept {
-            SchemeCheckpoint::Explicit(it) => (&it.body.state, &it.body.balanced),
-            SchemeCheckpoint::Implicit(it) => (&it.here.state, &it.here.balanced),
-        };
-        let energies = Energies::read(&problem.problem, state, balanced, from)?;
         require_end(from).map_err(damaged)?;
-        let problem = problem.clone();
-        Ok(Self {
-            record: RestoredRecord {
-                problem,
-                energies,
-                progress,
-            },
-            scheme: kept,
-        })
+        Ok(Self(restored))
     }
 }

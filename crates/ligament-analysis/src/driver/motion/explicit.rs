@@ -11,7 +11,7 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::body::{Body, TimeStep};
-use super::checkpoint::{ExplicitCheckpoint, RestoredRecord};
+use super::checkpoint::ExplicitMotion;
 use super::clock::Clock;
 use super::inertia::{Inertia, Velocities};
 use super::record::{self, EXPLICIT, Progress};
@@ -51,14 +51,6 @@ pub(super) struct ExplicitSteps<'a> {
     started: Instant,
 }
 
-/// What changes in a motion.
-struct Parts {
-    body: Body,
-    velocities: Velocities,
-    energies: Energies,
-    progress: Progress,
-}
-
 /// Begins a motion at time zero.
 pub(super) fn begin<'a>(
     problem: &MotionProblem,
@@ -77,13 +69,14 @@ pub(super) fn begin<'a>(
     };
     let energies = Energies::unloaded(&problem.problem);
     let progress = Progress::at_start(clock);
-    let parts = Parts {
+    let motion = ExplicitMotion {
+        problem: problem.clone(),
         body,
         velocities,
         energies,
         progress,
     };
-    let mut motion = ExplicitSteps::new(problem, settings, choice, parts, observer);
+    let mut motion = ExplicitSteps::new(settings, choice, motion, observer);
     motion.begin(&problem.initial_velocity);
     Ok(motion)
 }
@@ -91,27 +84,14 @@ pub(super) fn begin<'a>(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    record: RestoredRecord,
-    checkpoint: ExplicitCheckpoint,
+    motion: ExplicitMotion,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let RestoredRecord {
-        problem,
-        energies,
-        progress,
-    } = record;
-    let ExplicitCheckpoint { body, velocities } = checkpoint;
-    let (clock, choice) = chosen(&problem, settings)?;
-    if clock != progress.clock {
+    let (clock, choice) = chosen(&motion.problem, settings)?;
+    if clock != motion.progress.clock {
         return Err(CheckpointError::OtherTimes.into());
     }
-    let parts = Parts {
-        body,
-        velocities,
-        energies,
-        progress,
-    };
-    let mut motion = ExplicitSteps::new(&problem, settings, choice, parts, observer);
+    let mut motion = ExplicitSteps::new(settings, choice, motion, observer);
     motion.apply_loads();
     Box::new(motion).follow()
 }
@@ -137,24 +117,24 @@ pub(super) fn chosen(
 
 impl<'a> ExplicitSteps<'a> {
     fn new(
-        problem: &MotionProblem,
         settings: &'a MotionSettings,
         choice: ExplicitChoice,
-        parts: Parts,
+        motion: ExplicitMotion,
         observer: &'a mut dyn Observer,
     ) -> Self {
-        let Parts {
+        let ExplicitMotion {
+            problem,
             body,
             velocities,
             energies,
             progress,
-        } = parts;
+        } = motion;
         let (alpha, step) = (settings.damping.mass, choice.step);
         let loads = &problem.problem.loads;
         let n = body.state.displacement.len();
         let is_damped = settings.damping.stiffness > 0.0;
         Self {
-            inertia: Inertia::new(problem, settings.rotary_inertia, alpha, step),
+            inertia: Inertia::new(&problem, settings.rotary_inertia, alpha, step),
             loaded: loads.loaded_degrees_of_freedom(),
             external: vec![0.0; n],
             restraining: vec![0.0; if loads.restraints().is_empty() { 0 } else { n }],
@@ -251,7 +231,7 @@ impl ExplicitSteps<'_> {
         let stop = (&self.settings.stop, self.started);
         let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
             let state = |out: &mut dyn Sink| {
-                ExplicitCheckpoint::write(body, velocities, out);
+                ExplicitMotion::write(body, velocities, out);
             };
             progress.write_all(energies, EXPLICIT, &state, out);
         };

@@ -7,7 +7,7 @@
 
 use std::time::Instant;
 
-use super::checkpoint::{ImplicitCheckpoint, RestoredRecord};
+use super::checkpoint::ImplicitMotion;
 use super::clock::Clock;
 use super::motion_state::{MassAndDamping, Motion, MotionState, free_masses};
 use super::record::{self, MotionView};
@@ -91,23 +91,20 @@ pub(super) fn begin<'a>(
 /// Continues a motion from a checkpoint.
 pub(super) fn resume(
     settings: &MotionSettings,
-    record: RestoredRecord,
-    checkpoint: ImplicitCheckpoint,
+    motion: ImplicitMotion,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let RestoredRecord {
-        problem,
-        energies,
-        progress,
-    } = record;
-    if progress.clock != Clock::implicit(settings)? {
+    if motion.progress.clock != Clock::implicit(settings)? {
         return Err(CheckpointError::OtherTimes.into());
     }
-    let ImplicitCheckpoint {
+    let ImplicitMotion {
+        problem,
         here,
         stepping,
         pace,
-    } = checkpoint;
+        energies,
+        progress,
+    } = motion;
     let motion = ImplicitSteps {
         masses: free_masses(&problem, settings.rotary_inertia),
         started: Instant::now(),
@@ -474,7 +471,7 @@ impl ImplicitSteps<'_> {
         let pace = self.pace;
         let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
             let state = |out: &mut dyn Sink| {
-                ImplicitCheckpoint::write(&problem.problem, here, (stepping, pace), out);
+                ImplicitMotion::write(&problem.problem, here, (stepping, pace), out);
             };
             progress.write_all(energies, IMPLICIT, &state, out);
         };

@@ -24,7 +24,7 @@ use crate::solver::ExplicitChoice;
 
 use super::{Outcome, Way};
 pub use checkpoint::Restored;
-use checkpoint::SchemeCheckpoint;
+use checkpoint::RestoredMotion;
 use clock::Clock;
 
 /// Begins a motion at time zero.
@@ -97,15 +97,14 @@ pub fn resume(
     restored: Restored,
     observer: &mut dyn Observer,
 ) -> Result<Outcome, SetupError> {
-    let Restored { record, scheme } = restored;
-    match scheme {
-        SchemeCheckpoint::Explicit(it) if settings.is_explicit() => {
-            explicit::resume(settings, record, *it, observer)
+    match restored.0 {
+        RestoredMotion::Explicit(it) if settings.is_explicit() => {
+            explicit::resume(settings, *it, observer)
         }
-        SchemeCheckpoint::Implicit(it) if !settings.is_explicit() => {
-            implicit::resume(settings, record, *it, observer)
+        RestoredMotion::Implicit(it) if !settings.is_explicit() => {
+            implicit::resume(settings, *it, observer)
         }
-        SchemeCheckpoint::Explicit(_) | SchemeCheckpoint::Implicit(_) => {
+        RestoredMotion::Explicit(_) | RestoredMotion::Implicit(_) => {
             Err(CheckpointError::OtherDriver.into())
         }
     }
