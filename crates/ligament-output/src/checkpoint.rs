@@ -18,7 +18,7 @@ use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use ligament_analysis::Message;
-use ligament_analysis::serial::{Serial, Sink};
+use ligament_analysis::serial::{Damaged, Serial, Sink};
 use serde::{Deserialize, Serialize};
 use twox_hash::XxHash64;
 
@@ -92,8 +92,8 @@ impl Checkpoint {
         let [newest, older] = NAMES.map(|name| folder.join(name));
         rotate_file(&newest, &older, |file| {
             let mut header = BEGINNING.to_vec();
-            FORMAT.write(&mut header);
-            0_u64.write(&mut header);
+            header.extend(FORMAT.to_le_bytes());
+            header.extend(0_u64.to_le_bytes());
             file.write_all(&header)?;
             let mut content = Content::new(file);
             Serial::write(self, &mut content);
@@ -145,13 +145,15 @@ impl Checkpoint {
             return Err("it is no checkpoint of a run".to_owned());
         }
         let damaged = |_| "it is damaged".to_owned();
-        let format = u32::read(&mut from).map_err(damaged)?;
+        let format = fixed(&mut from).map(u32::from_le_bytes);
+        let format = format.map_err(damaged)?;
         if format != FORMAT {
             return Err(format!(
                 "it is of format {format}, which another version of the program writes; this one reads format {FORMAT}"
             ));
         }
-        let length = u64::read(&mut from).map_err(damaged)?;
+        let length = fixed(&mut from).map(u64::from_le_bytes);
+        let length = length.map_err(damaged)?;
         let in_file = n_bytes.saturating_sub(HEADER + DIGEST);
         if in_file < length {
             return Err(format!("it ends after {n_bytes} bytes, too early"));
@@ -161,11 +163,21 @@ impl Checkpoint {
         let before = length - content.from.limit();
         let rest = io::copy(&mut content, &mut io::sink());
         let digest = content.digest.finish();
-        if rest.is_err() || in_file != length || u64::read(&mut from) != Ok(digest) {
+        if rest.is_err()
+            || in_file != length
+            || fixed(&mut from).map(u64::from_le_bytes).ok() != Some(digest)
+        {
             return Err("it is damaged: its digest is another one".to_owned());
         }
         Ok((checkpoint, [HEADER + before, length - before]))
     }
+}
+
+/// Reads so many bytes.
+fn fixed<const N: usize>(from: &mut impl Read) -> Result<[u8; N], Damaged> {
+    let mut bytes = [0; N];
+    let read = from.read_exact(&mut bytes);
+    read.map(|()| bytes).map_err(|_| Damaged)
 }
 
 /// Content of a checkpoint on the way into its file.

@@ -479,7 +479,9 @@ pub(crate) fn restore(
 ) -> Result<(), CheckpointError> {
     let first = u64::read(from)?;
     if is_shared || first != MARK {
-        return solver.restore(&mut first.to_le_bytes().chain(from));
+        let mut again = Vec::new();
+        first.write(&mut again);
+        return solver.restore(&mut again.as_slice().chain(from));
     }
     let _ = bool::read(from)?;
     let _ = PreconditionerState::read((numbers, layout.components.len()), from)?;
