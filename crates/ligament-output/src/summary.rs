@@ -14,6 +14,7 @@ use std::path::Path;
 
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::LoadPoint;
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -37,7 +38,7 @@ pub use values::Text;
 pub const SUMMARY: &str = "summary.json";
 
 /// Summary of a run. Keys that an earlier version did not write have their default.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Summary {
     /// Summary of the model.
@@ -108,7 +109,7 @@ pub struct Summary {
 }
 
 /// Units of the force-displacement curve.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct UnitsSummary {
     /// Unit of the displacement.
@@ -141,7 +142,7 @@ impl Default for UnitsSummary {
 }
 
 /// A point of the force-displacement curve.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PathPoint {
     /// Displacement of the first load.
     #[serde(deserialize_with = "number")]
@@ -171,7 +172,7 @@ impl From<LoadPoint> for PathPoint {
 }
 
 /// A bond that broke or began to soften before all others.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BondEvent {
     /// Tags of the ends of the bond.
     pub ends: [u64; 2],
@@ -223,7 +224,7 @@ impl BondEvent {
 pub type Resultant = BTreeMap<Text, f64>;
 
 /// Overlap of crack faces.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OverlapSummary {
     /// Depth of the overlap, m.
     pub depth: f64,
@@ -234,7 +235,7 @@ pub struct OverlapSummary {
 }
 
 /// Inertia of the intact stiffness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct StabilitySummary {
     /// Number of negative eigenvalues.
     pub negative: usize,
