@@ -1,5 +1,6 @@
 //! All stored samples of an ensemble, in an order that does not depend on who computed them.
 
+use std::cmp::Reverse;
 use std::collections::BTreeSet;
 
 use super::identity::Identity;
@@ -23,44 +24,34 @@ impl Collected {
     ///
     /// If parts share a sample and each has others, so that counts at the points would count it twice.
     pub(super) fn of_parts(mut parts: Vec<Stored>, identity: &Identity) -> anyhow::Result<Self> {
-        parts.sort_by_key(|it| std::cmp::Reverse(it.rows.len()));
-        let mut all = Self {
-            loads: vec![Vec::new(); identity.grid.n],
-            ..Self::default()
-        };
+        parts.sort_by_key(|it| Reverse(it.rows.len()));
+        let mut all = Self::default();
         let mut seen = BTreeSet::new();
         for part in parts {
-            let twice = part.rows.iter().filter(|it| seen.contains(&it.sample));
-            let n_twice = twice.clone().count();
-            if n_twice == part.rows.len() {
-                continue;
-            }
-            if let Some(row) = twice.clone().next() {
-                anyhow::bail!(
-                    "sample {} of {} is in another part too, and each has others: collect folders whose shards do not overlap",
-                    row.sample,
+            let (twice, once): (Vec<u64>, Vec<u64>) = (part.rows.iter())
+                .map(|row| row.sample)
+                .partition(|it| seen.contains(it));
+            match (twice.first(), once.is_empty()) {
+                (_, true) => continue,
+                (Some(sample), false) => anyhow::bail!(
+                    "sample {sample} of {} is in another part too, and each has others: collect folders whose shards do not overlap",
                     part.path.display()
-                );
+                ),
+                (None, false) => {}
             }
-            seen.extend(part.rows.iter().map(|it| it.sample));
+            seen.extend(once);
             all.counts.add(&part.counts);
-            for loads in &part.loads {
-                for (of_all, load) in all.loads.iter_mut().zip(loads) {
-                    of_all.extend(load);
-                }
-            }
             all.rows.extend(part.rows);
         }
         all.rows.sort_by_key(|it| it.sample);
-        all.loads
-            .iter_mut()
-            .for_each(|it| it.sort_by(f64::total_cmp));
+        let ascending = |displacement| {
+            let known = all.rows.iter().filter_map(|it| it.load(displacement));
+            let mut loads: Vec<f64> = known.collect();
+            loads.sort_by(f64::total_cmp);
+            loads
+        };
+        all.loads = (0..identity.grid.n).map(ascending).collect();
         Ok(all)
-    }
-
-    /// Positive loads of the samples that have one, in their order.
-    pub(super) fn strengths(&self, load: fn(&Row) -> Option<f64>) -> Vec<f64> {
-        self.rows.iter().filter_map(load).collect()
     }
 
     /// Shares of the samples in which fracture begins at each point, and in which it is damaged, shape (n_points).

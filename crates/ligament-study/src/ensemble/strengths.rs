@@ -3,7 +3,6 @@
 use ligament_post::statistics::WeibullFit;
 
 use super::collected::Collected;
-use super::row::Row;
 
 /// Probabilities of the quantiles of curves.
 pub(super) const PROBABILITIES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
@@ -24,14 +23,11 @@ pub(super) struct Strengths {
 }
 
 impl Strengths {
-    /// The loads of the samples that have one.
-    fn new(
-        name: &'static str,
-        words: &'static str,
-        load: fn(&Row) -> Option<f64>,
-        collected: &Collected,
-    ) -> Self {
-        let loads = collected.strengths(load);
+    /// The loads of the samples that have one, in the column `NAME_load`.
+    fn new(name: &'static str, words: &'static str, collected: &Collected) -> Self {
+        let column = format!("{name}_load");
+        let loads = collected.rows.iter().filter_map(|row| row.number(&column));
+        let loads: Vec<f64> = loads.collect();
         Self {
             name,
             words,
@@ -56,8 +52,8 @@ impl Strengths {
 /// Loads at the first breakage, the first peak and the peak.
 pub(super) fn strengths(collected: &Collected) -> [Strengths; 3] {
     [
-        Strengths::new("first", "first breakage", Row::first_load, collected),
-        Strengths::new("first_peak", "first peak", Row::first_peak_load, collected),
-        Strengths::new("peak", "peak", Row::peak_load, collected),
+        Strengths::new("first", "first breakage", collected),
+        Strengths::new("first_peak", "first peak", collected),
+        Strengths::new("peak", "peak", collected),
     ]
 }
