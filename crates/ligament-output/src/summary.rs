@@ -19,7 +19,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
-use crate::atomic::read_text;
+use crate::atomic::read_json;
 use crate::folder::ResultFolder;
 use crate::quantity::{place, quantity};
 
@@ -259,11 +259,7 @@ pub fn read<S: DeserializeOwned>(folder: &Path) -> Result<Option<S>, Error> {
     if !path.is_file() {
         return Ok(None);
     }
-    let summary = serde_json::from_str(&read_text(&path)?);
-    summary.map(Some).map_err(|error| Error::Unreadable {
-        path,
-        reason: error.to_string(),
-    })
+    read_json(&path).map(Some)
 }
 
 /// Writes a summary into the folder of its results.

@@ -1,9 +1,8 @@
 //! What the samples of a folder are of.
 
-use anyhow::Context;
 use ligament::ensemble::Ensemble;
 use ligament_case::case::CaseFile;
-use ligament_output::read_text;
+use ligament_output::{Error, read_json};
 use ligament_run::inputs::{Contents, Inputs, unread};
 use serde::{Deserialize, Serialize};
 
@@ -59,10 +58,8 @@ impl Identity {
     /// # Errors
     ///
     /// If the file cannot be read.
-    pub(super) fn of_folder(folder: &StudyFolder) -> anyhow::Result<Self> {
-        let path = folder.path().join(MARKER);
-        let read = serde_json::from_str(&read_text(&path)?);
-        read.with_context(|| format!("cannot read {}", path.display()))
+    pub(super) fn of_folder(folder: &StudyFolder) -> Result<Self, Error> {
+        read_json(&folder.path().join(MARKER))
     }
 
     /// The identity of a folder for the samples of a request.

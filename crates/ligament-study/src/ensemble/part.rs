@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 use ligament::ensemble::{Ensemble, Sample};
 use ligament_output::csv::read::Sheet;
 use ligament_output::csv::{Table, Value};
-use ligament_output::{Error, read_text, replace_file};
+use ligament_output::{Error, read_json, read_text, replace_file};
 use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
@@ -109,7 +109,7 @@ impl<'a> Part<'a> {
         let names: Vec<&str> = columns.iter().map(String::as_str).collect();
         let (table, counts) = match beside.is_file() {
             true => {
-                let Committed { length, counts } = committed(&beside)?;
+                let Committed { length, counts } = read_json(&beside)?;
                 (Table::cut_back(rows, names.len(), length)?, counts)
             }
             false => (Table::create(rows, &names)?, Counts::none(tags.len())),
@@ -174,8 +174,11 @@ pub(super) fn stored(folder: &StudyFolder, grid: Grid) -> anyhow::Result<Vec<Sto
 
 fn of_file(beside: &Path, grid: Grid) -> anyhow::Result<Stored> {
     let path = beside.with_extension("csv");
-    let gone = || unreadable(&path, "a part of the samples is gone".to_owned());
-    let Committed { length, counts } = committed(beside)?;
+    let gone = || Error::Unreadable {
+        path: path.clone(),
+        reason: "a part of the samples is gone".to_owned(),
+    };
+    let Committed { length, counts } = read_json(beside)?;
     let text = read_text(&path)?;
     let text = text.get(..length as usize).ok_or_else(gone)?;
     let sheet = Sheet::parse(&path, text)?;
@@ -184,17 +187,6 @@ fn of_file(beside: &Path, grid: Grid) -> anyhow::Result<Stored> {
     }
     let rows = sheet.rows(Row::read)?;
     Ok(Stored { path, rows, counts })
-}
-
-/// What is stored beside the rows of a part.
-fn committed(beside: &Path) -> Result<Committed, Error> {
-    let read = serde_json::from_str(&read_text(beside)?);
-    read.map_err(|error| unreadable(beside, error.to_string()))
-}
-
-fn unreadable(path: &Path, reason: String) -> Error {
-    let path = path.to_owned();
-    Error::Unreadable { path, reason }
 }
 
 /// Columns of the rows of a part: those of a sample, and the loads at the displacements of the grid.

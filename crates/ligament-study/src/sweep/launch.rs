@@ -129,7 +129,12 @@ pub(super) fn all(
         }
         match launcher.fits(bytes) {
             true => launcher.start(next, bytes)?,
-            false => launcher.fail(run, &room.too_small_for(bytes), Duration::ZERO)?,
+            false => {
+                let reason = room.too_small_for(bytes);
+                launcher
+                    .progress
+                    .fails(run, folder, &reason, Duration::ZERO)?;
+            }
         }
     }
     while !launcher.running.is_empty() {
@@ -183,13 +188,6 @@ impl Launcher<'_, '_> {
         Ok(())
     }
 
-    fn fail(&mut self, run: &Run, reason: &str, time: Duration) -> anyhow::Result<()> {
-        record::fail(run, self.folder, reason)?;
-        self.progress
-            .ends(run, &Status::Failed(reason.to_owned()), time);
-        Ok(())
-    }
-
     fn spawn(&self, run: &Run, place: &Path, threads: usize) -> io::Result<Child> {
         let log = self.log(run);
         // The log is a new file, never the target of a link.
@@ -236,7 +234,8 @@ impl Launcher<'_, '_> {
         let exit = status?;
         // A run that ended during breakage or without equilibrium also has results, which include its end.
         if !leaves_results(exit.code()) {
-            return self.fail(run, &self.last_words(run, exit), time);
+            let reason = self.last_words(run, exit);
+            return self.progress.fails(run, self.folder, &reason, time);
         }
         if let Some(Running { written, .. }) = ended {
             record::complete(run, self.folder, &written)?;

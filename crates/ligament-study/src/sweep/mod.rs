@@ -18,7 +18,6 @@ pub mod study;
 mod table;
 pub mod written;
 
-use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -136,7 +135,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
     let mine = mine.filter(|(index, _)| Shard::contains(settings.shard, *index));
     let mine: Vec<&Run> = mine.map(|(_, run)| run).collect();
     let total = mine.len();
-    let (mut todo, notes) = not_done(study, &folder, &mine, settings.force)?;
+    let (todo, notes) = not_done(study, &folder, &mine, settings.force)?;
     let before = total - todo.len();
     let mut progress = StudyProgress::new(study, settings.progress, todo.len());
     if let Some(Shard { number, count }) = settings.shard {
@@ -147,8 +146,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         progress.print(&format!("{before} of {total} runs were done already"));
     }
     notes.iter().for_each(|note| progress.print(note));
-    let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;
-    todo.retain(|run| !unmeshed.contains_key(&run.name));
+    let todo = meshed(todo, &folder, &settings.gmsh, &mut progress)?;
     let room = Room::new(settings.jobs, settings.memory);
     let start = (&*claim.runs, &*settings.program);
     let sum = launch::all(&todo, &folder, start, room, &mut progress)?;
@@ -212,24 +210,24 @@ fn not_done<'a>(
     Ok((todo, notes))
 }
 
-/// Makes the missing meshes of runs; returns the runs without a mesh, which have failed, with the reasons.
-fn made_meshes(
-    todo: &[&Run],
+/// Makes the missing meshes of runs; returns the runs with a mesh. Those without one have failed.
+fn meshed<'a>(
+    todo: Vec<&'a Run>,
     folder: &StudyFolder,
     gmsh: &Path,
-    progress: &mut StudyProgress,
-) -> anyhow::Result<BTreeMap<String, String>> {
-    let lacking = todo
-        .iter()
-        .filter_map(|run| Some((run.name.as_str(), run.mesh.as_ref()?)));
-    let unmeshed = meshes::make(lacking, gmsh, &mut |line| progress.print(line))?;
-    for (name, reason) in &unmeshed {
-        if let Some(run) = todo.iter().find(|run| run.name == *name) {
-            record::fail(run, folder, reason)?;
-            progress.ends(run, &Status::Failed(reason.clone()), Duration::ZERO);
+    progress: &mut StudyProgress<'_>,
+) -> anyhow::Result<Vec<&'a Run>> {
+    let plans = todo.iter().filter_map(|run| run.mesh.as_ref());
+    let failed = meshes::make(plans, gmsh, &mut |line| progress.print(line))?;
+    let mut meshed = Vec::new();
+    for run in todo {
+        let mesh = run.mesh.as_ref().map(|plan| plan.request.out.as_path());
+        match mesh.and_then(|mesh| failed.get(mesh)) {
+            None => meshed.push(run),
+            Some(reason) => progress.fails(run, folder, reason, Duration::ZERO)?,
         }
     }
-    Ok(unmeshed)
+    Ok(meshed)
 }
 
 /// Writes the tables and plots of runs in one or several folders, and the problems with them on stderr; returns the problems.

@@ -4,10 +4,11 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use super::plan::Run;
-use super::record::Status;
+use super::record::{self, Status};
 use super::report::unknown_names;
 use super::study::Study;
 use crate::quantities::Quantities;
+use crate::run_table::folder::StudyFolder;
 use crate::run_table::progress::ProgressDisplay;
 use ligament_output::quantity::quantity;
 use ligament_run::progress::{ProgressMode, duration_text};
@@ -62,6 +63,19 @@ impl<'a> StudyProgress<'a> {
     fn show_running(&self) {
         let words: Vec<&str> = self.running.values().map(String::as_str).collect();
         self.display.show(&format!("running: {}", words.join("; ")));
+    }
+
+    /// Records and prints that a run failed, with the reason.
+    pub(super) fn fails(
+        &mut self,
+        run: &Run,
+        folder: &StudyFolder,
+        reason: &str,
+        time: Duration,
+    ) -> anyhow::Result<()> {
+        record::fail(run, folder, reason)?;
+        self.ends(run, &Status::Failed(reason.to_owned()), time);
+        Ok(())
     }
 
     /// Prints the end of a run.

@@ -1,18 +1,15 @@
 //! Results of a run with the record of their inputs, and the status of the run by both.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use ligament_output::folder::{Kind, ResultFolder, put_in_place, recover, refuse_link};
-use ligament_output::{rename, replace_file};
+use ligament_output::summary::SUMMARY;
+use ligament_output::{read_json, rename, replace_file};
 use serde::{Deserialize, Serialize};
 
 use super::plan::Run;
 use crate::quantities::Quantities;
 use crate::run_table::folder::StudyFolder;
-
-/// File that a run writes last.
-const SUMMARY: &str = "summary.json";
 
 /// Folder of results of a run, and file of the record of their inputs.
 pub(super) struct Results {
@@ -53,7 +50,7 @@ impl Results {
     }
 
     fn record(&self) -> Option<Record> {
-        serde_json::from_str(&fs::read_to_string(&self.record).ok()?).ok()
+        read_json(&self.record).ok()
     }
 
     /// The record, if it has the present inputs of a run.
