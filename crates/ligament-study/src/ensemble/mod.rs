@@ -13,7 +13,6 @@ mod plots;
 mod report;
 mod request;
 mod row;
-mod strengths;
 
 use std::collections::BTreeSet;
 use std::fs;

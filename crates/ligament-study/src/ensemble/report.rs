@@ -11,13 +11,12 @@ use ligament_output::results::write_points;
 use ligament_output::vtu::Field;
 use ligament_post::statistics::quantile;
 
-use super::collected::Collected;
+use super::collected::{Collected, NINETY_PERCENT, PROBABILITIES, Strengths, strengths};
 use super::identity::Identity;
 use super::plots;
 use super::request::Request;
 use super::row::{COLUMNS, Row};
-use super::strengths::{NINETY_PERCENT, PROBABILITIES, Strengths, strengths};
-use crate::run_table::report::{WIDTH, number, table, write_plot};
+use crate::run_table::{WIDTH, number, table, write_plot};
 
 /// Columns of `curves.csv`.
 const CURVE_COLUMNS: &str =

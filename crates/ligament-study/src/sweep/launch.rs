@@ -65,15 +65,14 @@ impl Room {
     /// The reason why a run that needs so much memory is not started.
     fn too_small_for(self, bytes: u64) -> String {
         let room = self.bytes.unwrap_or_default();
-        let (available, advice) = match self.bytes_are_given {
-            true => (room, "allow more by --memory"),
-            false => {
-                let now = memory::available().map_or(room, |now| now.min(room));
-                (now, "free some, allow more by --memory")
-            }
+        let available = self.bytes_now().map_or(room, |now| now.min(room));
+        let free = if self.bytes_are_given {
+            ""
+        } else {
+            "free some, "
         };
         format!(
-            "it needs {:.2} GB of memory, and {:.2} GB are available; {advice}, or run it on a larger machine by --shard",
+            "it needs {:.2} GB of memory, and {:.2} GB are available; {free}allow more by --memory, or run it on a larger machine by --shard",
             bytes as f64 / 1e9,
             available as f64 / 1e9
         )

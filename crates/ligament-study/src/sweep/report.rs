@@ -8,13 +8,12 @@ use ligament_output::replace_file;
 
 use super::curves::{Curve, Curves, rounded};
 use super::plan::{Run, short_keys};
-use super::record::Status;
 use super::study::Study;
 use super::table;
 use super::table::{NoColumn, Row, StudyTable};
 use crate::quantities::{Quantities, QuantityError};
 use crate::run_table::folder::StudyFolder;
-use crate::run_table::report::{WIDTH, number, write_plot};
+use crate::run_table::{WIDTH, number, write_plot};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, Fault};
 
@@ -42,11 +41,10 @@ pub(super) fn write(
     };
     writeln!(out, "{title}")?;
     write_counts(rows, out)?;
-    let some_done = rows.iter().find_map(|row| match &row.status {
-        Status::Done(results) => Some((row.run, results)),
-        _ => None,
-    });
-    let Some((run, results)) = some_done else {
+    let mut done = rows
+        .iter()
+        .filter_map(|row| Some((row.run, row.results()?)));
+    let Some((run, results)) = done.next() else {
         writeln!(out, "  no run has results to plot")?;
         return Ok(Vec::new());
     };
@@ -153,9 +151,8 @@ fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
         "  {} runs: {done} done, {n_failed} failed, {n_missing} missing",
         rows.len()
     )?;
-    let unsettled = rows
-        .iter()
-        .filter(|row| matches!(&row.status, Status::Done(results) if results.ends_not_at_rest()));
+    let ends_not_at_rest = |row: &&Row<'_>| row.results().is_some_and(Quantities::ends_not_at_rest);
+    let unsettled = rows.iter().filter(ends_not_at_rest);
     let unsettled = unsettled.map(|row| row.run.name.as_str()).collect();
     for (word, names) in [
         ("failed", failed),

@@ -55,7 +55,7 @@ pub(super) struct Row<'a> {
 
 impl Row<'_> {
     /// Results of the run, if it is done.
-    fn results(&self) -> Option<&Quantities> {
+    pub(super) fn results(&self) -> Option<&Quantities> {
         match &self.status {
             Status::Done(results) => Some(results),
             _ => None,
