@@ -65,16 +65,12 @@ pub fn calibrate(
             }
         }
     };
-    let mut answer = Vec::new();
-    let why_not = record.why_not(&verdict);
-    if let Verdict::Met(trial) = &verdict {
-        record.write_answer(trial, &mut answer)?;
-    }
+    let answer = match &verdict {
+        Verdict::Met(trial) => Ok(record.answer(trial)),
+        unmet => Err(CalibrationError::NotMet(record.why_not(unmet))),
+    };
     record.close(&verdict)?;
-    match verdict {
-        Verdict::Met(_) => Ok(out.write_all(&answer)?),
-        _ => Err(CalibrationError::NotMet(why_not).into()),
-    }
+    Ok(out.write_all(answer?.as_bytes())?)
 }
 
 fn search_of(request: &Request) -> anyhow::Result<Search> {

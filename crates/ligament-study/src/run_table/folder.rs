@@ -1,6 +1,7 @@
 //! The folder of a study: its marker, its subfolders, and its locks.
 
 use std::fs::{self, File, TryLockError};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
@@ -147,8 +148,7 @@ impl StudyFolder {
     fn is_fresh(&self) -> bool {
         let marker = self.marker;
         let hidden = format!(".{marker}.");
-        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
-        let mut names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        let mut names = file_names(&self.path).unwrap_or_default().into_iter();
         names.all(|name| name == marker || name == ".lock" || name.starts_with(&hidden))
     }
 
@@ -183,12 +183,11 @@ impl StudyFolder {
 
     /// Removes unfinished records of a killed sweep; no other process writes records.
     fn remove_unfinished(&self) {
-        let entries = fs::read_dir(self.path.join("records"));
-        for entry in entries.into_iter().flatten().flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
+        let records = self.path.join("records");
+        for name in file_names(&records).unwrap_or_default() {
             if name.starts_with('.') && name.ends_with(".partial") {
                 // A file that remains is harmless.
-                let _ = fs::remove_file(entry.path());
+                let _ = fs::remove_file(records.join(name));
             }
         }
     }
@@ -196,12 +195,8 @@ impl StudyFolder {
     /// Fails if shards of another count, which may share runs with these, are in progress.
     fn other_counts_are_free(&self, count: usize) -> Result<(), FolderError> {
         let folder = self.path.join("locks");
-        let entries = fs::read_dir(&folder).map_err(Error::system("list", &folder))?;
-        for entry in entries.flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            let Some(name) = name.strip_suffix(".lock") else {
-                continue;
-            };
+        let names = file_names(&folder).map_err(Error::system("list", &folder))?;
+        for name in names.iter().filter_map(|name| name.strip_suffix(".lock")) {
             let is_shard = name.starts_with("shard-") && !name.ends_with("-runs");
             if is_shard && !name.ends_with(&format!("-of-{count}")) {
                 self.lock(name, true)?;
@@ -240,4 +235,11 @@ fn open_lock(path: &Path) -> Result<File, Error> {
     refuse_link(path)?;
     let opened = File::options().create(true).append(true).open(path);
     opened.map_err(Error::system("open", path))
+}
+
+/// Names of the files and folders in a folder.
+fn file_names(folder: &Path) -> io::Result<Vec<String>> {
+    let entries = fs::read_dir(folder)?.flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    Ok(names.collect())
 }

@@ -139,21 +139,21 @@ pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> V
 }
 
 fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
-    let named = |word: &str| -> Vec<&str> {
-        let rows = rows.iter().filter(|row| row.status.word() == word);
+    let named = |is_it: &dyn Fn(&Row<'_>) -> bool| -> Vec<&str> {
+        let rows = rows.iter().filter(|row| is_it(row));
         rows.map(|row| row.run.name.as_str()).collect()
     };
-    let (done, failed, missing) = (named("done"), named("failed"), named("missing"));
-    let counts = [done.len(), failed.len(), missing.len()];
-    let [done, n_failed, n_missing] = counts;
+    let of_word = |word| named(&|row| row.status.word() == word);
+    let [done, failed, missing] = ["done", "failed", "missing"].map(of_word);
+    let unsettled = named(&|row| row.results().is_some_and(Quantities::ends_not_at_rest));
     writeln!(
         out,
-        "  {} runs: {done} done, {n_failed} failed, {n_missing} missing",
-        rows.len()
+        "  {} runs: {} done, {} failed, {} missing",
+        rows.len(),
+        done.len(),
+        failed.len(),
+        missing.len()
     )?;
-    let ends_not_at_rest = |row: &&Row<'_>| row.results().is_some_and(Quantities::ends_not_at_rest);
-    let unsettled = rows.iter().filter(ends_not_at_rest);
-    let unsettled = unsettled.map(|row| row.run.name.as_str()).collect();
     for (word, names) in [
         ("failed", failed),
         ("missing", missing),
