@@ -17,7 +17,7 @@ use ligament_run::memory;
 use super::estimate::Estimates;
 use super::plan::Run;
 use super::progress::StudyProgress;
-use super::record::{self, Status};
+use super::record::{RecordedRun, Status};
 use crate::run_table::folder::StudyFolder;
 
 /// Number of last lines of a failed run's output in its reason.
@@ -168,7 +168,7 @@ impl Launcher<'_, '_> {
 
     fn start(&mut self, index: usize, bytes: u64) -> anyhow::Result<()> {
         let run = self.runs[index];
-        let written = record::begin(run, self.folder)?;
+        let written = RecordedRun::of(run, self.folder).begin()?;
         let threads = self
             .room
             .threads(self.running.len() + self.runs.len() - index);
@@ -236,10 +236,11 @@ impl Launcher<'_, '_> {
             let reason = self.last_words(run, exit);
             return self.progress.fails(run, self.folder, &reason, time);
         }
+        let recorded = RecordedRun::of(run, self.folder);
         if let Some(Running { written, .. }) = ended {
-            record::complete(run, self.folder, &written)?;
+            recorded.complete(&written)?;
         }
-        let status = match Status::in_folder(run, self.folder) {
+        let status = match recorded.status() {
             Status::Missing | Status::Changed(_) => {
                 Status::Failed("it ended without an error, but wrote no summary.json".to_owned())
             }

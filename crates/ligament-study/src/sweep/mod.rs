@@ -38,7 +38,7 @@ use estimate::Estimates;
 use launch::Room;
 use plan::{MESHES, Run};
 use progress::{StudyProgress, seconds};
-use record::{Results, Status};
+use record::{RecordedRun, Status};
 use study::Study;
 use table::Row;
 
@@ -190,12 +190,13 @@ fn not_done<'a>(
     let mut todo = Vec::new();
     let mut notes = Vec::new();
     for run in mine {
-        record::complete_replacement(run, folder)?;
+        let recorded = RecordedRun::of(run, folder);
+        recorded.complete_replacement()?;
         if force {
-            record::demand(run, folder)?;
+            recorded.record(None)?;
         }
-        match Status::in_folder(run, folder) {
-            Status::Done(_) if record::should_repeat(run, folder) => {}
+        match recorded.status() {
+            Status::Done(_) if recorded.should_repeat() => {}
             Status::Done(_) => continue,
             Status::Changed(how) => {
                 notes.push(format!(
@@ -240,10 +241,8 @@ fn make_report(
 ) -> anyhow::Result<Vec<String>> {
     let row = |run| {
         let found = folders.iter().map(|folder| {
-            (
-                Status::in_folder(run, folder),
-                Results::of(run, folder).folder,
-            )
+            let recorded = RecordedRun::of(run, folder);
+            (recorded.status(), recorded.folder().to_owned())
         });
         let better = |best: (Status, PathBuf), it: (Status, PathBuf)| {
             if it.0.rank() > best.0.rank() {
@@ -276,11 +275,12 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
     let mut estimates = Estimates::default();
     let mut todo = 0;
     for (index, run) in runs.iter().enumerate() {
-        let word = match Status::in_folder(run, &folder) {
+        let recorded = RecordedRun::of(run, &folder);
+        let word = match recorded.status() {
             Status::Changed(_) => "changed",
             status => status.word(),
         };
-        todo += usize::from(word != "done" || record::should_repeat(run, &folder));
+        todo += usize::from(word != "done" || recorded.should_repeat());
         let memory = match estimate::has_mesh(&run.case) {
             true => estimates.bytes(&run.case).map_or_else(
                 || "no model".to_owned(),

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
 use super::plan::Run;
-use super::record::{self, Status};
+use super::record::{RecordedRun, Status};
 use super::report::unknown_names;
 use super::study::Study;
 use crate::quantities::Quantities;
@@ -73,7 +73,7 @@ impl<'a> StudyProgress<'a> {
         reason: &str,
         time: Duration,
     ) -> anyhow::Result<()> {
-        record::fail(run, folder, reason)?;
+        RecordedRun::of(run, folder).record(Some(reason))?;
         self.ends(run, &Status::Failed(reason.to_owned()), time);
         Ok(())
     }

@@ -12,8 +12,8 @@ use crate::quantities::Quantities;
 use crate::run_table::folder::StudyFolder;
 
 /// Folder of results of a run, and file of the record of their inputs.
-pub(super) struct Results {
-    pub(super) folder: PathBuf,
+struct Results {
+    folder: PathBuf,
     record: PathBuf,
 }
 
@@ -23,25 +23,6 @@ impl Results {
         Self {
             folder: path.join("runs").join(name),
             record: path.join("records").join(format!("{name}.json")),
-        }
-    }
-
-    /// The present results of a run.
-    pub(super) fn of(run: &Run, study: &StudyFolder) -> Self {
-        Self::named(&run.name, study)
-    }
-
-    /// The new results of a run that has earlier ones.
-    fn new_of(run: &Run, study: &StudyFolder) -> Self {
-        Self::named(&format!("{}~new", run.name), study)
-    }
-
-    /// The results of the next computation of a run: apart from results that it has.
-    fn next_of(run: &Run, study: &StudyFolder) -> Self {
-        let present = Self::of(run, study);
-        match present.are_complete() {
-            true => Self::new_of(run, study),
-            false => present,
         }
     }
 
@@ -56,18 +37,6 @@ impl Results {
     /// The record, if it has the present inputs of a run.
     fn record_of_inputs(&self, run: &Run) -> Option<Record> {
         self.record().filter(|it| it.inputs == run.inputs.text())
-    }
-
-    /// Writes the record of the present inputs of a run, and the reason why it failed, if it did.
-    fn write_record(&self, run: &Run, failed: Option<&str>) -> anyhow::Result<()> {
-        let record = Record {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            settings: run.overrides.clone(),
-            inputs: run.inputs.text().to_owned(),
-            failed: failed.map(str::to_owned),
-        };
-        let text = serde_json::to_string_pretty(&record)? + "\n";
-        Ok(replace_file(&self.record, text.as_bytes())?)
     }
 }
 
@@ -102,30 +71,6 @@ pub(super) enum Status {
 }
 
 impl Status {
-    /// The status of a run in the folder of its study.
-    pub(super) fn in_folder(run: &Run, study: &StudyFolder) -> Self {
-        let present = Results::of(run, study);
-        let attempt = match (Quantities::read(&present.folder), present.record()) {
-            (Ok(results), Some(record)) if record.inputs == run.inputs.text() => {
-                return match results.without_equilibrium() {
-                    Some(reason) => Self::Failed(reason),
-                    None => Self::Done(results),
-                };
-            }
-            (Ok(_), Some(record)) => {
-                let new = Results::new_of(run, study).record_of_inputs(run);
-                let how = run.inputs.difference(&record.inputs);
-                return new
-                    .and_then(|it| it.failed)
-                    .map_or(Self::Changed(how), Self::Failed);
-            }
-            _ => present.record_of_inputs(run),
-        };
-        attempt
-            .and_then(|it| it.failed)
-            .map_or(Self::Missing, Self::Failed)
-    }
-
     /// Rank of the status: completed runs above failed ones, failed ones above missing ones.
     pub(super) fn rank(&self) -> u8 {
         match self {
@@ -141,48 +86,101 @@ impl Status {
     }
 }
 
-/// Records that a run with results should be repeated, also by a later sweep.
-pub(super) fn demand(run: &Run, study: &StudyFolder) -> anyhow::Result<()> {
-    Results::next_of(run, study).write_record(run, None)
+/// A run in the folder of its study: its results and, while these are to be replaced, its new ones, with their records.
+pub(super) struct RecordedRun<'a> {
+    run: &'a Run,
+    present: Results,
+    new: Results,
 }
 
-/// Records the reason why a run failed.
-pub(super) fn fail(run: &Run, study: &StudyFolder, reason: &str) -> anyhow::Result<()> {
-    Results::next_of(run, study).write_record(run, Some(reason))
-}
-
-/// Whether a run with results should be repeated.
-pub(super) fn should_repeat(run: &Run, study: &StudyFolder) -> bool {
-    let new = Results::new_of(run, study);
-    Results::of(run, study).are_complete() && new.record_of_inputs(run).is_some()
-}
-
-/// Folder for the results of a run: its own, or a separate one while its own has earlier results. Writes the record of the inputs.
-pub(super) fn begin(run: &Run, study: &StudyFolder) -> anyhow::Result<PathBuf> {
-    // A link or a foreign file at the path must not be removed.
-    refuse_link(&Results::of(run, study).folder)?;
-    let next = Results::next_of(run, study);
-    refuse_link(&next.folder)?;
-    ResultFolder::check(&next.folder, true)?;
-    next.write_record(run, None)?;
-    Ok(next.folder)
-}
-
-/// Completes a replacement of results that was interrupted by a kill, according to the records.
-pub(super) fn complete_replacement(run: &Run, study: &StudyFolder) -> anyhow::Result<()> {
-    let (present, new) = (Results::of(run, study), Results::new_of(run, study));
-    if !present.folder.exists() && !new.record.exists() && new.are_complete() {
-        rename(&new.folder, &present.folder)?;
+impl<'a> RecordedRun<'a> {
+    pub(super) fn of(run: &'a Run, study: &StudyFolder) -> Self {
+        Self {
+            run,
+            present: Results::named(&run.name, study),
+            new: Results::named(&format!("{}~new", run.name), study),
+        }
     }
-    Ok(recover(&present.folder, Kind::RUN)?)
-}
 
-/// Replaces earlier results of a run and their record by completed new ones, if they were written apart.
-pub(super) fn complete(run: &Run, study: &StudyFolder, written: &Path) -> anyhow::Result<()> {
-    let (present, new) = (Results::of(run, study), Results::new_of(run, study));
-    if written == present.folder {
-        return Ok(());
+    /// Folder of the results.
+    pub(super) fn folder(&self) -> &Path {
+        &self.present.folder
     }
-    let records = || rename(&new.record, &present.record);
-    Ok(put_in_place(written, &present.folder, Kind::RUN, records)?)
+
+    /// The results of the next computation: apart from results that the run has.
+    fn next(&self) -> &Results {
+        match self.present.are_complete() {
+            true => &self.new,
+            false => &self.present,
+        }
+    }
+
+    /// Status of the run.
+    pub(super) fn status(&self) -> Status {
+        let Self { run, present, new } = self;
+        let attempt = match (Quantities::read(&present.folder), present.record()) {
+            (Ok(results), Some(record)) if record.inputs == run.inputs.text() => {
+                return match results.without_equilibrium() {
+                    Some(reason) => Status::Failed(reason),
+                    None => Status::Done(results),
+                };
+            }
+            (Ok(_), Some(record)) => {
+                let how = run.inputs.difference(&record.inputs);
+                let failed = new.record_of_inputs(run).and_then(|it| it.failed);
+                return failed.map_or(Status::Changed(how), Status::Failed);
+            }
+            _ => present.record_of_inputs(run),
+        };
+        let failed = attempt.and_then(|it| it.failed);
+        failed.map_or(Status::Missing, Status::Failed)
+    }
+
+    /// Whether the run has results and should be repeated.
+    pub(super) fn should_repeat(&self) -> bool {
+        self.present.are_complete() && self.new.record_of_inputs(self.run).is_some()
+    }
+
+    /// Writes the record of the inputs, with the reason why the run failed, if it did. A run with results is to be repeated then, also by a
+    /// later sweep.
+    pub(super) fn record(&self, failed: Option<&str>) -> anyhow::Result<()> {
+        let record = Record {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            settings: self.run.overrides.clone(),
+            inputs: self.run.inputs.text().to_owned(),
+            failed: failed.map(str::to_owned),
+        };
+        let text = serde_json::to_string_pretty(&record)? + "\n";
+        Ok(replace_file(&self.next().record, text.as_bytes())?)
+    }
+
+    /// Writes the record of the inputs; returns the folder for the results: the own one, or a separate one while this has earlier results.
+    pub(super) fn begin(&self) -> anyhow::Result<PathBuf> {
+        // A link or a foreign file at the path must not be removed.
+        refuse_link(self.folder())?;
+        let folder = &self.next().folder;
+        refuse_link(folder)?;
+        ResultFolder::check(folder, true)?;
+        self.record(None)?;
+        Ok(folder.clone())
+    }
+
+    /// Completes a replacement of results that was interrupted by a kill, according to the records.
+    pub(super) fn complete_replacement(&self) -> anyhow::Result<()> {
+        let Self { present, new, .. } = self;
+        if !present.folder.exists() && !new.record.exists() && new.are_complete() {
+            rename(&new.folder, &present.folder)?;
+        }
+        Ok(recover(&present.folder, Kind::RUN)?)
+    }
+
+    /// Replaces earlier results and their record by completed new ones, if these were written apart.
+    pub(super) fn complete(&self, written: &Path) -> anyhow::Result<()> {
+        let Self { present, new, .. } = self;
+        if written == present.folder {
+            return Ok(());
+        }
+        let records = || rename(&new.record, &present.record);
+        Ok(put_in_place(written, &present.folder, Kind::RUN, records)?)
+    }
 }
