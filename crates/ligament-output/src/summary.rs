@@ -15,8 +15,10 @@ use std::path::Path;
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::LoadPoint;
 use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::Error;
 use crate::atomic::read_json;
@@ -260,6 +262,13 @@ pub fn read<S: DeserializeOwned>(folder: &Path) -> Result<Option<S>, Error> {
         return Ok(None);
     }
     read_json(&path).map(Some)
+}
+
+/// The JSON schema of a [`Summary`] or a [`ModalSummary`] as it is written.
+pub fn schema<S: JsonSchema>() -> Value {
+    let settings = SchemaSettings::default().with(|it| it.inline_subschemas = true);
+    let generator = settings.for_serialize().into_generator();
+    generator.into_root_schema_for::<S>().to_value()
 }
 
 /// Writes a summary into the folder of its results.

@@ -1,8 +1,6 @@
 //! Names of results that a summary can have, to refuse a wrong name before the first run.
 
-use ligament_output::summary::{ModalSummary, Summary};
-use schemars::JsonSchema;
-use schemars::generate::SchemaSettings;
+use ligament_output::summary::{ModalSummary, Summary, schema};
 use serde_json::{Value, json};
 
 use crate::quantities::{Quantities, QuantityError};
@@ -27,13 +25,6 @@ pub(super) fn check(name: &str, is_modal: bool) -> Result<(), QuantityError> {
     complete
         .number(&parts.collect::<Vec<_>>().join("."))
         .map(drop)
-}
-
-/// The schema of a summary as it is written.
-fn schema<S: JsonSchema>() -> Value {
-    let settings = SchemaSettings::default().with(|it| it.inline_subschemas = true);
-    let generator = settings.for_serialize().into_generator();
-    generator.into_root_schema_for::<S>().to_value()
 }
 
 /// A value of a schema with all keys, one entry in each list, and zeros.

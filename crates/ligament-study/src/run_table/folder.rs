@@ -84,7 +84,7 @@ pub struct StudyLocks {
 
 impl StudyFolder {
     /// The folder at a path, existing or not, of a study whose folders have a file of this name.
-    pub fn marked_by(marker: &'static str, path: impl Into<PathBuf>) -> Self {
+    pub(crate) fn marked_by(marker: &'static str, path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Self { path, marker }
     }

@@ -168,7 +168,7 @@ impl Launcher<'_, '_> {
 
     fn start(&mut self, index: usize, bytes: u64) -> anyhow::Result<()> {
         let run = self.runs[index];
-        let written = RecordedRun::of(run, self.folder).begin()?;
+        let written = RecordedRun::in_folder(run, self.folder).begin()?;
         let threads = self
             .room
             .threads(self.running.len() + self.runs.len() - index);
@@ -236,7 +236,7 @@ impl Launcher<'_, '_> {
             let reason = self.last_words(run, exit);
             return self.progress.fails(run, self.folder, &reason, time);
         }
-        let recorded = RecordedRun::of(run, self.folder);
+        let recorded = RecordedRun::in_folder(run, self.folder);
         if let Some(Running { written, .. }) = ended {
             recorded.complete(&written)?;
         }

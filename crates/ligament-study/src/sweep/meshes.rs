@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::plan::digest;
 use crate::meshing::MeshingError;
 use crate::meshing::gmsh_program::{MeshRequest, make_mesh};
 
@@ -30,7 +29,8 @@ impl MeshPlan {
             .iter()
             .map(|(name, value)| format!(", {name} = {value:?}"));
         let content = format!("meshed from {content}{}", values.collect::<String>());
-        let file = format!("{name}~{:08x}.msh", digest(&content) as u32);
+        let digest = twox_hash::XxHash64::oneshot(0, content.as_bytes());
+        let file = format!("{name}~{:08x}.msh", digest as u32);
         let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         Self {
             request: MeshRequest {

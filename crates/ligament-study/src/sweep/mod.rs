@@ -190,7 +190,7 @@ fn not_done<'a>(
     let mut todo = Vec::new();
     let mut notes = Vec::new();
     for run in mine {
-        let recorded = RecordedRun::of(run, folder);
+        let recorded = RecordedRun::in_folder(run, folder);
         recorded.complete_replacement()?;
         if force {
             recorded.record(None)?;
@@ -241,7 +241,7 @@ fn make_report(
 ) -> anyhow::Result<Vec<String>> {
     let row = |run| {
         let found = folders.iter().map(|folder| {
-            let recorded = RecordedRun::of(run, folder);
+            let recorded = RecordedRun::in_folder(run, folder);
             (recorded.status(), recorded.folder().to_owned())
         });
         let better = |best: (Status, PathBuf), it: (Status, PathBuf)| {
@@ -275,7 +275,7 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
     let mut estimates = Estimates::default();
     let mut todo = 0;
     for (index, run) in runs.iter().enumerate() {
-        let recorded = RecordedRun::of(run, &folder);
+        let recorded = RecordedRun::in_folder(run, &folder);
         let word = match recorded.status() {
             Status::Changed(_) => "changed",
             status => status.word(),

@@ -320,7 +320,7 @@ fn shortened(name: String, longest: usize) -> String {
 }
 
 /// Hash of a text.
-pub(super) fn digest(text: &str) -> u64 {
+fn digest(text: &str) -> u64 {
     twox_hash::XxHash64::oneshot(0, text.as_bytes())
 }
 

@@ -73,7 +73,7 @@ impl<'a> StudyProgress<'a> {
         reason: &str,
         time: Duration,
     ) -> anyhow::Result<()> {
-        RecordedRun::of(run, folder).record(Some(reason))?;
+        RecordedRun::in_folder(run, folder).record(Some(reason))?;
         self.ends(run, &Status::Failed(reason.to_owned()), time);
         Ok(())
     }

@@ -94,7 +94,7 @@ pub(super) struct RecordedRun<'a> {
 }
 
 impl<'a> RecordedRun<'a> {
-    pub(super) fn of(run: &'a Run, study: &StudyFolder) -> Self {
+    pub(super) fn in_folder(run: &'a Run, study: &StudyFolder) -> Self {
         Self {
             run,
             present: Results::named(&run.name, study),
