@@ -148,6 +148,7 @@ const RESERVED: [(&str, &[&str]); 17] = [
             "ligament-analysis",
             "ligament-case",
             "ligament-model",
+            "ligament-output",
         ],
     ),
     (

@@ -7,9 +7,8 @@ use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::run;
 use ligament_study::calibrate::{self, calibrate};
-use ligament_study::sweep::folder::StudyFolder;
 use ligament_study::sweep::study::Study;
-use ligament_study::sweep::{self, Task, plan, sweep};
+use ligament_study::sweep::{self, Task, opened, plan, sweep};
 use serde_json::json;
 
 use crate::Target;
@@ -75,10 +74,11 @@ impl Records {
 /// Does the runs of a study in this process, as those that `ligament sweep` starts would.
 fn finish_study(study: &Path, out: &Path) {
     let study = Study::load(study).unwrap();
-    let runs = plan::runs(&study, &StudyFolder::at(out).meshes()).unwrap();
-    let folder = StudyFolder::open(out, &study).unwrap();
+    let runs = plan::runs(&study, out).unwrap();
+    opened(out, &study).unwrap();
     for it in &runs {
-        run(&it.case, &folder.run(it), false, ProgressMode::Quiet).unwrap();
+        let results = out.join("runs").join(&it.name);
+        run(&it.case, &results, false, ProgressMode::Quiet).unwrap();
         let record = json!({
             "version": "0.1.0",
             "settings": it.overrides,

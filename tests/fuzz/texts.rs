@@ -190,6 +190,6 @@ impl Target for Studies {
         };
         let sizes = study.axes.iter().map(|axis| axis.points.len());
         sizes.fold(1, usize::saturating_mul) > MOST_RUNS
-            || plan::runs(&study, &self.folder.path().join("meshes")).is_ok()
+            || plan::runs(&study, self.folder.path()).is_ok()
     }
 }

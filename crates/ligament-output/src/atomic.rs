@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
+
 use crate::Error;
 
 /// File that marks a folder whose files need not survive a failure of the machine, such as a temporary one: they are not synced.
@@ -81,6 +83,18 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
             .map_err(|_| io::Error::new(io::ErrorKind::InvalidData, "it is no text"))
     });
     text.map_err(Error::system("read", path))
+}
+
+/// Reads a value from a file in JSON.
+///
+/// # Errors
+///
+/// If the file cannot be read, or has something else.
+pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Error> {
+    serde_json::from_str(&read_text(path)?).map_err(|error| Error::Unreadable {
+        path: path.to_owned(),
+        reason: error.to_string(),
+    })
 }
 
 /// Reads the bytes of a file.

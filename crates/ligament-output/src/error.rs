@@ -141,7 +141,7 @@ fn advice(action: &str, source: &io::Error) -> &'static str {
 
 impl Error {
     /// The error of an operation that the operating system refused, from its cause.
-    pub(crate) fn system(action: &'static str, path: &Path) -> impl Fn(io::Error) -> Self {
+    pub fn system(action: &'static str, path: &Path) -> impl Fn(io::Error) -> Self {
         move |source| Self::System {
             action,
             path: path.to_path_buf(),

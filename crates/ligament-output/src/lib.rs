@@ -32,6 +32,6 @@ pub mod vtu;
 mod written;
 mod xml;
 
-pub use atomic::{read_text, remove_if_there, rename};
+pub use atomic::{read_json, read_text, remove_if_there, rename};
 pub use error::{Error, FieldLocation};
 pub use single_file::{check_file, is_standard_output, is_stream, replace_file, write_file};

@@ -14,11 +14,14 @@ use std::path::Path;
 
 use ligament_analysis::balanced::Stability;
 use ligament_analysis::driver::LoadPoint;
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::Error;
-use crate::atomic::read_text;
+use crate::atomic::read_json;
 use crate::folder::ResultFolder;
 use crate::quantity::{place, quantity};
 
@@ -37,7 +40,7 @@ pub use values::Text;
 pub const SUMMARY: &str = "summary.json";
 
 /// Summary of a run. Keys that an earlier version did not write have their default.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct Summary {
     /// Summary of the model.
@@ -108,7 +111,7 @@ pub struct Summary {
 }
 
 /// Units of the force-displacement curve.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct UnitsSummary {
     /// Unit of the displacement.
@@ -141,7 +144,7 @@ impl Default for UnitsSummary {
 }
 
 /// A point of the force-displacement curve.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PathPoint {
     /// Displacement of the first load.
     #[serde(deserialize_with = "number")]
@@ -171,7 +174,7 @@ impl From<LoadPoint> for PathPoint {
 }
 
 /// A bond that broke or began to soften before all others.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BondEvent {
     /// Tags of the ends of the bond.
     pub ends: [u64; 2],
@@ -223,7 +226,7 @@ impl BondEvent {
 pub type Resultant = BTreeMap<Text, f64>;
 
 /// Overlap of crack faces.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OverlapSummary {
     /// Depth of the overlap, m.
     pub depth: f64,
@@ -234,7 +237,7 @@ pub struct OverlapSummary {
 }
 
 /// Inertia of the intact stiffness.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub struct StabilitySummary {
     /// Number of negative eigenvalues.
     pub negative: usize,
@@ -258,11 +261,14 @@ pub fn read<S: DeserializeOwned>(folder: &Path) -> Result<Option<S>, Error> {
     if !path.is_file() {
         return Ok(None);
     }
-    let summary = serde_json::from_str(&read_text(&path)?);
-    summary.map(Some).map_err(|error| Error::Unreadable {
-        path,
-        reason: error.to_string(),
-    })
+    read_json(&path).map(Some)
+}
+
+/// The JSON schema of a [`Summary`] or a [`ModalSummary`] as it is written.
+pub fn schema<S: JsonSchema>() -> Value {
+    let settings = SchemaSettings::default().with(|it| it.inline_subschemas = true);
+    let generator = settings.for_serialize().into_generator();
+    generator.into_root_schema_for::<S>().to_value()
 }
 
 /// Writes a summary into the folder of its results.

@@ -230,7 +230,7 @@ pub(crate) fn are_kept(case: &CaseFile, folder: &Path) -> bool {
 }
 
 /// The error of a file that cannot be read, with its path for the user.
-pub(crate) fn unread((path, error): (PathBuf, io::Error)) -> anyhow::Error {
+pub fn unread((path, error): (PathBuf, io::Error)) -> anyhow::Error {
     anyhow::Error::new(error).context(format!("cannot read {}", path.display()))
 }
 

@@ -8,8 +8,8 @@
 //! | [`bond_stiffness`] | the stiffness of bonds over their direction |
 //! | [`yielding`] | the load at which the first bond yields, and its distortion by the directions of the bonds |
 //!
-//! Common parts are results by name ([`quantities`]), lines of least squares (`line_fit`), and meshes made by other programs ([`meshing`]),
-//! because a study may vary a geometry.
+//! Sweeps and ensembles share a table of runs ([`run_table`]). Other common parts are results by name ([`quantities`]), lines of least squares
+//! (`line_fit`), and meshes made by other programs ([`meshing`]), because a study may vary a geometry.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
@@ -21,5 +21,6 @@ pub mod ensemble;
 pub mod line_fit;
 pub mod meshing;
 pub mod quantities;
+pub mod run_table;
 pub mod sweep;
 pub mod yielding;

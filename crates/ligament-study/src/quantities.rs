@@ -1,14 +1,13 @@
 //! Results of a summary by name, such as `first_peak.reaction`.
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
 use ligament::suggestion::{hint, nearest};
-use ligament_case::input_file;
 use ligament_output::folder::refuse_link;
-use ligament_output::summary::verdict;
+use ligament_output::summary::{SUMMARY, verdict};
+use ligament_output::{Error, read_json};
 
 /// Lists of a summary of which a table of runs has the lengths only.
 const COUNTED: [&str; 1] = ["warnings"];
@@ -26,25 +25,6 @@ pub struct Quantities(Vec<(String, Value)>);
 /// Error of a missing result.
 #[derive(Debug, thiserror::Error)]
 pub enum QuantityError {
-    /// The summary could not be read.
-    #[error("cannot read {}", path.display())]
-    Read {
-        /// The summary.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// The summary is a link.
-    #[error(transparent)]
-    Link(#[from] ligament_output::Error),
-    /// The summary is not JSON.
-    #[error("{} is no summary of a run", path.display())]
-    Parse {
-        /// The summary.
-        path: PathBuf,
-        /// The parser's reason.
-        source: serde_json::Error,
-    },
     /// No result has this name.
     #[error(
         "there is no result `{name}`{}",
@@ -94,16 +74,10 @@ impl Quantities {
     }
 
     /// Reads the results of a run from the summary in its folder.
-    pub(crate) fn read(folder: &Path) -> Result<Self, QuantityError> {
-        let path = folder.join("summary.json");
+    pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
+        let path = folder.join(SUMMARY);
         refuse_link(&path)?;
-        let text = input_file::read_text(&path).map_err(|source| QuantityError::Read {
-            path: path.clone(),
-            source,
-        })?;
-        let summary =
-            serde_json::from_str(&text).map_err(|source| QuantityError::Parse { path, source })?;
-        Ok(Self::of_summary(&summary))
+        Ok(Self::of_summary(&read_json(&path)?))
     }
 
     /// Names and values: numbers, texts, Booleans, or null where the run has no value.

@@ -41,7 +41,7 @@ pub fn require(
 }
 
 /// The given value among keys of which a table must have exactly one.
-pub(super) fn one_of<T>(
+pub fn one_of<T>(
     table: &KeyPath,
     given: impl IntoIterator<Item = (&'static str, Option<T>)>,
 ) -> Result<T, KeyFault> {
@@ -57,7 +57,7 @@ pub(super) fn one_of<T>(
 }
 
 /// The fault of none or several given keys among alternatives.
-pub fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
+pub(super) fn not_exactly_one(table: &KeyPath, keys: &[(&str, bool)]) -> KeyFault {
     let names = |wanted: &dyn Fn(bool) -> bool| {
         keys.iter()
             .filter(|(_, given)| wanted(*given))

@@ -13,7 +13,7 @@ use crate::stop_signal::StopSignal;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_study::ensemble::{Request, Settings, Task, ensemble};
-use ligament_study::sweep::folder::Shard;
+use ligament_study::run_table::folder::Shard;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:

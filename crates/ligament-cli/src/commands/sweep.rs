@@ -9,7 +9,7 @@ use super::numbers::positive;
 use super::output;
 use crate::terminal;
 use ligament_run::progress::ProgressMode;
-use ligament_study::sweep::folder::Shard;
+use ligament_study::run_table::folder::Shard;
 use ligament_study::sweep::{Request, Settings, Task, sweep};
 
 pub(super) const EXAMPLES: &str = "\

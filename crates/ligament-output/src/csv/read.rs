@@ -130,6 +130,11 @@ pub struct Row<'a> {
 }
 
 impl Row<'_> {
+    /// The texts of the row.
+    pub fn cells(&self) -> &StringRecord {
+        &self.sheet.rows[self.number]
+    }
+
     /// The value in a column, parsed.
     ///
     /// # Errors
@@ -152,7 +157,7 @@ impl Row<'_> {
     }
 
     fn text(&self, column: &str) -> Result<&str, Error> {
-        Ok(&self.sheet.rows[self.number][self.sheet.place(column)?])
+        Ok(&self.cells()[self.sheet.place(column)?])
     }
 
     fn no_value(&self, column: &str, text: &str) -> Error {

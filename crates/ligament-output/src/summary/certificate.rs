@@ -1,9 +1,10 @@
 //! What a run in statics can be trusted for: its energies, what its cracks spent, its largest residual, and its ties.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Certificate of a run in statics.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct CertificateSummary {
     /// Number of the last state at rest, which all values describe.

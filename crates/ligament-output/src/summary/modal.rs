@@ -1,12 +1,13 @@
 //! Summary of an analysis of natural modes.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::values::{Text, number};
 use super::{ModelSummary, Provenance, SolverSummary, StabilitySummary, Stage, is_false};
 
 /// Summary of a modal analysis. Keys that an earlier version did not write have their default.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct ModalSummary {
     /// Summary of the model.
@@ -44,7 +45,7 @@ pub struct ModalSummary {
 }
 
 /// Summary of a mode.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ModeSummary {
     /// Number, from 1.
     pub mode: usize,

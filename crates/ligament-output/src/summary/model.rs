@@ -1,12 +1,13 @@
 //! Summary of the discrete model.
 
 use ligament_model::subdomain::Subdomain;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::values::{Text, number};
 
 /// Summary of a model.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct ModelSummary {
     /// Title of the case.
@@ -45,7 +46,7 @@ fn is_zero(count: &usize) -> bool {
 }
 
 /// A property that varies at random.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ScatterSummary {
     /// Name of the property.
     pub of: Text,
@@ -62,7 +63,7 @@ pub struct ScatterSummary {
 }
 
 /// Range and mean of a quantity.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 pub struct Spread {
     /// Smallest value.
     #[serde(deserialize_with = "number")]
@@ -76,7 +77,7 @@ pub struct Spread {
 }
 
 /// The corrections, and the convergence of an iterated correction.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct CorrectionSummary {
     /// Kind of the factor alpha.

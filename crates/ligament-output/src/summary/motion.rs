@@ -1,11 +1,12 @@
 //! Summary of a motion in time.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::values::Text;
 
 /// Summary of a motion in time.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct MotionSummary {
     /// Duration of the case, s.
@@ -27,7 +28,7 @@ pub struct MotionSummary {
 }
 
 /// Energies of a motion, J, by the names of their columns in the history.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct EnergiesSummary {
     /// Work of loads and supports.

@@ -1,11 +1,12 @@
 //! Summary of the solver of a run and its work.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::values::Text;
 
 /// The solver and its work.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(default)]
 pub struct SolverSummary {
     /// Method: `direct`, `iterative` or, with several processes, `distributed`.
@@ -48,7 +49,7 @@ pub struct SolverSummary {
 }
 
 /// Choices for the matrix factor.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FactorSummary {
     /// Factorisation: `llt`, `ldlt` or, of forces without an energy, `lu`.
     pub factorisation: Text,
@@ -59,7 +60,7 @@ pub struct FactorSummary {
 }
 
 /// Choices for conjugate gradients, and the number of iterations.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct IterationSummary {
     /// Residual tolerance after a breakage, relative to the forces that may act at a point.
     pub tolerance: f64,

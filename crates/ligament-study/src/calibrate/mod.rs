@@ -16,7 +16,7 @@ use anyhow::Context;
 
 use crate::quantities::Quantities;
 use ligament_case::case::{Analysis, CaseError, CaseFile, Fault};
-use ligament_run::inputs::{Contents, Inputs};
+use ligament_run::inputs::{Contents, Inputs, unread};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run;
 use record::{Record, Run};
@@ -44,8 +44,7 @@ pub fn calibrate(
     let case = case_with(request, search.start)?;
     known_result::check(&request.of, case.case.analysis == Some(Analysis::Modal))
         .map_err(|source| CalibrationError::UnknownResult(request.of.clone(), source))?;
-    let inputs = Inputs::from_case(&case, None, &mut Contents::default())
-        .map_err(|(path, source)| CalibrationError::Unreadable { path, source })?;
+    let inputs = Inputs::from_case(&case, None, &mut Contents::default()).map_err(unread)?;
     let mut record = Record::open(request, &inputs)?;
     writeln!(progress, "{}", record.heading())?;
     for run in record.runs() {
@@ -66,16 +65,12 @@ pub fn calibrate(
             }
         }
     };
-    let mut answer = Vec::new();
-    let why_not = record.why_not(&verdict);
-    if let Verdict::Met(trial) = &verdict {
-        record.write_answer(trial, &mut answer)?;
-    }
+    let answer = match &verdict {
+        Verdict::Met(trial) => Ok(record.answer(trial)),
+        unmet => Err(CalibrationError::NotMet(record.why_not(unmet))),
+    };
     record.close(&verdict)?;
-    match verdict {
-        Verdict::Met(_) => Ok(out.write_all(&answer)?),
-        _ => Err(CalibrationError::NotMet(why_not).into()),
-    }
+    Ok(out.write_all(answer?.as_bytes())?)
 }
 
 fn search_of(request: &Request) -> anyhow::Result<Search> {
@@ -158,11 +153,9 @@ fn one_run(request: &Request, record: &Record, key: f64) -> anyhow::Result<Run> 
         .into());
     }
     let result = results.number(&request.of);
-    let result = result.map_err(|source| CalibrationError::NoResult {
-        run: number,
-        setting,
-        folder,
-        source,
+    let result = result.with_context(|| {
+        let folder = folder.display();
+        format!("run {number} ({setting}), results in {folder}")
     })?;
     Ok(Run::new(number, Trial { key, result }, &results)?)
 }

@@ -1,7 +1,6 @@
 //! The record of a calibration: `calibration.json` and `calibration.csv`, and the printed lines.
 
 use std::fs;
-use std::io::{self, Write};
 use std::path::PathBuf;
 
 use ligament_output::csv::{Table, Value};
@@ -257,22 +256,20 @@ impl Record {
         line
     }
 
-    /// Prints the calibrated value.
-    pub(super) fn write_answer(&self, trial: &Trial, out: &mut dyn Write) -> io::Result<()> {
-        let key = &self.request.key;
-        writeln!(out, "{key} = {}", self.words(trial))?;
-        let is_it = |run: &&Run| run.trial == *trial;
-        if (self.runs.iter().find(is_it)).is_some_and(|it| it.last_state_not_at_rest) {
-            let last = "bonds were still breaking in the last state of its run";
-            writeln!(out, "  NOT CONVERGED      {last}")?;
-        }
-        writeln!(out, "  runs               {}", self.runs.len())?;
-        writeln!(
-            out,
-            "  use it by          --set {}",
-            setting(key, trial.key)
-        )?;
-        writeln!(out, "  record in          {}", self.request.out.display())
+    /// Text about the calibrated value.
+    pub(super) fn answer(&self, trial: &Trial) -> String {
+        let (key, n_runs) = (&self.request.key, self.runs.len());
+        let run = self.runs.iter().find(|run| run.trial == *trial);
+        let unsettled = match run.is_some_and(|it| it.last_state_not_at_rest) {
+            true => "  NOT CONVERGED      bonds were still breaking in the last state of its run\n",
+            false => "",
+        };
+        format!(
+            "{key} = {}\n{unsettled}  runs               {n_runs}\n  use it by          --set {}\n  record in          {}\n",
+            self.words(trial),
+            setting(key, trial.key),
+            self.request.out.display()
+        )
     }
 
     /// Message about a search without a result.

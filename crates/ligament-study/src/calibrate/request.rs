@@ -1,6 +1,5 @@
 //! Request for a calibration, and its errors.
 
-use std::io;
 use std::path::PathBuf;
 
 use ligament_output::summary::Build;
@@ -63,18 +62,6 @@ pub enum CalibrationError {
     /// No run of the case has this result.
     #[error("--of {0}: {1}")]
     UnknownResult(String, QuantityError),
-    /// The result does not exist.
-    #[error("run {run} ({setting}), results in {}", folder.display())]
-    NoResult {
-        /// Number of the run.
-        run: usize,
-        /// Setting of the key in the run.
-        setting: String,
-        /// Folder of the run.
-        folder: PathBuf,
-        /// Reason of the error.
-        source: QuantityError,
-    },
     /// No state of a run under load is in equilibrium.
     #[error(
         "run {run} ({setting}), results in {}: {reason}; a range by --from and --to can exclude such values", folder.display()
@@ -88,14 +75,6 @@ pub enum CalibrationError {
         folder: PathBuf,
         /// Reason of the error.
         reason: String,
-    },
-    /// A file of the case cannot be read.
-    #[error("cannot read {}", path.display())]
-    Unreadable {
-        /// The file.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
     },
     /// The folder has another calibration.
     #[error(

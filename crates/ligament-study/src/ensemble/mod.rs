@@ -2,27 +2,24 @@
 //!
 //! All samples share the body, its corrections and its intact factor ([`ligament::ensemble`]). A folder has an identity (`identity`): the case,
 //! the seed and the displacements at which curves are compared (`grid`). Samples are stored in parts (`part`), one of each shard, as rows (`row`)
-//! and counts at the points of the body, whose size does not grow with the samples; locks and shards are those of a
-//! [sweep](crate::sweep). What all parts have together (`collected`) becomes tables, fields and plots (`report`).
+//! and counts at the points of the body, whose size does not grow with the samples; locks, shards and progress are those of every
+//! [table of runs](crate::run_table). What all parts have together (`collected`) becomes tables, fields and plots (`report`).
 
 mod collected;
 mod grid;
 mod identity;
 mod part;
 mod plots;
-mod progress;
 mod report;
 mod request;
 mod row;
-mod strengths;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
+use std::slice;
 
 use anyhow::bail;
-
 use ligament::ensemble::{Ensemble, Sample};
 use ligament::run::on_threads;
 use ligament_output::{remove_if_there, replace_file};
@@ -32,20 +29,12 @@ use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stability;
 use ligament_run::stages::Stages;
 
-use crate::sweep::StudyError;
-use crate::sweep::folder::{Shard, StudyFolder};
+use crate::run_table::folder::{Shard, StudyFolder};
+use crate::run_table::progress::ProgressDisplay;
 use collected::Collected;
 use identity::{Identity, MARKER};
-use part::Part;
-use progress::SampleProgress;
+use part::{PARTS, Part};
 pub use request::{Request, Settings, Task};
-use row::Row;
-
-/// Subfolder of the stored samples.
-const PARTS: &str = "parts";
-
-/// Name of the part of a process that computes all samples.
-const WHOLE: &str = "whole";
 
 /// Executes the request, with its output on `out`; returns whether it was done or stopped.
 ///
@@ -55,23 +44,28 @@ const WHOLE: &str = "whole";
 pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<End> {
     match &request.task {
         Task::Run(settings) => run(request, settings, out),
-        Task::Collect(from) => collect(request, from, out).map(|()| End::Done),
+        Task::Collect(from) => {
+            let folders = StudyFolder::to_collect(MARKER, request.out, from)?;
+            for folder in &folders {
+                Identity::wanted(folder, request)?;
+            }
+            let marker = Identity::of_folder(&folders[0])?.text()?;
+            let to = StudyFolder::marked_by(MARKER, request.out).opened(&marker, &[PARTS])?;
+            report(request, &folders, &to, out)?;
+            Ok(End::Done)
+        }
     }
 }
 
 /// Computes the samples that are missing, and writes the tables and plots unless the samples are those of a shard.
 fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<End> {
-    let ensemble = on_threads(request.case.threads(), || prepared(request))??;
+    let threads = request.case.threads();
+    let ensemble = on_threads(threads, || prepared(request))??;
     let found = StudyFolder::marked_by(MARKER, request.out);
-    let wanted = request.wanted();
-    let is_begun = found.is_marked() && !settings.force;
-    let identity = match is_begun {
-        true => Identity::of_folder(&found)?,
-        false => on_threads(request.case.threads(), || wanted.begun(&ensemble))??,
+    let identity = match found.is_marked() && !settings.force {
+        true => Identity::wanted(&found, request)?,
+        false => on_threads(threads, || Identity::new(request, &ensemble))??,
     };
-    if is_begun {
-        identity.require(&wanted, found.path())?;
-    }
     // Nothing is written before the case is checked.
     let folder = found.opened(&identity.text()?, &[PARTS])?;
     let _claim = folder.claim(settings.shard)?;
@@ -79,13 +73,23 @@ fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyho
         begin_anew(&folder, &identity)?;
     }
     // Another shard may have begun the folder meanwhile.
-    let identity = Identity::of_folder(&folder)?;
-    identity.require(&wanted, folder.path())?;
-    let todo = missing(request, settings, &folder, &identity)?;
-    let end = compute(request, settings, &ensemble, (&folder, &identity), &todo)?;
+    let identity = Identity::wanted(&folder, request)?;
+    let parts = part::stored(&folder, identity.grid)?;
+    let rows = parts.iter().flat_map(|part| &part.rows);
+    let done: BTreeSet<u64> = rows.map(|row| row.sample).collect();
+    let todo = (0..request.samples).filter(|it| Shard::contains(settings.shard, *it as usize));
+    let todo: Vec<u64> = todo.filter(|it| !done.contains(it)).collect();
+    let end = match todo.as_slice() {
+        [] => End::Done,
+        todo => {
+            let name = Shard::file_name(settings.shard, "whole");
+            let part = Part::open(&folder, &name, identity.grid, &ensemble)?;
+            compute(request, settings, &ensemble, part, todo)?
+        }
+    };
     match (end, settings.shard) {
         (End::Stopped, _) => writeln!(out, "stopped; the same command goes on")?,
-        (_, None) => report(request, std::slice::from_ref(&folder), &folder, out)?,
+        (_, None) => report(request, slice::from_ref(&folder), &folder, out)?,
         (_, Some(Shard { number, count })) => writeln!(
             out,
             "shard {number} of {count} is done; tables and plots of all: ligament ensemble --collect"
@@ -118,54 +122,23 @@ fn begin_anew(folder: &StudyFolder, identity: &Identity) -> anyhow::Result<()> {
     Ok(replace_file(&folder.path().join(MARKER), text.as_bytes())?)
 }
 
-/// Numbers of the samples that this process has to compute.
-fn missing(
-    request: &Request<'_>,
-    settings: &Settings,
-    folder: &StudyFolder,
-    identity: &Identity,
-) -> anyhow::Result<Vec<u64>> {
-    let parts = part::stored(&folder.path().join(PARTS), identity.grid)?;
-    let rows = parts.iter().flat_map(|part| &part.rows);
-    let done: BTreeSet<u64> = rows.map(|row| row.sample).collect();
-    let is_mine = |it: &u64| {
-        settings
-            .shard
-            .is_none_or(|shard| shard.contains(*it as usize))
-    };
-    let mine = (0..request.samples).filter(is_mine);
-    Ok(mine.filter(|it| !done.contains(it)).collect())
-}
-
 /// Computes samples and stores them in the part of this process.
 fn compute(
     request: &Request<'_>,
     settings: &Settings,
     ensemble: &Ensemble,
-    (folder, identity): (&StudyFolder, &Identity),
+    mut part: Part<'_>,
     todo: &[u64],
 ) -> anyhow::Result<End> {
-    if todo.is_empty() {
-        return Ok(End::Done);
-    }
-    let name = match settings.shard {
-        None => WHOLE.to_owned(),
-        Some(Shard { number, count }) => format!("shard-{number}-of-{count}"),
-    };
-    let body = ensemble.model().body();
-    let tags = body.grid().tags;
-    let n_points = tags.len();
-    let parts = folder.path().join(PARTS);
-    let mut part = Part::open(&parts, &name, identity.grid, n_points)?;
-    let mut progress = SampleProgress::new(settings.progress, todo.len());
+    let template = "{pos}/{len} samples [{bar:24}] {elapsed} so far, {eta} to go";
+    let mut progress = ProgressDisplay::new(settings.progress, todo.len(), template);
     let threads = request.threads();
     let workers = settings.jobs.unwrap_or(threads).min(todo.len());
     let at_once = [workers, (threads / workers).max(1)];
     let added = ensemble.for_each(todo, at_once, |sample: Sample| {
-        let row = Row::new(&sample, body, &tags);
-        part.add((&sample, &row), identity.grid, ensemble.problem())
-            .map_err(Fault::Stored)?;
-        progress.ended();
+        part.add(&sample).map_err(Fault::Stored)?;
+        progress.count();
+        progress.print_tenth("samples");
         match (request.is_stopped)() {
             true => Err(Fault::Stopped),
             false => Ok(()),
@@ -198,25 +171,6 @@ impl From<ligament::Error> for Fault {
     }
 }
 
-/// Writes the tables and plots of the samples in the folder of the ensemble or in others.
-fn collect(request: &Request<'_>, from: &[PathBuf], out: &mut dyn Write) -> anyhow::Result<()> {
-    let own = [request.out.to_owned()];
-    let paths = if from.is_empty() { &own[..] } else { from };
-    let mut folders = Vec::new();
-    for path in paths {
-        let folder = StudyFolder::marked_by(MARKER, path);
-        if !folder.is_marked() {
-            let (folder, marker) = (path.clone(), MARKER);
-            return Err(StudyError::NoStudy { folder, marker }.into());
-        }
-        Identity::of_folder(&folder)?.require(&request.wanted(), path)?;
-        folders.push(folder);
-    }
-    let identity = Identity::of_folder(&folders[0])?;
-    let to = StudyFolder::marked_by(MARKER, request.out).opened(&identity.text()?, &[PARTS])?;
-    report(request, &folders, &to, out)
-}
-
 /// Writes the tables and plots of the samples of some folders into one of them or another.
 fn report(
     request: &Request<'_>,
@@ -233,7 +187,7 @@ fn report(
             folder.path().display(),
             to.path().display()
         );
-        parts.extend(part::stored(&folder.path().join(PARTS), identity.grid)?);
+        parts.extend(part::stored(folder, identity.grid)?);
     }
     let collected = Collected::of_parts(parts, &identity)?;
     report::write(request, &identity, &collected, to.path(), out)

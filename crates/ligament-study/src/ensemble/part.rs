@@ -8,15 +8,18 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use ligament::ensemble::Sample;
-use ligament_analysis::driver::Problem;
+use ligament::ensemble::{Ensemble, Sample};
 use ligament_output::csv::read::Sheet;
 use ligament_output::csv::{Table, Value};
-use ligament_output::{Error, read_text, replace_file};
+use ligament_output::{Error, read_json, read_text, replace_file};
 use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
-use super::row::{COLUMNS, Row};
+use super::row::{self, COLUMNS, Row};
+use crate::run_table::folder::StudyFolder;
+
+/// Subfolder of the parts.
+pub(super) const PARTS: &str = "parts";
 
 /// Time after which samples are stored at the latest, once the next has ended.
 const PAUSE: Duration = Duration::from_secs(2);
@@ -39,22 +42,20 @@ impl Counts {
         }
     }
 
-    /// Adds a sample of the body of a problem.
-    fn count(&mut self, sample: &Sample, problem: &Problem) {
+    /// Adds a sample of an ensemble.
+    fn count(&mut self, sample: &Sample, ensemble: &Ensemble) {
         let first = sample.path.first.iter().flat_map(|it| it.ends);
         for point in first.collect::<BTreeSet<u32>>() {
             self.first_break[point as usize] += 1;
         }
-        let mut is_damaged = vec![false; self.damaged.len()];
-        let bonds = problem.system.ends().iter();
-        for (ends, _) in bonds
-            .zip(&sample.path.outcome.state.intact)
-            .filter(|(_, intact)| !**intact)
+        let bonds = ensemble.problem().system.ends().iter();
+        let bonds = bonds.zip(&sample.path.outcome.state.intact);
+        let broken = bonds.filter(|(_, intact)| !**intact);
+        for point in broken
+            .flat_map(|(ends, _)| *ends)
+            .collect::<BTreeSet<u32>>()
         {
-            ends.iter().for_each(|&end| is_damaged[end as usize] = true);
-        }
-        for (count, damaged) in self.damaged.iter_mut().zip(is_damaged) {
-            *count += u64::from(damaged);
+            self.damaged[point as usize] += 1;
         }
     }
 
@@ -82,48 +83,56 @@ struct Committed {
 }
 
 /// A part to which samples are added.
-pub(super) struct Part {
+pub(super) struct Part<'a> {
     table: Table,
     beside: PathBuf,
     counts: Counts,
     stored: Instant,
+    grid: Grid,
+    ensemble: &'a Ensemble,
+    /// Tags of the points of the body (n_points).
+    tags: Vec<i64>,
 }
 
-impl Part {
-    /// Opens a part in a folder, or creates it, for samples of a body with so many points.
+impl<'a> Part<'a> {
+    /// Opens a part in the folder of an ensemble, or creates it.
     pub(super) fn open(
-        folder: &Path,
+        folder: &StudyFolder,
         name: &str,
         grid: Grid,
-        n_points: usize,
+        ensemble: &'a Ensemble,
     ) -> anyhow::Result<Self> {
-        let [rows, beside] = ["csv", "json"].map(|ending| folder.join(format!("{name}.{ending}")));
+        let file = |ending| folder.path().join(PARTS).join(format!("{name}.{ending}"));
+        let (rows, beside) = (file("csv"), file("json"));
+        let tags = ensemble.model().body().grid().tags;
         let columns = columns(grid);
         let names: Vec<&str> = columns.iter().map(String::as_str).collect();
-        let (table, counts) = match committed(&beside)? {
-            Some(it) => (Table::cut_back(rows, names.len(), it.length)?, it.counts),
-            None => (Table::create(rows, &names)?, Counts::none(n_points)),
+        let (table, counts) = match beside.is_file() {
+            true => {
+                let Committed { length, counts } = read_json(&beside)?;
+                (Table::cut_back(rows, names.len(), length)?, counts)
+            }
+            false => (Table::create(rows, &names)?, Counts::none(tags.len())),
         };
         Ok(Self {
             table,
             beside,
             counts,
             stored: Instant::now(),
+            grid,
+            ensemble,
+            tags,
         })
     }
 
     /// Adds a sample.
-    pub(super) fn add(
-        &mut self,
-        (sample, row): (&Sample, &Row),
-        grid: Grid,
-        problem: &Problem,
-    ) -> anyhow::Result<()> {
-        let loads = grid.loads(&sample.path.outcome).into_iter();
-        let mut values = row.values();
+    pub(super) fn add(&mut self, sample: &Sample) -> anyhow::Result<()> {
+        let body = self.ensemble.model().body();
+        let mut values = row::values(sample, body, &self.tags);
+        let loads = self.grid.loads(&sample.path.outcome).into_iter();
         values.extend(loads.map(|it| it.map_or(Value::Missing, Value::Float)));
         self.table.append(&values)?;
-        self.counts.count(sample, problem);
+        self.counts.count(sample, self.ensemble);
         if self.stored.elapsed() >= PAUSE {
             self.store()?;
         }
@@ -149,17 +158,15 @@ pub(super) struct Stored {
     /// File of the rows.
     pub(super) path: PathBuf,
     pub(super) rows: Vec<Row>,
-    /// Loads of each row at the displacements of the grid, shape (n_rows, n); none where they are unknown.
-    pub(super) loads: Vec<Vec<Option<f64>>>,
     pub(super) counts: Counts,
 }
 
-/// The parts in a folder, in the order of their names.
-pub(super) fn stored(folder: &Path, grid: Grid) -> anyhow::Result<Vec<Stored>> {
-    let mut found: Vec<PathBuf> = match fs::read_dir(folder) {
-        Err(_) => Vec::new(),
-        Ok(entries) => entries.flatten().map(|entry| entry.path()).collect(),
-    };
+/// The parts in the folder of an ensemble, in the order of their names.
+pub(super) fn stored(folder: &StudyFolder, grid: Grid) -> anyhow::Result<Vec<Stored>> {
+    let entries = fs::read_dir(folder.path().join(PARTS))
+        .into_iter()
+        .flatten();
+    let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     found.retain(|path| path.extension().is_some_and(|it| it == "json"));
     found.sort();
     found.iter().map(|beside| of_file(beside, grid)).collect()
@@ -167,55 +174,27 @@ pub(super) fn stored(folder: &Path, grid: Grid) -> anyhow::Result<Vec<Stored>> {
 
 fn of_file(beside: &Path, grid: Grid) -> anyhow::Result<Stored> {
     let path = beside.with_extension("csv");
-    let Committed { length, counts } = committed(beside)?.ok_or_else(|| gone(beside))?;
+    let gone = || Error::Unreadable {
+        path: path.clone(),
+        reason: "a part of the samples is gone".to_owned(),
+    };
+    let Committed { length, counts } = read_json(beside)?;
     let text = read_text(&path)?;
-    let text = text.get(..length as usize).ok_or_else(|| gone(&path))?;
+    let text = text.get(..length as usize).ok_or_else(gone)?;
     let sheet = Sheet::parse(&path, text)?;
+    if sheet.columns() != columns(grid) {
+        return Err(gone().into());
+    }
     let rows = sheet.rows(Row::read)?;
-    let mut loads = vec![Vec::with_capacity(grid.n); rows.len()];
-    for column in columns(grid).iter().skip(COLUMNS.len()) {
-        let texts = sheet.texts(column).ok_or_else(|| gone(&path))?;
-        for (of_row, text) in loads.iter_mut().zip(texts) {
-            of_row.push(text.parse().ok());
-        }
-    }
-    Ok(Stored {
-        path,
-        rows,
-        loads,
-        counts,
-    })
-}
-
-/// What is stored beside the rows of a part; none without the file.
-fn committed(beside: &Path) -> anyhow::Result<Option<Committed>> {
-    if !beside.is_file() {
-        return Ok(None);
-    }
-    let read = serde_json::from_str(&read_text(beside)?);
-    read.map(Some).map_err(|error| {
-        let reason = error.to_string();
-        unreadable(beside, reason).into()
-    })
-}
-
-fn gone(path: &Path) -> Error {
-    unreadable(path, "a part of the samples is gone".to_owned())
-}
-
-fn unreadable(path: &Path, reason: String) -> Error {
-    Error::Unreadable {
-        path: path.to_owned(),
-        reason,
-    }
+    Ok(Stored { path, rows, counts })
 }
 
 /// Columns of the rows of a part: those of a sample, and the loads at the displacements of the grid.
 fn columns(grid: Grid) -> Vec<String> {
     let loads = (0..grid.n).map(|it| format!("load_{it}"));
     COLUMNS
-        .iter()
-        .map(|it| (*it).to_owned())
+        .map(str::to_owned)
+        .into_iter()
         .chain(loads)
         .collect()
 }

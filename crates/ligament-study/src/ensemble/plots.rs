@@ -7,9 +7,8 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_post::statistics::{WeibullFit, plotting_position, quantile};
 
-use super::collected::Collected;
+use super::collected::{Collected, NINETY_PERCENT, PROBABILITIES, Strengths};
 use super::identity::Identity;
-use super::strengths::{NINETY_PERCENT, PROBABILITIES, Strengths};
 
 /// Largest number of circles of a Weibull plot; of more samples every so manieth is drawn.
 const MOST_CIRCLES: usize = 1000;

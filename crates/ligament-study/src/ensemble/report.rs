@@ -4,20 +4,19 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_model::BodyGrid;
-use ligament_output::csv::{self, Value};
+use ligament_output::csv::Value;
 use ligament_output::quantity::quantity;
 use ligament_output::replace_file;
 use ligament_output::results::write_points;
 use ligament_output::vtu::Field;
 use ligament_post::statistics::quantile;
 
-use super::collected::Collected;
+use super::collected::{Collected, NINETY_PERCENT, PROBABILITIES, Strengths, strengths};
 use super::identity::Identity;
 use super::plots;
 use super::request::Request;
-use super::row::COLUMNS;
-use super::strengths::{NINETY_PERCENT, PROBABILITIES, Strengths, strengths};
-use crate::sweep::report::{WIDTH, write_plot};
+use super::row::{COLUMNS, Row};
+use crate::run_table::{WIDTH, number, table, write_plot};
 
 /// Columns of `curves.csv`.
 const CURVE_COLUMNS: &str =
@@ -84,37 +83,28 @@ pub(super) fn write(
 
 /// Text of `samples.csv`.
 fn samples(collected: &Collected) -> String {
-    let mut text = COLUMNS.join(",") + "\n";
-    for row in &collected.rows {
-        text += &csv::line(&row.values());
-    }
-    text
+    let rows = collected.rows.iter().map(Row::line);
+    format!("{}\n{}", COLUMNS.join(","), rows.collect::<String>())
 }
 
 /// Text of `curves.csv`.
 fn curves(identity: &Identity, collected: &Collected) -> String {
-    let mut text = format!("{CURVE_COLUMNS}\n");
-    let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
-    let displacements = identity.grid.displacements();
-    let at = displacements
-        .iter()
-        .zip(&collected.loads)
-        .zip(&identity.sound);
-    for ((&displacement, loads), sound) in at {
+    let displacements = identity.grid.displacements().into_iter();
+    let at = displacements.zip(&collected.loads).zip(&identity.sound);
+    let row = |((displacement, loads), sound): ((f64, &Vec<f64>), &Option<f64>)| {
         let mut values = vec![Value::Float(displacement), Value::from(loads.len())];
         values.extend(PROBABILITIES.map(|it| number(quantile(loads, it))));
         let mean = loads.iter().sum::<f64>() / loads.len() as f64;
         values.push(number(Some(mean).filter(|it| it.is_finite())));
         values.push(number(*sound));
-        text += &csv::line(&values);
-    }
-    text
+        values
+    };
+    table(CURVE_COLUMNS, at.map(row))
 }
 
 /// Text of `weibull.csv`.
 fn weibull(strengths: &[Strengths]) -> String {
-    let mut text = format!("{WEIBULL_COLUMNS}\n");
-    for it in strengths {
+    let row = |it: &Strengths| {
         let mut values = vec![Value::Text(it.name), Value::from(it.loads.len())];
         values.extend(
             it.moments()
@@ -123,32 +113,27 @@ fn weibull(strengths: &[Strengths]) -> String {
         match &it.fit {
             None => values.extend([Value::Missing; 6]),
             Some(fit) => {
-                let [modulus, scale] = [
-                    fit.modulus_within(NINETY_PERCENT),
-                    fit.scale_within(NINETY_PERCENT),
-                ];
                 values.push(Value::Float(fit.modulus));
-                values.extend(modulus.map(Value::Float));
+                values.extend(fit.modulus_within(NINETY_PERCENT).map(Value::Float));
                 values.push(Value::Float(fit.scale));
-                values.extend(scale.map(Value::Float));
+                values.extend(fit.scale_within(NINETY_PERCENT).map(Value::Float));
             }
         }
-        text += &csv::line(&values);
-    }
-    text
+        values
+    };
+    table(WEIBULL_COLUMNS, strengths.iter().map(row))
 }
 
 /// Text of `points.csv`: the points of a body in the order of its file, with the shares of the samples (n_points).
 fn points(grid: &BodyGrid, first: &[f64], damaged: &[f64]) -> String {
-    let mut text = format!("{POINT_COLUMNS}\n");
-    for in_file in 0..grid.positions.len() as u32 {
+    let row = |in_file| {
         let point = grid.numbering.point(in_file) as usize;
         let mut values = vec![Value::Integer(grid.tags[point])];
         values.extend(grid.positions[point].map(Value::Float));
         values.extend([first[point], damaged[point]].map(Value::Float));
-        text += &csv::line(&values);
-    }
-    text
+        values
+    };
+    table(POINT_COLUMNS, (0..grid.positions.len() as u32).map(row))
 }
 
 /// Prints the number of samples.

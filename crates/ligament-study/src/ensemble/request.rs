@@ -8,8 +8,7 @@ use ligament_case::case::CaseFile;
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::IsStopped;
 
-use super::identity::Wanted;
-use crate::sweep::folder::Shard;
+use crate::run_table::folder::Shard;
 
 /// Request for an ensemble.
 pub struct Request<'a> {
@@ -53,16 +52,7 @@ pub struct Settings {
     pub progress: ProgressMode,
 }
 
-impl<'a> Request<'a> {
-    /// Case, seed and grid.
-    pub(super) fn wanted(&self) -> Wanted<'a> {
-        Wanted {
-            case: self.case,
-            seed: self.seed,
-            grid: (self.points, self.displacement),
-        }
-    }
-
+impl Request<'_> {
     /// Number of threads of all samples together: those of the case, or as many as there are processors.
     pub(super) fn threads(&self) -> usize {
         let all = thread::available_parallelism().map_or(1, NonZero::get);

@@ -10,7 +10,7 @@ use ligament_case::case::decode::decode;
 use ligament_case::case::document::{Node, Value};
 use ligament_case::case::fault::KeyFault;
 use ligament_case::case::key_path::KeyPath;
-use ligament_case::case::values::{not_exactly_one, require, require_no_formula, require_unique};
+use ligament_case::case::values::{one_of, require, require_no_formula, require_unique};
 
 /// Largest number of values of an axis.
 const MOST_VALUES: usize = 10_000;
@@ -79,40 +79,29 @@ impl RawAxis {
     /// Checks the axis at a place of the study.
     pub(super) fn check(self, document: &Node, place: &KeyPath) -> Result<Axis, KeyFault> {
         let (paired, of_geometry) = (self.keys.is_some(), self.number.is_some());
-        let keys = match (self.key, self.keys, self.number) {
-            (Some(key), None, None) => vec![canonical(key, &place.child("key"))?],
-            (None, Some(keys), None) => {
-                let keys = keys.into_iter().enumerate();
-                let keys = keys.map(|(k, key)| canonical(key, &place.child("keys").child(k)));
-                keys.collect::<Result<_, _>>()?
-            }
-            (None, None, Some(number)) => vec![number],
-            (key, keys, number) => {
-                let given = [
-                    ("key", key.is_some()),
-                    ("keys", keys.is_some()),
-                    ("number", number.is_some()),
-                ];
-                return Err(not_exactly_one(place, &given));
-            }
-        };
+        let [key, number] = [self.key, self.number].map(|it| it.map(|name| vec![name]));
+        let keys = [("key", key), ("keys", self.keys), ("number", number)];
+        let mut keys = one_of(place, keys)?;
+        for (k, key) in keys.iter_mut().enumerate().filter(|_| !of_geometry) {
+            *key = match paired {
+                true => canonical(key, &place.child("keys").child(k))?,
+                false => canonical(key, &place.child("key"))?,
+            };
+        }
         require(
             !keys.is_empty(),
             || place.child("keys"),
             "one key or more",
             &keys,
         )?;
-        let points = match (self.values, self.range) {
-            (Some(_), None) => listed(document, place, &keys, paired, of_geometry)?,
-            (None, Some(range)) if !paired => ranged(document, place, &range)?,
-            (None, Some(_)) => {
+        let [values, range] = [self.values.map(|_| None), self.range.map(Some)];
+        let points = match one_of(place, [("values", values), ("range", range)])? {
+            None => listed(document, place, &keys, paired, of_geometry)?,
+            Some(range) if !paired => ranged(document, place, &range)?,
+            Some(_) => {
                 let fault =
                     "a range has one number a value: give `values = [[..], ..]` for several `keys`";
                 return Err(KeyFault::new(place.child("range"), fault));
-            }
-            (values, range) => {
-                let given = [("values", values.is_some()), ("range", range.is_some())];
-                return Err(not_exactly_one(place, &given));
             }
         };
         let mut axis = Axis {
@@ -163,8 +152,8 @@ impl Axis {
 }
 
 /// The canonical form of a key.
-fn canonical(key: String, place: &KeyPath) -> Result<String, KeyFault> {
-    match KeyPath::parse(&key) {
+fn canonical(key: &str, place: &KeyPath) -> Result<String, KeyFault> {
+    match KeyPath::parse(key) {
         Some(path) if !path.0.is_empty() => Ok(path.to_string()),
         _ => {
             let fault = format!("`{key}` is not a key path such as load.0.displacement.y");
@@ -301,8 +290,10 @@ fn numbers(range: &RawRange, place: &KeyPath) -> Result<Vec<f64>, KeyFault> {
             (from, to),
         )?;
     }
-    match (range.step, range.count) {
-        (Some(_), None) if log => {
+    let step = range.step.map(Spacing::Step);
+    let count = range.count.map(Spacing::Count);
+    match one_of(place, [("step", step), ("count", count)])? {
+        Spacing::Step(_) if log => {
             let fault = Fault::NotWith {
                 key: "log",
                 setting: "`step`".to_owned(),
@@ -310,13 +301,17 @@ fn numbers(range: &RawRange, place: &KeyPath) -> Result<Vec<f64>, KeyFault> {
             };
             Err(KeyFault::new(place.child("log"), fault))
         }
-        (Some(step), None) => stepped(range, step, || place.child("step")),
-        (None, Some(count)) => counted(range, count, || place.child("count")),
-        (step, count) => {
-            let given = [("step", step.is_some()), ("count", count.is_some())];
-            Err(not_exactly_one(place, &given))
-        }
+        Spacing::Step(step) => stepped(range, step, || place.child("step")),
+        Spacing::Count(count) => counted(range, count, || place.child("count")),
     }
+}
+
+/// Spacing of the values of a range.
+enum Spacing {
+    /// Difference of neighbours.
+    Step(f64),
+    /// Number of values.
+    Count(usize),
 }
 
 /// The values of a range with a given step.

@@ -1,8 +1,8 @@
 //! The curves of a study's plots: points from its table, and fitted lines.
 
-use super::plan::{Run, safe};
+use super::plan::safe;
 use super::study::{Study, StudyPlot};
-use super::table::{NoColumn, StudyTable};
+use super::table::{NoColumn, Row, StudyTable};
 use crate::line_fit::{FitError, LineFit};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
@@ -42,19 +42,19 @@ pub(super) struct Curve {
 
 impl<'a> Curves<'a> {
     /// The curves of a plot over the runs of a table.
-    pub(super) fn over_runs(
+    pub(super) fn over_rows(
         study: &Study,
         plot: &'a StudyPlot,
-        runs: &[Run],
+        rows: &[Row<'_>],
         table: &StudyTable,
     ) -> Result<Self, NoColumn> {
         let (x, y) = (table.numbers(&plot.x)?, table.numbers(&plot.y)?);
         let by = plot.by.as_ref();
         let axis = by.and_then(|by| study.axes.iter().position(|axis| axis.keys.contains(by)));
         let points_of = |value: Option<usize>| {
-            let has_it = |run: &Run| axis.map(|axis| run.place[axis]) == value;
-            let rows = runs.iter().zip(x.iter().zip(&y));
-            let rows = rows.filter(|(run, _)| has_it(run));
+            let has_it = |row: &Row<'_>| axis.map(|axis| row.run.place[axis]) == value;
+            let rows = rows.iter().zip(x.iter().zip(&y));
+            let rows = rows.filter(|(row, _)| has_it(row));
             let points = rows.filter_map(|(_, (x, y))| Some([(*x)?, (*y)?]));
             let mut points: Vec<[f64; 2]> = points.collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));

@@ -51,37 +51,6 @@ pub enum StudyError {
         /// Largest allowed number.
         most: usize,
     },
-    /// The folder is in use.
-    #[error(
-        "another study works on {} ({what}); wait for its end, or give this one its own folder by --out", folder.display()
-    )]
-    Busy {
-        /// The folder.
-        folder: PathBuf,
-        /// Description of the sweep that uses the folder.
-        what: String,
-    },
-    /// The folder of the study cannot be used.
-    #[error(transparent)]
-    Folder(#[from] ligament_output::Error),
-    /// A file of the study's folder cannot be used.
-    #[error("cannot {action} {}", path.display())]
-    File {
-        /// Operation, a verb.
-        action: &'static str,
-        /// The file or folder.
-        path: PathBuf,
-        /// The system's reason.
-        source: io::Error,
-    },
-    /// The folder is not of a study.
-    #[error("{} is no folder of a study (no {marker} in it): run the study first, or name its folders by --from", folder.display())]
-    NoStudy {
-        /// The folder.
-        folder: PathBuf,
-        /// Name of the missing marker file.
-        marker: &'static str,
-    },
     /// Runs failed.
     #[error("{failed} of {total} runs failed; the same command repeats them")]
     Failed {

@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::num::NonZero;
 use std::path::{Path, PathBuf};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -15,10 +15,10 @@ use ligament_run::end::leaves_results;
 use ligament_run::memory;
 
 use super::estimate::Estimates;
-use super::folder::StudyFolder;
 use super::plan::Run;
 use super::progress::StudyProgress;
-use super::record::{self, Status};
+use super::record::{RecordedRun, Status};
+use crate::run_table::folder::StudyFolder;
 
 /// Number of last lines of a failed run's output in its reason.
 const LAST_WORDS: usize = 4;
@@ -27,26 +27,33 @@ const LAST_WORDS: usize = 4;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Room {
     /// Largest number of simultaneous runs.
-    pub(super) jobs: usize,
+    jobs: usize,
     /// Number of processors.
-    pub(super) cores: usize,
+    cores: usize,
     /// Memory, bytes; `None` where unknown.
-    pub(super) bytes: Option<u64>,
+    bytes: Option<u64>,
     /// Whether the memory was given by the user.
-    pub(super) bytes_are_given: bool,
+    bytes_are_given: bool,
 }
 
 impl Room {
     /// The available or given resources.
     pub(super) fn new(jobs: Option<usize>, gigabytes: Option<f64>) -> Self {
         let cores = thread::available_parallelism().map_or(1, NonZero::get);
+        let given = gigabytes.map(|it| (1e9 * it) as u64);
         Self {
             jobs: jobs.unwrap_or(cores),
             cores,
-            bytes: gigabytes
-                .map(|it| (1e9 * it) as u64)
-                .or_else(memory::available),
-            bytes_are_given: gigabytes.is_some(),
+            bytes: given.or_else(memory::available),
+            bytes_are_given: given.is_some(),
+        }
+    }
+
+    /// Memory that is available at present, unless the user has given it.
+    fn bytes_now(self) -> Option<u64> {
+        match self.bytes_are_given {
+            true => None,
+            false => memory::available(),
         }
     }
 
@@ -54,23 +61,35 @@ impl Room {
     fn threads(self, left: usize) -> usize {
         (self.cores / left.min(self.jobs).max(1)).max(1)
     }
+
+    /// The reason why a run that needs so much memory is not started.
+    fn too_small_for(self, bytes: u64) -> String {
+        let room = self.bytes.unwrap_or_default();
+        let available = self.bytes_now().map_or(room, |now| now.min(room));
+        let free = if self.bytes_are_given {
+            ""
+        } else {
+            "free some, "
+        };
+        format!(
+            "it needs {:.2} GB of memory, and {:.2} GB are available; {free}allow more by --memory, or run it on a larger machine by --shard",
+            bytes as f64 / 1e9,
+            available as f64 / 1e9
+        )
+    }
 }
 
-/// A run that has ended: its index, exit status and duration.
-struct Ended {
-    index: usize,
-    status: io::Result<ExitStatus>,
-    time: Duration,
-}
+/// Index, exit status and duration of a run that has ended.
+type Ended = (usize, io::Result<ExitStatus>, Duration);
 
 /// A run in progress.
 struct Running {
     index: usize,
     bytes: u64,
     /// Folder for its results.
-    place: PathBuf,
+    written: PathBuf,
     /// Standard input of the run, which is closed when this value is dropped or this process ends.
-    _leash: Option<std::process::ChildStdin>,
+    _leash: Option<ChildStdin>,
 }
 
 /// Executes runs in their order, as many at once as resources allow; returns the sum of their times.
@@ -92,118 +111,84 @@ pub(super) fn all(
         lock,
         room,
         program,
+        progress,
         sender,
         receiver,
-        estimates: Estimates::default(),
         running: Vec::new(),
         time: Duration::ZERO,
     };
+    let mut estimates = Estimates::default();
     for (next, run) in runs.iter().enumerate() {
-        let bytes = launcher.wait_for_room(next, progress)?;
-        match launcher.start(next, bytes, progress) {
-            Ok(()) => {}
-            Err(Refusal::Run(reason)) => {
-                record::fail(run, folder, &reason)?;
-                progress.ends(run, &Status::Failed(reason), Duration::ZERO);
+        // A case whose model cannot be built fails in its run, with the reason.
+        let bytes = estimates.bytes(&run.case).unwrap_or(0);
+        while launcher.running.len() >= room.jobs
+            || !(launcher.running.is_empty() || launcher.fits(bytes))
+        {
+            launcher.wait()?;
+        }
+        match launcher.fits(bytes) {
+            true => launcher.start(next, bytes)?,
+            false => {
+                let reason = room.too_small_for(bytes);
+                launcher
+                    .progress
+                    .fails(run, folder, &reason, Duration::ZERO)?;
             }
-            Err(Refusal::Folder(error)) => return Err(error),
         }
     }
     while !launcher.running.is_empty() {
-        launcher.wait(progress)?;
+        launcher.wait()?;
     }
     Ok(launcher.time)
 }
 
-/// Reason why a run was not started.
-enum Refusal {
-    /// Reason of this run.
-    Run(String),
-    /// Error of the folder, which affects all runs.
-    Folder(anyhow::Error),
-}
-
-struct Launcher<'a> {
+struct Launcher<'a, 'b> {
     runs: &'a [&'a Run],
     folder: &'a StudyFolder,
     lock: &'a Path,
     room: Room,
     program: &'a [OsString],
+    progress: &'a mut StudyProgress<'b>,
     sender: Sender<Ended>,
     receiver: Receiver<Ended>,
-    estimates: Estimates,
     running: Vec<Running>,
     time: Duration,
 }
 
-impl Launcher<'_> {
-    /// Waits until the next run fits beside the runs in progress, or none is in progress; returns its memory, bytes.
-    fn wait_for_room(
-        &mut self,
-        next: usize,
-        progress: &mut StudyProgress<'_>,
-    ) -> anyhow::Result<u64> {
-        // A case whose model cannot be built fails in its run, with the reason.
-        let bytes = self.estimates.bytes(&self.runs[next].case).unwrap_or(0);
-        while self.running.len() >= self.room.jobs
-            || (!self.running.is_empty() && !self.fits(bytes))
-        {
-            self.wait(progress)?;
-        }
-        Ok(bytes)
-    }
-
+impl Launcher<'_, '_> {
     /// Whether the memory suffices beside the estimates of the runs in progress and, unless given by the user, is available at present.
     fn fits(&self, bytes: u64) -> bool {
-        let taken: u64 = self.running.iter().map(|it| it.bytes).sum();
-        let by_estimates = self.room.bytes.is_none_or(|room| taken + bytes <= room);
-        let now = if self.room.bytes_are_given {
-            None
-        } else {
-            memory::available()
-        };
-        by_estimates && now.is_none_or(|now| bytes <= now)
+        let of_running: u64 = self.running.iter().map(|it| it.bytes).sum();
+        let by_estimates = self
+            .room
+            .bytes
+            .is_none_or(|room| of_running + bytes <= room);
+        by_estimates && self.room.bytes_now().is_none_or(|now| bytes <= now)
     }
 
-    fn start(
-        &mut self,
-        next: usize,
-        bytes: u64,
-        progress: &mut StudyProgress<'_>,
-    ) -> Result<(), Refusal> {
-        let run = self.runs[next];
-        if !self.fits(bytes) {
-            return Err(Refusal::Run(self.too_large(bytes)));
-        }
-        let place = record::begin(run, self.folder).map_err(Refusal::Folder)?;
-        let left = self.running.len() + self.runs.len() - next;
-        let threads = self.room.threads(left);
+    fn start(&mut self, index: usize, bytes: u64) -> anyhow::Result<()> {
+        let run = self.runs[index];
+        let written = RecordedRun::in_folder(run, self.folder).begin()?;
+        let threads = self
+            .room
+            .threads(self.running.len() + self.runs.len() - index);
         let begun = Instant::now();
-        let mut child = self
-            .spawn(run, &place, threads)
-            .map_err(|error| Refusal::Folder(error.into()))?;
-        progress.begins(run, threads);
+        let mut child = self.spawn(run, &written, threads)?;
+        self.progress.begins(run, threads);
         self.running.push(Running {
-            index: next,
+            index,
             bytes,
-            place,
+            written,
             _leash: child.stdin.take(),
         });
         let sender = self.sender.clone();
-        thread::spawn(move || {
-            let status = child.wait();
-            // A closed channel has no receiver.
-            let _ = sender.send(Ended {
-                index: next,
-                status,
-                time: begun.elapsed(),
-            });
-        });
+        // A closed channel has no receiver.
+        thread::spawn(move || sender.send((index, child.wait(), begun.elapsed())));
         Ok(())
     }
 
     fn spawn(&self, run: &Run, place: &Path, threads: usize) -> io::Result<Child> {
-        let log = self.folder.log(run);
+        let log = self.log(run);
         // The log is a new file, never the target of a link.
         remove_if_there(&log)?;
         let log = File::create_new(log)?;
@@ -231,63 +216,44 @@ impl Launcher<'_> {
         command.spawn()
     }
 
+    /// File of the output of a run.
+    fn log(&self, run: &Run) -> PathBuf {
+        let name = format!("{}.log", run.name);
+        self.folder.path().join("logs").join(name)
+    }
+
     /// Waits for a run to end.
-    fn wait(&mut self, progress: &mut StudyProgress<'_>) -> anyhow::Result<()> {
+    fn wait(&mut self) -> anyhow::Result<()> {
         // The launcher has a sender itself, so the channel is never closed.
-        let Ok(Ended {
-            index,
-            status,
-            time,
-        }) = self.receiver.recv()
-        else {
-            return Ok(());
-        };
+        let (index, status, time) = self.receiver.recv()?;
         let place = self.running.iter().position(|it| it.index == index);
         let ended = place.map(|place| self.running.remove(place));
         self.time += time;
         let run = self.runs[index];
         let exit = status?;
         // A run that ended during breakage or without equilibrium also has results, which include its end.
-        let has_results = leaves_results(exit.code());
-        if !has_results {
+        if !leaves_results(exit.code()) {
             let reason = self.last_words(run, exit);
-            record::fail(run, self.folder, &reason)?;
-            progress.ends(run, &Status::Failed(reason), time);
-            return Ok(());
+            return self.progress.fails(run, self.folder, &reason, time);
         }
-        if let Some(Running { place, .. }) = ended {
-            record::complete(run, self.folder, &place)?;
+        let recorded = RecordedRun::in_folder(run, self.folder);
+        if let Some(Running { written, .. }) = ended {
+            recorded.complete(&written)?;
         }
-        let status = match Status::in_folder(run, self.folder) {
+        let status = match recorded.status() {
             Status::Missing | Status::Changed(_) => {
                 Status::Failed("it ended without an error, but wrote no summary.json".to_owned())
             }
             status => status,
         };
-        progress.ends(run, &status, time);
+        self.progress.ends(run, &status, time);
         Ok(())
-    }
-
-    fn too_large(&self, bytes: u64) -> String {
-        let gigabytes = |bytes: u64| bytes as f64 / 1e9;
-        let room = self.room.bytes.unwrap_or_default();
-        let now = memory::available().map_or(room, |now| now.min(room));
-        let (what, advice) = if self.room.bytes_are_given {
-            (room, "allow more by --memory")
-        } else {
-            (now, "free some, allow more by --memory")
-        };
-        format!(
-            "it needs {:.2} GB of memory, and {:.2} GB are available; {advice}, or run it on a larger machine by --shard",
-            gigabytes(bytes),
-            gigabytes(what)
-        )
     }
 
     /// The reason why a run failed: its error, or its last line and its exit status.
     fn last_words(&self, run: &Run, exit: ExitStatus) -> String {
         // If there is no log, only the exit status is known.
-        let log = fs::read(self.folder.log(run)).unwrap_or_default();
+        let log = fs::read(self.log(run)).unwrap_or_default();
         let text = String::from_utf8_lossy(&log);
         let lines: Vec<&str> = text
             .lines()

@@ -45,31 +45,25 @@ impl MeshPlan {
     }
 }
 
-/// Makes the missing meshes of runs, given by their names, by the program `gmsh`, and reports each to `tell`. Returns the reasons of runs
-/// without a mesh.
+/// Makes the missing meshes of plans by the program `gmsh`, and reports each to `print`. Returns the reasons of those that could not be made,
+/// by their files.
 ///
 /// # Errors
 ///
 /// If all meshes are affected: no geometry, no program, or a number that the geometry does not have.
 pub(super) fn make<'a>(
-    runs: impl IntoIterator<Item = (&'a str, &'a MeshPlan)>,
+    plans: impl Iterator<Item = &'a MeshPlan>,
     gmsh: &Path,
     print: &mut dyn FnMut(&str),
-) -> Result<BTreeMap<String, String>, MeshingError> {
+) -> Result<BTreeMap<&'a Path, String>, MeshingError> {
     let mut failed = BTreeMap::new();
-    let mut tried: BTreeMap<&Path, Option<String>> = BTreeMap::new();
-    for (run, plan) in runs {
+    for plan in plans {
         let out = plan.request.out.as_path();
-        if !tried.contains_key(out) {
-            let reason = if out.is_file() {
-                None
-            } else {
-                make_one(plan, gmsh, print)?
-            };
-            tried.insert(out, reason);
-        }
-        if let Some(Some(reason)) = tried.get(out) {
-            failed.insert(run.to_owned(), reason.clone());
+        if !out.is_file()
+            && !failed.contains_key(out)
+            && let Some(reason) = make_one(plan, gmsh, print)?
+        {
+            failed.insert(out, reason);
         }
     }
     Ok(failed)

@@ -1,45 +1,49 @@
 //! `ligament sweep`: a base case over all combinations of some of its settings.
 //!
 //! A study file ([`study`]) names the case and axes (`axis`); [`plan`] lists the runs and checks the case of each. Runs are separate
-//! processes (`launch`), in a folder ([`folder`]) with a record of the inputs of each run (`record`), so that the same command continues an
-//! interrupted sweep. The final results are a `table` of all runs, with `curves` and fitted lines (`crate::line_fit`).
+//! processes (`launch`), in a [folder](crate::run_table::folder) with a record of the inputs of each run (`record`), so that the same command
+//! continues an interrupted sweep. The final results are a `table` of all runs, with `curves` and fitted lines (`crate::line_fit`).
 
 mod axis;
 mod curves;
 mod error;
 mod estimate;
-pub mod folder;
 mod launch;
 mod meshes;
 pub mod plan;
 mod progress;
 mod record;
-pub(crate) mod report;
+mod report;
 pub mod study;
 mod table;
 pub mod written;
 
-use std::collections::BTreeMap;
 use std::ffi::OsString;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+use std::slice;
 use std::time::Duration;
 
+use ligament_output::folder::refuse_link;
 use ligament_output::terminal::plain;
 use ligament_run::memory;
 use ligament_run::progress::ProgressMode;
+use serde_json::json;
 
 pub use error::StudyError;
 pub use launch::bind_to_parent;
 
+use crate::run_table::folder::{Shard, StudyFolder};
 use estimate::Estimates;
-use folder::{MARKER, Shard, StudyFolder};
 use launch::Room;
-use plan::Run;
+use plan::{MESHES, Run};
 use progress::{StudyProgress, seconds};
-use record::Status;
+use record::{RecordedRun, Status};
 use study::Study;
 use table::Row;
+
+/// File that marks the folder of a sweep.
+const MARKER: &str = "sweep.json";
 
 /// Request to a study.
 #[derive(Debug, Clone)]
@@ -96,69 +100,84 @@ pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     match &request.task {
         Task::Run(settings) => run(&study, &path, settings, out),
         Task::List => list(&study, &path, out),
-        Task::Collect(from) => collect(&study, &path, from, out),
+        Task::Collect(from) => {
+            let folders = StudyFolder::to_collect(MARKER, &path, from)?;
+            let runs = plan::runs(&study, &path)?;
+            make_report(&study, &runs, &folders, &opened(&path, &study)?, out)?;
+            Ok(writeln!(out, "  tables and plots in {}", path.display())?)
+        }
     }
+}
+
+/// Creates the folder of a sweep, or opens that of an earlier one.
+///
+/// # Errors
+///
+/// If the path is something else, or cannot be written.
+pub fn opened(path: &Path, study: &Study) -> anyhow::Result<StudyFolder> {
+    refuse_link(&path.join(MESHES))?;
+    let marker = json!({
+        "study": study.source.path.to_string_lossy(),
+        "title": study.title,
+        "version": env!("CARGO_PKG_VERSION"),
+    });
+    let folder = StudyFolder::marked_by(MARKER, path);
+    folder.opened(&format!("{marker:#}\n"), &["runs", "records", "logs"])
 }
 
 /// Executes the runs without results.
 fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<()> {
-    let runs = plan::runs(study, &StudyFolder::at(path).meshes())?;
+    let runs = plan::runs(study, path)?;
     // Nothing is written before the cases of all runs are checked.
-    let folder = StudyFolder::open(path, study)?;
+    let folder = opened(path, study)?;
     let claim = folder.claim(settings.shard)?;
-    let mine: Vec<&Run> = (runs.iter().enumerate())
-        .filter(|(index, _)| settings.shard.is_none_or(|shard| shard.contains(*index)))
-        .map(|(_, run)| run)
-        .collect();
-    let (mut todo, notes) = not_done(study, &folder, &mine, settings.force)?;
-    let before = mine.len() - todo.len();
+    let mine = runs.iter().enumerate();
+    let mine = mine.filter(|(index, _)| Shard::contains(settings.shard, *index));
+    let mine: Vec<&Run> = mine.map(|(_, run)| run).collect();
+    let total = mine.len();
+    let (todo, notes) = not_done(study, &folder, &mine, settings.force)?;
+    let before = total - todo.len();
     let mut progress = StudyProgress::new(study, settings.progress, todo.len());
     if let Some(Shard { number, count }) = settings.shard {
-        progress.print(&format!(
-            "shard {number} of {count}: {} of {} runs",
-            mine.len(),
-            runs.len()
-        ));
+        let all = runs.len();
+        progress.print(&format!("shard {number} of {count}: {total} of {all} runs"));
     }
     if before > 0 {
-        let all = mine.len();
-        progress.print(&format!("{before} of {all} runs were done already"));
+        progress.print(&format!("{before} of {total} runs were done already"));
     }
     notes.iter().for_each(|note| progress.print(note));
-    let unmeshed = made_meshes(&todo, &folder, &settings.gmsh, &mut progress)?;
-    todo.retain(|run| !unmeshed.contains_key(&run.name));
+    let todo = meshed(todo, &folder, &settings.gmsh, &mut progress)?;
     let room = Room::new(settings.jobs, settings.memory);
     let start = (&*claim.runs, &*settings.program);
     let sum = launch::all(&todo, &folder, start, room, &mut progress)?;
     let (wall, failed) = progress.finish();
-
-    if settings.shard.is_none() {
-        let problems = make_report(study, &runs, &[(&folder, &runs)], &folder, out)?;
-        tell_problems(&problems)?;
-        write_times(out, wall, sum, before)?;
-        writeln!(out, "  results in {}", path.display())?;
-        if failed == 0 && !problems.is_empty() {
-            anyhow::bail!(
-                "some tables or plots of the study could not be made; the runs are kept, so correct the study and run it again"
-            );
+    let (problems, tables) = match settings.shard {
+        None => {
+            let problems = make_report(study, &runs, slice::from_ref(&folder), &folder, out)?;
+            (problems, "")
         }
-    } else {
-        writeln!(out, "{}: {} runs", study.title, mine.len())?;
-        write_times(out, wall, sum, before)?;
-        writeln!(
-            out,
-            "  results in {}; its tables and plots: ligament sweep --collect",
-            path.display()
-        )?;
-    }
-    match failed {
-        0 => Ok(()),
-        failed => Err(StudyError::Failed {
-            failed,
-            total: mine.len(),
+        Some(_) => {
+            writeln!(out, "{}: {total} runs", study.title)?;
+            (
+                Vec::new(),
+                "; its tables and plots: ligament sweep --collect",
+            )
         }
-        .into()),
+    };
+    let (wall, sum) = (seconds(wall), seconds(sum));
+    writeln!(
+        out,
+        "  time {wall}, {sum} of all runs together; {before} were done already"
+    )?;
+    writeln!(out, "  results in {}{tables}", path.display())?;
+    if failed > 0 {
+        return Err(StudyError::Failed { failed, total }.into());
     }
+    anyhow::ensure!(
+        problems.is_empty(),
+        "some tables or plots of the study could not be made; the runs are kept, so correct the study and run it again"
+    );
+    Ok(())
 }
 
 /// The runs to be executed or repeated, and remarks about them.
@@ -171,12 +190,13 @@ fn not_done<'a>(
     let mut todo = Vec::new();
     let mut notes = Vec::new();
     for run in mine {
-        record::complete_replacement(run, folder)?;
+        let recorded = RecordedRun::in_folder(run, folder);
+        recorded.complete_replacement()?;
         if force {
-            record::demand(run, folder)?;
+            recorded.record(None)?;
         }
-        match Status::in_folder(run, folder) {
-            Status::Done(_) if record::should_repeat(run, folder) => {}
+        match recorded.status() {
+            Status::Done(_) if recorded.should_repeat() => {}
             Status::Done(_) => continue,
             Status::Changed(how) => {
                 notes.push(format!(
@@ -191,59 +211,38 @@ fn not_done<'a>(
     Ok((todo, notes))
 }
 
-/// Makes the missing meshes of runs; returns the runs without a mesh, which have failed, with the reasons.
-fn made_meshes(
-    todo: &[&Run],
+/// Makes the missing meshes of runs; returns the runs with a mesh. Those without one have failed.
+fn meshed<'a>(
+    todo: Vec<&'a Run>,
     folder: &StudyFolder,
     gmsh: &Path,
-    progress: &mut StudyProgress,
-) -> anyhow::Result<BTreeMap<String, String>> {
-    let lacking = todo
-        .iter()
-        .filter_map(|run| Some((run.name.as_str(), run.mesh.as_ref()?)));
-    let unmeshed = meshes::make(lacking, gmsh, &mut |line| progress.print(line))?;
-    for (name, reason) in &unmeshed {
-        if let Some(run) = todo.iter().find(|run| run.name == *name) {
-            record::fail(run, folder, reason)?;
-            progress.ends(run, &Status::Failed(reason.clone()), Duration::ZERO);
+    progress: &mut StudyProgress<'_>,
+) -> anyhow::Result<Vec<&'a Run>> {
+    let plans = todo.iter().filter_map(|run| run.mesh.as_ref());
+    let failed = meshes::make(plans, gmsh, &mut |line| progress.print(line))?;
+    let mut meshed = Vec::new();
+    for run in todo {
+        let mesh = run.mesh.as_ref().map(|plan| plan.request.out.as_path());
+        match mesh.and_then(|mesh| failed.get(mesh)) {
+            None => meshed.push(run),
+            Some(reason) => progress.fails(run, folder, reason, Duration::ZERO)?,
         }
     }
-    Ok(unmeshed)
+    Ok(meshed)
 }
 
-fn write_times(
-    out: &mut dyn Write,
-    wall: Duration,
-    sum: Duration,
-    before: usize,
-) -> io::Result<()> {
-    writeln!(
-        out,
-        "  time {}, {} of all runs together; {before} were done already",
-        seconds(wall),
-        seconds(sum)
-    )
-}
-
-fn tell_problems(problems: &[String]) -> io::Result<()> {
-    let mut stderr = io::stderr().lock();
-    problems
-        .iter()
-        .try_for_each(|problem| writeln!(stderr, "warning: {}", plain(problem)))
-}
-
-/// Writes the tables and plots of runs in one or several folders, each with its list of runs.
+/// Writes the tables and plots of runs in one or several folders, and the problems with them on stderr; returns the problems.
 fn make_report(
     study: &Study,
     runs: &[Run],
-    folders: &[(&StudyFolder, &[Run])],
+    folders: &[StudyFolder],
     to: &StudyFolder,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
-    let row = |(index, run)| {
-        let found = folders.iter().map(|(folder, there): &(_, &[Run])| {
-            let run = &there[index];
-            (Status::in_folder(run, folder), folder.run(run))
+    let row = |run| {
+        let found = folders.iter().map(|folder| {
+            let recorded = RecordedRun::in_folder(run, folder);
+            (recorded.status(), recorded.folder().to_owned())
         });
         let better = |best: (Status, PathBuf), it: (Status, PathBuf)| {
             if it.0.rank() > best.0.rank() {
@@ -259,54 +258,29 @@ fn make_report(
             folder: folder.to_string_lossy().into_owned(),
         }
     };
-    let rows: Vec<Row<'_>> = runs.iter().enumerate().map(row).collect();
-    report::write(study, runs, &rows, to, out)
-}
-
-/// Writes the tables and plots of the completed runs.
-fn collect(
-    study: &Study,
-    path: &Path,
-    from: &[PathBuf],
-    out: &mut dyn Write,
-) -> anyhow::Result<()> {
-    let own = [path.to_owned()];
-    let paths = if from.is_empty() { &own[..] } else { from };
-    let mut folders = Vec::new();
-    for path in paths {
-        let folder = StudyFolder::at(path);
-        if !folder.is_marked() {
-            let (folder, marker) = (path.clone(), MARKER);
-            return Err(StudyError::NoStudy { folder, marker }.into());
-        }
-        let runs = plan::runs(study, &folder.meshes())?;
-        folders.push((folder, runs));
+    let rows: Vec<Row<'_>> = runs.iter().map(row).collect();
+    let problems = report::write(study, &rows, to, out)?;
+    let mut stderr = io::stderr().lock();
+    for problem in &problems {
+        writeln!(stderr, "warning: {}", plain(problem))?;
     }
-    let to = StudyFolder::open(path, study)?;
-    let runs = plan::runs(study, &to.meshes())?;
-    let there: Vec<(&StudyFolder, &[Run])> = folders
-        .iter()
-        .map(|(folder, runs)| (folder, runs.as_slice()))
-        .collect();
-    let problems = make_report(study, &runs, &there, &to, out)?;
-    tell_problems(&problems)?;
-    writeln!(out, "  tables and plots in {}", path.display())?;
-    Ok(())
+    Ok(problems)
 }
 
 /// Lists the runs with their status and estimated memory.
 fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
-    let folder = StudyFolder::at(path);
-    let runs = plan::runs(study, &folder.meshes())?;
+    let folder = StudyFolder::marked_by(MARKER, path);
+    let runs = plan::runs(study, path)?;
     let width = runs.len().to_string().len();
     let mut estimates = Estimates::default();
     let mut todo = 0;
     for (index, run) in runs.iter().enumerate() {
-        let word = match Status::in_folder(run, &folder) {
+        let recorded = RecordedRun::in_folder(run, &folder);
+        let word = match recorded.status() {
             Status::Changed(_) => "changed",
             status => status.word(),
         };
-        todo += usize::from(word != "done" || record::should_repeat(run, &folder));
+        todo += usize::from(word != "done" || recorded.should_repeat());
         let memory = match estimate::has_mesh(&run.case) {
             true => estimates.bytes(&run.case).map_or_else(
                 || "no model".to_owned(),

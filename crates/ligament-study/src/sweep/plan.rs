@@ -1,6 +1,5 @@
 //! The runs of a study: all combinations of the values of its axes, each with a name and a checked case.
 
-use std::io;
 use std::path::{Path, PathBuf};
 
 use super::axis::{Axis, AxisPoint, Setting, short_words};
@@ -12,6 +11,9 @@ use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, CaseFile, Location};
 use ligament_case::input_file;
 use ligament_run::inputs::{Contents, Inputs};
+
+/// Subfolder of the meshes that are made for a study.
+pub(super) const MESHES: &str = "meshes";
 
 /// Largest number of runs of a study.
 const MOST_RUNS: usize = 100_000;
@@ -45,8 +47,7 @@ impl Run {
         &'a self,
         study: &'a Study,
     ) -> impl Iterator<Item = (&'a Axis, &'a AxisPoint)> {
-        let axes = study.axes.iter().zip(&self.place);
-        axes.map(|(axis, &index)| (axis, &axis.points[index]))
+        points(study, &self.place)
     }
 
     /// Description of the run's values: "horizon_factor = 2.5, file = 4 mm".
@@ -74,12 +75,12 @@ fn parts_of<'a>(
     cells.map(move |(key, cell)| (key.as_str(), label(cell)))
 }
 
-/// Lists the runs of a study, with the last axis varying fastest, and checks the case of each; `meshes` is the folder of meshes to be made.
+/// Lists the runs of a study, with the last axis varying fastest, and checks the case of each; `folder` is that of the study.
 ///
 /// # Errors
 ///
 /// If there are too many runs, or the case of one is wrong, with the responsible position in the study.
-pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
+pub fn runs(study: &Study, folder: &Path) -> Result<Vec<Run>, StudyError> {
     let sizes = study.axes.iter().map(|axis| axis.points.len());
     let total = sizes.fold(1, usize::saturating_mul);
     if total > MOST_RUNS {
@@ -93,18 +94,14 @@ pub fn runs(study: &Study, meshes: &Path) -> Result<Vec<Run>, StudyError> {
         path: study.case.clone(),
         source,
     })?;
-    let names = names(&study.axes);
-    let mut contents = Contents::default();
-    let run = |number| {
-        run(
-            study,
-            &text,
-            &names,
-            place(&study.axes, number),
-            meshes,
-            &mut contents,
-        )
+    let mut planning = Planning {
+        study,
+        text,
+        names: names(&study.axes),
+        meshes: folder.join(MESHES),
+        contents: Contents::default(),
     };
+    let run = |number| planning.run(place(&study.axes, number));
     (0..total).map(run).collect()
 }
 
@@ -122,104 +119,113 @@ fn place(axes: &[Axis], number: usize) -> Vec<usize> {
     place
 }
 
-fn run(
-    study: &Study,
-    text: &str,
-    names: &[Vec<String>],
-    place: Vec<usize>,
-    meshes: &Path,
-    contents: &mut Contents,
-) -> Result<Run, StudyError> {
-    let points = || {
-        study
-            .axes
-            .iter()
-            .zip(&place)
-            .map(|(axis, &k)| (axis, &axis.points[k]))
-    };
-    let parts = names
-        .iter()
-        .zip(&place)
-        .map(|(names, &k)| names[k].as_str());
-    let name = shortened(parts.collect::<Vec<_>>().join(","), LONGEST_NAME);
-
-    let mut settings = study.settings.clone();
-    let of_case = points().filter(|(axis, _)| !axis.of_geometry);
-    settings.extend(of_case.flat_map(|(axis, point)| axis.settings(point)));
-    let mesh = match &study.geometry {
-        None => None,
-        Some(geometry) => {
-            let plan = mesh_plan(study, geometry, names, &place, meshes, contents)?;
-            settings.push(Setting {
-                given: format!("mesh.file={}", quoted(&plan.request.out.to_string_lossy())),
-                place: geometry_key(),
-            });
-            Some(plan)
-        }
-    };
-    let overrides: Vec<String> = settings.iter().map(|it| it.given.clone()).collect();
-    let case = CaseFile::parse(&study.case, text.to_owned(), &overrides)
-        .map_err(|error| error_at_study_value(study, &name, &settings, error))?;
-    let content = mesh.as_ref().map(|plan| plan.content.as_str());
-    let inputs = Inputs::from_case(&case, content, contents)
-        .map_err(|(path, source)| blame_input(study, &name, &settings, path, source))?;
-    Ok(Run {
-        name,
-        place,
-        overrides,
-        case,
-        mesh,
-        inputs,
-    })
+/// What the runs of a study have in common.
+struct Planning<'a> {
+    study: &'a Study,
+    /// Text of the base case.
+    text: String,
+    /// Part of each value of each axis in the names of runs, shape (n_axes, n_values).
+    names: Vec<Vec<String>>,
+    /// Folder of the meshes to be made.
+    meshes: PathBuf,
+    contents: Contents,
 }
 
-/// The mesh of a geometry with the numbers of a run.
-fn mesh_plan(
-    study: &Study,
-    geometry: &Path,
-    names: &[Vec<String>],
-    place: &[usize],
-    meshes: &Path,
-    contents: &mut Contents,
-) -> Result<MeshPlan, StudyError> {
-    let of_geometry = || {
-        let values = study.axes.iter().zip(names).zip(place);
-        values.filter(|((axis, _), _)| axis.of_geometry)
-    };
-    let numbers = of_geometry().filter_map(|((axis, _), &k)| {
-        Some((
-            axis.keys.first()?.clone(),
-            axis.points[k].cells.first()?.as_f64()?,
-        ))
-    });
-    let parts: Vec<&str> = of_geometry()
-        .map(|((_, names), &k)| names[k].as_str())
-        .collect();
-    let name = parts.join(",");
-    let content = contents
-        .identity(geometry)
-        .map(|identity| identity.to_string())
-        .map_err(|source| StudyError::Input {
-            location: study.location(&geometry_key()),
+impl Planning<'_> {
+    /// The run with the values of these indices on the axes.
+    fn run(&mut self, place: Vec<usize>) -> Result<Run, StudyError> {
+        let study = self.study;
+        let name = shortened(self.name(&place, |_| true), LONGEST_NAME);
+        let mut settings = study.settings.clone();
+        let of_case = points(study, &place).filter(|(axis, _)| !axis.of_geometry);
+        settings.extend(of_case.flat_map(|(axis, point)| axis.settings(point)));
+        let mesh = match &study.geometry {
+            None => None,
+            Some(geometry) => {
+                let plan = self.mesh(geometry, &place)?;
+                settings.push(Setting {
+                    given: format!("mesh.file={}", quoted(&plan.request.out.to_string_lossy())),
+                    place: key("geometry"),
+                });
+                Some(plan)
+            }
+        };
+        let overrides: Vec<String> = settings.iter().map(|it| it.given.clone()).collect();
+        let case = CaseFile::parse(&study.case, self.text.clone(), &overrides)
+            .map_err(|error| error_at_study_value(study, &name, &settings, error))?;
+        let content = mesh.as_ref().map(|plan| plan.content.as_str());
+        let inputs = Inputs::from_case(&case, content, &mut self.contents);
+        let inputs = inputs.map_err(|(path, source)| {
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            StudyError::Input {
+                location: last(study, &settings, |it| it.given.contains(&*file)),
+                run: name.clone(),
+                path: path.clone(),
+                source,
+            }
+        })?;
+        Ok(Run {
+            name,
+            place,
+            overrides,
+            case,
+            mesh,
+            inputs,
+        })
+    }
+
+    /// Name of the values of these indices on some of the axes.
+    fn name(&self, place: &[usize], is_named: impl Fn(&Axis) -> bool) -> String {
+        let axes = self.study.axes.iter().zip(&self.names).zip(place);
+        let named = axes.filter(|((axis, _), _)| is_named(axis));
+        let parts: Vec<&str> = named.map(|((_, names), &k)| names[k].as_str()).collect();
+        parts.join(",")
+    }
+
+    /// The mesh of a geometry with the numbers of a run.
+    fn mesh(&mut self, geometry: &Path, place: &[usize]) -> Result<MeshPlan, StudyError> {
+        let study = self.study;
+        let of_geometry = points(study, place).filter(|(axis, _)| axis.of_geometry);
+        let numbers = of_geometry.filter_map(|(axis, point)| {
+            let key = axis.keys.first()?.clone();
+            Some((key, point.cells.first()?.as_f64()?))
+        });
+        let name = self.name(place, |axis| axis.of_geometry);
+        let content = self.contents.identity(geometry);
+        let content = content.map_err(|source| StudyError::Input {
+            location: study.location(&key("geometry")),
             run: shortened(name.clone(), LONGEST_NAME),
             path: geometry.to_owned(),
             source,
         })?;
-    Ok(MeshPlan::new(
-        geometry,
-        numbers.collect(),
-        meshes,
-        &name,
-        &content,
-    ))
+        let content = content.to_string();
+        Ok(MeshPlan::new(
+            geometry,
+            numbers.collect(),
+            &self.meshes,
+            &name,
+            &content,
+        ))
+    }
 }
 
-fn geometry_key() -> KeyPath {
-    KeyPath(vec!["geometry".to_owned()])
+/// The values of these indices on the axes of a study.
+fn points<'a>(
+    study: &'a Study,
+    place: &'a [usize],
+) -> impl Iterator<Item = (&'a Axis, &'a AxisPoint)> {
+    let axes = study.axes.iter().zip(place);
+    axes.map(|(axis, &index)| (axis, &axis.points[index]))
 }
 
-fn case_key() -> KeyPath {
-    KeyPath(vec!["case".to_owned()])
+fn key(name: &str) -> KeyPath {
+    KeyPath(vec![name.to_owned()])
+}
+
+/// Location in the study of the last setting with a property, or else of the case.
+fn last(study: &Study, settings: &[Setting], is_it: impl Fn(&Setting) -> bool) -> Location {
+    let found = settings.iter().rfind(|it| is_it(it));
+    study.location(&found.map_or_else(|| key("case"), |it| it.place.clone()))
 }
 
 /// The error of a case, at the responsible value of the study, or unchanged where the case file itself is wrong.
@@ -237,29 +243,10 @@ fn error_at_study_value(
         } => given,
         _ => return source.into(),
     };
-    let setting = settings.iter().rfind(|it| it.given == *given);
     StudyError::Run {
-        location: study.location(&setting.map_or_else(case_key, |it| it.place.clone())),
+        location: last(study, settings, |it| it.given == *given),
         run: run.to_owned(),
         source: Box::new(source),
-    }
-}
-
-/// The error of an unreadable input, at the last value of the study that names it.
-fn blame_input(
-    study: &Study,
-    run: &str,
-    settings: &[Setting],
-    path: PathBuf,
-    source: io::Error,
-) -> StudyError {
-    let stem = path.file_name().unwrap_or_default().to_string_lossy();
-    let by = settings.iter().rfind(|it| it.given.contains(&*stem));
-    StudyError::Input {
-        location: study.location(&by.map_or_else(case_key, |it| it.place.clone())),
-        run: run.to_owned(),
-        source,
-        path,
     }
 }
 

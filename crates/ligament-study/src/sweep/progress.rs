@@ -1,28 +1,22 @@
-//! Progress of a study: one line per run on stderr, and on a terminal the runs in progress.
+//! Progress of a sweep: one line per run on stderr, and on a terminal the runs in progress.
 
 use std::collections::BTreeMap;
-use std::io::{self, Write};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use super::plan::Run;
-use super::record::Status;
+use super::record::{RecordedRun, Status};
 use super::report::unknown_names;
 use super::study::Study;
 use crate::quantities::Quantities;
+use crate::run_table::folder::StudyFolder;
+use crate::run_table::progress::ProgressDisplay;
 use ligament_output::quantity::quantity;
-use ligament_output::terminal::plain;
 use ligament_run::progress::{ProgressMode, duration_text};
 
-/// Display of the progress of a study.
+/// Display of the progress of a sweep.
 pub(super) struct StudyProgress<'a> {
     study: &'a Study,
-    mode: ProgressMode,
-    bar: Option<ProgressBar>,
-    /// Number of runs of this sweep.
-    total: usize,
-    ended: usize,
+    display: ProgressDisplay,
     failed: usize,
     /// Whether the names of results in the study were checked against a completed run.
     names_are_known: bool,
@@ -34,21 +28,10 @@ pub(super) struct StudyProgress<'a> {
 impl<'a> StudyProgress<'a> {
     /// The progress of a sweep of `total` runs.
     pub(super) fn new(study: &'a Study, mode: ProgressMode, total: usize) -> Self {
-        let bar = (mode == ProgressMode::Terminal && total > 0).then(|| {
-            let bar = ProgressBar::new(total as u64);
-            let template = "{pos}/{len} [{bar:24}] {elapsed} so far, {msg}";
-            // The template is a constant, so the fallback is never seen.
-            let style = ProgressStyle::with_template(template);
-            bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-            bar.enable_steady_tick(Duration::from_millis(200));
-            bar
-        });
+        let template = "{pos}/{len} [{bar:24}] {elapsed} so far, {msg}";
         Self {
             study,
-            mode,
-            bar,
-            total,
-            ended: 0,
+            display: ProgressDisplay::new(mode, total, template),
             failed: 0,
             names_are_known: false,
             begun: Instant::now(),
@@ -58,25 +41,12 @@ impl<'a> StudyProgress<'a> {
 
     /// Prints a line.
     pub(super) fn print(&self, line: &str) {
-        let line = &*plain(line);
-        match (&self.bar, self.mode) {
-            (_, ProgressMode::Quiet) => {}
-            (Some(bar), _) => bar.println(line),
-            // A failure to write progress (a closed pipe) must not end the study.
-            (None, _) => {
-                // A single write keeps lines of several shards in one log intact.
-                let _ = io::stderr()
-                    .lock()
-                    .write_all(format!("{line}\n").as_bytes());
-            }
-        }
+        self.display.print(line);
     }
 
     /// Ends the display; returns the wall time and the number of failed runs.
     pub(super) fn finish(self) -> (Duration, usize) {
-        if let Some(bar) = self.bar {
-            bar.finish_and_clear();
-        }
+        self.display.finish();
         (self.begun.elapsed(), self.failed)
     }
 
@@ -91,15 +61,26 @@ impl<'a> StudyProgress<'a> {
     }
 
     fn show_running(&self) {
-        if let Some(bar) = &self.bar {
-            let words: Vec<&str> = self.running.values().map(String::as_str).collect();
-            bar.set_message(format!("running: {}", plain(&words.join("; "))));
-        }
+        let words: Vec<&str> = self.running.values().map(String::as_str).collect();
+        self.display.show(&format!("running: {}", words.join("; ")));
+    }
+
+    /// Records and prints that a run failed, with the reason.
+    pub(super) fn fails(
+        &mut self,
+        run: &Run,
+        folder: &StudyFolder,
+        reason: &str,
+        time: Duration,
+    ) -> anyhow::Result<()> {
+        RecordedRun::in_folder(run, folder).record(Some(reason))?;
+        self.ends(run, &Status::Failed(reason.to_owned()), time);
+        Ok(())
     }
 
     /// Prints the end of a run.
     pub(super) fn ends(&mut self, run: &Run, status: &Status, time: Duration) {
-        self.ended += 1;
+        self.display.count();
         self.running.remove(&run.name);
         let what = match status {
             Status::Done(results) => format!("{}, {}", outcome(results), seconds(time)),
@@ -110,13 +91,10 @@ impl<'a> StudyProgress<'a> {
             // A run that has ended has no such status.
             Status::Missing | Status::Changed(_) => "no results".to_owned(),
         };
-        let width = self.total.to_string().len();
-        self.print(&format!(
-            "[{:>width$}/{}] {}: {what}",
-            self.ended,
-            self.total,
-            run.words(self.study)
-        ));
+        let ProgressDisplay { total, ended, .. } = self.display;
+        let width = total.to_string().len();
+        let words = run.words(self.study);
+        self.print(&format!("[{ended:>width$}/{total}] {words}: {what}"));
         if let Status::Done(results) = status
             && !self.names_are_known
         {
@@ -125,9 +103,6 @@ impl<'a> StudyProgress<'a> {
             for unknown in unknown_names(self.study, run, results) {
                 self.print(&format!("warning: {unknown}"));
             }
-        }
-        if let Some(bar) = &self.bar {
-            bar.set_position(self.ended as u64);
         }
         self.show_running();
     }

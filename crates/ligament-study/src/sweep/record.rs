@@ -1,33 +1,59 @@
-//! Record of a run beside its results, and the status of the run by both.
+//! Results of a run with the record of their inputs, and the status of the run by both.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use ligament_output::folder::{Kind, ResultFolder, put_in_place, recover, refuse_link};
-use ligament_output::{rename, replace_file};
+use ligament_output::summary::SUMMARY;
+use ligament_output::{read_json, rename, replace_file};
 use serde::{Deserialize, Serialize};
 
-use super::folder::StudyFolder;
 use super::plan::Run;
 use crate::quantities::Quantities;
+use crate::run_table::folder::StudyFolder;
 
-/// File that a run writes last.
-const SUMMARY: &str = "summary.json";
+/// Folder of results of a run, and file of the record of their inputs.
+struct Results {
+    folder: PathBuf,
+    record: PathBuf,
+}
+
+impl Results {
+    fn named(name: &str, study: &StudyFolder) -> Self {
+        let path = study.path();
+        Self {
+            folder: path.join("runs").join(name),
+            record: path.join("records").join(format!("{name}.json")),
+        }
+    }
+
+    fn are_complete(&self) -> bool {
+        self.folder.join(SUMMARY).is_file()
+    }
+
+    fn record(&self) -> Option<Record> {
+        read_json(&self.record).ok()
+    }
+
+    /// The record, if it has the present inputs of a run.
+    fn record_of_inputs(&self, run: &Run) -> Option<Record> {
+        self.record().filter(|it| it.inputs == run.inputs.text())
+    }
+}
 
 /// A record of a run, written before it starts and again if it fails.
 ///
 /// Invariant: the record beside an existing summary has the inputs of that summary. New results of a run with a summary are written to a
 /// separate folder, with a separate record; both replace the earlier ones while the run has no results. A killed run has no summary.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Record {
+struct Record {
     /// Version of the program.
-    pub(super) version: String,
+    version: String,
     /// Settings of the run on the base case.
-    pub(super) settings: Vec<String>,
+    settings: Vec<String>,
     /// Inputs of the run.
-    pub(super) inputs: String,
+    inputs: String,
     /// The reason why the run failed, if it did.
-    pub(super) failed: Option<String>,
+    failed: Option<String>,
 }
 
 /// Status of a run.
@@ -45,28 +71,6 @@ pub(super) enum Status {
 }
 
 impl Status {
-    /// The status of a run in a folder.
-    pub(super) fn in_folder(run: &Run, folder: &StudyFolder) -> Self {
-        let record = Record::read(&folder.record(run));
-        let is_current = |it: &Record| it.inputs == run.inputs.text();
-        if let (Ok(results), Some(record)) = (Quantities::read(&folder.run(run)), &record) {
-            if is_current(record) {
-                return match results.without_equilibrium() {
-                    Some(reason) => Self::Failed(reason),
-                    None => Self::Done(results),
-                };
-            }
-            return match Record::of_new(run, folder).and_then(|it| it.failed) {
-                Some(reason) => Self::Failed(reason),
-                None => Self::Changed(run.inputs.difference(&record.inputs)),
-            };
-        }
-        match record.filter(is_current).and_then(|it| it.failed) {
-            Some(reason) => Self::Failed(reason),
-            None => Self::Missing,
-        }
-    }
-
     /// Rank of the status: completed runs above failed ones, failed ones above missing ones.
     pub(super) fn rank(&self) -> u8 {
         match self {
@@ -78,101 +82,105 @@ impl Status {
 
     /// Word for the status in tables.
     pub(super) fn word(&self) -> &'static str {
-        match self {
-            Self::Done(_) => "done",
-            Self::Failed(_) => "failed",
-            Self::Missing | Self::Changed(_) => "missing",
-        }
+        ["missing", "failed", "done"][usize::from(self.rank())]
     }
 }
 
-impl Record {
-    fn for_run(run: &Run) -> Self {
+/// A run in the folder of its study: its results and, while these are to be replaced, its new ones, with their records.
+pub(super) struct RecordedRun<'a> {
+    run: &'a Run,
+    present: Results,
+    new: Results,
+}
+
+impl<'a> RecordedRun<'a> {
+    pub(super) fn in_folder(run: &'a Run, study: &StudyFolder) -> Self {
         Self {
-            version: env!("CARGO_PKG_VERSION").to_owned(),
-            settings: run.overrides.clone(),
-            inputs: run.inputs.text().to_owned(),
-            failed: None,
+            run,
+            present: Results::named(&run.name, study),
+            new: Results::named(&format!("{}~new", run.name), study),
         }
     }
 
-    /// The record of new results that are to replace earlier ones, if it has the present inputs.
-    fn of_new(run: &Run, folder: &StudyFolder) -> Option<Self> {
-        let record = Self::read(&folder.new_record(run));
-        record.filter(|it| it.inputs == run.inputs.text())
+    /// Folder of the results.
+    pub(super) fn folder(&self) -> &Path {
+        &self.present.folder
     }
 
-    fn read(path: &Path) -> Option<Self> {
-        serde_json::from_str(&fs::read_to_string(path).ok()?).ok()
+    /// The results of the next computation: apart from results that the run has.
+    fn next(&self) -> &Results {
+        match self.present.are_complete() {
+            true => &self.new,
+            false => &self.present,
+        }
     }
 
-    fn write(&self, path: &Path) -> anyhow::Result<()> {
-        let text = serde_json::to_string_pretty(self)? + "\n";
-        Ok(replace_file(path, text.as_bytes())?)
+    /// Status of the run.
+    pub(super) fn status(&self) -> Status {
+        let Self { run, present, new } = self;
+        let attempt = match (Quantities::read(&present.folder), present.record()) {
+            (Ok(results), Some(record)) if record.inputs == run.inputs.text() => {
+                return match results.without_equilibrium() {
+                    Some(reason) => Status::Failed(reason),
+                    None => Status::Done(results),
+                };
+            }
+            (Ok(_), Some(record)) => {
+                let how = run.inputs.difference(&record.inputs);
+                let failed = new.record_of_inputs(run).and_then(|it| it.failed);
+                return failed.map_or(Status::Changed(how), Status::Failed);
+            }
+            _ => present.record_of_inputs(run),
+        };
+        let failed = attempt.and_then(|it| it.failed);
+        failed.map_or(Status::Missing, Status::Failed)
     }
-}
 
-fn has_summary(run: &Run, folder: &StudyFolder) -> bool {
-    folder.run(run).join(SUMMARY).is_file()
-}
-
-/// File of the record of the next computation, separate from the record of existing results.
-fn record_of_now(run: &Run, folder: &StudyFolder) -> PathBuf {
-    match has_summary(run, folder) {
-        true => folder.new_record(run),
-        false => folder.record(run),
+    /// Whether the run has results and should be repeated.
+    pub(super) fn should_repeat(&self) -> bool {
+        self.present.are_complete() && self.new.record_of_inputs(self.run).is_some()
     }
-}
 
-/// Records that a run with results should be repeated, also by a later sweep.
-pub(super) fn demand(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
-    Record::for_run(run).write(&record_of_now(run, folder))
-}
-
-/// Whether a run with results should be repeated.
-pub(super) fn should_repeat(run: &Run, folder: &StudyFolder) -> bool {
-    has_summary(run, folder) && Record::of_new(run, folder).is_some()
-}
-
-/// Folder for the results of a run: its own, or a separate one while its own has earlier results. Writes the record of the inputs.
-pub(super) fn begin(run: &Run, folder: &StudyFolder) -> anyhow::Result<PathBuf> {
-    // A link or a foreign file at the path must not be removed.
-    refuse_link(&folder.run(run))?;
-    let place = match has_summary(run, folder) {
-        true => folder.new_run(run),
-        false => folder.run(run),
-    };
-    refuse_link(&place)?;
-    ResultFolder::check(&place, true)?;
-    demand(run, folder)?;
-    Ok(place)
-}
-
-/// Completes a replacement of results that was interrupted by a kill, according to the records.
-pub(super) fn complete_replacement(run: &Run, folder: &StudyFolder) -> anyhow::Result<()> {
-    let (own, new) = (folder.run(run), folder.new_run(run));
-    let is_of_new = !folder.new_record(run).exists() && new.join(SUMMARY).is_file();
-    if !own.exists() && is_of_new {
-        rename(&new, &own)?;
+    /// Writes the record of the inputs, with the reason why the run failed, if it did. A run with results is to be repeated then, also by a
+    /// later sweep.
+    pub(super) fn record(&self, failed: Option<&str>) -> anyhow::Result<()> {
+        let record = Record {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            settings: self.run.overrides.clone(),
+            inputs: self.run.inputs.text().to_owned(),
+            failed: failed.map(str::to_owned),
+        };
+        let text = serde_json::to_string_pretty(&record)? + "\n";
+        Ok(replace_file(&self.next().record, text.as_bytes())?)
     }
-    Ok(recover(&own, Kind::RUN)?)
-}
 
-/// Replaces earlier results of a run and their record by completed new ones.
-pub(super) fn complete(run: &Run, folder: &StudyFolder, place: &Path) -> anyhow::Result<()> {
-    let own = folder.run(run);
-    if place == own {
-        return Ok(());
+    /// Writes the record of the inputs; returns the folder for the results: the own one, or a separate one while this has earlier results.
+    pub(super) fn begin(&self) -> anyhow::Result<PathBuf> {
+        // A link or a foreign file at the path must not be removed.
+        refuse_link(self.folder())?;
+        let folder = &self.next().folder;
+        refuse_link(folder)?;
+        ResultFolder::check(folder, true)?;
+        self.record(None)?;
+        Ok(folder.clone())
     }
-    let (new, old) = (folder.new_record(run), folder.record(run));
-    Ok(put_in_place(place, &own, Kind::RUN, || rename(&new, &old))?)
-}
 
-/// Records the reason why a run failed.
-pub(super) fn fail(run: &Run, folder: &StudyFolder, reason: &str) -> anyhow::Result<()> {
-    let record = Record {
-        failed: Some(reason.to_owned()),
-        ..Record::for_run(run)
-    };
-    record.write(&record_of_now(run, folder))
+    /// Completes a replacement of results that was interrupted by a kill, according to the records.
+    pub(super) fn complete_replacement(&self) -> anyhow::Result<()> {
+        let Self { present, new, .. } = self;
+        if !present.folder.exists() && !new.record.exists() && new.are_complete() {
+            rename(&new.folder, &present.folder)?;
+        }
+        Ok(recover(&present.folder, Kind::RUN)?)
+    }
+
+    /// Replaces earlier results and their record by completed new ones, if these were written apart.
+    pub(super) fn complete(&self, written: &Path) -> anyhow::Result<()> {
+        let Self { present, new, .. } = self;
+        if written == present.folder {
+            return Ok(());
+        }
+        let records = || rename(&new.record, &present.record);
+        Ok(put_in_place(written, &present.folder, Kind::RUN, records)?)
+    }
 }

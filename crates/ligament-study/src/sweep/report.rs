@@ -1,29 +1,21 @@
 //! Results of a study: its table, its fits and plots, and the short text at its end.
 
 use std::io::{self, Write};
-use std::path::Path;
 
 use ligament_output::columns::aligned;
 use ligament_output::csv::{self, Value};
 use ligament_output::replace_file;
 
 use super::curves::{Curve, Curves, rounded};
-use super::folder::StudyFolder;
 use super::plan::{Run, short_keys};
-use super::record::Status;
 use super::study::Study;
 use super::table;
 use super::table::{NoColumn, Row, StudyTable};
 use crate::quantities::{Quantities, QuantityError};
+use crate::run_table::folder::StudyFolder;
+use crate::run_table::{WIDTH, number, write_plot};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, Fault};
-use ligament_plot::drawing::Drawing;
-
-/// Width of a plot, mm.
-pub(crate) const WIDTH: f64 = 160.0;
-
-/// Dots per inch of a plot's PNG.
-const DPI: f64 = 300.0;
 
 /// Largest number of missing runs that are listed by name at the end.
 const LISTED: usize = 20;
@@ -35,7 +27,6 @@ const FIT_COLUMNS: &str =
 /// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and prints their main contents; returns the problems.
 pub(super) fn write(
     study: &Study,
-    runs: &[Run],
     rows: &[Row<'_>],
     folder: &StudyFolder,
     out: &mut dyn Write,
@@ -50,18 +41,17 @@ pub(super) fn write(
     };
     writeln!(out, "{title}")?;
     write_counts(rows, out)?;
-    let some_done = rows.iter().find_map(|row| match &row.status {
-        Status::Done(results) => Some((row.run, results)),
-        _ => None,
-    });
-    let Some((run, results)) = some_done else {
+    let mut done = rows
+        .iter()
+        .filter_map(|row| Some((row.run, row.results()?)));
+    let Some((run, results)) = done.next() else {
         writeln!(out, "  no run has results to plot")?;
         return Ok(Vec::new());
     };
     let mut problems: Vec<String> = (unknown_names(study, run, results).iter())
         .map(ToString::to_string)
         .collect();
-    let drawn = curves_of_plots(study, runs, &table, &mut problems);
+    let drawn = curves_of_plots(study, rows, &table, &mut problems);
     for curves in &drawn {
         write_pivot(study, curves, out)?;
         write_fits(curves, out)?;
@@ -80,13 +70,13 @@ pub(super) fn write(
 /// The curves of the possible plots, each with a unique name; appends the reasons for the others to `problems`.
 fn curves_of_plots<'a>(
     study: &'a Study,
-    runs: &[Run],
+    rows: &[Row<'_>],
     table: &StudyTable,
     problems: &mut Vec<String>,
 ) -> Vec<Curves<'a>> {
     let mut drawn: Vec<Curves<'_>> = Vec::new();
     for (index, plot) in study.plots.iter().enumerate() {
-        match Curves::over_runs(study, plot, runs, table) {
+        match Curves::over_rows(study, plot, rows, table) {
             Ok(mut curves) => {
                 let same = drawn
                     .iter()
@@ -110,72 +100,60 @@ fn curves_of_plots<'a>(
 
 /// Errors of results in the study that a run does not have, each at its position in the study.
 pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> Vec<CaseError> {
-    let mut unknown = Vec::new();
-    let is_input = |name: &str| table::inputs(run).iter().any(|(other, _)| other == name);
-    let is_known = |name: &str| {
-        let is_axis = study
-            .axes
-            .iter()
-            .any(|axis| axis.keys.iter().any(|key| key == name));
-        let is_derived = study.derived.iter().any(|derived| derived.name == name);
-        is_axis || is_derived || is_input(name.strip_prefix(table::INPUT).unwrap_or(name))
+    let keys = study.axes.iter().flat_map(|axis| &axis.keys);
+    let own = keys.chain(study.derived.iter().map(|derived| &derived.name));
+    let own: Vec<String> = own.cloned().collect();
+    let inputs = table::inputs(run);
+    let is_column = |name: &str| {
+        let input = name.strip_prefix(table::INPUT).unwrap_or(name);
+        own.iter().any(|it| it == name) || inputs.iter().any(|(it, _)| it == input)
     };
-    let mut look = |place: [&str; 3], name: &str, known: Vec<String>| {
-        if let Err(QuantityError::Unknown { known: results, .. }) = results.number(name) {
-            let key = KeyPath(place.map(str::to_owned).to_vec());
-            let fault =
-                Fault::unknown_name("result of the runs", name, known.into_iter().chain(results));
-            unknown.push(study.error(key, fault));
-        }
-    };
+    let mut named = Vec::new();
     for (index, derived) in study.derived.iter().enumerate() {
-        look(
-            ["result", &index.to_string(), "of"],
+        named.push((
+            ["result", &index.to_string(), "of"].map(str::to_owned),
             &derived.of,
             Vec::new(),
-        );
+        ));
     }
     for (index, plot) in study.plots.iter().enumerate() {
         for (key, name) in [("x", &plot.x), ("y", &plot.y)] {
-            if !is_known(name) {
-                let axes = study.axes.iter().flat_map(|axis| axis.keys.iter().cloned());
-                let derived = study.derived.iter().map(|derived| derived.name.clone());
-                look(
-                    ["plot", &index.to_string(), key],
+            if !is_column(name) {
+                named.push((
+                    ["plot", &index.to_string(), key].map(str::to_owned),
                     name,
-                    axes.chain(derived).collect(),
-                );
+                    own.clone(),
+                ));
             }
         }
     }
-    unknown
-}
-
-/// Writes a plot as SVG and PNG.
-pub(crate) fn write_plot(folder: &Path, name: &str, drawing: &Drawing) -> anyhow::Result<()> {
-    let file = |ending| folder.join(format!("{name}.{ending}"));
-    replace_file(&file("svg"), drawing.to_svg(name).as_bytes())?;
-    replace_file(&file("png"), &drawing.to_png(DPI)?)?;
-    Ok(())
+    let error = |(place, name, known): ([String; 3], &String, Vec<String>)| {
+        let Err(QuantityError::Unknown { known: results, .. }) = results.number(name) else {
+            return None;
+        };
+        let known = known.into_iter().chain(results);
+        let fault = Fault::unknown_name("result of the runs", name, known);
+        Some(study.error(KeyPath(place.to_vec()), fault))
+    };
+    named.into_iter().filter_map(error).collect()
 }
 
 fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
-    let named = |word: &str| -> Vec<&str> {
-        let rows = rows.iter().filter(|row| row.status.word() == word);
+    let named = |is_it: &dyn Fn(&Row<'_>) -> bool| -> Vec<&str> {
+        let rows = rows.iter().filter(|row| is_it(row));
         rows.map(|row| row.run.name.as_str()).collect()
     };
-    let (done, failed, missing) = (named("done"), named("failed"), named("missing"));
-    let counts = [done.len(), failed.len(), missing.len()];
-    let [done, n_failed, n_missing] = counts;
+    let of_word = |word| named(&|row| row.status.word() == word);
+    let [done, failed, missing] = ["done", "failed", "missing"].map(of_word);
+    let unsettled = named(&|row| row.results().is_some_and(Quantities::ends_not_at_rest));
     writeln!(
         out,
-        "  {} runs: {done} done, {n_failed} failed, {n_missing} missing",
-        rows.len()
+        "  {} runs: {} done, {} failed, {} missing",
+        rows.len(),
+        done.len(),
+        failed.len(),
+        missing.len()
     )?;
-    let unsettled = rows
-        .iter()
-        .filter(|row| matches!(&row.status, Status::Done(results) if results.ends_not_at_rest()));
-    let unsettled = unsettled.map(|row| row.run.name.as_str()).collect();
     for (word, names) in [
         ("failed", failed),
         ("missing", missing),
@@ -287,48 +265,38 @@ fn write_aligned(lines: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {
 /// Text of `fits.csv`: all fitted lines, and the known lines.
 fn fits(all: &[Curves<'_>]) -> String {
     let mut text = format!("{FIT_COLUMNS}\n");
-    let number = |value: Option<f64>| value.map_or(Value::Missing, Value::Float);
     for curves in all.iter().filter(|curves| curves.plot.fit.is_some()) {
         let plot = curves.plot;
         let by = plot.by.as_deref().map_or(Value::Missing, Value::Text);
-        let head = [curves.name.as_str(), &plot.x, &plot.y].map(Value::Text);
-        let mut push = |curve: Value<'_>, cells: &[Value<'_>]| {
-            text += &csv::line(&[&head[..], &[by, curve], cells].concat());
+        let [name, x, y] = [curves.name.as_str(), &plot.x, &plot.y].map(Value::Text);
+        let mut push = |curve: &str, numbers: [Value<'_>; 6], remark: &str| {
+            let curve = Some(curve).filter(|it| !it.is_empty());
+            let curve = curve.map_or(Value::Missing, Value::Text);
+            text +=
+                &csv::line(&[&[name, x, y, by, curve], &numbers[..], &[remark.into()]].concat());
         };
-        for curve in &curves.curves {
-            let label = match curve.label.as_str() {
-                "" => Value::Missing,
-                label => Value::Text(label),
-            };
-            match &curve.fit {
-                Some(Ok(fit)) => push(
-                    label,
-                    &[
+        for Curve { label, fit, .. } in &curves.curves {
+            match fit {
+                Some(Ok(fit)) => {
+                    let numbers = [
                         fit.slope.into(),
                         number(fit.slope_error),
                         fit.intercept.into(),
                         number(fit.intercept_error),
                         fit.r_squared.into(),
                         fit.points.into(),
-                        "fitted".into(),
-                    ],
-                ),
-                Some(Err(error)) => push(label, &only(Value::Text(&error.to_string()))),
+                    ];
+                    push(label, numbers, "fitted");
+                }
+                Some(Err(error)) => push(label, [Value::Missing; 6], &error.to_string()),
                 None => {}
             }
         }
         if let Some(known) = &plot.line {
-            let mut cells = only("known".into());
-            (cells[0], cells[2]) = (known.slope.into(), known.intercept.into());
-            push(known.name().into(), &cells);
+            let mut numbers = [Value::Missing; 6];
+            (numbers[0], numbers[2]) = (known.slope.into(), known.intercept.into());
+            push(known.name(), numbers, "known");
         }
     }
     text
-}
-
-/// The cells of a row of `fits.csv` after its curve, all empty except the remark.
-fn only(remark: Value<'_>) -> [Value<'_>; 7] {
-    let mut cells = [Value::Missing; 7];
-    cells[6] = remark;
-    cells
 }

@@ -151,22 +151,38 @@ impl Study {
             source,
         })?;
         let source = Source::parse(path, text, &[])?;
-        let document = &source.document;
-        let read = || {
-            let raw: RawStudy = decode(document, &KeyPath::default()).map_err(in_study)?;
-            raw.checked(document)
-        };
-        let (raw, axes, settings) = read().map_err(|fault| source.error(fault))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
+        let study = Self::of_source(&source).map_err(|fault| source.error(fault))?;
+        Ok(study)
+    }
+
+    /// Checks the parts of a study.
+    fn of_source(source: &Source) -> Result<Self, KeyFault> {
+        let (document, root) = (&source.document, KeyPath::default());
+        let raw: RawStudy = decode(document, &root).map_err(in_study)?;
+        require(
+            !raw.case.is_empty(),
+            || root.child("case"),
+            "a path",
+            &raw.case,
+        )?;
+        let axes = raw.axis.into_iter().enumerate();
+        let axes = axes.map(|(index, axis)| axis.check(document, &root.child("axis").child(index)));
+        let axes: Vec<Axis> = axes.collect::<Result<_, _>>()?;
+        check_axes(&axes, raw.geometry.is_some(), &root.child("axis"))?;
+        check_derived(&raw.result, &root)?;
+        for (index, plot) in raw.plot.iter().enumerate() {
+            check_plot(plot, &axes, &root.child("plot").child(index))?;
+        }
+        let folder = source.path.parent().unwrap_or(Path::new(""));
         Ok(Self {
+            source: source.clone(),
             title: raw.title,
             case: folder.join(raw.case),
             geometry: raw.geometry.map(|geometry| folder.join(geometry)),
-            settings,
+            settings: settings(document)?,
             axes,
             derived: raw.result,
             plots: raw.plot,
-            source,
         })
     }
 
@@ -186,46 +202,6 @@ impl Study {
     }
 }
 
-impl RawStudy {
-    /// Checks the parts of the study; returns it with its axes and the settings of all runs.
-    fn checked(mut self, document: &Node) -> Result<(Self, Vec<Axis>, Vec<Setting>), KeyFault> {
-        let root = KeyPath::default();
-        require(
-            !self.case.is_empty(),
-            || root.child("case"),
-            "a path",
-            &self.case,
-        )?;
-        let mut axes = Vec::new();
-        for (index, axis) in std::mem::take(&mut self.axis).into_iter().enumerate() {
-            axes.push(axis.check(document, &root.child("axis").child(index))?);
-        }
-        if axes.is_empty() {
-            let fault = Fault::MissingSection {
-                section: "[[axis]]".to_owned(),
-                purpose: "one or more, each with a `key` of the case and its `values`",
-            };
-            return Err(KeyFault::new(root.child("axis"), fault));
-        }
-        check_geometry(&axes, self.geometry.is_some())?;
-        require_unique(
-            axes.iter().enumerate().flat_map(|(index, axis)| {
-                let place = root.child("axis").child(index);
-                axis.keys
-                    .iter()
-                    .map(move |key| (place.clone(), key.as_str()))
-            }),
-            ": a key belongs to one axis; keys that vary together are `keys` of one",
-        )?;
-        check_derived(&self.result, &root)?;
-        for (index, plot) in self.plot.iter().enumerate() {
-            check_plot(plot, &axes, &root.child("plot").child(index))?;
-        }
-        let settings = settings(document)?;
-        Ok((self, axes, settings))
-    }
-}
-
 /// The fault with the name of the study file, where it is about the root.
 fn in_study(mut fault: KeyFault) -> KeyFault {
     if let Fault::UnknownKey { table, .. } | Fault::MissingKey { table, .. } = &mut fault.fault
@@ -236,12 +212,17 @@ fn in_study(mut fault: KeyFault) -> KeyFault {
     fault
 }
 
-fn check_geometry(axes: &[Axis], has_geometry: bool) -> Result<(), KeyFault> {
-    let place = |index: usize| KeyPath::default().child("axis").child(index);
+fn check_axes(axes: &[Axis], has_geometry: bool, place: &KeyPath) -> Result<(), KeyFault> {
+    if axes.is_empty() {
+        let fault = Fault::MissingSection {
+            section: "[[axis]]".to_owned(),
+            purpose: "one or more, each with a `key` of the case and its `values`",
+        };
+        return Err(KeyFault::new(place.clone(), fault));
+    }
+    let is_mesh = |axis: &Axis| !axis.of_geometry && axis.keys.iter().any(|key| key == "mesh.file");
     let number = axes.iter().position(|axis| axis.of_geometry);
-    let mesh = axes
-        .iter()
-        .position(|axis| !axis.of_geometry && axis.keys.iter().any(|key| key == "mesh.file"));
+    let mesh = axes.iter().position(is_mesh);
     match (number, mesh, has_geometry) {
         (Some(index), _, false) => {
             let fault = Fault::Required {
@@ -249,19 +230,27 @@ fn check_geometry(axes: &[Axis], has_geometry: bool) -> Result<(), KeyFault> {
                 reason: "by an axis with a `number`: the Gmsh file of which it is one, relative to the folder of the study"
                     .to_owned(),
             };
-            Err(KeyFault::new(place(index), fault))
+            return Err(KeyFault::new(place.child(index), fault));
         }
         (None, _, true) => {
             let fault = "no axis has a `number` of the geometry, so nothing would be meshed: add one, or name meshes by \
                          the key mesh.file";
-            Err(KeyFault::new(KeyPath::default().child("geometry"), fault))
+            return Err(KeyFault::new(KeyPath::default().child("geometry"), fault));
         }
         (Some(_), Some(index), true) => {
             let fault = "the meshes are made from `geometry`: an axis cannot name others";
-            Err(KeyFault::new(place(index), fault))
+            return Err(KeyFault::new(place.child(index), fault));
         }
-        _ => Ok(()),
+        _ => {}
     }
+    let keys = axes.iter().enumerate().flat_map(|(index, axis)| {
+        let keys = axis.keys.iter();
+        keys.map(move |key| (place.child(index), key.as_str()))
+    });
+    require_unique(
+        keys,
+        ": a key belongs to one axis; keys that vary together are `keys` of one",
+    )
 }
 
 fn check_derived(derived: &[Derived], root: &KeyPath) -> Result<(), KeyFault> {

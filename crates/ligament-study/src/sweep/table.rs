@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 
 use ligament_output::csv::{self, Value};
-use serde_json::Value as Cell;
+use serde_json::{Map, Value as Cell};
 
 use super::plan::{Run, short_keys};
 use super::record::Status;
@@ -53,83 +53,78 @@ pub(super) struct Row<'a> {
     pub(super) folder: String,
 }
 
+impl Row<'_> {
+    /// Results of the run, if it is done.
+    pub(super) fn results(&self) -> Option<&Quantities> {
+        match &self.status {
+            Status::Done(results) => Some(results),
+            _ => None,
+        }
+    }
+
+    /// The cells of the row, by their columns.
+    fn cells(&self, study: &Study, short_keys: &[Vec<String>]) -> Map<String, Cell> {
+        let mut cells = Map::new();
+        let mut add = |name: &str, cell: Cell| {
+            // A result with the name of an axis or a derived result gets a prefix.
+            let prefix = if cells.contains_key(name) {
+                "result."
+            } else {
+                ""
+            };
+            cells.insert(format!("{prefix}{name}"), cell);
+        };
+        add("run", Cell::from(self.run.name.as_str()));
+        add("status", Cell::from(self.status.word()));
+        for ((axis, point), short) in self.run.points(study).zip(short_keys) {
+            for (key, cell) in axis.keys.iter().zip(&point.cells) {
+                add(key, cell.clone());
+            }
+            if axis.is_labelled {
+                add(
+                    &format!("{}.label", short[0]),
+                    Cell::from(point.label.as_str()),
+                );
+            }
+        }
+        let results = self.results();
+        for derived in &study.derived {
+            let value = results.and_then(|it| it.number(&derived.of).ok());
+            add(&derived.name, Cell::from(value.map(|it| it / derived.over)));
+        }
+        for (name, value) in results.into_iter().flat_map(Quantities::iter) {
+            add(name, value.clone());
+        }
+        let reason = match &self.status {
+            Status::Failed(reason) => Some(reason.as_str()),
+            _ => None,
+        };
+        add("error", Cell::from(reason));
+        add("folder", Cell::from(results.map(|_| self.folder.as_str())));
+        let inputs = inputs(self.run).into_iter();
+        cells.extend(inputs.map(|(name, cell)| (format!("{INPUT}{name}"), cell)));
+        cells
+    }
+}
+
 impl StudyTable {
     /// The table of some runs.
     pub(super) fn from_rows(study: &Study, rows: &[Row<'_>]) -> Self {
-        let mut table = Self::default();
-        table.add("run", rows, |row| Cell::from(row.run.name.as_str()));
-        table.add("status", rows, |row| Cell::from(row.status.word()));
-        table.add_axes(study, rows);
-        for derived in &study.derived {
-            table.add(&derived.name, rows, |row| {
-                let value = results(row).and_then(|it| it.number(&derived.of).ok());
-                value.map_or(Cell::Null, |value| Cell::from(value / derived.over))
-            });
-        }
-        let known = rows.iter().filter_map(results);
-        let names = in_order(known.map(|it| it.iter().map(|(name, _)| name.to_owned())));
-        for name in names {
-            let cell = |row: &Row<'_>| results(row).and_then(|it| it.get(&name).cloned());
-            table.add(&name, rows, |row| cell(row).unwrap_or_default());
-        }
-        table.add("error", rows, |row| match &row.status {
-            Status::Failed(reason) => Cell::from(reason.as_str()),
-            _ => Cell::Null,
-        });
-        table.add("folder", rows, |row| match &row.status {
-            Status::Done(_) => Cell::from(row.folder.as_str()),
-            _ => Cell::Null,
-        });
-        table.add_inputs(study, rows);
-        table
-    }
-
-    fn add_axes(&mut self, study: &Study, rows: &[Row<'_>]) {
-        let names = short_keys(&study.axes);
-        for (index, axis) in study.axes.iter().enumerate() {
-            let point = |row: &Row<'_>| axis.points[row.run.place[index]].clone();
-            for (k, key) in axis.keys.iter().enumerate() {
-                self.add(key, rows, |row| point(row).cells[k].clone());
-            }
-            if axis.is_labelled {
-                let name = format!("{}.label", names[index][0]);
-                self.add(&name, rows, |row| Cell::from(point(row).label));
-            }
-        }
-    }
-
-    /// Adds columns of all inputs that no axis varies.
-    fn add_inputs(&mut self, study: &Study, rows: &[Row<'_>]) {
-        let inputs: Vec<Vec<(String, Cell)>> = rows.iter().map(|row| inputs(row.run)).collect();
-        let names = in_order(
-            inputs
-                .iter()
-                .map(|of| of.iter().map(|(name, _)| name.clone())),
-        );
-        let keys: BTreeSet<&String> = study.axes.iter().flat_map(|axis| &axis.keys).collect();
-        for name in names.iter().filter(|name| !keys.contains(name)) {
-            let cell = |of: &Vec<(String, Cell)>| {
-                let found = of.iter().find(|(other, _)| other == name);
-                found.map_or(Cell::Null, |(_, cell)| cell.clone())
-            };
-            self.push(format!("{INPUT}{name}"), inputs.iter().map(cell).collect());
-        }
-    }
-
-    fn add(&mut self, name: &str, rows: &[Row<'_>], cell: impl Fn(&Row<'_>) -> Cell) {
-        // A result with the name of an axis or a derived result gets a prefix.
-        let is_taken = self.columns.iter().any(|column| column.name == name);
-        let name = if is_taken {
-            format!("result.{name}")
-        } else {
-            name.to_owned()
+        let keys = short_keys(&study.axes);
+        let rows: Vec<Map<String, Cell>> = rows.iter().map(|row| row.cells(study, &keys)).collect();
+        let mut names = in_order(rows.iter().map(Map::keys));
+        // An axis has a column of its own.
+        let keys = study.axes.iter().flat_map(|axis| &axis.keys);
+        let varied: BTreeSet<String> = keys.map(|key| format!("{INPUT}{key}")).collect();
+        names.retain(|name| !varied.contains(name));
+        let column = |name: String| {
+            let cells = rows.iter().map(|row| row.get(&name).cloned());
+            let cells = of_one_type(cells.map(Option::unwrap_or_default).collect());
+            Column { name, cells }
         };
-        self.push(name, rows.iter().map(cell).collect());
-    }
-
-    fn push(&mut self, name: String, cells: Vec<Cell>) {
-        let cells = of_one_type(cells);
-        self.columns.push(Column { name, cells });
+        Self {
+            columns: names.into_iter().map(column).collect(),
+        }
     }
 
     /// The numbers of a column, shape (n_runs); `None` where a run has none. Inputs may be named without their prefix.
@@ -193,13 +188,6 @@ fn of_one_type(cells: Vec<Cell>) -> Vec<Cell> {
     cells.iter().map(cell).collect()
 }
 
-fn results<'a>(row: &'a Row<'_>) -> Option<&'a Quantities> {
-    match &row.status {
-        Status::Done(results) => Some(results),
-        _ => None,
-    }
-}
-
 /// The inputs of a run by their keys.
 pub(super) fn inputs(run: &Run) -> Vec<(String, Cell)> {
     let mut all = Vec::new();
@@ -214,18 +202,18 @@ pub(super) fn inputs(run: &Run) -> Vec<(String, Cell)> {
 }
 
 /// Union of several lists of names, in the order of the first list; further names follow their predecessor.
-fn in_order(lists: impl Iterator<Item = impl Iterator<Item = String>>) -> Vec<String> {
+fn in_order<'a>(lists: impl Iterator<Item = impl Iterator<Item = &'a String>>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let mut seen = BTreeSet::new();
     for list in lists {
         let mut after = 0;
         for name in list {
-            if seen.insert(name.clone()) {
-                names.insert(after, name);
-                after += 1;
-            } else if let Some(place) = names.iter().position(|other| *other == name) {
-                after = place + 1;
+            if seen.insert(name) {
+                names.insert(after, name.clone());
+            } else if names.get(after) != Some(name) {
+                after = names.iter().position(|it| it == name).unwrap_or(after);
             }
+            after += 1;
         }
     }
     names
@@ -254,9 +242,8 @@ mod tests {
     #[test]
     fn names_keep_their_neighbours() {
         let lists = [vec!["a", "c", "d"], vec!["a", "b", "c"], vec!["e", "a"]];
-        let lists = lists
-            .iter()
-            .map(|list| list.iter().map(|name| (*name).to_owned()));
-        assert_eq!(in_order(lists), ["e", "a", "b", "c", "d"]);
+        let lists = lists.map(|list| list.into_iter().map(str::to_owned).collect::<Vec<_>>());
+        let names = in_order(lists.iter().map(|list| list.iter()));
+        assert_eq!(names, ["e", "a", "b", "c", "d"]);
     }
 }

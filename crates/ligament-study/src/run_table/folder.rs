@@ -1,4 +1,4 @@
-//! The folder of a study: paths of runs, records, logs and meshes, and locks.
+//! The folder of a study: its marker, its subfolders, and its locks.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -6,19 +6,15 @@ use std::path::{Path, PathBuf};
 use std::thread;
 use std::time::Duration;
 
+use ligament_output::Error;
 use ligament_output::folder::{Kind, ResultFolder, refuse_link};
-use serde_json::json;
-
-use super::error::StudyError;
-use super::plan::Run;
-use super::study::Study;
-
-/// File that marks the folder of a study.
-pub const MARKER: &str = "sweep.json";
 
 /// Number of checks of a folder that another shard may be marking, and the pause between them.
 const LOOKS: usize = 20;
 const PAUSE: Duration = Duration::from_millis(50);
+
+/// Name of the lock of a whole study, whatever its kind.
+const WHOLE: &str = "sweep";
 
 /// The folder of a study.
 #[derive(Debug, Clone)]
@@ -26,6 +22,32 @@ pub struct StudyFolder {
     path: PathBuf,
     /// File that marks a folder of this kind of study.
     marker: &'static str,
+}
+
+/// Error of the folder of a study.
+#[derive(Debug, thiserror::Error)]
+pub enum FolderError {
+    /// The folder is in use.
+    #[error(
+        "another study works on {} ({what}); wait for its end, or give this one its own folder by --out", folder.display()
+    )]
+    Busy {
+        /// The folder.
+        folder: PathBuf,
+        /// Description of the study that uses the folder.
+        what: String,
+    },
+    /// The folder is not of a study.
+    #[error("{} is no folder of a study (no {marker} in it): run the study first, or name its folders by --from", folder.display())]
+    NoStudy {
+        /// The folder.
+        folder: PathBuf,
+        /// Name of the missing marker file.
+        marker: &'static str,
+    },
+    /// A file of the folder cannot be used.
+    #[error(transparent)]
+    File(#[from] Error),
 }
 
 /// A part of the runs: those whose index, from 0, is `number - 1` modulo `count`.
@@ -38,9 +60,17 @@ pub struct Shard {
 }
 
 impl Shard {
-    /// Whether the shard contains the run with an index, from 0.
-    pub fn contains(self, index: usize) -> bool {
-        index % self.count == self.number - 1
+    /// Whether a shard, or the whole study without one, contains the run with an index, from 0.
+    pub(crate) fn contains(shard: Option<Self>, index: usize) -> bool {
+        shard.is_none_or(|it| index % it.count == it.number - 1)
+    }
+
+    /// Name of the files of a shard, or of the whole study without one.
+    pub(crate) fn file_name(shard: Option<Self>, whole: &str) -> String {
+        match shard {
+            None => whole.to_owned(),
+            Some(Self { number, count }) => format!("shard-{number}-of-{count}"),
+        }
     }
 }
 
@@ -53,31 +83,32 @@ pub struct StudyLocks {
 }
 
 impl StudyFolder {
-    /// The folder of a sweep at a path, existing or not.
-    pub fn at(path: impl Into<PathBuf>) -> Self {
-        Self::marked_by(MARKER, path)
-    }
-
     /// The folder at a path, existing or not, of a study whose folders have a file of this name.
     pub(crate) fn marked_by(marker: &'static str, path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Self { path, marker }
     }
 
-    /// Creates the folder, or opens that of an earlier sweep.
+    /// The folders with runs to collect: those that are named, or else the study's own.
     ///
     /// # Errors
     ///
-    /// If the path is something else, or cannot be written.
-    pub fn open(path: &Path, study: &Study) -> anyhow::Result<Self> {
-        let folder = Self::at(path);
-        refuse_link(&folder.meshes())?;
-        let marker = json!({
-            "study": study.source.path.to_string_lossy(),
-            "title": study.title,
-            "version": env!("CARGO_PKG_VERSION"),
-        });
-        folder.opened(&format!("{marker:#}\n"), &["runs", "records", "logs"])
+    /// If one is not marked as the folder of such a study.
+    pub(crate) fn to_collect(
+        marker: &'static str,
+        own: &Path,
+        named: &[PathBuf],
+    ) -> Result<Vec<Self>, FolderError> {
+        let own = [own.to_owned()];
+        let paths = if named.is_empty() { &own } else { named };
+        let marked = |path: &PathBuf| match Self::marked_by(marker, path) {
+            folder if folder.is_marked() => Ok(folder),
+            Self { path, marker } => Err(FolderError::NoStudy {
+                folder: path,
+                marker,
+            }),
+        };
+        paths.iter().map(marked).collect()
     }
 
     /// Creates the folder with the text of its marker, or opens an earlier one, with subfolders and that of the locks.
@@ -103,7 +134,7 @@ impl StudyFolder {
         for name in subfolders.iter().chain(&["locks"]) {
             let path = self.path.join(name);
             refuse_link(&path)?;
-            fs::create_dir_all(&path).map_err(|source| file_error("create", &path, source))?;
+            fs::create_dir_all(&path).map_err(Error::system("create", &path))?;
         }
         Ok(self)
     }
@@ -117,8 +148,7 @@ impl StudyFolder {
     fn is_fresh(&self) -> bool {
         let marker = self.marker;
         let hidden = format!(".{marker}.");
-        let entries = fs::read_dir(&self.path).into_iter().flatten().flatten();
-        let mut names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+        let mut names = file_names(&self.path).unwrap_or_default().into_iter();
         names.all(|name| name == marker || name == ".lock" || name.starts_with(&hidden))
     }
 
@@ -127,61 +157,24 @@ impl StudyFolder {
         &self.path
     }
 
-    /// Folder of the results of a run.
-    pub fn run(&self, run: &Run) -> PathBuf {
-        self.path.join("runs").join(&run.name)
-    }
-
-    /// File of the record of a run.
-    pub(super) fn record(&self, run: &Run) -> PathBuf {
-        self.path.join("records").join(format!("{}.json", run.name))
-    }
-
-    /// Folder of unfinished new results of a run that has earlier ones.
-    pub(super) fn new_run(&self, run: &Run) -> PathBuf {
-        self.path.join("runs").join(format!("{}~new", run.name))
-    }
-
-    /// File of the record of new results of a run that has earlier ones.
-    pub(super) fn new_record(&self, run: &Run) -> PathBuf {
-        self.path
-            .join("records")
-            .join(format!("{}~new.json", run.name))
-    }
-
-    /// File of the output of a run.
-    pub(super) fn log(&self, run: &Run) -> PathBuf {
-        self.path.join("logs").join(format!("{}.log", run.name))
-    }
-
-    /// Folder of the meshes that are made for the study.
-    pub fn meshes(&self) -> PathBuf {
-        self.path.join("meshes")
-    }
-
     /// Locks the study, or a shard of it, for this process, and waits until runs left by a killed sweep have ended.
     ///
     /// # Errors
     ///
     /// If another process has locked it, or a file cannot be locked.
-    pub fn claim(&self, shard: Option<Shard>) -> Result<StudyLocks, StudyError> {
-        let mut locks = vec![self.lock("sweep", shard.is_some())?];
-        if shard.is_none() {
-            self.remove_unfinished();
-        }
-        let name = match shard {
-            None => "sweep".to_owned(),
-            Some(Shard { number, count }) => {
+    pub fn claim(&self, shard: Option<Shard>) -> Result<StudyLocks, FolderError> {
+        let mut locks = vec![self.lock(WHOLE, shard.is_some())?];
+        let name = Shard::file_name(shard, WHOLE);
+        match shard {
+            None => self.remove_unfinished(),
+            Some(Shard { count, .. }) => {
                 self.other_counts_are_free(count)?;
-                let name = format!("shard-{number}-of-{count}");
                 locks.push(self.lock(&name, false)?);
-                name
             }
-        };
+        }
         let runs = self.lock_path(&format!("{name}-runs"));
         let file = open_lock(&runs)?;
-        file.lock()
-            .map_err(|source| file_error("lock", &runs, source))?;
+        file.lock().map_err(Error::system("lock", &runs))?;
         Ok(StudyLocks {
             _locks: locks,
             runs,
@@ -190,26 +183,20 @@ impl StudyFolder {
 
     /// Removes unfinished records of a killed sweep; no other process writes records.
     fn remove_unfinished(&self) {
-        let entries = fs::read_dir(self.path.join("records"));
-        for entry in entries.into_iter().flatten().flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
+        let records = self.path.join("records");
+        for name in file_names(&records).unwrap_or_default() {
             if name.starts_with('.') && name.ends_with(".partial") {
                 // A file that remains is harmless.
-                let _ = fs::remove_file(entry.path());
+                let _ = fs::remove_file(records.join(name));
             }
         }
     }
 
     /// Fails if shards of another count, which may share runs with these, are in progress.
-    fn other_counts_are_free(&self, count: usize) -> Result<(), StudyError> {
+    fn other_counts_are_free(&self, count: usize) -> Result<(), FolderError> {
         let folder = self.path.join("locks");
-        let entries =
-            fs::read_dir(&folder).map_err(|source| file_error("list", &folder, source))?;
-        for entry in entries.flatten() {
-            let name = entry.file_name().to_string_lossy().into_owned();
-            let Some(name) = name.strip_suffix(".lock") else {
-                continue;
-            };
+        let names = file_names(&folder).map_err(Error::system("list", &folder))?;
+        for name in names.iter().filter_map(|name| name.strip_suffix(".lock")) {
             let is_shard = name.starts_with("shard-") && !name.ends_with("-runs");
             if is_shard && !name.ends_with(&format!("-of-{count}")) {
                 self.lock(name, true)?;
@@ -218,7 +205,7 @@ impl StudyFolder {
         Ok(())
     }
 
-    fn lock(&self, name: &str, shared: bool) -> Result<File, StudyError> {
+    fn lock(&self, name: &str, shared: bool) -> Result<File, FolderError> {
         let path = self.lock_path(name);
         let file = open_lock(&path)?;
         let locked = if shared {
@@ -228,14 +215,14 @@ impl StudyFolder {
         };
         match locked {
             Ok(()) => Ok(file),
-            Err(TryLockError::WouldBlock) => Err(StudyError::Busy {
+            Err(TryLockError::WouldBlock) => Err(FolderError::Busy {
                 folder: self.path.clone(),
                 what: match name {
-                    "sweep" => "the whole study".to_owned(),
+                    WHOLE => "the whole study".to_owned(),
                     shard => shard.replace('-', " "),
                 },
             }),
-            Err(TryLockError::Error(source)) => Err(file_error("lock", &path, source)),
+            Err(TryLockError::Error(source)) => Err(Error::system("lock", &path)(source).into()),
         }
     }
 
@@ -244,17 +231,15 @@ impl StudyFolder {
     }
 }
 
-fn open_lock(path: &Path) -> Result<File, StudyError> {
+fn open_lock(path: &Path) -> Result<File, Error> {
     refuse_link(path)?;
     let opened = File::options().create(true).append(true).open(path);
-    opened.map_err(|source| file_error("open", path, source))
+    opened.map_err(Error::system("open", path))
 }
 
-/// The error of a file of the folder.
-fn file_error(action: &'static str, path: &Path, source: io::Error) -> StudyError {
-    StudyError::File {
-        action,
-        path: path.to_owned(),
-        source,
-    }
+/// Names of the files and folders in a folder.
+fn file_names(folder: &Path) -> io::Result<Vec<String>> {
+    let entries = fs::read_dir(folder)?.flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    Ok(names.collect())
 }
