@@ -11,6 +11,7 @@ use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
 use super::values::{Point, exactly_one, missing, one_of, refuse, require};
 use super::word::word_of;
+use crate::point_table::Tables;
 
 /// A factor of a load as a function of time, in a motion: points, a table or a shape.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -81,16 +82,16 @@ impl Amplitude {
         }
     }
 
-    /// The factor; for a file still without its rows.
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<Factor, KeyFault> {
+    /// The factor, with its table.
+    pub(super) fn setup(&self, key: &KeyPath, tables: Tables) -> Result<Factor, KeyFault> {
+        let points = |it: &Vec<Point>| through(it, &key.child("points"));
+        let table = |file: &PathBuf| {
+            let factor = tables.amplitude(file);
+            factor.map_err(|reason| KeyFault::new(key.child("file"), reason))
+        };
         let forms = [
-            (
-                "points",
-                self.points
-                    .as_ref()
-                    .map(|it| through(it, &key.child("points"))),
-            ),
-            ("file", self.file.as_ref().map(|_| Ok(Factor::constant()))),
+            ("points", self.points.as_ref().map(points)),
+            ("file", self.file.as_ref().map(table)),
             ("shape", self.shape.map(|it| self.shaped(it, key))),
         ];
         let factor = one_of(key, forms)??;

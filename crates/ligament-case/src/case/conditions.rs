@@ -1,39 +1,18 @@
-//! `[[support]]` and `[[initial_velocity]]`: supports of the body, its velocities at time zero, and the vectors of both and of loads.
+//! `[[support]]`, `[[initial_velocity]]` and `[[temperature]]`: supports of the body, its velocities at time zero and changes of its temperature.
+
+use std::path::{Path, PathBuf};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::coordinates::Coordinates;
+use super::coordinates::{Coordinates, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::mesh_section::complete_path;
 use super::region::{Corners, place, place_or_everywhere};
-use super::values::exactly_one;
-use ligament::setup::{self, Displacement, Position, SpringStiffness};
-
-/// A vector; a component that is not given is zero.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-#[schemars(extend("minProperties" = 1))]
-pub struct Vector {
-    /// Along x, in the unit of the force.
-    #[serde(default)]
-    pub x: f64,
-    /// Along y, in the unit of the force.
-    #[serde(default)]
-    pub y: f64,
-    /// Along z of a solid, in the unit of the force.
-    pub z: Option<f64>,
-}
-
-impl Vector {
-    pub(super) fn for_body(&self, key: &KeyPath, dimensions: usize) -> Result<Position, KeyFault> {
-        if dimensions < 3 && self.z.is_some() {
-            let reason = "a body in the plane has no z";
-            return Err(KeyFault::new(key.child("z"), reason));
-        }
-        Ok([self.x, self.y, self.z.unwrap_or(0.0)])
-    }
-}
+use super::values::{exactly_one, one_of, refuse};
+use crate::point_table::Tables;
+use ligament::setup::{self, Displacement, SpringStiffness, TemperatureChange};
 
 /// A support: displacements held at zero, or resisted by springs.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -57,11 +36,7 @@ pub struct Support {
 }
 
 impl Support {
-    pub(super) fn setup(
-        &self,
-        key: &KeyPath,
-        dimensions: usize,
-    ) -> Result<setup::Support, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Support, KeyFault> {
         let given = self.displacement.unwrap_or_default();
         let moved = given.components().find(|(_, value)| *value != 0.0);
         if let Some((component, value)) = moved {
@@ -71,13 +46,10 @@ impl Support {
             let key = key.child("displacement").child(component.name());
             return Err(KeyFault::new(key, reason));
         }
-        let normal = self
-            .normal
-            .map(|it| it.for_body(&key.child("normal"), dimensions));
         Ok(setup::Support {
-            place: place(key, dimensions, self.group.as_ref(), self.r#box, self.at)?,
+            place: place(key, self.group.as_ref(), self.r#box, self.at)?,
             held: given.components().map(|(component, _)| component).collect(),
-            normal: normal.transpose()?,
+            normal: self.normal.map(|it| it.position()),
             stiffness: self.stiffness.unwrap_or_default(),
         })
     }
@@ -101,15 +73,85 @@ pub struct InitialVelocity {
 }
 
 impl InitialVelocity {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::InitialVelocity, KeyFault> {
+        Ok(setup::InitialVelocity {
+            place: place_or_everywhere(key, self.group.as_ref(), self.r#box, self.at)?,
+            velocity: self.velocity.position(),
+        })
+    }
+}
+
+/// A change of temperature at load factor 1. Where several reach, the last of them holds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("oneOf" = exactly_one(&["change", "file", "mesh_field"])))]
+pub struct Temperature {
+    /// The part of the body; the whole body without it or a `box`.
+    pub group: Option<String>,
+    /// The part of the body in this rectangle, by two opposite corners, in a solid in this box, m.
+    #[schemars(extend("x-unit" = "m"))]
+    pub r#box: Option<Corners>,
+    /// Change of the temperature at load factor 1, the same everywhere there, K.
+    #[schemars(extend("x-unit" = "K"))]
+    pub change: Option<f64>,
+    /// A CSV file with the columns `x`, `y` (m; of a solid also `z`) and `change` (K), from the folder of the case file.
+    #[schemars(length(min = 1))]
+    pub file: Option<PathBuf>,
+    /// A scalar field at the nodes in the mesh file, K; `ligament inspect` lists them.
+    #[schemars(extend("x-unit" = "K"))]
+    pub mesh_field: Option<String>,
+    /// Time step of the `mesh_field`, where the file has several.
+    pub time_step: Option<i32>,
+    /// Subtracted from the values of the `mesh_field`, K.
+    #[schemars(extend("default" = 0.0, "x-unit" = "K"))]
+    pub reference: Option<f64>,
+}
+
+impl Temperature {
+    /// Fills in missing keys; `folder` is that of the case file.
+    pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
+        if let Some(file) = &mut self.file {
+            complete_path(&key.child("file"), file, folder)?;
+        }
+        if self.mesh_field.is_some() {
+            self.reference.get_or_insert(0.0);
+            return Ok(());
+        }
+        let reason = "it belongs to a `mesh_field`";
+        refuse(
+            key,
+            self,
+            &["time_step", "reference"],
+            "`change` or `file`",
+            reason,
+        )
+    }
+
+    /// The change of temperature, with its table.
     pub(super) fn setup(
         &self,
         key: &KeyPath,
-        dimensions: usize,
-    ) -> Result<setup::InitialVelocity, KeyFault> {
-        let group = self.group.as_ref();
-        Ok(setup::InitialVelocity {
-            place: place_or_everywhere(key, dimensions, group, self.r#box, self.at)?,
-            velocity: self.velocity.for_body(&key.child("velocity"), dimensions)?,
+        tables: Tables,
+    ) -> Result<setup::Temperature, KeyFault> {
+        let table = |file: &PathBuf| {
+            let samples = tables.samples(file, ["change", " (K)"]);
+            let samples = samples.map_err(|reason| KeyFault::new(key.child("file"), reason))?;
+            Ok(TemperatureChange::Table(samples))
+        };
+        let field = (self.mesh_field.clone()).map(|name| TemperatureChange::Field {
+            name,
+            time_step: self.time_step,
+            reference: self.reference.unwrap_or_default(),
+        });
+        let uniform = self.change.map(TemperatureChange::Uniform);
+        let changes = [
+            ("change", uniform.map(Ok)),
+            ("file", self.file.as_ref().map(table)),
+            ("mesh_field", field.map(Ok)),
+        ];
+        Ok(setup::Temperature {
+            change: one_of(key, changes)??,
+            place: place_or_everywhere(key, self.group.as_ref(), self.r#box, None)?,
         })
     }
 }

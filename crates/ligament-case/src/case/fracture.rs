@@ -10,14 +10,14 @@ use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::motion::StepBreakages;
 use ligament_model::failure::Kind;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Error, Unexpected};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::criterion::Criterion;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::scatter::Scatters;
-use super::values::{Numbers, missing, numbers, require};
+use super::values::{Form, missing, require};
 
 /// Largest number of equal load steps, and of parts of one: each has a row in the history.
 const MOST_STEPS: u32 = 1_000_000;
@@ -187,18 +187,14 @@ impl Steps {
 impl<'de> Deserialize<'de> for Steps {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let expected = "a whole number of load steps or a list of load factors";
-        let unfit = |found| Err(D::Error::invalid_type(found, &expected));
-        match numbers(deserializer, expected)? {
-            Numbers::Integer(0) => Err(D::Error::custom("must be at least 1, found 0")),
-            Numbers::Integer(count) if count > i64::from(MOST_STEPS) => Err(D::Error::custom(
+        match Form::<f64>::read(deserializer, expected)? {
+            Form::Number(_, Some(0)) => Err(D::Error::custom("must be at least 1, found 0")),
+            Form::Number(_, Some(count)) if count > i64::from(MOST_STEPS) => Err(D::Error::custom(
                 format_args!("must be at most {MOST_STEPS}, found {count}"),
             )),
-            Numbers::Integer(count) => match u32::try_from(count) {
-                Ok(count) => Ok(Self::Uniform(count)),
-                Err(_) => unfit(Unexpected::Signed(count)),
-            },
-            Numbers::Float(number) => unfit(Unexpected::Float(number)),
-            Numbers::List(factors) => Ok(Self::Factors(factors)),
+            Form::Number(_, Some(count)) if count > 0 => Ok(Self::Uniform(count as u32)),
+            Form::List(factors) => Ok(Self::Factors(factors)),
+            other => Err(other.misfit(expected)),
         }
     }
 }

@@ -6,6 +6,7 @@ use super::mesh_section::MeshSection;
 use super::sections::Case;
 use super::source::Source;
 use crate::mesh_file::{MeshFileError, read_any_mesh};
+use crate::point_table::Tables;
 
 impl Case {
     /// Checks the case on a substitute for its body. For a case that would fit a body of the other kind, the error states the kind of the
@@ -35,10 +36,10 @@ impl Case {
 
     /// Checks the case for a solid or for a body in the plane.
     fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
-        let setup = self.stand_in(is_solid).and_then(|body| self.setup_on(body));
-        let checked = setup.map(|setup| setup.check());
-        let checked = checked.map_err(|fault| source.error(fault))?;
-        checked.map_err(|error| self.located(source, error))
+        let body = self.stand_in(is_solid);
+        let setup = body.and_then(|it| self.setup_on(it, Tables::Unread, &source.document));
+        let setup = setup.map_err(|fault| source.error(fault))?;
+        (setup.check()).map_err(|error| self.located(source, error))
     }
 }
 

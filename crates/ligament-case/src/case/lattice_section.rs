@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::lattice_keys::{Grid, Shapes, Sides};
 use super::region::Rectangle;
-use super::values::{Numbers, Point, exactly_one, metre, numbers};
+use super::values::{Form, Point, exactly_one, metre};
 
 /// A rectangle of equal cells, a point at the centre of each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -195,13 +195,13 @@ impl TryFrom<Vec<Point>> for Polygon {
 impl<'de> Deserialize<'de> for Spacing {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let expected = "a number or a list of 2";
-        match numbers(deserializer, expected)? {
-            Numbers::Integer(side) => Ok(Self([side as f64; 2])),
-            Numbers::Float(side) => Ok(Self([side; 2])),
-            Numbers::List(sides) => match sides.as_slice() {
+        match Form::<f64>::read(deserializer, expected)? {
+            Form::Number(side, _) => Ok(Self([side; 2])),
+            Form::List(sides) => match sides.as_slice() {
                 &[dx, dy] => Ok(Self([dx, dy])),
                 sides => Err(D::Error::invalid_length(sides.len(), &expected)),
             },
+            other => Err(other.misfit(expected)),
         }
     }
 }

@@ -7,17 +7,16 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Value as Json, json};
 
 use super::amplitude::Amplitude;
-use super::conditions::Vector;
-use super::coordinates::Coordinates;
-use super::couple::Couple;
+use super::coordinates::{Coordinates, Couple, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
 use super::region::{Corners, place, place_or_everywhere};
 use super::values::{exactly_one, missing, one_of, refuse, require_column_name};
+use crate::point_table::Tables;
 use ligament::setup::{self, Action, Axis, Displacement, Position, begins_as_formula};
 
-/// Keys of the actions; a load has one of them.
+/// Keys of the actions; a load has one of them. The order is that of [`Load::actions`].
 pub(super) const ACTIONS: [&str; 11] = [
     "displacement",
     "velocity",
@@ -128,8 +127,8 @@ impl Profile {
         )
     }
 
-    /// The variation; for a file still without its rows.
-    fn setup(&self, key: &KeyPath) -> Result<setup::Profile, KeyFault> {
+    /// The variation, with its table.
+    fn setup(&self, key: &KeyPath, tables: Tables) -> Result<setup::Profile, KeyFault> {
         let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing(key, name));
         let linear = |along: Axis| {
             Ok(setup::Profile::Linear {
@@ -138,10 +137,14 @@ impl Profile {
                 one: number("one", self.one)?,
             })
         };
-        let table = || Ok(setup::Profile::Table(Vec::new()));
+        let table = |file: &PathBuf| {
+            let samples = tables.samples(file, ["factor", ""]);
+            let samples = samples.map_err(|reason| KeyFault::new(key.child("file"), reason))?;
+            Ok(setup::Profile::Table(samples))
+        };
         let forms = [
             ("along", self.along.map(linear)),
-            ("file", self.file.as_ref().map(|_| table())),
+            ("file", self.file.as_ref().map(table)),
         ];
         one_of(key, forms)?
     }
@@ -171,21 +174,22 @@ impl Load {
         Ok(())
     }
 
-    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Load, KeyFault> {
-        let action = one_of(key, self.actions(key, dimensions))??;
+    /// The load, with its tables.
+    pub(super) fn setup(&self, key: &KeyPath, tables: Tables) -> Result<setup::Load, KeyFault> {
+        let action = one_of(key, self.actions())?;
         let (group, corners) = (self.group.as_ref(), self.r#box);
         let place = match action {
             Action::Displacement(_)
             | Action::Velocity(_)
             | Action::BaseAcceleration(_)
             | Action::Force(_)
-            | Action::Moment(_) => place(key, dimensions, group, corners, self.at)?,
-            _ => place_or_everywhere(key, dimensions, group, corners, self.at)?,
+            | Action::Moment(_) => place(key, group, corners, self.at)?,
+            _ => place_or_everywhere(key, group, corners, self.at)?,
         };
         let profile = self.profile.as_ref();
-        let profile = profile.map(|it| it.setup(&key.child("profile")));
+        let profile = profile.map(|it| it.setup(&key.child("profile"), tables));
         let amplitude = self.amplitude.as_ref();
-        let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude")));
+        let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude"), tables));
         Ok(setup::Load {
             name: self.name.clone().unwrap_or_default(),
             place,
@@ -197,40 +201,28 @@ impl Load {
         })
     }
 
-    fn actions(&self, key: &KeyPath, dimensions: usize) -> Actions {
-        let motion =
-            |name: &'static str, given: Option<Displacement>, make: fn(Displacement) -> Action| {
-                (name, given.map(|it| Ok(make(it))))
-            };
-        let vector = |name: &'static str, given: Option<Vector>, make: fn(Position) -> Action| {
-            let action = given.map(|it| it.for_body(&key.child(name), dimensions).map(make));
-            (name, action)
+    /// The actions that are given, by their keys.
+    fn actions(&self) -> [(&'static str, Option<Action>); ACTIONS.len()] {
+        let vector = |given: Option<Vector>, make: fn(Position) -> Action| {
+            given.map(|it| make(it.position()))
         };
-        let couple = |name: &'static str, given: Option<Couple>, make: fn(_) -> Action| {
-            let action = given.map(|it| it.for_body(&key.child(name), dimensions).map(make));
-            (name, action)
+        let couple = |given: Option<Couple>, make: fn(setup::Couple) -> Action| {
+            given.map(|it| make(it.into()))
         };
-        [
-            motion("displacement", self.displacement, Action::Displacement),
-            motion("velocity", self.velocity, Action::Velocity),
-            motion(
-                "base_acceleration",
-                self.base_acceleration,
-                Action::BaseAcceleration,
-            ),
-            vector("force", self.force, Action::Force),
-            vector(
-                "force_per_length",
-                self.force_per_length,
-                Action::ForcePerLength,
-            ),
-            vector("force_per_area", self.force_per_area, Action::ForcePerArea),
-            vector("body_force", self.body_force, Action::BodyForce),
-            vector("acceleration", self.acceleration, Action::Acceleration),
-            couple("moment", self.moment, Action::Moment),
-            couple("body_couple", self.body_couple, Action::BodyCouple),
-            ("pressure", self.pressure.map(|it| Ok(Action::Pressure(it)))),
-        ]
+        let actions = [
+            self.displacement.map(Action::Displacement),
+            self.velocity.map(Action::Velocity),
+            self.base_acceleration.map(Action::BaseAcceleration),
+            vector(self.force, Action::Force),
+            vector(self.force_per_length, Action::ForcePerLength),
+            vector(self.force_per_area, Action::ForcePerArea),
+            vector(self.body_force, Action::BodyForce),
+            vector(self.acceleration, Action::Acceleration),
+            couple(self.moment, Action::Moment),
+            couple(self.body_couple, Action::BodyCouple),
+            self.pressure.map(Action::Pressure),
+        ];
+        std::array::from_fn(|place| (ACTIONS[place], actions[place]))
     }
 }
 
@@ -245,6 +237,3 @@ fn of_rates(schema: &mut Schema) {
         *component = json!({ "description": words, "type": component["type"] });
     }
 }
-
-/// The actions of a load by their keys.
-type Actions = [(&'static str, Option<Result<Action, KeyFault>>); 11];

@@ -69,13 +69,7 @@ impl Precrack {
             Some(points) => {
                 let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
                 refuse(key, self, &straight, "`points`", reason)?;
-                let key = key.child("points");
-                let corners = points.iter().enumerate();
-                let vertex = |(index, it): (usize, &Coordinates)| {
-                    let [x, y, _] = it.for_body(&key.child(index), 2)?;
-                    Ok([x, y])
-                };
-                corners.map(vertex).collect()
+                Ok(points.iter().map(Coordinates::in_plane).collect())
             }
             None if first_given(self, &straight).is_some() => Ok(self.ends_of_line(key)?.to_vec()),
             None => {
@@ -89,16 +83,14 @@ impl Precrack {
         let reason = "only pre-cracks in the plane, which are lines, have it";
         refuse(key, self, &["length", "angle"], "a solid", reason)?;
         let points = self.points.as_ref().map(|points| {
-            let key = key.child("points");
-            let corners = points.iter().enumerate();
-            let corners = corners.map(|(index, it)| it.for_body(&key.child(index), 3));
-            corners.collect::<Result<_, _>>().map(CrackShape::Polygon)
+            let corners = points.iter().map(Coordinates::position);
+            Ok(CrackShape::Polygon(corners.collect()))
         });
         let disk = self.centre.map(|centre| {
             let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
             Ok(CrackShape::Disk {
-                centre: centre.for_body(&key.child("centre"), 3)?,
-                normal: normal.for_body(&key.child("normal"), 3)?,
+                centre: centre.position(),
+                normal: normal.position(),
                 radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
             })
         });
@@ -111,10 +103,9 @@ impl Precrack {
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
         let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
-        let [x, y, _] = centre.for_body(&key.child("centre"), 2)?;
         let length = self.length.ok_or_else(|| missing(key, "length"))?;
         let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
-        let ends = straight([x, y], length, angle);
+        let ends = straight(centre.in_plane(), length, angle);
         require(
             ends[0] != ends[1],
             || key.child("length"),

@@ -37,33 +37,26 @@ pub struct Probe {
 }
 
 impl Probe {
-    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Probe, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Probe, KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
-        let pair = |name: &str, [first, second]: [Coordinates; 2]| {
-            let key = key.child(name);
-            let [one, other] = [key.child(0), key.child(1)];
-            Ok([
-                first.for_body(&one, dimensions)?,
-                second.for_body(&other, dimensions)?,
-            ])
-        };
+        let ends = |ends: [Coordinates; 2]| ends.map(|it| it.position());
         let between = |positions| {
-            let positions = pair("between", positions)?;
-            let component = self.component(key)?;
             Ok(Reading::Between {
-                positions,
-                component,
+                positions: ends(positions),
+                component: self.component(key)?,
             })
         };
         let at = |position: Coordinates| {
-            let position = position.for_body(&key.child("at"), dimensions)?;
-            let field = self.field(key)?;
-            Ok(Reading::At { position, field })
+            Ok(Reading::At {
+                position: position.position(),
+                field: self.field(key)?,
+            })
         };
         let section = |line| {
-            let line = pair("section", line)?;
-            let component = self.axis(key)?;
-            Ok(Reading::Section { line, component })
+            Ok(Reading::Section {
+                line: ends(line),
+                component: self.axis(key)?,
+            })
         };
         let readings = [
             ("between", self.between.map(between)),

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{Point, exactly_one, one_of};
+use super::values::{Point, each, exactly_one, one_of};
 use ligament::near_growth::Growth;
 use ligament::setup::{self, Place, Position};
 
@@ -36,17 +36,8 @@ impl TryFrom<[Point; 2]> for Rectangle {
 pub struct Corners(pub [Coordinates; 2]);
 
 impl Corners {
-    pub(super) fn for_body(
-        &self,
-        key: &KeyPath,
-        dimensions: usize,
-    ) -> Result<[Position; 2], KeyFault> {
-        let [low, high] = &self.0;
-        let [first, second] = [key.child(0), key.child(1)];
-        Ok([
-            low.for_body(&first, dimensions)?,
-            high.for_body(&second, dimensions)?,
-        ])
+    pub(super) fn positions(&self) -> [Position; 2] {
+        self.0.map(|it| it.position())
     }
 }
 
@@ -97,8 +88,8 @@ pub struct Region {
 }
 
 impl Region {
-    pub(super) fn place(&self, key: &KeyPath, dimensions: usize) -> Result<Place, KeyFault> {
-        place(key, dimensions, self.group.as_ref(), self.r#box, None)
+    pub(super) fn place(&self, key: &KeyPath) -> Result<Place, KeyFault> {
+        place(key, self.group.as_ref(), self.r#box, None)
     }
 }
 
@@ -130,16 +121,9 @@ impl FarField {
         }));
     }
 
-    pub(super) fn setup(
-        &self,
-        key: &KeyPath,
-        dimensions: usize,
-    ) -> Result<setup::FarField, KeyFault> {
-        let key = key.child("near");
-        let places = self.near.iter().enumerate();
-        let places = places.map(|(index, it)| it.place(&key.child(index), dimensions));
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::FarField, KeyFault> {
         Ok(setup::FarField {
-            near: places.collect::<Result<_, _>>()?,
+            near: each(&key.child("near"), &self.near, Region::place)?,
             strength_share: self.strength_share,
         })
     }
@@ -148,27 +132,27 @@ impl FarField {
 /// The place of a table, which must have exactly one.
 pub(super) fn place(
     key: &KeyPath,
-    dimensions: usize,
     group: Option<&String>,
     corners: Option<Corners>,
     at: Option<Coordinates>,
 ) -> Result<Place, KeyFault> {
-    let group = group.cloned().map(|it| Ok(Place::Group(it)));
-    let corners = corners.map(|it| it.for_body(&key.child("box"), dimensions).map(Place::Box));
-    let at = at.map(|it| it.for_body(&key.child("at"), dimensions).map(Place::At));
-    one_of(key, [("group", group), ("box", corners), ("at", at)])?
+    let places = [
+        ("group", group.cloned().map(Place::Group)),
+        ("box", corners.map(|it| Place::Box(it.positions()))),
+        ("at", at.map(|it| Place::At(it.position()))),
+    ];
+    one_of(key, places)
 }
 
 /// The place of a table, which has at most one; without any the whole body.
 pub(super) fn place_or_everywhere(
     key: &KeyPath,
-    dimensions: usize,
     group: Option<&String>,
     corners: Option<Corners>,
     at: Option<Coordinates>,
 ) -> Result<Place, KeyFault> {
     match (group, corners, at) {
         (None, None, None) => Ok(Place::Everywhere),
-        _ => place(key, dimensions, group, corners, at),
+        _ => place(key, group, corners, at),
     }
 }

@@ -1,17 +1,15 @@
 //! `[fracture.scatter]`: a strength or a fracture energy that varies at random; `[[fracture.scatter]]` for both.
 
 use std::borrow::Cow;
-use std::fmt;
 
 use ligament_model::scatter::{self, Scattered};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
-use serde::de::{Error, MapAccess, SeqAccess, Visitor};
+use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{missing, refuse};
+use super::values::{Form, missing, refuse};
 
 /// Properties that vary at random: one as a table, several as a list of tables.
 #[derive(Debug, Clone, PartialEq)]
@@ -106,34 +104,17 @@ impl Scatters {
 
 impl<'de> Deserialize<'de> for Scatters {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let mut all = deserializer.deserialize_any(OneOrSeveral)?;
-        if let Some(first) = all.first_mut() {
-            first.seed.get_or_insert_default();
-        }
+        let expected = "a table with the property that varies, or a list of such tables";
+        let mut all = match Form::<Scatter, Scatter>::read(deserializer, expected)? {
+            Form::Table(one) => vec![one],
+            Form::List(all) => all,
+            other => return Err(other.misfit(expected)),
+        };
+        match all.first_mut() {
+            Some(first) => first.seed.get_or_insert_default(),
+            None => return Err(D::Error::invalid_length(0, &expected)),
+        };
         Ok(Self(all))
-    }
-}
-
-/// Reads one table, or a list of tables.
-struct OneOrSeveral;
-
-impl<'de> Visitor<'de> for OneOrSeveral {
-    type Value = Vec<Scatter>;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a table with the property that varies, or a list of such tables")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vec<Scatter>, A::Error> {
-        Scatter::deserialize(MapAccessDeserializer::new(map)).map(|it| vec![it])
-    }
-
-    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Vec<Scatter>, A::Error> {
-        let all = Vec::deserialize(SeqAccessDeserializer::new(list))?;
-        match all.is_empty() {
-            true => Err(A::Error::invalid_length(0, &self)),
-            false => Ok(all),
-        }
     }
 }
 

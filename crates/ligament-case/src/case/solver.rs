@@ -1,12 +1,10 @@
 //! `[solver]`: solution of the equations, by default `solver = "auto"`.
 
-use std::fmt;
-
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{MapAccess, Unexpected, Visitor};
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::values::Form;
 use super::word::Word;
 use ligament_analysis::solver::{FactorKind, Method, Ordering, SolverSettings, Update};
 
@@ -64,31 +62,15 @@ fn is_open(method: &Word<Option<Method>>) -> bool {
 
 /// Reads a table, or the word `auto`.
 pub(super) fn read<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Solver, D::Error> {
-    deserializer.deserialize_any(SolverVisitor)
+    let expected = "\"auto\" or a table";
+    match Form::<IgnoredAny, Solver>::read(deserializer, expected)? {
+        Form::Table(solver) => Ok(solver),
+        Form::Word(word) if word == "auto" => Ok(Solver::default()),
+        other => Err(other.misfit(expected)),
+    }
 }
 
 pub(super) fn schema(generator: &mut SchemaGenerator) -> Schema {
     let keys = generator.subschema_for::<Solver>();
     json_schema!({ "anyOf": [{ "const": "auto", "description": "All of it is chosen." }, keys] })
-}
-
-struct SolverVisitor;
-
-impl<'de> Visitor<'de> for SolverVisitor {
-    type Value = Solver;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("\"auto\" or a table")
-    }
-
-    fn visit_str<E: serde::de::Error>(self, value: &str) -> Result<Solver, E> {
-        if value == "auto" {
-            return Ok(Solver::default());
-        }
-        Err(E::invalid_value(Unexpected::Str(value), &self))
-    }
-
-    fn visit_map<M: MapAccess<'de>>(self, keys: M) -> Result<Solver, M::Error> {
-        Solver::deserialize(MapAccessDeserializer::new(keys))
-    }
 }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{Numbers, exactly_one, numbers, one_of, require_column_name};
+use super::values::{Form, exactly_one, one_of, require_column_name};
 use ligament::setup;
 
 /// Largest number of load steps of a stage: each has a row in the history.
@@ -125,10 +125,10 @@ const EXPECTED: &str = "a factor, a list of factors one after the other, or a li
 
 impl<'de> Deserialize<'de> for Factors {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let elements = match numbers(deserializer, EXPECTED)? {
-            Numbers::Integer(factor) => return Ok(Self::End(factor as f64)),
-            Numbers::Float(factor) => return Ok(Self::End(factor)),
-            Numbers::List(elements) => elements,
+        let elements = match Form::<Element>::read(deserializer, EXPECTED)? {
+            Form::Number(factor, _) => return Ok(Self::End(factor)),
+            Form::List(elements) => elements,
+            other => return Err(other.misfit(EXPECTED)),
         };
         let (mut factors, mut points) = (Vec::new(), Vec::new());
         for element in elements {
@@ -156,15 +156,14 @@ enum Element {
 impl<'de> Deserialize<'de> for Element {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let expected = "a factor or a pair [share of the stage, factor]";
-        let list = match numbers(deserializer, expected)? {
-            Numbers::Integer(factor) => return Ok(Self::Factor(factor as f64)),
-            Numbers::Float(factor) => return Ok(Self::Factor(factor)),
-            Numbers::List(list) => list,
-        };
-        match list[..] {
-            [share, factor] => Ok(Self::Point([share, factor])),
-            [] | [_] => Err(D::Error::invalid_length(list.len(), &expected)),
-            _ => Err(D::Error::invalid_length(list.len(), &"2 elements")),
+        match Form::<f64>::read(deserializer, expected)? {
+            Form::Number(factor, _) => Ok(Self::Factor(factor)),
+            Form::List(list) => match list[..] {
+                [share, factor] => Ok(Self::Point([share, factor])),
+                [] | [_] => Err(D::Error::invalid_length(list.len(), &expected)),
+                _ => Err(D::Error::invalid_length(list.len(), &"2 elements")),
+            },
+            other => Err(other.misfit(expected)),
         }
     }
 }
