@@ -10,7 +10,7 @@ use ligament_analysis::SetupError;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_mesh::AnyMesh;
 
-use crate::case::{CaseError, CaseFile, lattice_keys};
+use crate::case::{CaseError, CaseFile};
 use crate::mesh_file::{MeshFileError, read_any_mesh, read_mesh};
 use crate::point_table::{self, Tables};
 
@@ -107,11 +107,11 @@ impl CaseFile {
                 Ok(AnyMesh::Plane(mesh).into())
             }
             (None, Some(section), _) => {
-                let body = stage(watcher, "lattice", || lattice_keys::body(section.grid()));
+                let body = stage(watcher, "lattice", || section.grid().body());
                 Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, Some(section)) => {
-                let body = stage(watcher, "lattice", || lattice_keys::body(section.grid()));
+                let body = stage(watcher, "lattice", || section.grid().body());
                 Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, None) => anyhow::bail!("the case has no body"),

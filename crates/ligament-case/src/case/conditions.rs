@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::coordinates::{Coordinates, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
-use super::region::{Corners, place, place_or_everywhere};
+use super::places::{Coordinates, Corners, Vector, place, place_or_everywhere};
 use super::values::{exactly_one, one_of, refuse};
 use crate::point_table::Tables;
 use ligament::setup::{self, Displacement, SpringStiffness, TemperatureChange};

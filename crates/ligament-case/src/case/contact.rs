@@ -7,10 +7,10 @@ use ligament_analysis::load_program;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::amplitude::Amplitude;
-use super::coordinates::{Coordinates, Vector};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::load::Amplitude;
+use super::places::{Coordinates, Vector};
 use super::values::{missing, refuse, require_column_name};
 use super::word::word_of;
 use crate::point_table::Tables;

@@ -1,23 +1,22 @@
-//! `[fracture]`: breakage of bonds, and stop rules.
+//! `[fracture]`: breakage of bonds, failure criteria, strengths and energies that vary at random, and stop rules.
 
-use std::borrow::Cow;
-
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::{Form, each, missing, refuse, require};
+use super::word::{Word, word_of};
 use ligament::setup::{self, Analysis};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::motion::StepBreakages;
-use ligament_model::failure::Kind;
+use ligament_model::failure::softening::Law;
+use ligament_model::failure::{After, Calibration, Choice, Kind, frictional};
+use ligament_model::scatter::{self, Scattered};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
-use serde::{Deserialize, Deserializer, Serialize};
-
-use super::criterion::Criterion;
-use super::fault::KeyFault;
-use super::key_path::KeyPath;
-use super::scatter::Scatters;
-use super::values::{Form, missing, require};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 
 /// Largest number of equal load steps, and of parts of one: each has a row in the history.
 const MOST_STEPS: u32 = 1_000_000;
@@ -214,5 +213,208 @@ impl JsonSchema for Steps {
                 },
             ]
         })
+    }
+}
+
+/// A criterion of failure.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Criterion {
+    /// What fails, and where its limit comes from.
+    pub kind: Word<Kind>,
+    /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub limit: Option<f64>,
+    /// Stretch at which a bond without shear fails; of `mixed-mode`, with `critical_angle`.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub critical_stretch: Option<f64>,
+    /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "rad"))]
+    pub critical_angle: Option<f64>,
+    /// How the limit of `frictional` comes from the strengths.
+    #[schemars(extend("default" = Calibration::default()))]
+    pub calibration: Option<Calibration>,
+    /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
+    /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
+    #[schemars(range(min = 0), extend("x-unit" = "rad"))]
+    pub friction_angle: Option<f64>,
+    /// Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`.
+    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
+    pub cohesion: Option<f64>,
+    /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
+    #[schemars(range(min = 0), extend("x-unit" = "m"))]
+    pub fibre_distance: Option<f64>,
+    /// What a bond does after its limit.
+    #[serde(default)]
+    pub after: Word<Law>,
+    /// Deformation at which the force of `linear` (above 1) or `two-branch` (above 3) is gone, over that at the limit; without it so that the `fracture_energy` comes out.
+    #[schemars(extend("exclusiveMinimum" = 1))]
+    pub end: Option<f64>,
+    /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub scale: Option<f64>,
+}
+
+impl From<Kind> for Criterion {
+    fn from(kind: Kind) -> Self {
+        Self {
+            kind: Word(kind),
+            limit: None,
+            critical_stretch: None,
+            critical_angle: None,
+            calibration: None,
+            friction_angle: None,
+            cohesion: None,
+            fibre_distance: None,
+            after: Word::default(),
+            end: None,
+            scale: None,
+        }
+    }
+}
+
+impl Criterion {
+    /// Fills in missing keys.
+    pub(super) fn complete(&mut self) {
+        if self.kind.0 == frictional::FRICTIONAL && self.limit.is_none() {
+            self.calibration.get_or_insert_default();
+        }
+    }
+
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<Choice, KeyFault> {
+        let keys = [("end", self.end), ("scale", self.scale)];
+        let after = After::from_keys(self.after.0, &keys).map_err(|unfit| {
+            let key = unfit.field().map_or(key.clone(), |it| key.child(it));
+            KeyFault::new(key, unfit)
+        })?;
+        Ok(Choice {
+            kind: self.kind.0,
+            limit: self.limit,
+            critical_stretch: self.critical_stretch,
+            critical_angle: self.critical_angle,
+            calibration: self.calibration,
+            friction_angle: self.friction_angle,
+            cohesion: self.cohesion,
+            fibre_distance: self.fibre_distance,
+            after,
+        })
+    }
+}
+
+/// Properties that vary at random: one as a table, several as a list of tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scatters(pub Vec<Scatter>);
+
+/// A property that varies over the body at random, by a factor with the mean 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scatter {
+    /// What varies.
+    pub of: Scattered,
+    /// Distribution of the factors.
+    #[serde(default)]
+    pub distribution: Distribution,
+    /// Weibull modulus; of `weibull`: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %.
+    #[schemars(range(min = 1, max = 10_000))]
+    pub modulus: Option<f64>,
+    /// Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`.
+    #[schemars(range(max = 10), extend("exclusiveMinimum" = 0))]
+    pub deviation: Option<f64>,
+    /// Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's.
+    pub seed: Option<u64>,
+    /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
+    #[serde(default)]
+    #[schemars(range(min = 0), extend("x-unit" = "m"))]
+    pub correlation_length: f64,
+}
+
+/// Distribution of the factors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Distribution {
+    /// Weibull's with two parameters, by its `modulus`.
+    #[default]
+    Weibull,
+    /// Normal with a `deviation`, cut off at four of them.
+    Normal,
+    /// Lognormal with a `deviation`.
+    Lognormal,
+}
+
+impl Scatter {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<scatter::Scatter, KeyFault> {
+        let (own, other, reason) = match self.distribution {
+            Distribution::Weibull => (
+                "modulus",
+                "deviation",
+                "its deviation comes from its modulus",
+            ),
+            Distribution::Normal | Distribution::Lognormal => {
+                ("deviation", "modulus", "it has a `deviation`")
+            }
+        };
+        let setting = format!("distribution = \"{}\"", word_of(&self.distribution));
+        refuse(key, self, &[other], &setting, reason)?;
+        let given = self.modulus.or(self.deviation);
+        let given = given.ok_or_else(|| missing(key, own))?;
+        Ok(scatter::Scatter {
+            of: self.of,
+            distribution: match self.distribution {
+                Distribution::Weibull => scatter::Distribution::Weibull { modulus: given },
+                Distribution::Normal => scatter::Distribution::Normal { deviation: given },
+                Distribution::Lognormal => scatter::Distribution::Lognormal { deviation: given },
+            },
+            seed: self.seed,
+            correlation_length: self.correlation_length,
+        })
+    }
+}
+
+impl Scatters {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<Vec<scatter::Scatter>, KeyFault> {
+        match &self.0[..] {
+            [one] => Ok(vec![one.setup(key)?]),
+            all => each(key, all, Scatter::setup),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Scatters {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a table with the property that varies, or a list of such tables";
+        let mut all = match Form::<Scatter, Scatter>::read(deserializer, expected)? {
+            Form::Table(one) => vec![one],
+            Form::List(all) => all,
+            other => return Err(other.misfit(expected)),
+        };
+        match all.first_mut() {
+            Some(first) => first.seed.get_or_insert_default(),
+            None => return Err(D::Error::invalid_length(0, &expected)),
+        };
+        Ok(Self(all))
+    }
+}
+
+impl Serialize for Scatters {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [one] => one.serialize(serializer),
+            all => all.serialize(serializer),
+        }
+    }
+}
+
+impl JsonSchema for Scatters {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "Scatters".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let one = generator.subschema_for::<Scatter>();
+        json_schema!({ "anyOf": [one, { "type": "array", "items": one, "minItems": 1 }] })
     }
 }

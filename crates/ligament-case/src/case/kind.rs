@@ -78,3 +78,12 @@ fn of_other_kind(error: CaseError, mesh: &MeshSection) -> CaseError {
         fault: Box::new(Fault::Other(format!("{fault}; {advice}"))),
     }
 }
+
+/// A body in the plane, or a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// Body in the plane of x and y.
+    Plane,
+    /// Solid in space.
+    Solid,
+}

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::body_kind::BodyKind;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::kind::BodyKind;
 use super::values::{refuse, require};
 use crate::mesh_file::holds_solid;
 use ligament_model::Plane;

@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::places::Coordinates;
 use super::values::{Point, exactly_one, first_given, missing};
 use super::values::{not_exactly_one, one_of, refuse, require};
 use ligament::setup::{CrackShape, PreCrack};

@@ -3,9 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::places::Coordinates;
 use super::values::{exactly_one, one_of, require_column_name, required};
 use super::word::Word;
 use ligament::setup::{self, Axis, Reading};

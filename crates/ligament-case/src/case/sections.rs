@@ -6,38 +6,33 @@ use ligament::Message;
 use ligament::body::AnyBody;
 use ligament::near_growth::Growth;
 use ligament::plausibility::{of_angle, without_thickness};
-use ligament::setup::{self, QuietEdge, Section, Setup, SurfaceContact};
-use ligament_analysis::motion::MotionSettings;
+use ligament::setup::{self, Alpha, QuietEdge, Section, Setup, SurfaceContact};
+use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_mesh::{AnyMesh, Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::analysis::{Analysis, Modal};
-use super::body_kind::BodyKind;
+use super::analysis::{self, Analysis, Modal, Output, Solver, StressField};
 use super::conditions::{InitialVelocity, Support, Temperature};
 use super::contact::Rigid;
 use super::correction::Correction;
-use super::criterion::Criterion;
 use super::decode::decode;
 use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
-use super::fracture::{Control, Fracture};
+use super::fracture::{Control, Criterion, Distribution, Fracture};
 use super::key_path::KeyPath;
 use super::keys::check_dimensions;
-use super::lattice_keys;
-use super::lattice_section::LatticeSection;
+use super::kind::BodyKind;
+use super::lattice::{LatticeSection, SolidLatticeSection};
 use super::load::Load;
 use super::material::{self, Material};
 use super::mesh_section::MeshSection;
 use super::model::ModelSection;
 use super::not_with::{Settings, refuse_keys_without_effect};
-use super::output::{Output, StressField};
+use super::places::{FarField, Region};
 use super::precrack::Precrack;
 use super::probe::Probe;
-use super::region::{FarField, Region};
-use super::solid_lattice_section::SolidLatticeSection;
-use super::solver::{self, Solver};
 use super::stage::Stage;
 use super::values::{each, exactly_one, metre, missing};
 use crate::point_table::Tables;
@@ -121,8 +116,8 @@ pub struct Case {
     /// A motion in time under loads that depend on time.
     pub motion: Option<MotionSettings>,
     /// How the equations are solved; nothing need be said.
-    #[serde(default, deserialize_with = "solver::read")]
-    #[schemars(schema_with = "solver::schema")]
+    #[serde(default, deserialize_with = "analysis::read_solver")]
+    #[schemars(schema_with = "analysis::solver_schema")]
     pub solver: Solver,
     /// What a run writes.
     #[serde(default)]
@@ -354,6 +349,44 @@ impl Case {
         Ok(setup)
     }
 
+    /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys
+    /// of the references; each text stands once.
+    pub fn sources(&self) -> Vec<&'static str> {
+        let mut found = vec![self.model.law.0.row.source];
+        found.extend(self.correction.alpha.map(Alpha::source));
+        found.extend(self.correction.surface.map(|it| it.0.source()));
+        let fracture = self.fracture.as_ref();
+        let criteria = fracture.and_then(|it| it.criteria.as_deref());
+        for criterion in criteria.into_iter().flatten() {
+            found.extend([criterion.kind.0.source, criterion.after.0.source]);
+        }
+        let scatter = fracture.and_then(|it| it.scatter.as_ref());
+        for scatter in scatter.iter().flat_map(|it| &it.0) {
+            found.push(match scatter.distribution {
+                Distribution::Weibull => "Weibull 1951",
+                Distribution::Normal => "",
+                Distribution::Lognormal => "Aitchison and Brown 1957",
+            });
+            if scatter.correlation_length > 0.0 {
+                found.push("Shinozuka and Jan 1972");
+            }
+        }
+        let motion = self.motion.as_ref();
+        if motion.is_some_and(|it| it.scheme != Scheme::Explicit) {
+            found.push("Hilber 1977");
+        }
+        if !self.quiet.is_empty() {
+            found.push("Lysmer and Kuhlemeyer 1969");
+        }
+        let mut each = Vec::new();
+        for source in found {
+            if !source.is_empty() && !each.contains(&source) {
+                each.push(source);
+            }
+        }
+        each
+    }
+
     /// Takes the places of a growth into the near field.
     pub fn grow(&mut self, growth: &Growth) {
         if let Some(far_field) = &mut self.far_field {
@@ -386,8 +419,8 @@ impl Case {
     /// A substitute for the body before it is built, of the same kind, with at most one point.
     pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
         Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
-            (true, _, Some(lattice)) => AnyBody::from(lattice_keys::stand_in(lattice.grid())?),
-            (false, Some(lattice), _) => AnyBody::from(lattice_keys::stand_in(lattice.grid())?),
+            (true, _, Some(lattice)) => AnyBody::from(lattice.grid().stand_in()?),
+            (false, Some(lattice), _) => AnyBody::from(lattice.grid().stand_in()?),
             (true, _, None) => AnyMesh::Solid(SolidMesh::default()).into(),
             (false, None, _) => AnyMesh::Plane(Mesh::default()).into(),
         })
