@@ -146,7 +146,7 @@ pub struct Output {
     pub model: bool,
     /// Time between two checkpoints, from which `ligament resume` goes on, s; without it half a minute, and so long that they take
     /// a fiftieth of the time. 0: only when the run is stopped.
-    #[schemars(range(min = 0), extend("x-unit" = "s"))]
+    #[schemars(range(min = 0))]
     pub checkpoint_every: Option<f64>,
     /// Whether a picture of the last state, with its damage or displacement, and one of the curve of force over displacement are drawn
     /// at the end.

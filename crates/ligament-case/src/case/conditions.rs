@@ -21,10 +21,8 @@ pub struct Support {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
     /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Corners>,
     /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub at: Option<Coordinates>,
     /// The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad.
     pub displacement: Option<Displacement>,
@@ -61,13 +59,10 @@ pub struct InitialVelocity {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice; without a place the whole body moves.
     pub group: Option<String>,
     /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Corners>,
     /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub at: Option<Coordinates>,
     /// The velocity, m/s.
-    #[schemars(extend("x-unit" = "m/s"))]
     pub velocity: Vector,
 }
 
@@ -88,21 +83,18 @@ pub struct Temperature {
     /// The part of the body; the whole body without it or a `box`.
     pub group: Option<String>,
     /// The part of the body in this rectangle, by two opposite corners, in a solid in this box, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Corners>,
     /// Change of the temperature at load factor 1, the same everywhere there, K.
-    #[schemars(extend("x-unit" = "K"))]
     pub change: Option<f64>,
     /// A CSV file with the columns `x`, `y` (m; of a solid also `z`) and `change` (K), from the folder of the case file.
     #[schemars(length(min = 1))]
     pub file: Option<PathBuf>,
     /// A scalar field at the nodes in the mesh file, K; `ligament inspect` lists them.
-    #[schemars(extend("x-unit" = "K"))]
     pub mesh_field: Option<String>,
     /// Time step of the `mesh_field`, where the file has several.
     pub time_step: Option<i32>,
     /// Subtracted from the values of the `mesh_field`, K.
-    #[schemars(extend("default" = 0.0, "x-unit" = "K"))]
+    #[schemars(extend("default" = 0.0))]
     pub reference: Option<f64>,
 }
 

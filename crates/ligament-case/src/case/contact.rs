@@ -24,32 +24,27 @@ pub struct Rigid {
     /// Shape of the body.
     pub shape: RigidShape,
     /// Centre of the body at the start, of a wall a point of its surface, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub centre: Coordinates,
     /// Radius of a circle or sphere, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
     /// Outward normal of a wall.
     pub normal: Option<Coordinates>,
     /// Sides of a box, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub size: Option<Coordinates>,
     /// Displacement at load factor 1, m; in statics.
-    #[schemars(extend("x-unit" = "m"))]
     pub displacement: Option<Vector>,
     /// Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`.
-    #[schemars(extend("x-unit" = "m/s"))]
     pub velocity: Option<Vector>,
     /// Factor of the velocity as a function of time; without it 1.
     pub amplitude: Option<Amplitude>,
     /// Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: Option<f64>,
     /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg m^2"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub inertia: Option<f64>,
     /// Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2.
-    #[schemars(extend("x-unit" = "m/s^2"))]
     pub acceleration: Option<Vector>,
     /// Coefficient of Coulomb's friction.
     #[serde(default)]

@@ -229,20 +229,20 @@ pub struct Criterion {
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub critical_stretch: Option<f64>,
     /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "rad"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub critical_angle: Option<f64>,
     /// How the limit of `frictional` comes from the strengths.
     #[schemars(extend("default" = Calibration::default()))]
     pub calibration: Option<Calibration>,
     /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
     /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
-    #[schemars(range(min = 0), extend("x-unit" = "rad"))]
+    #[schemars(range(min = 0))]
     pub friction_angle: Option<f64>,
     /// Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Pa"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub cohesion: Option<f64>,
     /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
-    #[schemars(range(min = 0), extend("x-unit" = "m"))]
+    #[schemars(range(min = 0))]
     pub fibre_distance: Option<f64>,
     /// What a bond does after its limit.
     #[serde(default)]
@@ -324,7 +324,7 @@ pub struct Scatter {
     pub seed: Option<u64>,
     /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
     #[serde(default)]
-    #[schemars(range(min = 0), extend("x-unit" = "m"))]
+    #[schemars(range(min = 0))]
     pub correlation_length: f64,
 }
 

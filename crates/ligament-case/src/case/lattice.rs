@@ -30,14 +30,12 @@ pub struct LatticeSection {
     #[schemars(inner(range(min = 1)))]
     pub cells: [u32; 2],
     /// Side of the cells, or their sides `[dx, dy]`, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub spacing: Spacing,
     /// Lower left corner of the lattice, m.
     #[serde(default)]
-    #[schemars(extend("x-unit" = "m"))]
     pub corner: Point,
     /// Thickness of the body, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
     pub thickness: Option<f64>,
     /// Plane stress or plane strain.
     #[serde(default)]
@@ -61,10 +59,9 @@ pub struct Hole {
     /// A disk, m.
     pub circle: Option<Circle>,
     /// A rectangle by two opposite corners, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub rectangle: Option<Rectangle>,
     /// A polygon by its corners, three or more, m.
-    #[schemars(length(min = 3), extend("x-unit" = "m"))]
+    #[schemars(length(min = 3))]
     pub polygon: Option<Polygon>,
     /// Everything outside of a disk, m.
     pub outside: Option<Circle>,
@@ -88,12 +85,11 @@ pub struct CellSet {
     #[schemars(range(min = 1))]
     pub right: Option<u32>,
     /// Cells whose centre lies in a rectangle, by two opposite corners, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Rectangle>,
     /// Cells whose centre lies in a disk, m.
     pub circle: Option<Circle>,
     /// Cells whose centre lies in a polygon, by its corners, three or more, m.
-    #[schemars(length(min = 3), extend("x-unit" = "m"))]
+    #[schemars(length(min = 3))]
     pub polygon: Option<Polygon>,
 }
 
@@ -102,10 +98,9 @@ pub struct CellSet {
 #[serde(deny_unknown_fields)]
 pub struct Circle {
     /// Centre, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub centre: Point,
     /// Radius, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
 }
 
@@ -126,11 +121,9 @@ pub struct SolidLatticeSection {
     #[schemars(inner(range(min = 1)))]
     pub cells: [u32; 3],
     /// Sides of the cells `[dx, dy, dz]`, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub spacing: [f64; 3],
     /// Corner of the box with the lowest coordinates, m.
     #[serde(default)]
-    #[schemars(extend("x-unit" = "m"))]
     pub corner: [f64; 3],
     /// Holes: cells whose centre lies in one are removed, and bonds across it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -153,7 +146,6 @@ pub struct SolidHoleKeys {
     /// A cylinder with flat ends, m.
     pub cylinder: Option<Cylinder>,
     /// A box by two opposite corners `[[x, y, z], [x, y, z]]`, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<[[f64; 3]; 2]>,
     /// Everything outside of a ball, m.
     pub outside_sphere: Option<Sphere>,
@@ -185,7 +177,6 @@ pub struct SolidCellSetKeys {
     #[schemars(range(min = 1))]
     pub top: Option<u32>,
     /// Cells whose centre lies in a box, by two opposite corners, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<[[f64; 3]; 2]>,
     /// Cells whose centre lies in a ball, m.
     pub sphere: Option<Sphere>,
@@ -198,10 +189,9 @@ pub struct SolidCellSetKeys {
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Centre, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub centre: [f64; 3],
     /// Radius, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
 }
 
@@ -210,10 +200,9 @@ pub struct Sphere {
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Middles of its two ends, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub ends: [[f64; 3]; 2],
     /// Radius, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: f64,
 }
 

@@ -40,50 +40,40 @@ pub struct Load {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
     /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Corners>,
     /// The point nearest to `[x, y]`, in a solid to `[x, y, z]`, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub at: Option<Coordinates>,
     /// Prescribed displacements, m, rotation in rad.
     pub displacement: Option<Displacement>,
     /// Prescribed velocities in a motion, m/s, of the rotation rad/s.
-    #[schemars(transform = of_rates, extend("x-unit" = "m/s"))]
+    #[schemars(transform = of_rates)]
     pub velocity: Option<Displacement>,
     /// Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2.
-    #[schemars(transform = of_rates, extend("x-unit" = "m/s^2"))]
+    #[schemars(transform = of_rates)]
     pub base_acceleration: Option<Displacement>,
     /// A force in total over the points, N.
-    #[schemars(extend("x-unit" = "N"))]
     pub force: Option<Vector>,
     /// A force along the edges of a group, N/m.
-    #[schemars(extend("x-unit" = "N/m"))]
     pub force_per_length: Option<Vector>,
     /// A force over the surface of a group of a solid, N/m^2.
-    #[schemars(extend("x-unit" = "N/m^2"))]
     pub force_per_area: Option<Vector>,
     /// A force in the volume, N/m^3; on the whole body without a place.
-    #[schemars(extend("x-unit" = "N/m^3"))]
     pub body_force: Option<Vector>,
     /// An acceleration that acts on all masses, as gravity does, m/s^2; on the whole body without a place, and the materials need a
     /// `density`.
-    #[schemars(extend("x-unit" = "m/s^2"))]
     pub acceleration: Option<Vector>,
     /// A couple in total over the points, N m: counter-clockwise, in a solid `{ x = 0.0, y = 0.0, z = 1.0 }`, right-handed.
-    #[schemars(extend("x-unit" = "N m"))]
     pub moment: Option<Couple>,
     /// A couple in the volume, N m/m^3, as a `moment`; on the whole body without a place.
-    #[schemars(extend("x-unit" = "N m/m^3"))]
     pub body_couple: Option<Couple>,
     /// A pressure on the outline of a group, Pa; positive pushes on the body.
-    #[schemars(extend("x-unit" = "Pa"))]
     pub pressure: Option<f64>,
     /// How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table.
     pub profile: Option<Profile>,
     /// How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start.
     pub amplitude: Option<Amplitude>,
     /// Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "N/m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub stiffness: Option<f64>,
     /// Whether a `displacement` or `force` acts through a rigid platen that may tilt: it moves by the mean of its points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -99,10 +89,8 @@ pub struct Profile {
     /// The coordinate.
     pub along: Option<Axis>,
     /// Coordinate in the mesh file at which the load is zero, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub zero: Option<f64>,
     /// Coordinate in the mesh file at which it is as given, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub one: Option<f64>,
     /// A CSV file with the columns `x`, `y` (m; of a solid also `z`) and `factor`, with a row for each loaded point, from the folder of
     /// the case file.
@@ -250,19 +238,18 @@ pub struct Amplitude {
     /// A shape, from its start on.
     pub shape: Option<Shape>,
     /// Start of the shape, s; without it 0.
-    #[schemars(range(min = 0), extend("default" = 0.0, "x-unit" = "s"))]
+    #[schemars(range(min = 0), extend("default" = 0.0))]
     pub start: Option<f64>,
     /// Duration of the whole shape, s.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "s"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub duration: Option<f64>,
     /// Periods of a sine within its duration.
     #[schemars(range(min = 1), extend("default" = 1))]
     pub periods: Option<u32>,
     /// Time of the peak of a Ricker wavelet, s.
-    #[schemars(extend("x-unit" = "s"))]
     pub peak_time: Option<f64>,
     /// Frequency at which a Ricker wavelet has its most energy, Hz.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "Hz"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub frequency: Option<f64>,
 }
 
@@ -292,17 +279,13 @@ impl Amplitude {
         if let Some(file) = &mut self.file {
             complete_path(&key.child("file"), file, folder)?;
         }
-        match self.shape {
-            Some(Shape::Ricker) => Ok(()),
-            Some(shape) => {
-                self.start.get_or_insert(0.0);
-                if shape == Shape::Sine {
-                    self.periods.get_or_insert(1);
-                }
-                Ok(())
-            }
-            None => Ok(()),
+        if self.shape.is_some_and(|it| it != Shape::Ricker) {
+            self.start.get_or_insert(0.0);
         }
+        if self.shape == Some(Shape::Sine) {
+            self.periods.get_or_insert(1);
+        }
+        Ok(())
     }
 
     /// The factor, with its table.
@@ -329,41 +312,36 @@ impl Amplitude {
     fn shaped(&self, shape: Shape, key: &KeyPath) -> Result<Factor, KeyFault> {
         use load_program::Shape as S;
         let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing(key, name));
-        let of = |shape: S| {
-            let is_sine = matches!(shape, S::Sine { .. });
-            let reason = "it belongs to another shape";
-            let setting = format!("shape = \"{}\"", word_of(&self.shape));
-            refuse(key, self, &["peak_time", "frequency"], &setting, reason)?;
-            if !is_sine {
-                refuse(key, self, &["periods"], &setting, reason)?;
-            }
-            let duration = number("duration", self.duration)?;
-            let start = self.start.unwrap_or(0.0);
-            require(start >= 0.0, || key.child("start"), "at least 0", start)?;
-            Ok(Factor::pulse(shape, start, duration))
-        };
-        match shape {
-            Shape::Sine => {
-                let periods = self.periods.unwrap_or(1);
-                of(S::Sine { periods })
-            }
-            Shape::HalfSine => of(S::HalfSine),
-            Shape::Triangle => of(S::Triangle),
-            Shape::Rectangle => of(S::Rectangle),
-            Shape::Ramp => of(S::Ramp),
-            Shape::SmoothRamp => of(S::SmoothRamp),
+        let setting = format!("shape = \"{}\"", word_of(&shape));
+        let refuse = |keys: &[&'static str], reason| refuse(key, self, keys, &setting, reason);
+        let pulse = match shape {
+            Shape::Sine => S::Sine {
+                periods: self.periods.unwrap_or(1),
+            },
+            Shape::HalfSine => S::HalfSine,
+            Shape::Triangle => S::Triangle,
+            Shape::Rectangle => S::Rectangle,
+            Shape::Ramp => S::Ramp,
+            Shape::SmoothRamp => S::SmoothRamp,
             Shape::Ricker => {
                 let reason = "a wavelet has a `peak_time` and a `frequency`";
-                let setting = "shape = \"ricker\"";
-                let others = ["start", "duration", "periods"];
-                refuse(key, self, &others, setting, reason)?;
+                refuse(&["start", "duration", "periods"], reason)?;
                 let peak_time = number("peak_time", self.peak_time)?;
-                Ok(Factor::ricker(
-                    peak_time,
-                    number("frequency", self.frequency)?,
-                ))
+                let frequency = number("frequency", self.frequency)?;
+                return Ok(Factor::ricker(peak_time, frequency));
             }
+        };
+        let reason = "it belongs to another shape";
+        refuse(&["peak_time", "frequency"], reason)?;
+        if shape != Shape::Sine {
+            refuse(&["periods"], reason)?;
         }
+        let start = self.start.unwrap_or(0.0);
+        Ok(Factor::pulse(
+            pulse,
+            start,
+            number("duration", self.duration)?,
+        ))
     }
 }
 

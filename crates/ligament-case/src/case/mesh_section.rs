@@ -20,7 +20,7 @@ pub struct MeshSection {
     #[schemars(length(min = 1))]
     pub file: PathBuf,
     /// Thickness of a body in the plane, m; a mesh of solid cells has none.
-    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
     pub thickness: Option<f64>,
     /// Plane stress or plane strain of a body in the plane; a mesh of solid cells has none.
     #[schemars(extend("default" = "stress"))]

@@ -22,7 +22,7 @@ pub struct ModelSection {
     #[schemars(range(min = 1))]
     pub horizon_factor: Option<f64>,
     /// One horizon for all points, m, in the place of `horizon_factor`.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub horizon: Option<f64>,
     /// Whether bonds run through holes, slots and notches of a mesh, as if these were filled.
     #[serde(default)]
@@ -52,7 +52,7 @@ pub struct ModelSection {
     pub rotational_factor: Option<f64>,
     /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
     /// `rotational_factor`.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub cosserat_length: Option<f64>,
     /// How the bonds of `mbb-pd` resist their strains.
     pub form: Option<Form>,

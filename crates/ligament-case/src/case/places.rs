@@ -230,7 +230,6 @@ pub struct Region {
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
     pub group: Option<String>,
     /// The points in this rectangle, by two opposite corners `[[x, y], [x, y]]`, in a solid in this box, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub r#box: Option<Corners>,
 }
 

@@ -24,22 +24,20 @@ const SAME_ANGLE: f64 = 1e-9;
 #[schemars(extend("dependencies" = { "length": ["centre", "angle"], "angle": ["centre", "length"], "normal": ["centre", "radius"], "radius": ["centre", "normal"] }))]
 pub struct Precrack {
     /// Corners of the polyline, two or more `[x, y]`, m; in a solid of a plane polygon, three or more `[x, y, z]`.
-    #[schemars(length(min = 2), extend("x-unit" = "m"))]
+    #[schemars(length(min = 2))]
     pub points: Option<Vec<Coordinates>>,
     /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
     /// `radius`.
-    #[schemars(extend("x-unit" = "m"))]
     pub centre: Option<Coordinates>,
     /// From end to end of a straight crack, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: Option<f64>,
     /// From the x axis to a straight crack, counter-clockwise, rad.
-    #[schemars(extend("x-unit" = "rad"))]
     pub angle: Option<f64>,
     /// Normal of a disk in a solid.
     pub normal: Option<Coordinates>,
     /// Radius of a disk in a solid, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
     /// The faces of this physical surface of a solid mesh.
     pub group: Option<String>,

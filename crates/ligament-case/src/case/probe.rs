@@ -21,14 +21,11 @@ pub struct Probe {
     #[schemars(length(min = 1))]
     pub name: String,
     /// Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`.
-    #[schemars(extend("x-unit" = "m"))]
     pub between: Option<[Coordinates; 2]>,
     /// A position, m, at which a field is read between the points of the cell around it; with `field`.
-    #[schemars(extend("x-unit" = "m"))]
     pub at: Option<Coordinates>,
     /// A line, m, through which the bonds carry a force, N; in a solid a point of a plane and one before it along its normal; with
     /// `component`.
-    #[schemars(extend("x-unit" = "m"))]
     pub section: Option<[Coordinates; 2]>,
     /// The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
     pub component: Option<Component>,
