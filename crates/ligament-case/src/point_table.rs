@@ -151,15 +151,18 @@ pub fn text_of_points<const D: usize>(
             }
         }
     }
-    let mut text = header.join(",");
-    for ((position, size), members) in positions.iter().zip(sizes).zip(&members) {
-        text.push('\n');
+    let points = positions.iter().zip(sizes).zip(&members);
+    let rows = points.map(|((position, size), members)| {
         let numbers = position.iter().chain([size]).map(|it| format!("{it:?}"));
-        let all = numbers.chain(members.iter().map(char::to_string));
-        text.push_str(&all.collect::<Vec<_>>().join(","));
-    }
-    text.push('\n');
-    Ok(text)
+        numbers.chain(members.iter().map(char::to_string)).collect()
+    });
+    Ok(text_of_rows(&header, rows))
+}
+
+/// The text of a table.
+fn text_of_rows(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let header = header.join(",") + "\n";
+    rows.fold(header, |text, row| text + &row.join(",") + "\n")
 }
 
 /// The text of a table of values at positions, from which a case reads them.
@@ -168,15 +171,12 @@ pub fn text_of_samples<const D: usize>(
     positions: &[[f64; D]],
     values: &[f64],
 ) -> String {
-    let axes = AXES[..D].iter().copied().chain([column]);
-    let mut text = axes.collect::<Vec<_>>().join(",");
-    for (position, value) in positions.iter().zip(values) {
-        text.push('\n');
-        let numbers = position.iter().chain([value]).map(|it| format!("{it:?}"));
-        text.push_str(&numbers.collect::<Vec<_>>().join(","));
-    }
-    text.push('\n');
-    text
+    let header: Vec<&str> = AXES[..D].iter().copied().chain([column]).collect();
+    let rows = positions.iter().zip(values).map(|(position, value)| {
+        let numbers = position.iter().chain([value]);
+        numbers.map(|it| format!("{it:?}")).collect()
+    });
+    text_of_rows(&header, rows)
 }
 
 /// A row of a table: its line and values, which are words where nothing asks for numbers.

@@ -73,13 +73,13 @@ pub enum Control {
 }
 
 /// The load steps.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Steps {
     /// So many equal steps up to load factor 1.
-    Uniform(u32),
-    /// Load factors one after the other; where they fall, the body is unloaded.
-    Factors(Vec<f64>),
+    Uniform(#[schemars(range(min = 1, max = MOST_STEPS))] u32),
+    /// These load factors; where they fall, the body is unloaded.
+    Factors(#[schemars(length(min = 1))] Vec<f64>),
 }
 
 fn stepped() -> SteppedSettings {
@@ -195,24 +195,6 @@ impl<'de> Deserialize<'de> for Steps {
             Form::List(factors) => Ok(Self::Factors(factors)),
             other => Err(other.misfit(expected)),
         }
-    }
-}
-
-impl JsonSchema for Steps {
-    fn schema_name() -> Cow<'static, str> {
-        "Steps".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "anyOf": [
-                { "description": "So many equal steps up to load factor 1.", "type": "integer", "minimum": 1, "maximum": MOST_STEPS },
-                {
-                    "description": "These load factors; where they fall, the body is unloaded.",
-                    "type": "array", "items": { "type": "number" }, "minItems": 1,
-                },
-            ]
-        })
     }
 }
 

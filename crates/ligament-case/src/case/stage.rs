@@ -1,9 +1,8 @@
 //! `[[stage]]`: successive stages of the loading.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -60,15 +59,15 @@ pub enum Quantity {
 }
 
 /// The factors that a load goes to in a stage.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Factors {
     /// The factor at the end of the stage.
     End(f64),
     /// Factors at the ends of equal parts of the stage.
-    EqualParts(Vec<f64>),
-    /// Shares of the stage, 0 to 1, with the factors there.
-    Table(Vec<[f64; 2]>),
+    EqualParts(#[schemars(length(min = 1))] Vec<f64>),
+    /// Shares of the stage, ascending, more than 0 and at most 1, with the factors there.
+    Table(#[schemars(length(min = 1))] Vec<[f64; 2]>),
 }
 
 impl Stage {
@@ -165,36 +164,5 @@ impl<'de> Deserialize<'de> for Element {
             },
             other => Err(other.misfit(expected)),
         }
-    }
-}
-
-impl JsonSchema for Factors {
-    fn schema_name() -> Cow<'static, str> {
-        "Factors".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "anyOf": [
-                { "description": "The factor at the end of the stage.", "type": "number" },
-                {
-                    "description": "Factors at the ends of equal parts of the stage.",
-                    "type": "array",
-                    "minItems": 1,
-                    "items": { "type": "number" },
-                },
-                {
-                    "description": "Shares of the stage, ascending, more than 0 and at most 1, with the factors there.",
-                    "type": "array",
-                    "minItems": 1,
-                    "items": {
-                        "type": "array",
-                        "minItems": 2,
-                        "maxItems": 2,
-                        "items": { "type": "number" },
-                    },
-                },
-            ],
-        })
     }
 }
