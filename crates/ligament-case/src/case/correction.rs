@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{refuse, require};
-use super::word::{Word, Worded};
+use super::word::{Word, word_of};
 use ligament::setup::{self, Alpha, CorrectionDomain, Iteration, Law, Surface};
 use ligament_model::correction::StopRule;
 use ligament_model::correction::patch::{Reference, Settings};
@@ -60,7 +60,7 @@ impl Correction {
             "moment_weight",
             "regularisation",
         ];
-        let setting = format!("surface = \"{}\"", surface.word()[0]);
+        let setting = format!("surface = \"{}\"", word_of(&Word(surface)));
         let is_iterated = "only the domain correction is iterated";
         let is_patch = "only the patch correction has it";
         match surface {

@@ -3,15 +3,14 @@
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Form, each, missing, refuse, require};
-use super::word::{Word, word_of};
+use super::word::word_of;
 use ligament::setup::{self, Analysis};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::motion::StepBreakages;
-use ligament_model::failure::softening::Law;
-use ligament_model::failure::{After, Calibration, Choice, Kind, frictional};
+use ligament_model::failure::{Choice, Kind, frictional};
 use ligament_model::scatter::{self, Scattered};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
@@ -58,7 +57,7 @@ pub struct Fracture {
     /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
     #[serde(rename = "criterion")]
     #[schemars(length(min = 1))]
-    pub criteria: Option<Vec<Criterion>>,
+    pub criteria: Option<Vec<Choice>>,
 }
 
 /// What drives the load.
@@ -116,7 +115,11 @@ impl Fracture {
     ) -> Result<(), KeyFault> {
         let default: Kind = *law.row.criterion;
         let criteria = self.criteria.get_or_insert_with(|| vec![default.into()]);
-        criteria.iter_mut().for_each(Criterion::complete);
+        for choice in criteria.iter_mut() {
+            if choice.kind == frictional::FRICTIONAL && choice.limit.is_none() {
+                choice.calibration.get_or_insert_default();
+            }
+        }
         let (kind, key) = (default.word, || key.child("criterion"));
         let expected = format!("one criterion or more (without the key it is kind = \"{kind}\")");
         require(!criteria.is_empty(), key, &expected, [(); 0])
@@ -195,91 +198,6 @@ impl<'de> Deserialize<'de> for Steps {
             Form::List(factors) => Ok(Self::Factors(factors)),
             other => Err(other.misfit(expected)),
         }
-    }
-}
-
-/// A criterion of failure.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Criterion {
-    /// What fails, and where its limit comes from.
-    pub kind: Word<Kind>,
-    /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub limit: Option<f64>,
-    /// Stretch at which a bond without shear fails; of `mixed-mode`, with `critical_angle`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub critical_stretch: Option<f64>,
-    /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub critical_angle: Option<f64>,
-    /// How the limit of `frictional` comes from the strengths.
-    #[schemars(extend("default" = Calibration::default()))]
-    pub calibration: Option<Calibration>,
-    /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
-    /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
-    #[schemars(range(min = 0))]
-    pub friction_angle: Option<f64>,
-    /// Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub cohesion: Option<f64>,
-    /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
-    #[schemars(range(min = 0))]
-    pub fibre_distance: Option<f64>,
-    /// What a bond does after its limit.
-    #[serde(default)]
-    pub after: Word<Law>,
-    /// Deformation at which the force of `linear` (above 1) or `two-branch` (above 3) is gone, over that at the limit; without it so that the `fracture_energy` comes out.
-    #[schemars(extend("exclusiveMinimum" = 1))]
-    pub end: Option<f64>,
-    /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub scale: Option<f64>,
-}
-
-impl From<Kind> for Criterion {
-    fn from(kind: Kind) -> Self {
-        Self {
-            kind: Word(kind),
-            limit: None,
-            critical_stretch: None,
-            critical_angle: None,
-            calibration: None,
-            friction_angle: None,
-            cohesion: None,
-            fibre_distance: None,
-            after: Word::default(),
-            end: None,
-            scale: None,
-        }
-    }
-}
-
-impl Criterion {
-    /// Fills in missing keys.
-    pub(super) fn complete(&mut self) {
-        if self.kind.0 == frictional::FRICTIONAL && self.limit.is_none() {
-            self.calibration.get_or_insert_default();
-        }
-    }
-
-    pub(super) fn setup(&self, key: &KeyPath) -> Result<Choice, KeyFault> {
-        let keys = [("end", self.end), ("scale", self.scale)];
-        let after = After::from_keys(self.after.0, &keys).map_err(|unfit| {
-            let key = unfit.field().map_or(key.clone(), |it| key.child(it));
-            KeyFault::new(key, unfit)
-        })?;
-        Ok(Choice {
-            kind: self.kind.0,
-            limit: self.limit,
-            critical_stretch: self.critical_stretch,
-            critical_angle: self.critical_angle,
-            calibration: self.calibration,
-            friction_angle: self.friction_angle,
-            cohesion: self.cohesion,
-            fibre_distance: self.fibre_distance,
-            after,
-        })
     }
 }
 

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::values::{exactly_one, one_of, refuse};
-use super::word::Word;
 use ligament::setup::{Calibration, Form, Horizon, Law, Options, Strains};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::law::{BondLaw, LAWS};
@@ -17,7 +16,7 @@ use ligament_model::law::{BondLaw, LAWS};
 #[schemars(extend("oneOf" = exactly_one(&["horizon_factor", "horizon"])))]
 pub struct ModelSection {
     /// The bond law.
-    pub law: Word<Law>,
+    pub law: Law,
     /// Horizon of each point over the distance to its nearest neighbour, lambda; 3 is usual.
     #[schemars(range(min = 1))]
     pub horizon_factor: Option<f64>,
@@ -67,7 +66,7 @@ fn is_zero(value: &f64) -> bool {
 impl ModelSection {
     /// Sets the options of the law from the case, and missing keys of the case from the law.
     pub(super) fn complete(&mut self, key: &KeyPath) -> Result<(), KeyFault> {
-        let law = self.law.0.with(Options {
+        let law = self.law.with(Options {
             calibration: self.calibration,
             rotational_stiffness: self.rotational_stiffness,
             form: self.form,
@@ -89,7 +88,7 @@ impl ModelSection {
             };
             return Err(KeyFault::new(key.child(name), fault));
         }
-        self.law = Word(law);
+        self.law = law;
         self.calibration = law.options.calibration;
         self.rotational_stiffness = law.options.rotational_stiffness;
         self.form = law.options.form;

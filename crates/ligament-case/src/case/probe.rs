@@ -7,7 +7,6 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::places::Coordinates;
 use super::values::{exactly_one, one_of, require_column_name, required};
-use super::word::Word;
 use ligament::setup::{self, Axis, Reading};
 use ligament_analysis::Component;
 use ligament_analysis::probe::PointField;
@@ -30,7 +29,7 @@ pub struct Probe {
     /// The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
     pub component: Option<Component>,
     /// The field that is read `at` the position.
-    pub field: Option<Word<PointField>>,
+    pub field: Option<PointField>,
 }
 
 impl Probe {
@@ -93,7 +92,7 @@ impl Probe {
             let reason = "a probe `at` a point takes `field`, not `component`";
             return Err(KeyFault::new(key.child("component"), reason));
         }
-        let field = self.field.map(|it| it.0);
-        field.ok_or_else(|| required(key, "field", "with `at`, to say what to read"))
+        self.field
+            .ok_or_else(|| required(key, "field", "with `at`, to say what to read"))
     }
 }

@@ -20,7 +20,7 @@ use super::correction::Correction;
 use super::decode::decode;
 use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
-use super::fracture::{Control, Criterion, Distribution, Fracture};
+use super::fracture::{Control, Distribution, Fracture};
 use super::key_path::KeyPath;
 use super::keys::check_dimensions;
 use super::kind::BodyKind;
@@ -160,7 +160,7 @@ impl Case {
             temperature.complete(&temperatures.child(index), folder)?;
         }
         case.model.complete(&at("model"))?;
-        let law = case.model.law.0;
+        let law = case.model.law;
         case.correction.complete(&at("correction"), &law)?;
         if let Some(fracture) = &mut case.fracture {
             let (key, is_staged) = (at("fracture"), !case.stages.is_empty());
@@ -289,7 +289,7 @@ impl Case {
         document: &Node,
     ) -> Result<Setup, KeyFault> {
         let dimensions = body.dimensions();
-        let law = self.model.law.0;
+        let law = self.model.law;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;
         let setup = Setup {
@@ -329,11 +329,7 @@ impl Case {
             rigid_bodies: each(&at("rigid"), &self.rigid_bodies, |it, key| {
                 it.setup(key, dimensions, tables)
             })?,
-            criteria: each(
-                &at("fracture").child("criterion"),
-                criteria.flatten(),
-                Criterion::setup,
-            )?,
+            criteria: criteria.flatten().copied().collect(),
             scatter: (self.fracture.as_ref())
                 .and_then(|it| it.scatter.as_ref())
                 .map(|it| it.setup(&at("fracture").child("scatter")))
@@ -352,13 +348,13 @@ impl Case {
     /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys
     /// of the references; each text stands once.
     pub fn sources(&self) -> Vec<&'static str> {
-        let mut found = vec![self.model.law.0.row.source];
+        let mut found = vec![self.model.law.row.source];
         found.extend(self.correction.alpha.map(Alpha::source));
         found.extend(self.correction.surface.map(|it| it.0.source()));
         let fracture = self.fracture.as_ref();
         let criteria = fracture.and_then(|it| it.criteria.as_deref());
         for criterion in criteria.into_iter().flatten() {
-            found.extend([criterion.kind.0.source, criterion.after.0.source]);
+            found.extend([criterion.kind.source, criterion.after.source]);
         }
         let scatter = fracture.and_then(|it| it.scatter.as_ref());
         for scatter in scatter.iter().flat_map(|it| &it.0) {
@@ -428,7 +424,7 @@ impl Case {
 
     /// Checks conditions between sections that the setup does not check.
     fn check_across_sections(&self) -> Result<(), KeyFault> {
-        let law = self.model.law.0.row;
+        let law = self.model.law.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);
         let stress = at("output").child("stress");
         if self.far_field.is_some() && has_traction {

@@ -49,7 +49,7 @@ mod unfit;
 pub use basis::Basis;
 pub use choosing::criteria;
 pub use criterion::{Criteria, Criterion, Surroundings, Verdict};
-pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
+pub use kind::{Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::Measure;
 pub use measure::Weakened;
 pub use softening::{AfterLimit, Softened};

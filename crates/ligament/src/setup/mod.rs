@@ -175,7 +175,7 @@ impl Setup {
     /// Fracture energy G_c of all materials, J/m^2, where a criterion or a softening law spends it; `None` where they differ.
     pub fn spent_fracture_energy(&self) -> Option<f64> {
         let mut criteria = self.criteria.iter();
-        if !criteria.any(|it| it.spends_fracture_energy() || it.after.law.softens) {
+        if !criteria.any(|it| it.spends_fracture_energy() || it.after.softens) {
             return None;
         }
         let mut regions = self.materials.iter();
