@@ -10,6 +10,7 @@ use ligament_analysis::SetupError;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_mesh::AnyMesh;
 
+use crate::case::keys::check_dimensions;
 use crate::case::{CaseError, CaseFile};
 use crate::mesh_file::{MeshFileError, read_any_mesh, read_mesh};
 use crate::point_table::{self, Tables};
@@ -125,8 +126,8 @@ impl CaseFile {
     /// If a table of temperatures or of factors or an amplitude of a load cannot be read.
     pub fn setup_on(&self, body: AnyBody) -> Result<Setup, CaseError> {
         let dimensions = body.dimensions();
-        let tables = Tables::Read { dimensions };
-        let setup = self.case.setup_on(body, tables, &self.source.document);
+        let setup = self.case.setup_on(body, Tables::Read { dimensions });
+        let setup = setup.and_then(|it| check_dimensions(&self.source.document, it));
         setup.map_err(|fault| self.source.error(fault))
     }
 

@@ -8,7 +8,7 @@ use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::keys::check_ranges;
-use super::kind::BodyKind;
+use super::mesh_section::BodyKind;
 use super::resolved;
 use super::sections::Case;
 use super::source::Source;

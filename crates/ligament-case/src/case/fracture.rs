@@ -77,7 +77,8 @@ pub enum Control {
 pub enum Steps {
     /// So many equal steps up to load factor 1.
     Uniform(#[schemars(range(min = 1, max = MOST_STEPS))] u32),
-    /// These load factors; where they fall, the body is unloaded.
+    /// Load factors one after the other; where they fall, the body is unloaded.
+    #[schemars(description = "These load factors; where they fall, the body is unloaded.")]
     Factors(#[schemars(length(min = 1))] Vec<f64>),
 }
 

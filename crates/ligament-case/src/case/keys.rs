@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use ligament::setup::Setup;
 use ligament_model::case_type::{is_within, range_in_words};
 use serde_json::Value as Json;
 
@@ -70,10 +71,12 @@ pub(super) fn check_ranges(document: &Node) -> Result<(), KeyFault> {
     check_below(document, &SCHEMA, &KeyPath::default(), &in_range)
 }
 
-/// Refuses a document with coordinates, vectors or couples that a body in some dimensions does not have.
-pub(super) fn check_dimensions(document: &Node, dimensions: usize) -> Result<(), KeyFault> {
+/// The setup of a document, unless its body does not have the coordinates, vectors or couples of the document.
+pub(crate) fn check_dimensions(document: &Node, setup: Setup) -> Result<Setup, KeyFault> {
+    let dimensions = setup.body.dimensions();
     let check: Check = &|node, schema, key| in_dimensions(node, schema, key, dimensions);
-    check_below(document, &SCHEMA, &KeyPath::default(), check)
+    check_below(document, &SCHEMA, &KeyPath::default(), check)?;
+    Ok(setup)
 }
 
 /// Checks a value and those below it. Numbers in lists are left to the sections.

@@ -2,6 +2,7 @@
 
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::keys::check_dimensions;
 use super::mesh_section::MeshSection;
 use super::sections::Case;
 use super::source::Source;
@@ -37,7 +38,8 @@ impl Case {
     /// Checks the case for a solid or for a body in the plane.
     fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
         let body = self.stand_in(is_solid);
-        let setup = body.and_then(|it| self.setup_on(it, Tables::Unread, &source.document));
+        let setup = body.and_then(|it| self.setup_on(it, Tables::Unread));
+        let setup = setup.and_then(|it| check_dimensions(&source.document, it));
         let setup = setup.map_err(|fault| source.error(fault))?;
         (setup.check()).map_err(|error| self.located(source, error))
     }
@@ -77,13 +79,4 @@ fn of_other_kind(error: CaseError, mesh: &MeshSection) -> CaseError {
         key,
         fault: Box::new(Fault::Other(format!("{fault}; {advice}"))),
     }
-}
-
-/// A body in the plane, or a solid.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum BodyKind {
-    /// Body in the plane of x and y.
-    Plane,
-    /// Solid in space.
-    Solid,
 }

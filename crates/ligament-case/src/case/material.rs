@@ -43,11 +43,11 @@ pub struct Material {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Constants {
-    /// The same in all directions.
+    /// Constants that are the same in all directions.
     Isotropic(Isotropic),
-    /// With axes 1 and 2.
+    /// Constants with axes 1 and 2.
     Orthotropic(Orthotropic),
-    /// Without symmetry in the plane.
+    /// Constants without symmetry in the plane.
     Anisotropic(Anisotropic),
 }
 

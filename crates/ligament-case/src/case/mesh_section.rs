@@ -7,10 +7,18 @@ use serde::{Deserialize, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::kind::BodyKind;
 use super::values::{refuse, require};
 use crate::mesh_file::holds_solid;
 use ligament_model::Plane;
+
+/// A body in the plane, or a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// Body in the plane of x and y.
+    Plane,
+    /// Solid in space.
+    Solid,
+}
 
 /// The meshed body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]

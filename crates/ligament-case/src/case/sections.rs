@@ -22,12 +22,10 @@ use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
 use super::fracture::{Control, Distribution, Fracture};
 use super::key_path::KeyPath;
-use super::keys::check_dimensions;
-use super::kind::BodyKind;
 use super::lattice::{LatticeSection, SolidLatticeSection};
 use super::load::Load;
 use super::material::{self, Material};
-use super::mesh_section::MeshSection;
+use super::mesh_section::{BodyKind, MeshSection};
 use super::model::ModelSection;
 use super::not_with::{Settings, refuse_keys_without_effect};
 use super::places::{FarField, Region};
@@ -281,18 +279,13 @@ impl Case {
         missing.into_iter().chain(angles).collect()
     }
 
-    /// The setup of the case on a given body, in place of that of the case, with its tables; `document` is that of the case.
-    pub(crate) fn setup_on(
-        &self,
-        body: AnyBody,
-        tables: Tables,
-        document: &Node,
-    ) -> Result<Setup, KeyFault> {
+    /// The setup of the case on a given body, in place of that of the case, with its tables.
+    pub(crate) fn setup_on(&self, body: AnyBody, tables: Tables) -> Result<Setup, KeyFault> {
         let dimensions = body.dimensions();
         let law = self.model.law;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;
-        let setup = Setup {
+        Ok(Setup {
             section: self.section(&body),
             body,
             precracks: each(&at("precrack"), &self.precracks, |it, key| {
@@ -340,9 +333,7 @@ impl Case {
             solver: self.solver.setup(self.model.allow_unstable),
             threads: self.solver.threads.map(|threads| threads as usize),
             remarks: self.remarks(),
-        };
-        check_dimensions(document, dimensions)?;
-        Ok(setup)
+        })
     }
 
     /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys

@@ -198,9 +198,6 @@ crate::case_type! {
     }
 }
 
-#[cfg(feature = "case")]
-crate::worded_by_table! { Kind: super::KINDS, super::KINDS.into_iter().copied(), it => [it.word, it.words] }
-
 impl PartialEq for Kind {
     fn eq(&self, other: &Self) -> bool {
         self.word == other.word

@@ -76,5 +76,8 @@ pub static KINDS: [&Kind; 15] = [
     &printed::MIXED,
 ];
 
+#[cfg(feature = "case")]
+crate::worded_by_table! { Kind: KINDS, KINDS.into_iter().copied(), it => [it.word, it.words] }
+
 #[cfg(test)]
 mod block_tests;
