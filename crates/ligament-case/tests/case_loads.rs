@@ -6,7 +6,7 @@ use std::path::Path;
 
 use ligament::setup::{Action, Axis};
 use ligament_analysis::probe::PointField;
-use ligament_case::case::{CaseFile, Couple, Profile, StressField, Word};
+use ligament_case::case::{CaseFile, Couple, Profile, StressField};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 

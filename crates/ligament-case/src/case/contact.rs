@@ -7,9 +7,9 @@ use ligament_analysis::load_program;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::conditions::Amplitude;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::load::Amplitude;
 use super::places::{Coordinates, Vector};
 use super::values::{missing, refuse, require_column_name};
 use super::word::word_of;

@@ -1,9 +1,9 @@
 //! Faults of a setup in the terms of a case: at the responsible keys, with settings by their keys and words.
 
+use super::conditions::ACTIONS;
 use super::document::Node;
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::load::ACTIONS;
 use super::sections::Case;
 use super::source::Source;
 use super::word::{Word, word_of};
