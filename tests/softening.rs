@@ -9,7 +9,7 @@ use ligament_analysis::{Component, ControlKind, SetupError, Termination, fields}
 use ligament_model::failure::rankine::RANKINE as RANKINE_KIND;
 use ligament_model::failure::softening::exponential::LAST_FORCE;
 use ligament_model::failure::softening::{brittle, exponential, linear, plastic};
-use ligament_model::failure::{After, AfterLimit, Choice, Weakened};
+use ligament_model::failure::{AfterLimit, Choice, Weakened};
 use verification::bench::{self, Bench, Run};
 use verification::numbers::{damages, relative_error};
 use verification::trusses::{Rod, Truss};
@@ -560,10 +560,7 @@ fn mohr_coulomb_has_the_compressive_strength_whatever_the_fracture_energy() {
 /// Bonds that break at once at a principal stress are those of another criterion, and a life of their own would not take the fracture energy.
 #[test]
 fn rankine_softens_by_the_fracture_energy_alone() {
-    let choice = |law, parameter| Choice {
-        after: After { law, parameter },
-        ..RANKINE_KIND.into()
-    };
+    let choice = |law, parameter| Choice::from(RANKINE_KIND).with_softening(law, parameter);
     let field = |choice: Choice| choice.check(false).err().and_then(|it| it.field());
     assert_eq!(field(choice(brittle::LAW, None)), Some("after"));
     assert_eq!(field(choice(linear::LAW, Some(4.0))), Some("end"));

@@ -6,9 +6,9 @@ use ligament_analysis::Termination;
 use ligament_analysis::fields;
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 use ligament_model::failure::sliding::SLIDING;
+use ligament_model::failure::softening;
 use ligament_model::failure::softening::{exponential, linear, plastic};
 use ligament_model::failure::stretch::TENSION;
-use ligament_model::failure::{After, softening};
 use verification::numbers::{Random, damages, largest, relative_error};
 
 use super::image::Image;
@@ -231,11 +231,7 @@ fn a_load_the_other_way_is_no_end() {
         specimen.by_force = by_force;
         let criterion = Choice {
             limit: Some(1e3 * specimen.strain),
-            after: After {
-                law: linear::LAW,
-                parameter: Some(2.0),
-            },
-            ..Choice::from(TENSION)
+            ..Choice::from(TENSION).with_softening(linear::LAW, Some(2.0))
         };
         let analysis = Analysis::Stepped(stepped(vec![0.2, 0.1, -0.15, -0.3, 0.2]));
         let setup = specimen.torn(&Image::SAME, vec![criterion], analysis);
@@ -262,8 +258,7 @@ fn forces_and_energies_of_softening_runs_balance() {
         specimen.by_force = false;
         let choice = |kind, times: f64, law: softening::Law, parameter| Choice {
             limit: Some(times * specimen.strain),
-            after: After { law, parameter },
-            ..Choice::from(kind)
+            ..Choice::from(kind).with_softening(law, parameter)
         };
         let criteria = match seed % 3 {
             0 => vec![choice(TENSION, 1.0, linear::LAW, Some(6.0))],

@@ -8,11 +8,7 @@ use verification::repository;
 
 /// Files and folders named by a dimension, below `crates`, each with its reason: geometry that has another form in space. Nothing may be
 /// added without one.
-const GEOMETRIC: [(&str, &str); 12] = [
-    (
-        "ligament-case/src/case/solid_lattice_section.rs",
-        "keys of `[solid_lattice]`",
-    ),
+const GEOMETRIC: [(&str, &str); 11] = [
     (
         "ligament-cli/src/inspect/solid.rs",
         "words on solid cells and faces of a mesh",

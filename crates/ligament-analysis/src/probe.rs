@@ -195,6 +195,11 @@ impl PartialEq for PointField {
     }
 }
 
+#[cfg(feature = "case")]
+ligament_model::worded_by_table! {
+    PointField: PointField::ALL, PointField::ALL.into_iter(), it => [it.word, it.meaning]
+}
+
 impl PointField {
     /// SI unit of the field.
     pub fn unit(&self) -> &'static str {

@@ -30,55 +30,75 @@ pub(crate) fn holds_solid(bytes: &[u8]) -> Option<bool> {
     Some(header.split(',').map(name_of).any(|it| it == AXES[2]))
 }
 
-/// Reads the values of a column at their positions; as the error a description of the fault.
-pub(crate) fn samples(
-    path: &Path,
-    dimensions: usize,
-    [column, unit]: [&str; 2],
-) -> Result<Vec<Sample>, String> {
-    let names: Vec<String> = AXES[..dimensions]
-        .iter()
-        .map(|it| format!("`{it}`"))
-        .collect();
-    let expected = format!(
-        "the first row must name the columns {} (m) and `{column}`{unit}",
-        names.join(", ")
-    );
-    let table = Table::read(path, &expected)?;
-    let wanted = AXES[..dimensions].iter().copied().chain([column]);
-    let places: Vec<usize> = wanted.map(|it| table.place(it)).collect::<Result<_, _>>()?;
-    let (value, axes) = places.split_last().unwrap_or((&0, &[]));
-    let sample = |row: &Row| {
-        let mut position = [0.0; 3];
-        for (coordinate, &place) in position.iter_mut().zip(axes) {
-            *coordinate = table.number(row, place)?;
-        }
-        let value = table.number(row, *value)?;
-        Ok(Sample { position, value })
-    };
-    table.rows.iter().map(sample).collect()
+/// The tables that a case names.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Tables {
+    /// Tables that stay unread, and so without rows, where a substitute stands in for the body.
+    Unread,
+    /// Tables of positions in some dimensions.
+    Read {
+        /// Number of dimensions of the body.
+        dimensions: usize,
+    },
 }
 
-/// Reads an amplitude, whose times must grow from row to row; as the error a description of the fault.
-pub(crate) fn amplitude(path: &Path) -> Result<Amplitude, String> {
-    let expected = "the first row must name the columns `time` (s) and `factor`";
-    let table = Table::read(path, expected)?;
-    let (time, factor) = (table.place("time")?, table.place("factor")?);
-    let mut points: Vec<[f64; 2]> = Vec::with_capacity(table.rows.len());
-    for row in &table.rows {
-        let now = table.number(row, time)?;
-        if let Some([before, _]) = points.last().filter(|it| it[0] >= now) {
-            let reason = format!(
-                "the time {now:?} s is not later than that of the row before, {before:?} s"
-            );
-            return Err(at(path, row.line, &reason));
+impl Tables {
+    /// Reads the values of a column at their positions; as the error a description of the fault.
+    pub(crate) fn samples(
+        self,
+        path: &Path,
+        [column, unit]: [&str; 2],
+    ) -> Result<Vec<Sample>, String> {
+        let Self::Read { dimensions } = self else {
+            return Ok(Vec::new());
+        };
+        let names: Vec<String> = AXES[..dimensions]
+            .iter()
+            .map(|it| format!("`{it}`"))
+            .collect();
+        let expected = format!(
+            "the first row must name the columns {} (m) and `{column}`{unit}",
+            names.join(", ")
+        );
+        let table = Table::read(path, &expected)?;
+        let wanted = AXES[..dimensions].iter().copied().chain([column]);
+        let places: Vec<usize> = wanted.map(|it| table.place(it)).collect::<Result<_, _>>()?;
+        let (value, axes) = places.split_last().unwrap_or((&0, &[]));
+        let sample = |row: &Row| {
+            let mut position = [0.0; 3];
+            for (coordinate, &place) in position.iter_mut().zip(axes) {
+                *coordinate = table.number(row, place)?;
+            }
+            let value = table.number(row, *value)?;
+            Ok(Sample { position, value })
+        };
+        table.rows.iter().map(sample).collect()
+    }
+
+    /// Reads an amplitude, whose times must grow from row to row; as the error a description of the fault.
+    pub(crate) fn amplitude(self, path: &Path) -> Result<Amplitude, String> {
+        if let Self::Unread = self {
+            return Ok(Amplitude::constant());
         }
-        points.push([now, table.number(row, factor)?]);
+        let expected = "the first row must name the columns `time` (s) and `factor`";
+        let table = Table::read(path, expected)?;
+        let (time, factor) = (table.place("time")?, table.place("factor")?);
+        let mut points: Vec<[f64; 2]> = Vec::with_capacity(table.rows.len());
+        for row in &table.rows {
+            let now = table.number(row, time)?;
+            if let Some([before, _]) = points.last().filter(|it| it[0] >= now) {
+                let reason = format!(
+                    "the time {now:?} s is not later than that of the row before, {before:?} s"
+                );
+                return Err(at(path, row.line, &reason));
+            }
+            points.push([now, table.number(row, factor)?]);
+        }
+        if points.is_empty() {
+            return Err(at(path, table.line, "there is no row below the header"));
+        }
+        Ok(Amplitude::through(&points))
     }
-    if points.is_empty() {
-        return Err(at(path, table.line, "there is no row below the header"));
-    }
-    Ok(Amplitude::through(&points))
 }
 
 /// Lines of the rows of a table; none of a file that is no table.
@@ -131,15 +151,18 @@ pub fn text_of_points<const D: usize>(
             }
         }
     }
-    let mut text = header.join(",");
-    for ((position, size), members) in positions.iter().zip(sizes).zip(&members) {
-        text.push('\n');
+    let points = positions.iter().zip(sizes).zip(&members);
+    let rows = points.map(|((position, size), members)| {
         let numbers = position.iter().chain([size]).map(|it| format!("{it:?}"));
-        let all = numbers.chain(members.iter().map(char::to_string));
-        text.push_str(&all.collect::<Vec<_>>().join(","));
-    }
-    text.push('\n');
-    Ok(text)
+        numbers.chain(members.iter().map(char::to_string)).collect()
+    });
+    Ok(text_of_rows(&header, rows))
+}
+
+/// The text of a table.
+fn text_of_rows(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let header = header.join(",") + "\n";
+    rows.fold(header, |text, row| text + &row.join(",") + "\n")
 }
 
 /// The text of a table of values at positions, from which a case reads them.
@@ -148,15 +171,12 @@ pub fn text_of_samples<const D: usize>(
     positions: &[[f64; D]],
     values: &[f64],
 ) -> String {
-    let axes = AXES[..D].iter().copied().chain([column]);
-    let mut text = axes.collect::<Vec<_>>().join(",");
-    for (position, value) in positions.iter().zip(values) {
-        text.push('\n');
-        let numbers = position.iter().chain([value]).map(|it| format!("{it:?}"));
-        text.push_str(&numbers.collect::<Vec<_>>().join(","));
-    }
-    text.push('\n');
-    text
+    let header: Vec<&str> = AXES[..D].iter().copied().chain([column]).collect();
+    let rows = positions.iter().zip(values).map(|(position, value)| {
+        let numbers = position.iter().chain([value]);
+        numbers.map(|it| format!("{it:?}")).collect()
+    });
+    text_of_rows(&header, rows)
 }
 
 /// A row of a table: its line and values, which are words where nothing asks for numbers.

@@ -4,15 +4,16 @@ use std::sync::Arc;
 
 use ligament::body::AnyBody;
 use ligament::processes::partition_communicator;
-use ligament::setup::{Profile, Setup, TemperatureChange};
+use ligament::setup::Setup;
 use ligament::stage::{StageWatcher, stage};
 use ligament_analysis::SetupError;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_mesh::AnyMesh;
 
-use crate::case::{CaseError, CaseFile, lattice_keys};
+use crate::case::keys::check_dimensions;
+use crate::case::{CaseError, CaseFile};
 use crate::mesh_file::{MeshFileError, read_any_mesh, read_mesh};
-use crate::point_table;
+use crate::point_table::{self, Tables};
 
 impl CaseFile {
     /// The setup of the case, with its mesh and tables read from their files.
@@ -107,11 +108,11 @@ impl CaseFile {
                 Ok(AnyMesh::Plane(mesh).into())
             }
             (None, Some(section), _) => {
-                let body = stage(watcher, "lattice", || lattice_keys::body(section.grid()));
+                let body = stage(watcher, "lattice", || section.grid().body());
                 Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, Some(section)) => {
-                let body = stage(watcher, "lattice", || lattice_keys::body(section.grid()));
+                let body = stage(watcher, "lattice", || section.grid().body());
                 Ok(AnyBody::from(body.map_err(|it| self.source.error(it))?))
             }
             (None, None, None) => anyhow::bail!("the case has no body"),
@@ -125,39 +126,9 @@ impl CaseFile {
     /// If a table of temperatures or of factors or an amplitude of a load cannot be read.
     pub fn setup_on(&self, body: AnyBody) -> Result<Setup, CaseError> {
         let dimensions = body.dimensions();
-        let setup = self.case.setup_on(body);
-        let mut setup = setup.map_err(|fault| self.source.error(fault))?;
-        let unread = |list: &str, index: usize, key: &str| {
-            let key = format!("{list}.{index}.{key}");
-            move |reason: String| self.error(&key, reason)
-        };
-        for (index, section) in self.case.temperatures.iter().enumerate() {
-            if let Some(file) = &section.file {
-                let samples = point_table::samples(file, dimensions, ["change", " (K)"]);
-                let samples = samples.map_err(unread("temperature", index, "file"))?;
-                setup.temperatures[index].change = TemperatureChange::Table(samples);
-            }
-        }
-        for (index, section) in self.case.loads.iter().enumerate() {
-            if let Some(file) = section.profile.as_ref().and_then(|it| it.file.as_ref()) {
-                let samples = point_table::samples(file, dimensions, ["factor", ""]);
-                let samples = samples.map_err(unread("load", index, "profile.file"))?;
-                setup.loads[index].profile = Some(Profile::Table(samples));
-            }
-            if let Some(file) = section.amplitude.as_ref().and_then(|it| it.file.as_ref()) {
-                let amplitude = point_table::amplitude(file);
-                let amplitude = amplitude.map_err(unread("load", index, "amplitude.file"))?;
-                setup.loads[index].amplitude = Some(amplitude);
-            }
-        }
-        for (index, section) in self.case.rigid_bodies.iter().enumerate() {
-            if let Some(file) = section.amplitude.as_ref().and_then(|it| it.file.as_ref()) {
-                let amplitude = point_table::amplitude(file);
-                let amplitude = amplitude.map_err(unread("rigid", index, "amplitude.file"))?;
-                setup.rigid_bodies[index].amplitude = amplitude;
-            }
-        }
-        Ok(setup)
+        let setup = self.case.setup_on(body, Tables::Read { dimensions });
+        let setup = setup.and_then(|it| check_dimensions(&self.source.document, it));
+        setup.map_err(|fault| self.source.error(fault))
     }
 
     /// Number of threads of the case, if given.

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use ligament::setup::{Action, Axis};
 use ligament_analysis::probe::PointField;
-use ligament_case::case::{CaseFile, Couple, Profile, StressField, Word};
+use ligament_case::case::{CaseFile, Couple, Profile, StressField};
 
 const TEXT: &str = include_str!("data/brazilian-disk.toml");
 
@@ -144,7 +144,7 @@ fn stresses_are_asked_for_by_name() {
     let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_xy\"\n";
     let case = CaseFile::parse(Path::new("case.toml"), format!("{TEXT}{probe}"), &[]).unwrap();
     let at = [0.0, 0.0].into();
-    let field = Word(PointField::named("stress_xy").unwrap());
+    let field = PointField::named("stress_xy").unwrap();
     let probe = case.case.probes.last().unwrap();
     assert_eq!((probe.at, probe.field), (Some(at), Some(field)));
     let of_solids = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_principal.3\"\n";

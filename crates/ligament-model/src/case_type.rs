@@ -3,7 +3,7 @@
 /// A structure or a list of words that a case file reads as it is. With the feature `case` the type derives what serde and schemars need: its
 /// documentation describes it to users, and `#[case(...)]` adds attributes of the two. A variant is written as its name in kebab case. A number
 /// with a `#[range(...)]` lies within bounds, which stand as keywords of a JSON schema; after a semicolon words of their own may describe them.
-/// The schema has the range, and [`Ranged`] checks it in memory. A `#[unit(...)]` is that of the number.
+/// The schema has the range, and [`Ranged`] checks it in memory. The unit of a number stands in its documentation.
 ///
 /// ```text
 /// ligament_model::case_type! {
@@ -13,7 +13,6 @@
 ///     pub struct Damping {
 ///         /// alpha, 1/s: slow motions are damped most.
 ///         #[range("minimum" = 0)]
-///         #[unit("1/s")]
 ///         pub mass: f64,
 ///     }
 /// }
@@ -48,8 +47,7 @@ macro_rules! case_type {
         $(#[case($($of_type:tt)+)])*
         pub struct $name:ident {$(
             $(#[doc = $meaning:literal])*
-            $(#[range($($bound:literal = $limit:tt),+ $(; $words:literal)?)])?
-            $(#[unit($unit:literal)])?
+            $(#[range($($bound:literal = $limit:expr),+ $(; $words:literal)?)])?
             $(#[case($($of_key:tt)+)])*
             pub $key:ident: $value:ty,
         )+}
@@ -61,7 +59,6 @@ macro_rules! case_type {
         pub struct $name {$(
             $(#[doc = $meaning])*
             $(#[cfg_attr(feature = "case", schemars(extend($($bound = $limit),+)))])?
-            $(#[cfg_attr(feature = "case", schemars(extend("x-unit" = $unit)))])?
             $(#[cfg_attr(feature = "case", $($of_key)+)])*
             pub $key: $value,
         )+}

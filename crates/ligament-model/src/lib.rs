@@ -60,6 +60,8 @@ pub mod tensor;
 pub mod thermal;
 pub mod uniform_strain;
 mod vector_registers;
+#[cfg(feature = "case")]
+pub mod word;
 
 pub use advice::Advice;
 pub use bonds::{BondSet, Incidence};

@@ -13,27 +13,48 @@ pub(crate) use elasticity::{stress, stress_component};
 pub use expansion::Expansion;
 pub use waves::PlaneWaves;
 
-/// A linear elastic, brittle material.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Material {
-    /// Name of the material in the case file.
-    pub name: String,
-    /// Elastic constants of the material.
-    pub elasticity: Elasticity,
-    /// Tensile strength F_t, Pa.
-    pub tensile_strength: Option<f64>,
-    /// Compressive strength F_c, Pa, positive.
-    pub compressive_strength: Option<f64>,
-    /// Fracture energy G_c, J/m^2; where opening and sliding differ, the fracture energy of opening, G_Ic.
-    pub fracture_energy: Option<f64>,
-    /// Fracture energy of sliding, mode II, G_IIc, J/m^2; `None` where it equals that of opening.
-    pub fracture_energy_sliding: Option<f64>,
-    /// Exponent eta of the interpolation between both fracture energies (Benzeggagh and Kenane 1996).
-    pub mixed_mode_exponent: Option<f64>,
-    /// Mass density, kg/m^3.
-    pub density: Option<f64>,
-    /// Thermal expansion.
-    pub expansion: Option<Expansion>,
+crate::case_type! {
+    /// A linear elastic, brittle material. A case file gives its constants and its expansion by keys of their own.
+    #[derive(Debug, Clone, PartialEq)]
+    pub struct Material {
+        /// Name of the material in the case file.
+        #[case(serde(skip))]
+        pub name: String,
+        /// Elastic constants of the material.
+        #[case(serde(skip, default = "no_elasticity"))]
+        pub elasticity: Elasticity,
+        /// Tensile strength, Pa.
+        #[range("exclusiveMinimum" = 0)]
+        pub tensile_strength: Option<f64>,
+        /// Compressive strength, Pa, positive.
+        #[range("exclusiveMinimum" = 0)]
+        pub compressive_strength: Option<f64>,
+        /// Fracture energy of opening, J/m^2.
+        #[range("exclusiveMinimum" = 0)]
+        pub fracture_energy: Option<f64>,
+        /// Fracture energy of sliding where it is another, J/m^2; for `mixed-mode`.
+        #[range("exclusiveMinimum" = 0)]
+        pub fracture_energy_sliding: Option<f64>,
+        // The exponent of Benzeggagh and Kenane 1996.
+        /// Exponent eta between the two fracture energies; for `mixed-mode`.
+        #[range("exclusiveMinimum" = 0)]
+        pub mixed_mode_exponent: Option<f64>,
+        /// Mass density, kg/m^3; for natural modes.
+        #[range("exclusiveMinimum" = 0)]
+        pub density: Option<f64>,
+        /// Thermal expansion.
+        #[case(serde(skip))]
+        pub expansion: Option<Expansion>,
+    }
+}
+
+/// Constants in the place of those that are read by keys of their own.
+#[cfg(feature = "case")]
+fn no_elasticity() -> Elasticity {
+    Elasticity::Isotropic(Isotropic {
+        young: 0.0,
+        poisson: 0.0,
+    })
 }
 
 impl Material {

@@ -147,7 +147,7 @@ fn the_sections_are_read() {
     let first = &case.temperatures[0];
     assert_eq!((&first.group, first.r#box), (&None, None));
     assert_eq!(first.change, Some(50.0));
-    assert_eq!(case.materials[0].thermal_expansion, Some(1e-5));
+    assert_eq!(case.materials[0].expansion.thermal_expansion, Some(1e-5));
     let text = format!("{LATTICE}[[temperature]]\nbox = [[1, 2], [0, 1]]\nfile = \"a.csv\"\n");
     let case = parse_in(Path::new("/somewhere"), &text).unwrap();
     let second = &case.case.temperatures[1];
@@ -169,7 +169,7 @@ fn orthotropic_materials_have_coefficients_along_their_axes() {
     let axes = "thermal_expansion_1 = -1e-6\nthermal_expansion_2 = 3e-5";
     let text = text.replace("thermal_expansion = 1e-5", axes);
     let case = parse(&text).unwrap();
-    let material = &case.case.materials[0];
+    let material = &case.case.materials[0].expansion;
     let (one, two) = (material.thermal_expansion_1, material.thermal_expansion_2);
     assert_eq!((one, two), (Some(-1e-6), Some(3e-5)));
     assert_eq!(material.thermal_expansion_3, None);

@@ -175,7 +175,7 @@ fn of_constants(material: &Material, analysis: &Analysis) -> Vec<Message> {
 
 /// Whether opened bonds soften so that they dissipate the fracture energy.
 fn softens_by_energy(choice: &Choice) -> bool {
-    let Softening { softens, .. } = choice.after.law;
+    let Softening { softens, .. } = choice.after;
     let opens = choice.kind.measures.iter().any(|it| it.opens());
     softens && choice.parameter_from_energy().is_some() && opens
 }

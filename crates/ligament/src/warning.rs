@@ -79,7 +79,7 @@ pub(crate) fn of_model(
         warnings.extend(of_virial_stress(&setup.body.origin()));
     }
     warnings.extend(scatter_below_spacing(setup, points));
-    let mut laws = setup.criteria.iter().map(|it| it.after.law);
+    let mut laws = setup.criteria.iter().map(|it| it.after);
     if laws.any(|law| law == linear::BILINEAR) {
         warnings.push(Message::new(
             "one-line",

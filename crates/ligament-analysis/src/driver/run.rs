@@ -761,14 +761,12 @@ ligament_model::case_type! {
         pub load_fraction: Option<f64>,
         /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("m")]
         pub displacement: Option<f64>,
         /// When so many bonds are broken.
         #[range("minimum" = 1)]
         pub bonds: Option<usize>,
         /// After so much time, s.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("s")]
         pub wall_time: Option<f64>,
         /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
         pub negative_energy: bool,

@@ -58,7 +58,6 @@ case_type! {
     pub struct MotionSettings {
         /// Time at the end, s.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("s")]
         pub duration: f64,
         /// Rows of the history, at equal times.
         #[range("minimum" = 1, "maximum" = 1_000_000)]
@@ -70,7 +69,6 @@ case_type! {
         /// Time step, s; explicit steps without it are `safety` times the critical step of the body. It is shortened so that rows are at
         /// multiples of it, and implicit steps are halved where bonds break fast.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("s")]
         pub step: Option<f64>,
         /// Share of the critical step, beyond which explicit steps are unstable.
         #[range("exclusiveMinimum" = 0, "exclusiveMaximum" = 1;
@@ -124,11 +122,9 @@ case_type! {
     pub struct Damping {
         /// alpha, 1/s: slow motions are damped most.
         #[range("minimum" = 0; "at least 0: a negative damping would feed energy to the body")]
-        #[unit("1/s")]
         pub mass: f64,
         /// beta, s: fast motions are damped most; it shortens the critical step.
         #[range("minimum" = 0; "at least 0: a negative damping would feed energy to the body")]
-        #[unit("s")]
         pub stiffness: f64,
     }
 }
@@ -143,7 +139,6 @@ case_type! {
         pub bonds: Option<usize>,
         /// After so much time of the machine, s.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("s")]
         pub wall_time: Option<f64>,
     }
 }

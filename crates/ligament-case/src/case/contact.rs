@@ -7,13 +7,13 @@ use ligament_analysis::load_program;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::amplitude::Amplitude;
-use super::conditions::Vector;
-use super::coordinates::Coordinates;
+use super::conditions::Amplitude;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::places::{Coordinates, Vector};
 use super::values::{missing, refuse, require_column_name};
 use super::word::word_of;
+use crate::point_table::Tables;
 
 /// A rigid body that parts of the body meet.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -24,32 +24,27 @@ pub struct Rigid {
     /// Shape of the body.
     pub shape: RigidShape,
     /// Centre of the body at the start, of a wall a point of its surface, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub centre: Coordinates,
     /// Radius of a circle or sphere, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
     /// Outward normal of a wall.
     pub normal: Option<Coordinates>,
     /// Sides of a box, m.
-    #[schemars(extend("x-unit" = "m"))]
     pub size: Option<Coordinates>,
     /// Displacement at load factor 1, m; in statics.
-    #[schemars(extend("x-unit" = "m"))]
     pub displacement: Option<Vector>,
     /// Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`.
-    #[schemars(extend("x-unit" = "m/s"))]
     pub velocity: Option<Vector>,
     /// Factor of the velocity as a function of time; without it 1.
     pub amplitude: Option<Amplitude>,
     /// Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub mass: Option<f64>,
     /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "kg m^2"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub inertia: Option<f64>,
     /// Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2.
-    #[schemars(extend("x-unit" = "m/s^2"))]
     pub acceleration: Option<Vector>,
     /// Coefficient of Coulomb's friction.
     #[serde(default)]
@@ -95,19 +90,18 @@ impl Rigid {
         }
     }
 
-    /// The rigid body beside a body in some dimensions; an amplitude from a file is still without its rows.
-    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Rigid, KeyFault> {
-        let velocity = self
-            .velocity
-            .map(|it| it.for_body(&key.child("velocity"), dimensions));
-        let displacement = self
-            .displacement
-            .map(|it| it.for_body(&key.child("displacement"), dimensions));
-        let acceleration = self
-            .acceleration
-            .map(|it| it.for_body(&key.child("acceleration"), dimensions));
-        let amplitude = self.amplitude.as_ref();
-        let amplitude = amplitude.map(|it| it.setup(&key.child("amplitude")));
+    /// The rigid body beside a body in some dimensions, with its tables.
+    pub(super) fn setup(
+        &self,
+        key: &KeyPath,
+        dimensions: usize,
+        tables: Tables,
+    ) -> Result<setup::Rigid, KeyFault> {
+        let vector = |given: Option<Vector>| given.unwrap_or_default().position();
+        let amplitude = match &self.amplitude {
+            Some(amplitude) => amplitude.setup(&key.child("amplitude"), tables)?,
+            None => load_program::Amplitude::constant(),
+        };
         Ok(setup::Rigid {
             name: self.name.clone(),
             form: self.form(key, dimensions)?,
@@ -116,25 +110,25 @@ impl Rigid {
                 friction: self.friction,
                 stiffness: self.stiffness,
             },
-            displacement: displacement.transpose()?.unwrap_or_default(),
+            displacement: vector(self.displacement),
             cracks: self.cracks,
-            velocity: velocity.transpose()?.unwrap_or_default(),
-            amplitude: (amplitude.transpose()?).unwrap_or_else(load_program::Amplitude::constant),
+            velocity: vector(self.velocity),
+            amplitude,
             mass: self.mass,
             inertia: self.inertia,
-            acceleration: acceleration.transpose()?.unwrap_or_default(),
+            acceleration: vector(self.acceleration),
         })
     }
 
     fn form(&self, key: &KeyPath, dimensions: usize) -> Result<RigidForm, KeyFault> {
-        let centre = self.centre.for_body(&key.child("centre"), dimensions)?;
+        let centre = self.centre.position();
         let refuse = |keys: [&'static str; 2]| {
             let setting = format!("shape = \"{}\"", word_of(&self.shape));
             refuse(key, self, &keys, &setting, "it belongs to another shape")
         };
         let along = |name: &str, given: Option<Coordinates>| {
             let given = given.ok_or_else(|| missing(key, name))?;
-            given.for_body(&key.child(name), dimensions)
+            Ok(given.position())
         };
         match self.shape {
             RigidShape::Circle | RigidShape::Sphere => {

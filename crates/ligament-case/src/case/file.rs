@@ -4,11 +4,11 @@ use std::path::Path;
 
 use ligament::SetupError;
 
-use super::body_kind::BodyKind;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
 use super::keys::check_ranges;
+use super::mesh_section::BodyKind;
 use super::resolved;
 use super::sections::Case;
 use super::source::Source;

@@ -1,23 +1,21 @@
-//! `[fracture]`: breakage of bonds, and stop rules.
+//! `[fracture]`: breakage of bonds, failure criteria, strengths and energies that vary at random, and stop rules.
 
-use std::borrow::Cow;
-
+use super::fault::KeyFault;
+use super::key_path::KeyPath;
+use super::values::{Form, each, missing, refuse, require};
+use super::word::word_of;
 use ligament::setup::{self, Analysis};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::motion::StepBreakages;
-use ligament_model::failure::Kind;
+use ligament_model::failure::{Choice, Kind, frictional};
+use ligament_model::scatter::{self, Scattered};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{Error, Unexpected};
-use serde::{Deserialize, Deserializer, Serialize};
-
-use super::criterion::Criterion;
-use super::fault::KeyFault;
-use super::key_path::KeyPath;
-use super::scatter::Scatters;
-use super::values::{Numbers, missing, numbers, require};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 
 /// Largest number of equal load steps, and of parts of one: each has a row in the history.
 const MOST_STEPS: u32 = 1_000_000;
@@ -59,7 +57,7 @@ pub struct Fracture {
     /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
     #[serde(rename = "criterion")]
     #[schemars(length(min = 1))]
-    pub criteria: Option<Vec<Criterion>>,
+    pub criteria: Option<Vec<Choice>>,
 }
 
 /// What drives the load.
@@ -74,13 +72,14 @@ pub enum Control {
 }
 
 /// The load steps.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Steps {
     /// So many equal steps up to load factor 1.
-    Uniform(u32),
+    Uniform(#[schemars(range(min = 1, max = MOST_STEPS))] u32),
     /// Load factors one after the other; where they fall, the body is unloaded.
-    Factors(Vec<f64>),
+    #[schemars(description = "These load factors; where they fall, the body is unloaded.")]
+    Factors(#[schemars(length(min = 1))] Vec<f64>),
 }
 
 fn stepped() -> SteppedSettings {
@@ -117,7 +116,11 @@ impl Fracture {
     ) -> Result<(), KeyFault> {
         let default: Kind = *law.row.criterion;
         let criteria = self.criteria.get_or_insert_with(|| vec![default.into()]);
-        criteria.iter_mut().for_each(Criterion::complete);
+        for choice in criteria.iter_mut() {
+            if choice.kind == frictional::FRICTIONAL && choice.limit.is_none() {
+                choice.calibration.get_or_insert_default();
+            }
+        }
         let (kind, key) = (default.word, || key.child("criterion"));
         let expected = format!("one criterion or more (without the key it is kind = \"{kind}\")");
         require(!criteria.is_empty(), key, &expected, [(); 0])
@@ -187,36 +190,132 @@ impl Steps {
 impl<'de> Deserialize<'de> for Steps {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let expected = "a whole number of load steps or a list of load factors";
-        let unfit = |found| Err(D::Error::invalid_type(found, &expected));
-        match numbers(deserializer, expected)? {
-            Numbers::Integer(0) => Err(D::Error::custom("must be at least 1, found 0")),
-            Numbers::Integer(count) if count > i64::from(MOST_STEPS) => Err(D::Error::custom(
+        match Form::<f64>::read(deserializer, expected)? {
+            Form::Number(_, Some(0)) => Err(D::Error::custom("must be at least 1, found 0")),
+            Form::Number(_, Some(count)) if count > i64::from(MOST_STEPS) => Err(D::Error::custom(
                 format_args!("must be at most {MOST_STEPS}, found {count}"),
             )),
-            Numbers::Integer(count) => match u32::try_from(count) {
-                Ok(count) => Ok(Self::Uniform(count)),
-                Err(_) => unfit(Unexpected::Signed(count)),
-            },
-            Numbers::Float(number) => unfit(Unexpected::Float(number)),
-            Numbers::List(factors) => Ok(Self::Factors(factors)),
+            Form::Number(_, Some(count)) if count > 0 => Ok(Self::Uniform(count as u32)),
+            Form::List(factors) => Ok(Self::Factors(factors)),
+            other => Err(other.misfit(expected)),
         }
     }
 }
 
-impl JsonSchema for Steps {
-    fn schema_name() -> Cow<'static, str> {
-        "Steps".into()
+/// Properties that vary at random: one as a table, several as a list of tables.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scatters(pub Vec<Scatter>);
+
+/// A property that varies over the body at random, by a factor with the mean 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Scatter {
+    /// What varies.
+    pub of: Scattered,
+    /// Distribution of the factors.
+    #[serde(default)]
+    pub distribution: Distribution,
+    /// Weibull modulus; of `weibull`: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %.
+    #[schemars(range(min = 1, max = 10_000))]
+    pub modulus: Option<f64>,
+    /// Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`.
+    #[schemars(range(max = 10), extend("exclusiveMinimum" = 0))]
+    pub deviation: Option<f64>,
+    /// Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's.
+    pub seed: Option<u64>,
+    /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
+    #[serde(default)]
+    #[schemars(range(min = 0))]
+    pub correlation_length: f64,
+}
+
+/// Distribution of the factors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum Distribution {
+    /// Weibull's with two parameters, by its `modulus`.
+    #[default]
+    Weibull,
+    /// Normal with a `deviation`, cut off at four of them.
+    Normal,
+    /// Lognormal with a `deviation`.
+    Lognormal,
+}
+
+impl Scatter {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<scatter::Scatter, KeyFault> {
+        let (own, other, reason) = match self.distribution {
+            Distribution::Weibull => (
+                "modulus",
+                "deviation",
+                "its deviation comes from its modulus",
+            ),
+            Distribution::Normal | Distribution::Lognormal => {
+                ("deviation", "modulus", "it has a `deviation`")
+            }
+        };
+        let setting = format!("distribution = \"{}\"", word_of(&self.distribution));
+        refuse(key, self, &[other], &setting, reason)?;
+        let given = self.modulus.or(self.deviation);
+        let given = given.ok_or_else(|| missing(key, own))?;
+        Ok(scatter::Scatter {
+            of: self.of,
+            distribution: match self.distribution {
+                Distribution::Weibull => scatter::Distribution::Weibull { modulus: given },
+                Distribution::Normal => scatter::Distribution::Normal { deviation: given },
+                Distribution::Lognormal => scatter::Distribution::Lognormal { deviation: given },
+            },
+            seed: self.seed,
+            correlation_length: self.correlation_length,
+        })
+    }
+}
+
+impl Scatters {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<Vec<scatter::Scatter>, KeyFault> {
+        match &self.0[..] {
+            [one] => Ok(vec![one.setup(key)?]),
+            all => each(key, all, Scatter::setup),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Scatters {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let expected = "a table with the property that varies, or a list of such tables";
+        let mut all = match Form::<Scatter, Scatter>::read(deserializer, expected)? {
+            Form::Table(one) => vec![one],
+            Form::List(all) => all,
+            other => return Err(other.misfit(expected)),
+        };
+        match all.first_mut() {
+            Some(first) => first.seed.get_or_insert_default(),
+            None => return Err(D::Error::invalid_length(0, &expected)),
+        };
+        Ok(Self(all))
+    }
+}
+
+impl Serialize for Scatters {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match &self.0[..] {
+            [one] => one.serialize(serializer),
+            all => all.serialize(serializer),
+        }
+    }
+}
+
+impl JsonSchema for Scatters {
+    fn inline_schema() -> bool {
+        true
     }
 
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "anyOf": [
-                { "description": "So many equal steps up to load factor 1.", "type": "integer", "minimum": 1, "maximum": MOST_STEPS },
-                {
-                    "description": "These load factors; where they fall, the body is unloaded.",
-                    "type": "array", "items": { "type": "number" }, "minItems": 1,
-                },
-            ]
-        })
+    fn schema_name() -> Cow<'static, str> {
+        "Scatters".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let one = generator.subschema_for::<Scatter>();
+        json_schema!({ "anyOf": [one, { "type": "array", "items": one, "minItems": 1 }] })
     }
 }

@@ -3,6 +3,7 @@
 
 use std::sync::LazyLock;
 
+use ligament::setup::Setup;
 use ligament_model::case_type::{is_within, range_in_words};
 use serde_json::Value as Json;
 
@@ -62,39 +63,93 @@ fn below<'a>(schema: &'a Json, part: &str) -> Option<&'a Json> {
     table["properties"].get(part).or_else(names)
 }
 
+/// Check of a value with its schema and key.
+type Check<'a> = &'a dyn Fn(&Node, &Json, &KeyPath) -> Result<(), KeyFault>;
+
 /// Refuses a document with a number out of the range of its key.
 pub(super) fn check_ranges(document: &Node) -> Result<(), KeyFault> {
-    check_below(document, &SCHEMA, &KeyPath::default())
+    check_below(document, &SCHEMA, &KeyPath::default(), &in_range)
 }
 
-fn check_below(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault> {
+/// The setup of a document, unless its body does not have the coordinates, vectors or couples of the document.
+pub(crate) fn check_dimensions(document: &Node, setup: Setup) -> Result<Setup, KeyFault> {
+    let dimensions = setup.body.dimensions();
+    let check: Check = &|node, schema, key| in_dimensions(node, schema, key, dimensions);
+    check_below(document, &SCHEMA, &KeyPath::default(), check)?;
+    Ok(setup)
+}
+
+/// Checks a value and those below it. Numbers in lists are left to the sections.
+fn check_below(node: &Node, schema: &Json, key: &KeyPath, check: Check) -> Result<(), KeyFault> {
+    check(node, schema, key)?;
     let child = |node: &Node, part: &str| match below(schema, part) {
-        Some(schema) => check_below(node, schema, &key.child(part)),
+        Some(schema) => check_below(node, schema, &key.child(part), check),
         None => Ok(()),
     };
-    let (number, found) = match &node.value {
+    match &node.value {
         Value::Table(entries) => {
             let mut entries = entries.iter();
-            return entries.try_for_each(|entry| child(&entry.node, &entry.key));
+            entries.try_for_each(|entry| child(&entry.node, &entry.key))
         }
         Value::List(nodes) => {
-            // A list of numbers is checked by its section.
-            let tables = nodes.iter().enumerate();
-            let mut tables = tables.filter(|(_, node)| matches!(node.value, Value::Table(_)));
-            return tables.try_for_each(|(place, node)| child(node, &place.to_string()));
+            let mut nodes = nodes.iter().enumerate();
+            nodes.try_for_each(|(place, node)| match node.number() {
+                Some(_) => Ok(()),
+                None => child(node, &place.to_string()),
+            })
         }
-        Value::Integer(number) if schema["type"] == "integer" => {
-            (*number as f64, number.to_string())
-        }
-        Value::Integer(number) => (*number as f64, format!("{:?}", *number as f64)),
-        Value::Float(number) if number.is_finite() => (*number, format!("{number:?}")),
-        Value::Float(_) | Value::String(_) | Value::Boolean(_) | Value::Date => return Ok(()),
+        _ => Ok(()),
+    }
+}
+
+fn in_range(node: &Node, schema: &Json, key: &KeyPath) -> Result<(), KeyFault> {
+    let Some(number) = node.number().filter(|it| it.is_finite()) else {
+        return Ok(());
     };
     match range_of(schema) {
-        Some(expected) if !is_within(number, bounds(schema)) => Err(KeyFault::new(
-            key.clone(),
-            Fault::out_of_range(expected, found),
-        )),
+        Some(expected) if !is_within(number, bounds(schema)) => {
+            let found = match node.value {
+                Value::Integer(number) if schema["type"] == "integer" => number.to_string(),
+                _ => format!("{number:?}"),
+            };
+            let fault = Fault::out_of_range(expected, found);
+            Err(KeyFault::new(key.clone(), fault))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn in_dimensions(
+    node: &Node,
+    schema: &Json,
+    key: &KeyPath,
+    dimensions: usize,
+) -> Result<(), KeyFault> {
+    let is_coordinates = schema["minItems"] == 2 && schema["maxItems"] == 3;
+    let table = table_of(schema);
+    let components = table["properties"].as_object();
+    let is_vector = components.is_some_and(|it| it.keys().eq(["x", "y", "z"]));
+    let is_couple = is_vector && table != schema;
+    let refuse = |reason: &str| Err(KeyFault::new(key.clone(), reason));
+    match (&node.value, dimensions) {
+        (Value::List(found), _) if is_coordinates && found.len() != dimensions => {
+            let body = match dimensions {
+                2 => "a body in the plane takes two coordinates, [x, y]",
+                _ => "a solid takes three coordinates, [x, y, z]",
+            };
+            let found: Vec<f64> = found.iter().filter_map(Node::number).collect();
+            refuse(&format!("{body}, found {found:?}"))
+        }
+        (Value::Integer(_) | Value::Float(_), 3) if is_couple => {
+            refuse("a couple in a solid turns about an axis: give a vector, { z = 1.0 }")
+        }
+        (Value::Table(_), 2) if is_couple => {
+            refuse("a couple in the plane turns about z: give a number")
+        }
+        (Value::Table(_), 2) if is_vector && node.get("z").is_some() => {
+            let reason = "a body in the plane has no z";
+            Err(KeyFault::new(key.child("z"), reason))
+        }
         _ => Ok(()),
     }
 }

@@ -2,10 +2,12 @@
 
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
+use super::keys::check_dimensions;
 use super::mesh_section::MeshSection;
 use super::sections::Case;
 use super::source::Source;
 use crate::mesh_file::{MeshFileError, read_any_mesh};
+use crate::point_table::Tables;
 
 impl Case {
     /// Checks the case on a substitute for its body. For a case that would fit a body of the other kind, the error states the kind of the
@@ -35,10 +37,11 @@ impl Case {
 
     /// Checks the case for a solid or for a body in the plane.
     fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
-        let setup = self.stand_in(is_solid).and_then(|body| self.setup_on(body));
-        let checked = setup.map(|setup| setup.check());
-        let checked = checked.map_err(|fault| source.error(fault))?;
-        checked.map_err(|error| self.located(source, error))
+        let body = self.stand_in(is_solid);
+        let setup = body.and_then(|it| self.setup_on(it, Tables::Unread));
+        let setup = setup.and_then(|it| check_dimensions(&source.document, it));
+        let setup = setup.map_err(|fault| source.error(fault))?;
+        (setup.check()).map_err(|error| self.located(source, error))
     }
 }
 

@@ -1,16 +1,19 @@
-//! Conversion of faulty fields of a setup to the responsible keys of the case.
+//! Faults of a setup in the terms of a case: at the responsible keys, with settings by their keys and words.
 
-use ligament::error::Fault as SetupFault;
-use ligament::{Field, SetupError};
-
+use super::conditions::ACTIONS;
 use super::document::Node;
 use super::fault::{CaseError, Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::load::ACTIONS;
 use super::sections::Case;
-use super::setting;
 use super::source::Source;
+use super::word::{Word, word_of};
 use crate::point_table;
+use ligament::error::Fault as SetupFault;
+use ligament::setup::setting::Setting;
+use ligament::{Field, SetupError};
+use ligament_model::failure::{self, Unfit};
+use ligament_model::law::{BondLaw, listed};
+use serde::Serialize;
 
 /// Parts of the elements of a setup's lists, each with the keys by which a case may give it; the last key is named where none is given.
 const PARTS: [(&str, &[&str]); 5] = [
@@ -46,7 +49,7 @@ impl Case {
                     _ => "",
                 },
             },
-            SetupFault::Contradiction(reason) => Fault::Other(reason.said(setting::of_setup)),
+            SetupFault::Contradiction(reason) => Fault::Other(reason.said(of_setup)),
             SetupFault::NothingHappens => {
                 "there is no [[load]] and no change of temperature, so nothing would happen".into()
             }
@@ -152,5 +155,56 @@ fn key_of_material(part: &'static str) -> &'static str {
         "expansion" => "thermal_expansion",
         "expansion.across" => "thermal_expansion_3",
         part => part.trim_start_matches("elasticity."),
+    }
+}
+
+/// A setting of a setup in the form of a case.
+fn of_setup(setting: &Setting) -> String {
+    match setting {
+        Setting::Law(laws) => format!("model.law = {}", listed(laws, BondLaw::quoted)),
+        Setting::Calibration(it) => format!("model.calibration = {}", quoted(it)),
+        Setting::RotationalStiffness(it) => format!("rotational_stiffness = {}", quoted(it)),
+        Setting::Strains(it) => format!("strains = {}", quoted(it)),
+        Setting::Form(it) => quoted(it),
+        Setting::Alpha(it) => quoted(it),
+        Setting::Surface(it) => quoted(&Word(*it)),
+        Setting::Domain(it) => quoted(it),
+        Setting::Scattered(it) => quoted(it),
+        Setting::Lattice => "[lattice] in the place of [mesh]".to_owned(),
+        Setting::Volumes => "`group`, `box`, or neither for the whole body".to_owned(),
+    }
+}
+
+fn quoted(value: &impl Serialize) -> String {
+    format!("\"{}\"", word_of(value))
+}
+
+/// A setting of a criterion in the form of a case.
+fn of_criterion(setting: &failure::Setting) -> String {
+    use failure::Setting as S;
+    match setting {
+        S::Field(_) => setting.to_string(),
+        S::Criterion(word) => format!("kind = \"{word}\""),
+        S::OneOfCriteria(_) => format!("{setting} of [fracture]"),
+        S::FailureBy(word) => {
+            format!("the case has a [fracture] section with the criterion \"{word}\"")
+        }
+        S::After(word) => format!("after = \"{word}\""),
+        S::ExactPath => "control = \"event\"".to_owned(),
+        S::LoadSteps => "load steps (`steps`)".to_owned(),
+    }
+}
+
+impl From<Unfit> for Fault {
+    fn from(unfit: Unfit) -> Self {
+        match unfit {
+            Unfit::Missing { field, reason } => Self::Required {
+                key: field,
+                reason: reason.said(of_criterion),
+            },
+            Unfit::NotWith { .. } | Unfit::OutOfRange { .. } | Unfit::WithAxes { .. } => {
+                Self::Other(unfit.said(of_criterion))
+            }
+        }
     }
 }

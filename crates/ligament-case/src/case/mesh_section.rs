@@ -5,12 +5,20 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::body_kind::BodyKind;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{refuse, require};
 use crate::mesh_file::holds_solid;
 use ligament_model::Plane;
+
+/// A body in the plane, or a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BodyKind {
+    /// Body in the plane of x and y.
+    Plane,
+    /// Solid in space.
+    Solid,
+}
 
 /// The meshed body.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,7 +28,7 @@ pub struct MeshSection {
     #[schemars(length(min = 1))]
     pub file: PathBuf,
     /// Thickness of a body in the plane, m; a mesh of solid cells has none.
-    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
     pub thickness: Option<f64>,
     /// Plane stress or plane strain of a body in the plane; a mesh of solid cells has none.
     #[schemars(extend("default" = "stress"))]

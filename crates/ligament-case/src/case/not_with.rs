@@ -34,6 +34,8 @@ struct NotWith {
 enum With {
     /// One of some analyses.
     Analysis(&'static [Analysis]),
+    /// One of some schemes of a motion.
+    Scheme(&'static [Scheme]),
     /// Words of a setting, and whether a case has it.
     Setting(&'static str, fn(&Settings) -> bool),
 }
@@ -44,14 +46,9 @@ const EVENT: With = With::Setting("control = \"event\"", |it| {
     it.scheme.is_none() && it.control == Some(Control::Event)
 });
 const STAGES: With = With::Setting("[[stage]]", |it| it.scheme.is_none() && it.has_stages);
-const EXPLICIT: With = With::Setting("motion.scheme = \"explicit\"", |it| {
-    it.scheme == Some(Scheme::Explicit)
-});
+const EXPLICIT: With = With::Scheme(&[Scheme::Explicit]);
 
-const FREE: &str = "modes are free vibrations without loads";
-const STABLE: &str = "implicit steps are stable at any length";
-
-const NOT_WITH: [NotWith; 20] = [
+const NOT_WITH: [NotWith; 19] = [
     row(
         With::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Motion]),
         ("", &["modal"]),
@@ -73,7 +70,11 @@ const NOT_WITH: [NotWith; 20] = [
         ("", &["load"]),
         "modes are free vibrations without loads; supports hold",
     ),
-    row(MODAL, ("", &["temperature", "stage", "curve"]), FREE),
+    row(
+        MODAL,
+        ("", &["temperature", "stage", "curve"]),
+        "modes are free vibrations without loads",
+    ),
     row(MODAL, ("", &["probe"]), "modes have no history to read"),
     row(
         MODAL,
@@ -130,30 +131,19 @@ const NOT_WITH: [NotWith; 20] = [
         "explicit steps solve no equations",
     ),
     row(
-        With::Setting("scheme = \"explicit\"", |it| {
-            it.scheme == Some(Scheme::Explicit)
-        }),
+        EXPLICIT,
         ("motion", &["dissipation", "statics"]),
         "explicit steps take no energy and follow no equilibria",
     ),
     row(
-        With::Setting("scheme = \"implicit\"", |it| {
-            it.scheme == Some(Scheme::Implicit)
-        }),
+        With::Scheme(&[Scheme::Implicit]),
         ("motion", &["statics"]),
         "all implicit steps have inertia; those of the scheme \"auto\" have it where the body loses its balance",
     ),
     row(
-        With::Setting("scheme = \"implicit\"", |it| {
-            it.scheme == Some(Scheme::Implicit)
-        }),
+        With::Scheme(&[Scheme::Implicit, Scheme::Auto]),
         ("motion", &["safety"]),
-        STABLE,
-    ),
-    row(
-        With::Setting("scheme = \"auto\"", |it| it.scheme == Some(Scheme::Auto)),
-        ("motion", &["safety"]),
-        STABLE,
+        "implicit steps are stable at any length",
     ),
     row(
         EVENT,
@@ -189,15 +179,24 @@ const fn row(
     }
 }
 
-impl With {
+impl NotWith {
     /// The words of the setting, if a case with these settings has it.
     fn among(&self, settings: &Settings) -> Option<String> {
-        match self {
-            Self::Analysis(any) => {
+        match self.with {
+            With::Analysis(any) => {
                 let analysis = settings.analysis.filter(|it| any.contains(it))?;
                 Some(format!("analysis = \"{}\"", word_of(&analysis)))
             }
-            Self::Setting(words, holds) => holds(settings).then(|| (*words).to_owned()),
+            With::Scheme(any) => {
+                let scheme = settings.scheme.filter(|it| any.contains(it))?;
+                let section = if self.section == "motion" {
+                    ""
+                } else {
+                    "motion."
+                };
+                Some(format!("{section}scheme = \"{}\"", word_of(&scheme)))
+            }
+            With::Setting(words, holds) => holds(settings).then(|| words.to_owned()),
         }
     }
 }
@@ -219,7 +218,7 @@ pub(super) fn refuse_keys_without_effect(
         let Some(&key) = row.keys.iter().find(is_given) else {
             continue;
         };
-        if let Some(setting) = row.with.among(settings) {
+        if let Some(setting) = row.among(settings) {
             let reason = row.reason;
             let fault = Fault::NotWith {
                 key,
@@ -236,8 +235,6 @@ pub(super) fn refuse_keys_without_effect(
 pub(super) fn keys_without_effect(
     settings: &Settings,
 ) -> impl Iterator<Item = (&'static str, &'static str)> {
-    let rows = NOT_WITH
-        .iter()
-        .filter(|it| it.with.among(settings).is_some());
+    let rows = NOT_WITH.iter().filter(|it| it.among(settings).is_some());
     rows.flat_map(|it| it.keys.iter().map(|key| (it.section, *key)))
 }

@@ -5,9 +5,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::places::Coordinates;
 use super::values::{Point, exactly_one, first_given, missing};
 use super::values::{not_exactly_one, one_of, refuse, require};
 use ligament::setup::{CrackShape, PreCrack};
@@ -24,22 +24,20 @@ const SAME_ANGLE: f64 = 1e-9;
 #[schemars(extend("dependencies" = { "length": ["centre", "angle"], "angle": ["centre", "length"], "normal": ["centre", "radius"], "radius": ["centre", "normal"] }))]
 pub struct Precrack {
     /// Corners of the polyline, two or more `[x, y]`, m; in a solid of a plane polygon, three or more `[x, y, z]`.
-    #[schemars(length(min = 2), extend("x-unit" = "m"))]
+    #[schemars(length(min = 2))]
     pub points: Option<Vec<Coordinates>>,
     /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
     /// `radius`.
-    #[schemars(extend("x-unit" = "m"))]
     pub centre: Option<Coordinates>,
     /// From end to end of a straight crack, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: Option<f64>,
     /// From the x axis to a straight crack, counter-clockwise, rad.
-    #[schemars(extend("x-unit" = "rad"))]
     pub angle: Option<f64>,
     /// Normal of a disk in a solid.
     pub normal: Option<Coordinates>,
     /// Radius of a disk in a solid, m.
-    #[schemars(extend("exclusiveMinimum" = 0, "x-unit" = "m"))]
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
     /// The faces of this physical surface of a solid mesh.
     pub group: Option<String>,
@@ -69,13 +67,7 @@ impl Precrack {
             Some(points) => {
                 let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
                 refuse(key, self, &straight, "`points`", reason)?;
-                let key = key.child("points");
-                let corners = points.iter().enumerate();
-                let vertex = |(index, it): (usize, &Coordinates)| {
-                    let [x, y, _] = it.for_body(&key.child(index), 2)?;
-                    Ok([x, y])
-                };
-                corners.map(vertex).collect()
+                Ok(points.iter().map(Coordinates::in_plane).collect())
             }
             None if first_given(self, &straight).is_some() => Ok(self.ends_of_line(key)?.to_vec()),
             None => {
@@ -89,16 +81,14 @@ impl Precrack {
         let reason = "only pre-cracks in the plane, which are lines, have it";
         refuse(key, self, &["length", "angle"], "a solid", reason)?;
         let points = self.points.as_ref().map(|points| {
-            let key = key.child("points");
-            let corners = points.iter().enumerate();
-            let corners = corners.map(|(index, it)| it.for_body(&key.child(index), 3));
-            corners.collect::<Result<_, _>>().map(CrackShape::Polygon)
+            let corners = points.iter().map(Coordinates::position);
+            Ok(CrackShape::Polygon(corners.collect()))
         });
         let disk = self.centre.map(|centre| {
             let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
             Ok(CrackShape::Disk {
-                centre: centre.for_body(&key.child("centre"), 3)?,
-                normal: normal.for_body(&key.child("normal"), 3)?,
+                centre: centre.position(),
+                normal: normal.position(),
                 radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
             })
         });
@@ -111,10 +101,9 @@ impl Precrack {
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
         let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
-        let [x, y, _] = centre.for_body(&key.child("centre"), 2)?;
         let length = self.length.ok_or_else(|| missing(key, "length"))?;
         let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
-        let ends = straight([x, y], length, angle);
+        let ends = straight(centre.in_plane(), length, angle);
         require(
             ends[0] != ends[1],
             || key.child("length"),

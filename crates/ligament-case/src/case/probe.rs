@@ -3,11 +3,10 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::coordinates::Coordinates;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
+use super::places::Coordinates;
 use super::values::{exactly_one, one_of, require_column_name, required};
-use super::word::Word;
 use ligament::setup::{self, Axis, Reading};
 use ligament_analysis::Component;
 use ligament_analysis::probe::PointField;
@@ -21,49 +20,39 @@ pub struct Probe {
     #[schemars(length(min = 1))]
     pub name: String,
     /// Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`.
-    #[schemars(extend("x-unit" = "m"))]
     pub between: Option<[Coordinates; 2]>,
     /// A position, m, at which a field is read between the points of the cell around it; with `field`.
-    #[schemars(extend("x-unit" = "m"))]
     pub at: Option<Coordinates>,
     /// A line, m, through which the bonds carry a force, N; in a solid a point of a plane and one before it along its normal; with
     /// `component`.
-    #[schemars(extend("x-unit" = "m"))]
     pub section: Option<[Coordinates; 2]>,
     /// The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
     pub component: Option<Component>,
     /// The field that is read `at` the position.
-    pub field: Option<Word<PointField>>,
+    pub field: Option<PointField>,
 }
 
 impl Probe {
-    pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<setup::Probe, KeyFault> {
+    pub(super) fn setup(&self, key: &KeyPath) -> Result<setup::Probe, KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
-        let pair = |name: &str, [first, second]: [Coordinates; 2]| {
-            let key = key.child(name);
-            let [one, other] = [key.child(0), key.child(1)];
-            Ok([
-                first.for_body(&one, dimensions)?,
-                second.for_body(&other, dimensions)?,
-            ])
-        };
+        let ends = |ends: [Coordinates; 2]| ends.map(|it| it.position());
         let between = |positions| {
-            let positions = pair("between", positions)?;
-            let component = self.component(key)?;
             Ok(Reading::Between {
-                positions,
-                component,
+                positions: ends(positions),
+                component: self.component(key)?,
             })
         };
         let at = |position: Coordinates| {
-            let position = position.for_body(&key.child("at"), dimensions)?;
-            let field = self.field(key)?;
-            Ok(Reading::At { position, field })
+            Ok(Reading::At {
+                position: position.position(),
+                field: self.field(key)?,
+            })
         };
         let section = |line| {
-            let line = pair("section", line)?;
-            let component = self.axis(key)?;
-            Ok(Reading::Section { line, component })
+            Ok(Reading::Section {
+                line: ends(line),
+                component: self.axis(key)?,
+            })
         };
         let readings = [
             ("between", self.between.map(between)),
@@ -103,7 +92,7 @@ impl Probe {
             let reason = "a probe `at` a point takes `field`, not `component`";
             return Err(KeyFault::new(key.child("component"), reason));
         }
-        let field = self.field.map(|it| it.0);
-        field.ok_or_else(|| required(key, "field", "with `at`, to say what to read"))
+        self.field
+            .ok_or_else(|| required(key, "field", "with `at`, to say what to read"))
     }
 }

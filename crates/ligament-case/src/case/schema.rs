@@ -3,9 +3,10 @@
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::sections::Case;
+use super::values::UNIT;
 
 /// The JSON schema of a case file.
 ///
@@ -39,7 +40,31 @@ impl Transform for ForToml {
     }
 }
 
-/// Titles of the keys of a table: the key in words with its unit, `tensile strength (Pa)`.
+/// Units of numbers, which the descriptions of keys name.
+const UNITS: [&str; 20] = [
+    "m", "rad", "s", "kg", "K", "N", "Pa", "Hz", "1/s", "1/K", "m/s", "m/s^2", "N m", "N/m",
+    "N/m^2", "N/m^3", "N m/m^3", "J/m^2", "kg/m^3", "kg m^2",
+];
+
+/// The unit that a description names, "The velocity, m/s.": after the first comma with a unit behind it.
+fn unit_in(description: &str) -> Option<&'static str> {
+    let mut places = description.match_indices(", ");
+    places.find_map(|(place, comma)| {
+        let rest = &description[place + comma.len()..];
+        UNITS.into_iter().find(|unit| {
+            let behind = rest.strip_prefix(unit);
+            behind.is_some_and(|it| it.starts_with(['.', ',', ';', ':']))
+        })
+    })
+}
+
+/// Whether a key of a table has a unit of its own.
+fn has_units(table: &Map<String, Value>) -> bool {
+    let keys = table.get("properties").and_then(Value::as_object);
+    keys.is_some_and(|keys| keys.values().any(|key| key.get(UNIT).is_some()))
+}
+
+/// Units of the keys of a table, and their titles: the key in words with its unit, `tensile strength (Pa)`.
 fn titles(schema: &mut Schema) {
     let Some(Value::Object(keys)) = schema.get_mut("properties") else {
         return;
@@ -48,7 +73,11 @@ fn titles(schema: &mut Schema) {
         let Value::Object(of_key) = of_key else {
             continue;
         };
-        let unit = of_key.get("x-unit").and_then(Value::as_str);
+        let description = of_key.get("description").and_then(Value::as_str);
+        let unit = description.and_then(unit_in).filter(|_| !has_units(of_key));
+        if let Some(unit) = unit {
+            of_key.insert(UNIT.to_owned(), unit.into());
+        }
         let unit = unit.map(|unit| format!(" ({unit})")).unwrap_or_default();
         let title = format!("{}{unit}", key.replace('_', " "));
         of_key.entry("title").or_insert_with(|| title.into());

@@ -6,39 +6,32 @@ use ligament::Message;
 use ligament::body::AnyBody;
 use ligament::near_growth::Growth;
 use ligament::plausibility::{of_angle, without_thickness};
-use ligament::setup::{self, QuietEdge, Section, Setup, SurfaceContact};
-use ligament_analysis::motion::MotionSettings;
+use ligament::setup::{self, Alpha, QuietEdge, Section, Setup, SurfaceContact};
+use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_mesh::{AnyMesh, Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::analysis::{Analysis, Modal};
-use super::body_kind::BodyKind;
-use super::conditions::{InitialVelocity, Support};
+use super::analysis::{self, Analysis, Modal, Output, Solver, StressField};
+use super::conditions::{InitialVelocity, Load, Support, Temperature};
 use super::contact::Rigid;
-use super::correction::Correction;
 use super::decode::decode;
 use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
-use super::fracture::{Control, Fracture};
+use super::fracture::{Control, Distribution, Fracture};
 use super::key_path::KeyPath;
-use super::lattice_keys;
-use super::lattice_section::LatticeSection;
-use super::load::Load;
+use super::lattice::{LatticeSection, SolidLatticeSection};
 use super::material::{self, Material};
-use super::mesh_section::MeshSection;
-use super::model::ModelSection;
+use super::mesh_section::{BodyKind, MeshSection};
+use super::model::{Correction, ModelSection};
 use super::not_with::{Settings, refuse_keys_without_effect};
-use super::output::{Output, StressField};
+use super::places::{FarField, Region};
 use super::precrack::Precrack;
 use super::probe::Probe;
-use super::region::{FarField, Region};
-use super::solid_lattice_section::SolidLatticeSection;
-use super::solver::{self, Solver};
 use super::stage::Stage;
-use super::temperature::Temperature;
-use super::values::{exactly_one, metre, missing};
+use super::values::{each, exactly_one, metre, missing};
+use crate::point_table::Tables;
 
 /// A case: the sections of its file, with every default filled in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -119,8 +112,8 @@ pub struct Case {
     /// A motion in time under loads that depend on time.
     pub motion: Option<MotionSettings>,
     /// How the equations are solved; nothing need be said.
-    #[serde(default, deserialize_with = "solver::read")]
-    #[schemars(schema_with = "solver::schema")]
+    #[serde(default, deserialize_with = "analysis::read_solver")]
+    #[schemars(schema_with = "analysis::solver_schema")]
     pub solver: Solver,
     /// What a run writes.
     #[serde(default)]
@@ -134,12 +127,12 @@ impl Case {
         folder: &Path,
         body: Option<BodyKind>,
     ) -> Result<Self, KeyFault> {
-        let mut case: Self = decode(document, &root()).map_err(name_missing_section)?;
+        let mut case: Self = decode(document, &KeyPath::default()).map_err(name_missing_section)?;
         let material = document.get("material");
         case.materials = material::read(material.ok_or_else(|| missing_section("material"))?)?;
         case.require_one_body()?;
         if let Some(mesh) = &mut case.mesh {
-            mesh.complete(&root().child("mesh"), folder, body)?;
+            mesh.complete(&at("mesh"), folder, body)?;
         }
         case.complete_analysis(document)?;
         let is_idle = case.loads.is_empty()
@@ -149,32 +142,31 @@ impl Case {
         if is_idle && case.analysis != Some(Analysis::Modal) {
             return Err(missing_section("load"));
         }
-        let (loads, temperatures) = (root().child("load"), root().child("temperature"));
+        let (loads, temperatures) = (at("load"), at("temperature"));
         for (index, load) in case.loads.iter_mut().enumerate() {
             load.complete(&loads.child(index), index + 1, folder)?;
         }
         for (index, body) in case.rigid_bodies.iter_mut().enumerate() {
-            body.complete(&root().child("rigid").child(index), folder)?;
+            body.complete(&at("rigid").child(index), folder)?;
         }
         for (index, stage) in case.stages.iter_mut().enumerate() {
-            stage.complete(&root().child("stage").child(index), index + 1)?;
+            stage.complete(&at("stage").child(index), index + 1)?;
         }
         for (index, temperature) in case.temperatures.iter_mut().enumerate() {
             temperature.complete(&temperatures.child(index), folder)?;
         }
-        case.model.complete(&root().child("model"))?;
-        let law = case.model.law.0;
-        case.correction
-            .complete(&root().child("correction"), &law)?;
+        case.model.complete(&at("model"))?;
+        let law = case.model.law;
+        case.correction.complete(&at("correction"), &law)?;
         if let Some(fracture) = &mut case.fracture {
-            let (key, is_staged) = (root().child("fracture"), !case.stages.is_empty());
+            let (key, is_staged) = (at("fracture"), !case.stages.is_empty());
             if case.motion.is_none() {
                 fracture.complete(&key, is_staged)?;
             }
             fracture.complete_criteria(&key, &law)?;
         }
         let on_exact_path = (case.fracture.as_ref()).is_some_and(|it| it.control == Control::Event);
-        (case.output).complete(&root().child("output"), on_exact_path)?;
+        (case.output).complete(&at("output"), on_exact_path)?;
         Ok(case)
     }
 
@@ -188,7 +180,7 @@ impl Case {
         };
         let analysis = *self.analysis.get_or_insert(meant);
         refuse_keys_without_effect(document, &self.settings())?;
-        let needs = |reason| Err(KeyFault::new(root().child("analysis"), reason));
+        let needs = |reason| Err(KeyFault::new(at("analysis"), reason));
         match analysis {
             Analysis::Motion if self.motion.is_none() => needs(
                 "\"motion\" needs a [motion] section, which says how long it lasts: `duration`, in s",
@@ -223,18 +215,18 @@ impl Case {
         match given {
             [true, false, false] | [false, true, false] | [false, false, true] => Ok(()),
             [false, false, false] => Err(KeyFault::new(
-                root().child("mesh"),
+                at("mesh"),
                 F::MissingSection {
                     section: "[mesh] or [lattice]".to_owned(),
                     purpose: "one of them: [mesh] with `file`, the Gmsh file, or [lattice] with `cells` and `spacing`",
                 },
             )),
             [true, true, _] => Err(KeyFault::new(
-                root().child("lattice"),
+                at("lattice"),
                 "the case has a [mesh] as well, but its body is one of the two: remove [mesh] or [lattice]",
             )),
             [_, _, true] => Err(KeyFault::new(
-                root().child("solid_lattice"),
+                at("solid_lattice"),
                 "the case has a [mesh] or a [lattice] as well, but its body is one of them: remove the others",
             )),
         }
@@ -285,16 +277,16 @@ impl Case {
         missing.into_iter().chain(angles).collect()
     }
 
-    /// The setup of the case on a given body, in place of that of the case. Tables of temperatures have no rows yet.
-    pub(crate) fn setup_on(&self, body: AnyBody) -> Result<Setup, KeyFault> {
+    /// The setup of the case on a given body, in place of that of the case, with its tables.
+    pub(crate) fn setup_on(&self, body: AnyBody, tables: Tables) -> Result<Setup, KeyFault> {
         let dimensions = body.dimensions();
-        let law = self.model.law.0;
+        let law = self.model.law;
         let criteria = self.fracture.iter().filter_map(|it| it.criteria.as_deref());
         self.check_across_sections()?;
         Ok(Setup {
             section: self.section(&body),
             body,
-            precracks: each("precrack", &self.precracks, |it, key| {
+            precracks: each(&at("precrack"), &self.precracks, |it, key| {
                 it.setup(key, dimensions)
             })?,
             materials: (self.materials.iter())
@@ -302,48 +294,82 @@ impl Case {
                 .collect::<Result<_, _>>()?,
             law,
             rotational_scale: self.model.rotational_scale(),
-            horizon: self.model.horizon(&root().child("model"))?,
+            horizon: self.model.horizon(&at("model"))?,
             bonds_through_voids: self.model.bonds_through_voids,
             correction: self.correction.setup(&law),
             closing: self.model.closing,
             closing_friction: self.model.closing_friction,
-            far_field: self.far_field_of_setup(dimensions)?,
-            no_fail: each("no_fail", &self.no_fail, |it, key| {
-                it.place(key, dimensions)
-            })?,
-            supports: each("support", &self.supports, |it, key| {
-                it.setup(key, dimensions)
-            })?,
-            loads: each("load", &self.loads, |it, key| it.setup(key, dimensions))?,
+            far_field: (self.far_field.as_ref())
+                .map(|it| it.setup(&at("far_field")))
+                .transpose()?,
+            no_fail: each(&at("no_fail"), &self.no_fail, Region::place)?,
+            supports: each(&at("support"), &self.supports, Support::setup)?,
+            loads: each(&at("load"), &self.loads, |it, key| it.setup(key, tables))?,
             curve: self.curve.clone(),
-            stages: each("stage", &self.stages, Stage::setup)?,
-            temperatures: each("temperature", &self.temperatures, |it, key| {
-                it.setup(key, dimensions)
+            stages: each(&at("stage"), &self.stages, Stage::setup)?,
+            temperatures: each(&at("temperature"), &self.temperatures, |it, key| {
+                it.setup(key, tables)
             })?,
-            initial_velocities: each("initial_velocity", &self.initial_velocities, |it, key| {
-                it.setup(key, dimensions)
-            })?,
+            initial_velocities: each(
+                &at("initial_velocity"),
+                &self.initial_velocities,
+                InitialVelocity::setup,
+            )?,
             quiet: self.quiet.clone(),
             contacts: self.contacts.clone(),
-            rigid_bodies: each("rigid", &self.rigid_bodies, |it, key| {
-                it.setup(key, dimensions)
+            rigid_bodies: each(&at("rigid"), &self.rigid_bodies, |it, key| {
+                it.setup(key, dimensions, tables)
             })?,
-            criteria: each(
-                "fracture.criterion",
-                criteria.flatten(),
-                super::criterion::Criterion::setup,
-            )?,
+            criteria: criteria.flatten().copied().collect(),
             scatter: (self.fracture.as_ref())
                 .and_then(|it| it.scatter.as_ref())
-                .map(|it| it.setup(&root().child("fracture").child("scatter")))
+                .map(|it| it.setup(&at("fracture").child("scatter")))
                 .transpose()?
                 .unwrap_or_default(),
-            probes: each("probe", &self.probes, |it, key| it.setup(key, dimensions))?,
+            probes: each(&at("probe"), &self.probes, Probe::setup)?,
             analysis: self.analysis_of_setup()?,
             solver: self.solver.setup(self.model.allow_unstable),
             threads: self.solver.threads.map(|threads| threads as usize),
             remarks: self.remarks(),
         })
+    }
+
+    /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys
+    /// of the references; each text stands once.
+    pub fn sources(&self) -> Vec<&'static str> {
+        let mut found = vec![self.model.law.row.source];
+        found.extend(self.correction.alpha.map(Alpha::source));
+        found.extend(self.correction.surface.map(|it| it.0.source()));
+        let fracture = self.fracture.as_ref();
+        let criteria = fracture.and_then(|it| it.criteria.as_deref());
+        for criterion in criteria.into_iter().flatten() {
+            found.extend([criterion.kind.source, criterion.after.source]);
+        }
+        let scatter = fracture.and_then(|it| it.scatter.as_ref());
+        for scatter in scatter.iter().flat_map(|it| &it.0) {
+            found.push(match scatter.distribution {
+                Distribution::Weibull => "Weibull 1951",
+                Distribution::Normal => "",
+                Distribution::Lognormal => "Aitchison and Brown 1957",
+            });
+            if scatter.correlation_length > 0.0 {
+                found.push("Shinozuka and Jan 1972");
+            }
+        }
+        let motion = self.motion.as_ref();
+        if motion.is_some_and(|it| it.scheme != Scheme::Explicit) {
+            found.push("Hilber 1977");
+        }
+        if !self.quiet.is_empty() {
+            found.push("Lysmer and Kuhlemeyer 1969");
+        }
+        let mut each = Vec::new();
+        for source in found {
+            if !source.is_empty() && !each.contains(&source) {
+                each.push(source);
+            }
+        }
+        each
     }
 
     /// Takes the places of a growth into the near field.
@@ -353,17 +379,11 @@ impl Case {
         }
     }
 
-    fn far_field_of_setup(&self, dimensions: usize) -> Result<Option<setup::FarField>, KeyFault> {
-        let far_field = self.far_field.as_ref();
-        let setup = far_field.map(|it| it.setup(&root().child("far_field"), dimensions));
-        setup.transpose()
-    }
-
     fn analysis_of_setup(&self) -> Result<setup::Analysis, KeyFault> {
         Ok(match (&self.motion, &self.modal, &self.fracture) {
             (Some(motion), _, _) => {
                 if !motion.is_explicit() && motion.step.is_none() {
-                    return Err(missing(&root().child("motion"), "step"));
+                    return Err(missing(&at("motion"), "step"));
                 }
                 let fracture = self.fracture.as_ref();
                 let breakages =
@@ -375,7 +395,7 @@ impl Case {
             }
             (None, Some(modal), _) => setup::Analysis::Modal(modal.setup()),
             (None, None, Some(fracture)) => {
-                fracture.setup(&root().child("fracture"), !self.stages.is_empty())?
+                fracture.setup(&at("fracture"), !self.stages.is_empty())?
             }
             (None, None, None) => setup::Analysis::default(),
         })
@@ -384,8 +404,8 @@ impl Case {
     /// A substitute for the body before it is built, of the same kind, with at most one point.
     pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
         Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
-            (true, _, Some(lattice)) => AnyBody::from(lattice_keys::stand_in(lattice.grid())?),
-            (false, Some(lattice), _) => AnyBody::from(lattice_keys::stand_in(lattice.grid())?),
+            (true, _, Some(lattice)) => AnyBody::from(lattice.grid().stand_in()?),
+            (false, Some(lattice), _) => AnyBody::from(lattice.grid().stand_in()?),
             (true, _, None) => AnyMesh::Solid(SolidMesh::default()).into(),
             (false, None, _) => AnyMesh::Plane(Mesh::default()).into(),
         })
@@ -393,9 +413,9 @@ impl Case {
 
     /// Checks conditions between sections that the setup does not check.
     fn check_across_sections(&self) -> Result<(), KeyFault> {
-        let law = self.model.law.0.row;
+        let law = self.model.law.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);
-        let stress = root().child("output").child("stress");
+        let stress = at("output").child("stress");
         if self.far_field.is_some() && has_traction {
             let reason = "forces through planes at points are summed over bonds, and the far field has elements: take \"material\" or \"virial\"";
             return Err(KeyFault::new(stress, reason));
@@ -414,28 +434,16 @@ impl Case {
                 setting: "[lattice]".to_owned(),
                 reason: "it is in the file of a mesh; a lattice takes a `file` of its own",
             };
-            let key = root().child("temperature").child(index);
+            let key = at("temperature").child(index);
             return Err(KeyFault::new(key.child("mesh_field"), fault));
         }
         Ok(())
     }
 }
 
-fn root() -> KeyPath {
-    KeyPath::default()
-}
-
-/// Converts every element of a list of sections, with its key path.
-fn each<'a, Keys: 'a, Made>(
-    list: &str,
-    sections: impl IntoIterator<Item = &'a Keys>,
-    make: impl Fn(&Keys, &KeyPath) -> Result<Made, KeyFault>,
-) -> Result<Vec<Made>, KeyFault> {
-    let list = list.split('.').fold(root(), |list, part| list.child(part));
-    let sections = sections.into_iter().enumerate();
-    sections
-        .map(|(index, keys)| make(keys, &list.child(index)))
-        .collect()
+/// Key path of a section.
+fn at(section: &str) -> KeyPath {
+    KeyPath::default().child(section)
 }
 
 /// Converts the fault of a missing section, to include its purpose.
@@ -455,5 +463,5 @@ fn missing_section(name: &str) -> KeyFault {
             "one or more, or a [[temperature]], or nothing would happen (natural modes need none: analysis = \"modal\")",
         ),
     };
-    KeyFault::new(root().child(name), F::MissingSection { section, purpose })
+    KeyFault::new(at(name), F::MissingSection { section, purpose })
 }

@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use super::body_kind::BodyKind;
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault, Location};
 use super::key_path::KeyPath;
 use super::keys::{in_sections, unit_of};
+use super::mesh_section::BodyKind;
 use super::overrides;
 
 /// What the names of case files may end in before their extension, by which editors tell them from other TOML files.

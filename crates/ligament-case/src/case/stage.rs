@@ -1,15 +1,14 @@
 //! `[[stage]]`: successive stages of the loading.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{Numbers, exactly_one, numbers, one_of, require_column_name};
+use super::values::{Form, exactly_one, one_of, require_column_name};
 use ligament::setup;
 
 /// Largest number of load steps of a stage: each has a row in the history.
@@ -60,15 +59,15 @@ pub enum Quantity {
 }
 
 /// The factors that a load goes to in a stage.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
 pub enum Factors {
     /// The factor at the end of the stage.
     End(f64),
     /// Factors at the ends of equal parts of the stage.
-    EqualParts(Vec<f64>),
-    /// Shares of the stage, 0 to 1, with the factors there.
-    Table(Vec<[f64; 2]>),
+    EqualParts(#[schemars(length(min = 1))] Vec<f64>),
+    /// Shares of the stage, ascending, more than 0 and at most 1, with the factors there.
+    Table(#[schemars(length(min = 1))] Vec<[f64; 2]>),
 }
 
 impl Stage {
@@ -125,10 +124,10 @@ const EXPECTED: &str = "a factor, a list of factors one after the other, or a li
 
 impl<'de> Deserialize<'de> for Factors {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let elements = match numbers(deserializer, EXPECTED)? {
-            Numbers::Integer(factor) => return Ok(Self::End(factor as f64)),
-            Numbers::Float(factor) => return Ok(Self::End(factor)),
-            Numbers::List(elements) => elements,
+        let elements = match Form::<Element>::read(deserializer, EXPECTED)? {
+            Form::Number(factor, _) => return Ok(Self::End(factor)),
+            Form::List(elements) => elements,
+            other => return Err(other.misfit(EXPECTED)),
         };
         let (mut factors, mut points) = (Vec::new(), Vec::new());
         for element in elements {
@@ -156,46 +155,14 @@ enum Element {
 impl<'de> Deserialize<'de> for Element {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let expected = "a factor or a pair [share of the stage, factor]";
-        let list = match numbers(deserializer, expected)? {
-            Numbers::Integer(factor) => return Ok(Self::Factor(factor as f64)),
-            Numbers::Float(factor) => return Ok(Self::Factor(factor)),
-            Numbers::List(list) => list,
-        };
-        match list[..] {
-            [share, factor] => Ok(Self::Point([share, factor])),
-            [] | [_] => Err(D::Error::invalid_length(list.len(), &expected)),
-            _ => Err(D::Error::invalid_length(list.len(), &"2 elements")),
+        match Form::<f64>::read(deserializer, expected)? {
+            Form::Number(factor, _) => Ok(Self::Factor(factor)),
+            Form::List(list) => match list[..] {
+                [share, factor] => Ok(Self::Point([share, factor])),
+                [] | [_] => Err(D::Error::invalid_length(list.len(), &expected)),
+                _ => Err(D::Error::invalid_length(list.len(), &"2 elements")),
+            },
+            other => Err(other.misfit(expected)),
         }
-    }
-}
-
-impl JsonSchema for Factors {
-    fn schema_name() -> Cow<'static, str> {
-        "Factors".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "anyOf": [
-                { "description": "The factor at the end of the stage.", "type": "number" },
-                {
-                    "description": "Factors at the ends of equal parts of the stage.",
-                    "type": "array",
-                    "minItems": 1,
-                    "items": { "type": "number" },
-                },
-                {
-                    "description": "Shares of the stage, ascending, more than 0 and at most 1, with the factors there.",
-                    "type": "array",
-                    "minItems": 1,
-                    "items": {
-                        "type": "array",
-                        "minItems": 2,
-                        "maxItems": 2,
-                        "items": { "type": "number" },
-                    },
-                },
-            ],
-        })
     }
 }

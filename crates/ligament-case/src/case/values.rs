@@ -3,7 +3,8 @@
 use std::fmt;
 use std::marker::PhantomData;
 
-use serde::de::{SeqAccess, Visitor};
+use serde::de::value::{MapAccessDeserializer, SeqAccessDeserializer};
+use serde::de::{Error, IgnoredAny, MapAccess, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::{Fault, KeyFault};
@@ -54,6 +55,18 @@ pub fn one_of<T>(
         (Some(only), None) => Ok(only),
         _ => Err(not_exactly_one(table, &keys)),
     }
+}
+
+/// Converts every element of a list of sections, with its key path.
+pub(super) fn each<'a, Keys: 'a, Made>(
+    list: &KeyPath,
+    sections: impl IntoIterator<Item = &'a Keys>,
+    make: impl Fn(&Keys, &KeyPath) -> Result<Made, KeyFault>,
+) -> Result<Vec<Made>, KeyFault> {
+    let sections = sections.into_iter().enumerate();
+    sections
+        .map(|(index, keys)| make(keys, &list.child(index)))
+        .collect()
 }
 
 /// The fault of none or several given keys among alternatives.
@@ -172,43 +185,64 @@ pub fn require_unique<'a>(
     Ok(())
 }
 
-/// Value of a key with a number or a list, mostly of numbers.
-pub(super) enum Numbers<T = f64> {
-    Integer(i64),
-    Float(f64),
-    List(Vec<T>),
+/// Value of a key that may have several forms: a number, which may be whole, a word, a list, mostly of numbers, or a table.
+pub(super) enum Form<Element = f64, Keys = IgnoredAny> {
+    Number(f64, Option<i64>),
+    Word(String),
+    List(Vec<Element>),
+    Table(Keys),
 }
 
-/// Reads a number or a list; `expected` describes the expected value.
-pub(super) fn numbers<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
-    deserializer: D,
-    expected: &'static str,
-) -> Result<Numbers<T>, D::Error> {
-    deserializer.deserialize_any(NumbersVisitor(expected, PhantomData))
+impl<'de, Element: Deserialize<'de>, Keys: Deserialize<'de>> Form<Element, Keys> {
+    /// Reads a value; `expected` describes the forms that the key has.
+    pub(super) fn read<D: Deserializer<'de>>(
+        deserializer: D,
+        expected: &'static str,
+    ) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(FormVisitor(expected, PhantomData))
+    }
+
+    /// The error of a form that the key does not have.
+    pub(super) fn misfit<E: Error>(&self, expected: &'static str) -> E {
+        let found = match self {
+            Self::Number(_, Some(whole)) => Unexpected::Signed(*whole),
+            Self::Number(value, None) => Unexpected::Float(*value),
+            Self::Word(word) => Unexpected::Str(word),
+            Self::List(_) => Unexpected::Seq,
+            Self::Table(_) => Unexpected::Map,
+        };
+        E::invalid_type(found, &expected)
+    }
 }
 
-struct NumbersVisitor<T>(&'static str, PhantomData<T>);
+struct FormVisitor<Element, Keys>(&'static str, PhantomData<Form<Element, Keys>>);
 
-impl<'de, T: Deserialize<'de>> Visitor<'de> for NumbersVisitor<T> {
-    type Value = Numbers<T>;
+impl<'de, Element: Deserialize<'de>, Keys: Deserialize<'de>> Visitor<'de>
+    for FormVisitor<Element, Keys>
+{
+    type Value = Form<Element, Keys>;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(self.0)
     }
 
-    fn visit_i64<E>(self, value: i64) -> Result<Numbers<T>, E> {
-        Ok(Numbers::Integer(value))
+    fn visit_i64<E>(self, value: i64) -> Result<Self::Value, E> {
+        Ok(Form::Number(value as f64, Some(value)))
     }
 
-    fn visit_f64<E>(self, value: f64) -> Result<Numbers<T>, E> {
-        Ok(Numbers::Float(value))
+    fn visit_f64<E>(self, value: f64) -> Result<Self::Value, E> {
+        Ok(Form::Number(value, None))
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut elements: A) -> Result<Numbers<T>, A::Error> {
-        let mut numbers = Vec::new();
-        while let Some(number) = elements.next_element()? {
-            numbers.push(number);
-        }
-        Ok(Numbers::List(numbers))
+    fn visit_str<E>(self, word: &str) -> Result<Self::Value, E> {
+        Ok(Form::Word(word.to_owned()))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Self::Value, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Form::List)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, keys: A) -> Result<Self::Value, A::Error> {
+        Keys::deserialize(MapAccessDeserializer::new(keys)).map(Form::Table)
     }
 }

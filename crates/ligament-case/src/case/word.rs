@@ -1,79 +1,30 @@
-//! Values of the libraries that are words in a case file.
+//! Values of the libraries that are words in a case file, with data or where they may be open.
 
 use std::borrow::Cow;
-use std::fmt;
-use std::marker::PhantomData;
 
-use ligament::setup::{self, Iteration, Surface};
+use ligament::setup::{Iteration, Surface};
 use ligament_analysis::modal::Rotations;
-use ligament_analysis::probe::PointField;
 use ligament_analysis::solver::{FactorKind, Method, Ordering, Update};
 use ligament_model::correction::StopRule;
 use ligament_model::correction::patch::Settings;
-use ligament_model::failure::softening::{LAWS, Law};
-use ligament_model::failure::{KINDS, Kind};
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{EnumAccess, VariantAccess, Visitor};
+use ligament_model::word::{self, Worded};
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
-/// A value that is written as a word.
-pub trait Worded: Copy + 'static {
-    /// All words.
-    const WORDS: &'static [&'static str];
-
-    /// All values, in the order of their words.
-    fn all() -> impl Iterator<Item = Self>;
-
-    /// The word of the value, and its meaning.
-    fn word(&self) -> [&'static str; 2];
-}
-
-/// Implements [`Worded`] for a type that has a table of its values.
-macro_rules! worded_by_table {
-    ($value:ty: $all:expr, $values:expr, $it:ident => $words:expr) => {
-        impl Worded for $value {
-            const WORDS: &'static [&'static str] = &{
-                let mut words = [""; $all.len()];
-                let mut place = 0;
-                while place < words.len() {
-                    let $it = &$all[place];
-                    words[place] = $words[0];
-                    place += 1;
-                }
-                words
-            };
-
-            fn all() -> impl Iterator<Item = Self> {
-                $values
-            }
-
-            fn word(&self) -> [&'static str; 2] {
-                let $it = self;
-                $words
-            }
-        }
-    };
-}
-
-worded_by_table! { Kind: KINDS, KINDS.into_iter().copied(), it => [it.word, it.words] }
-worded_by_table! { Law: LAWS, LAWS.into_iter().copied(), it => [it.word, it.words] }
-worded_by_table! { PointField: PointField::ALL, PointField::ALL.into_iter(), it => [it.word, it.meaning] }
-worded_by_table! { setup::Law: setup::Law::ALL, setup::Law::ALL.into_iter(), it => [it.row.word, it.row.sentence] }
 
 /// Implements [`Worded`] for values of a type with words and meanings; for a word with many values, one value and the pattern of all.
 macro_rules! worded {
     (@pattern [$($value:tt)+]) => { $($value)+ };
     (@pattern [$($value:tt)+] [$($pattern:tt)+]) => { $($pattern)+ };
     ($value:ty: $([$($variant:tt)+] $(in [$($pattern:tt)+])? $word:literal $meaning:literal;)+) => {
-        impl Worded for $value {
+        impl Worded for Word<$value> {
             const WORDS: &'static [&'static str] = &[$($word),+];
 
             fn all() -> impl Iterator<Item = Self> {
-                [$($($variant)+),+].into_iter()
+                [$($($variant)+),+].into_iter().map(Word)
             }
 
             fn word(&self) -> [&'static str; 2] {
-                match self {
+                match self.0 {
                     $(worded!(@pattern [$($variant)+] $([$($pattern)+])?) => [$word, $meaning],)+
                 }
             }
@@ -82,10 +33,10 @@ macro_rules! worded {
 }
 
 worded! { Surface:
-    [Self::None] "none" "None.";
-    [Self::Volume] "volume" "By the volumes of the families.";
-    [Self::Domain(Iteration::default())] in [Self::Domain(_)] "domain" "NHPD's iterative domain correction.";
-    [Self::Patch(Settings::DEFAULT)] in [Self::Patch(_)] "patch" "Two factors a bond for which every uniform strain is an equilibrium.";
+    [Surface::None] "none" "None.";
+    [Surface::Volume] "volume" "By the volumes of the families.";
+    [Surface::Domain(Iteration::default())] in [Surface::Domain(_)] "domain" "NHPD's iterative domain correction.";
+    [Surface::Patch(Settings::DEFAULT)] in [Surface::Patch(_)] "patch" "Two factors a bond for which every uniform strain is an equilibrium.";
 }
 
 worded! { Option<StopRule>:
@@ -134,37 +85,28 @@ pub fn word_of(value: &impl Serialize) -> String {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Word<T>(pub T);
 
-impl<T: Worded> Serialize for Word<T> {
+impl<T> Serialize for Word<T>
+where
+    Self: Worded,
+{
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(self.0.word()[0])
+        serializer.serialize_str(self.word()[0])
     }
 }
 
-impl<'de, T: Worded> Deserialize<'de> for Word<T> {
+impl<'de, T> Deserialize<'de> for Word<T>
+where
+    Self: Worded,
+{
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_enum("word", T::WORDS, WordVisitor(PhantomData))
+        word::read(deserializer)
     }
 }
 
-struct WordVisitor<T>(PhantomData<T>);
-
-impl<'de, T: Worded> Visitor<'de> for WordVisitor<T> {
-    type Value = Word<T>;
-
-    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str("a word")
-    }
-
-    fn visit_enum<A: EnumAccess<'de>>(self, access: A) -> Result<Word<T>, A::Error> {
-        let (word, variant): (String, _) = access.variant()?;
-        variant.unit_variant()?;
-        let value = T::all().find(|value| value.word()[0] == word);
-        let unknown = || serde::de::Error::unknown_variant(&word, T::WORDS);
-        value.map(Word).ok_or_else(unknown)
-    }
-}
-
-impl<T: Worded> JsonSchema for Word<T> {
+impl<T> JsonSchema for Word<T>
+where
+    Self: Worded,
+{
     fn inline_schema() -> bool {
         true
     }
@@ -174,11 +116,6 @@ impl<T: Worded> JsonSchema for Word<T> {
     }
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        let words = T::all().map(|value| {
-            let [word, meaning] = value.word();
-            json_schema!({ "description": meaning, "type": "string", "const": word })
-        });
-        let words: Vec<Schema> = words.collect();
-        json_schema!({ "oneOf": words })
+        word::schema::<Self>()
     }
 }

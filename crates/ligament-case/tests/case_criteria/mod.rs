@@ -13,7 +13,7 @@ use ligament_model::failure::sliding::SLIDING;
 use ligament_model::failure::softening::{Law, exponential, linear, plastic};
 use ligament_model::failure::strength::STRENGTH;
 use ligament_model::failure::stretch::{COMPRESSION, TENSION};
-use ligament_model::failure::{After, Calibration, Choice, Kind};
+use ligament_model::failure::{Calibration, Choice, Kind};
 
 mod refusals;
 
@@ -77,10 +77,8 @@ fn a_case_without_criteria_has_the_strength() {
 
 #[test]
 fn every_kind_and_every_end_is_read() {
-    let softening = |kind: Kind, law: Law, parameter| Choice {
-        after: After { law, parameter },
-        ..kind.into()
-    };
+    let softening =
+        |kind: Kind, law: Law, parameter| Choice::from(kind).with_softening(law, parameter);
     let frictional = |calibration| Choice {
         calibration: Some(calibration),
         ..FRICTIONAL.into()

@@ -65,7 +65,7 @@ fn write_crack(
         spent => spent_words(spent, material.fracture_energy),
     };
     let from_energy = |it: &Choice| {
-        let of_softening = it.after.law.softens && it.parameter_from_energy().is_some();
+        let of_softening = it.after.softens && it.parameter_from_energy().is_some();
         it.spends_fracture_energy() || of_softening
     };
     if !model.setup.criteria.iter().any(from_energy) {

@@ -179,10 +179,7 @@ fn softening_takes_the_fracture_energy() {
         ..material(0.2)
     };
     let choice = Choice {
-        after: After {
-            law: softening::linear::LAW,
-            parameter: None,
-        },
+        after: softening::linear::LAW,
         ..Choice::from(BOND_ENERGY)
     };
     let criterion = made(&system, with_strength(1e3), choice).unwrap();

@@ -4,10 +4,10 @@ use super::KINDS;
 use super::basis::Basis;
 use super::criterion::{Criteria, Criterion};
 use super::fracture_energy;
-use super::kind::{After, Choice, Kind};
+use super::kind::{Choice, Kind};
 use super::measure::Measure;
 use super::sliding;
-use super::softening::{AfterLimit, LAWS, Law, brittle, linear};
+use super::softening::{AfterLimit, LAWS, brittle, linear};
 use super::unfit::Setting;
 use super::unfit::{NoLimit, Unfit};
 use crate::advice::Advice;
@@ -45,7 +45,7 @@ pub fn criteria<const D: usize>(
                 measure,
                 after: match limits.is_brittle {
                     true => AfterLimit::new(brittle::LAW, Vec::new()),
-                    false => after(&choice.after, &limits.limit, basis).map_err(at_place)?,
+                    false => after(choice, &limits.limit, basis).map_err(at_place)?,
                 },
                 limit: limits.limit.into(),
                 coefficient: limits.coefficient.into(),
@@ -79,13 +79,13 @@ fn scatter<const D: usize>(choice: &Choice, limits: &mut [f64], basis: &Basis<'_
 /// take the fracture energy: (s_G/e_0)^2 times the energy at the limit e_0, where s_G is the critical stretch of a brittle
 /// bond with that fracture energy.
 fn after<const D: usize>(
-    wanted: &After,
+    choice: &Choice,
     limits: &[f64],
     basis: &Basis<'_, D>,
 ) -> Result<AfterLimit, NoLimit> {
-    let law = wanted.law;
+    let law = choice.after;
     let (bonds, subdomain) = (&basis.system.bonds, &basis.system.cloud.subdomain);
-    let parameter = match (law.parameter, wanted.parameter) {
+    let parameter = match (law.parameter, choice.parameter()) {
         (None, _) => Vec::new(),
         (Some(_), Some(given)) => vec![given; limits.len()],
         (Some(parameter), None) => {
@@ -121,33 +121,6 @@ fn after<const D: usize>(
     Ok(AfterLimit::new(law, parameter))
 }
 
-impl After {
-    /// A law with its parameter, from what is given for the keys of the parameters of all laws.
-    ///
-    /// # Errors
-    ///
-    /// If the parameter of another law is given.
-    pub fn from_keys(law: Law, given: &[(&'static str, Option<f64>)]) -> Result<Self, Unfit> {
-        let of_law = law.parameter.map(|it| it.key);
-        let is_given = |wanted: &str| given.iter().any(|(key, it)| *key == wanted && it.is_some());
-        let others = LAWS.iter().filter_map(|it| Some((it.word, it.parameter?)));
-        let mut refused = others.filter(|(_, it)| Some(it.key) != of_law && is_given(it.key));
-        if let Some((word, other)) = refused.next() {
-            return Err(Unfit::NotWith {
-                field: other.key,
-                named: Setting::Field(other.key),
-                setting: Setting::After(law.word),
-                reason: Advice::new(other.of_it_alone, [Setting::After(word)]),
-            });
-        }
-        let own = given.iter().find(|(key, _)| Some(*key) == of_law);
-        Ok(Self {
-            law,
-            parameter: own.and_then(|(_, value)| *value),
-        })
-    }
-}
-
 impl Choice {
     /// Whether what is chosen goes together, on the exact path from breakage to breakage or with load steps.
     ///
@@ -155,12 +128,13 @@ impl Choice {
     ///
     /// If a key does not go with the kind or the law of softening, is missing beside another or out of range.
     pub fn check(&self, on_exact_path: bool) -> Result<(), Unfit> {
+        self.refuse_parameters()?;
         self.check_together()?;
         self.refuse_keys()?;
         (self.kind.check)(self)?;
         self.refuse_softening(on_exact_path)?;
-        let softening = self.after.law.parameter;
-        let softening = softening.map(|it| (it.key, self.after.parameter, it.above));
+        let softening = self.after.parameter;
+        let softening = softening.map(|it| (it.key, self.parameter(), it.above));
         let limits = self.own_limits().map(|(key, value)| (key, value, 0.0));
         for (key, value, above) in limits.into_iter().chain(softening) {
             if let Some(found) = value.filter(|value| value.is_nan() || *value <= above) {
@@ -173,6 +147,24 @@ impl Choice {
             }
         }
         Ok(())
+    }
+
+    /// Parameters of other laws than what bonds do after the limit.
+    fn refuse_parameters(&self) -> Result<(), Unfit> {
+        let own = self.after.parameter.map(|it| it.key);
+        let given = self.parameters();
+        let is_given = |wanted: &str| given.iter().any(|(key, it)| *key == wanted && it.is_some());
+        let others = LAWS.iter().filter_map(|it| Some((it.word, it.parameter?)));
+        let mut refused = others.filter(|(_, it)| Some(it.key) != own && is_given(it.key));
+        match refused.next() {
+            None => Ok(()),
+            Some((word, other)) => Err(Unfit::NotWith {
+                field: other.key,
+                named: Setting::Field(other.key),
+                setting: Setting::After(self.after.word),
+                reason: Advice::new(other.of_it_alone, [Setting::After(word)]),
+            }),
+        }
     }
 
     /// Keys that mean nothing with the kind: a user who gives one expects what will not happen.
@@ -234,7 +226,7 @@ impl Choice {
 
     /// What bonds may do after their limit depends on the criterion and on what drives the load.
     fn refuse_softening(&self, on_exact_path: bool) -> Result<(), Unfit> {
-        let law = &self.after.law;
+        let law = &self.after;
         if let Some(reason) = self.kind.softens_because.filter(|_| !law.softens) {
             return Err(Unfit::Missing {
                 field: "after",

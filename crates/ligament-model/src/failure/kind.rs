@@ -145,27 +145,44 @@ impl Limits {
     }
 }
 
-/// A kind of criterion with what is chosen of it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Choice {
-    /// The kind.
-    pub kind: Kind,
-    /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
-    pub limit: Option<f64>,
-    /// Stretch at which a bond without shear fails; of mixed modes, with the critical angle.
-    pub critical_stretch: Option<f64>,
-    /// Shear at which a bond that does not open fails, rad.
-    pub critical_angle: Option<f64>,
-    /// Calibration of friction by the strengths.
-    pub calibration: Option<Calibration>,
-    /// Angle beta of the friction of a bond, in the place of the compressive strength, rad.
-    pub friction_angle: Option<f64>,
-    /// Cohesion of shear with friction, in the place of the compressive strength, Pa.
-    pub cohesion: Option<f64>,
-    /// Distance kappa of the outermost fibre from the axis of a bond, m.
-    pub fibre_distance: Option<f64>,
-    /// Behaviour of a bond after its limit.
-    pub after: After,
+crate::case_type! {
+    /// A criterion of failure.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Choice {
+        /// What fails, and where its limit comes from.
+        pub kind: Kind,
+        /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
+        #[range("exclusiveMinimum" = 0)]
+        pub limit: Option<f64>,
+        /// Stretch at which a bond without shear fails; of `mixed-mode`, with `critical_angle`.
+        #[range("exclusiveMinimum" = 0)]
+        pub critical_stretch: Option<f64>,
+        /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
+        #[range("exclusiveMinimum" = 0)]
+        pub critical_angle: Option<f64>,
+        /// How the limit of `frictional` comes from the strengths.
+        #[case(schemars(extend("default" = Calibration::default())))]
+        pub calibration: Option<Calibration>,
+        /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
+        /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
+        #[range("minimum" = 0)]
+        pub friction_angle: Option<f64>,
+        /// Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`.
+        #[range("exclusiveMinimum" = 0)]
+        pub cohesion: Option<f64>,
+        /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
+        #[range("minimum" = 0)]
+        pub fibre_distance: Option<f64>,
+        /// What a bond does after its limit.
+        #[case(serde(default))]
+        pub after: Law,
+        /// Deformation at which the force of `linear` (above 1) or `two-branch` (above 3) is gone, over that at the limit; without it so that the `fracture_energy` comes out.
+        #[range("exclusiveMinimum" = 1)]
+        pub end: Option<f64>,
+        /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.
+        #[range("exclusiveMinimum" = 0)]
+        pub scale: Option<f64>,
+    }
 }
 
 crate::case_type! {
@@ -179,15 +196,6 @@ crate::case_type! {
         /// From the strains of a bar under both strengths.
         TwoPoint,
     }
-}
-
-/// A law of softening with its parameter.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct After {
-    /// The law.
-    pub law: Law,
-    /// Parameter of the law; None where the law has none, and where the fracture energy of the material decides about it.
-    pub parameter: Option<f64>,
 }
 
 impl PartialEq for Kind {
@@ -255,10 +263,9 @@ impl From<Kind> for Choice {
             friction_angle: None,
             cohesion: None,
             fibre_distance: None,
-            after: After {
-                law: brittle::LAW,
-                parameter: None,
-            },
+            after: brittle::LAW,
+            end: None,
+            scale: None,
         }
     }
 }
@@ -271,6 +278,29 @@ impl Choice {
             ("critical_stretch", self.critical_stretch),
             ("critical_angle", self.critical_angle),
         ]
+    }
+
+    /// The criterion with a law of softening and its parameter, where it is given.
+    pub fn with_softening(mut self, law: Law, parameter: Option<f64>) -> Self {
+        self.after = law;
+        match law.parameter.map(|it| it.key) {
+            Some("scale") => self.scale = parameter,
+            Some(_) => self.end = parameter,
+            None => {}
+        }
+        self
+    }
+
+    /// What is given for the parameters of the laws of softening, by their keys.
+    pub(super) fn parameters(&self) -> [(&'static str, Option<f64>); 2] {
+        [("end", self.end), ("scale", self.scale)]
+    }
+
+    /// The parameter of the law of softening; None where the law has none, and where the fracture energy of the material decides about it.
+    pub fn parameter(&self) -> Option<f64> {
+        let key = self.after.parameter?.key;
+        let mut given = self.parameters().into_iter();
+        given.find(|it| it.0 == key)?.1
     }
 
     /// Properties of each material that the limits come from.
@@ -288,13 +318,13 @@ impl Choice {
 
     /// Whether bonds begin to soften at the strength, and spend the fracture energy from there on.
     pub fn begins_at_strength(&self) -> bool {
-        let can = self.kind.measures == [Measure::Energy] && self.after.law.softens;
-        can && self.limit.is_none() && self.after.parameter.is_none()
+        let can = self.kind.measures == [Measure::Energy] && self.after.softens;
+        can && self.limit.is_none() && self.parameter().is_none()
     }
 
     /// Whether bonds begin to soften where the stress around them says so.
     fn begins_by_stress(&self) -> bool {
-        self.after.law.softens && self.kind.measures.iter().any(|it| it.takes_stress())
+        self.after.softens && self.kind.measures.iter().any(|it| it.takes_stress())
     }
 
     /// The property whose random factor is that of the limits: given ones stand in the place of a strength.
@@ -324,9 +354,8 @@ impl Choice {
 
     /// The key of the law of softening whose parameter comes from the fracture energy, if it does.
     pub fn parameter_from_energy(&self) -> Option<&'static str> {
-        let After { law, parameter } = &self.after;
-        let key = law.parameter.map(|it| it.key);
-        key.filter(|_| parameter.is_none())
+        let key = self.after.parameter.map(|it| it.key);
+        key.filter(|_| self.parameter().is_none())
     }
 
     /// Checks that a material has the properties that the criterion takes.

@@ -49,7 +49,7 @@ mod unfit;
 pub use basis::Basis;
 pub use choosing::criteria;
 pub use criterion::{Criteria, Criterion, Surroundings, Verdict};
-pub use kind::{After, Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
+pub use kind::{Calibration, Choice, Kind, Limits, MakeLimits, PerSpace, Property};
 pub use measure::Measure;
 pub use measure::Weakened;
 pub use softening::{AfterLimit, Softened};
@@ -75,6 +75,9 @@ pub static KINDS: [&Kind; 15] = [
     &printed::SLIDING,
     &printed::MIXED,
 ];
+
+#[cfg(feature = "case")]
+crate::worded_by_table! { Kind: KINDS, KINDS.into_iter().copied(), it => [it.word, it.words] }
 
 #[cfg(test)]
 mod block_tests;

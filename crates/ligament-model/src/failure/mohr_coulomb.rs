@@ -135,7 +135,7 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         let [lateral, shear, bar, along] = it.coefficients();
         [lateral, shear, bar, along, slopes[material]]
     });
-    if !choice.after.law.softens {
+    if !choice.after.softens {
         return Ok(named([(tensile(basis), TENSION), (sheared, SHEAR)]));
     }
     let [never_pulled, pulled] = rankine::of_tension(basis, &[2, 1]);

@@ -43,8 +43,8 @@ pub static RANKINE: Kind = Kind {
 
 /// Refuses a parameter of softening: each bond has its own.
 pub(super) fn check(choice: &Choice) -> Result<(), Unfit> {
-    let key = choice.after.law.parameter.map(|it| it.key);
-    match key.filter(|_| choice.after.parameter.is_some()) {
+    let key = choice.after.parameter.map(|it| it.key);
+    match key.filter(|_| choice.parameter().is_some()) {
         Some(key) => Err(Unfit::NotWith {
             field: key,
             named: Setting::Field(key),

@@ -48,6 +48,9 @@ pub const LAWS: [&BondLaw; 8] = [
     &mbb_pd::LAW,
 ];
 
+#[cfg(feature = "case")]
+crate::worded_by_table! { Law: Law::ALL, Law::ALL.into_iter(), it => [it.row.word, it.row.sentence] }
+
 impl Law {
     /// All laws, each with the usual options.
     pub const ALL: [Self; LAWS.len()] = {

@@ -81,13 +81,17 @@ pub enum Elasticity {
     Anisotropic(Anisotropic),
 }
 
-/// Constants of an isotropic material.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Isotropic {
-    /// Young's modulus E, Pa.
-    pub young: f64,
-    /// Poisson's ratio nu.
-    pub poisson: f64,
+crate::case_type! {
+    /// Constants of an isotropic material.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    pub struct Isotropic {
+        /// Young's modulus, Pa.
+        #[range("exclusiveMinimum" = 0)]
+        pub young: f64,
+        /// Poisson's ratio.
+        #[range("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5)]
+        pub poisson: f64,
+    }
 }
 
 /// Constants of an orthotropic material in its axes 1 and 2.

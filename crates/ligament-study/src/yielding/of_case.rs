@@ -11,7 +11,7 @@ use ligament_run::stages::Stages;
 
 /// Builds the model of a case; refuses laws whose bonds' strains do not depend on their direction.
 pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
-    let law = case.case.model.law.0.row;
+    let law = case.case.model.law.row;
     if law.has_own_strains() {
         return Err(YieldError::NoDirections { law: law.word }.into());
     }

@@ -7,11 +7,14 @@ use ligament_analysis::Component;
 use ligament_model::case_type::{OutOfRange, Ranged};
 use ligament_model::correction::patch;
 use ligament_model::law::{BondLaw, Materials, PaperCorrection, suited};
-use ligament_model::{Advice, Anisotropic, Elasticity, Isotropic, Material, Orthotropic, Plane};
+use ligament_model::scatter::{Distribution, Scatter, Scattered};
+use ligament_model::{Advice, Anisotropic, Elasticity, Material, Orthotropic, Plane};
 
 use super::setting::Setting;
-use super::{Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Load, Place};
-use super::{Profile, Reading, Setup, Surface};
+use super::{
+    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Load, MaterialRegion,
+    Place, Profile, Reading, Setup, Surface,
+};
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
 
@@ -61,16 +64,7 @@ impl Setup {
 
     fn check_material(&self, field: Field, material: &Material) -> Checked {
         check_constants(field, &material.elasticity)?;
-        for (part, value) in [
-            ("tensile_strength", material.tensile_strength),
-            ("compressive_strength", material.compressive_strength),
-            ("fracture_energy", material.fracture_energy),
-            ("fracture_energy_sliding", material.fracture_energy_sliding),
-            ("mixed_mode_exponent", material.mixed_mode_exponent),
-            ("density", material.density),
-        ] {
-            positive(field.part(part), value)?;
-        }
+        in_range(material, |key| field.part(key))?;
         let density = material.density.unwrap_or(1.0);
         let expected = "less than 1e100 kg/m^3, beyond which frequencies are no numbers";
         require(density < 1e100, field.part("density"), expected, density)?;
@@ -278,15 +272,12 @@ impl Setup {
 /// Refuses elastic constants with moduli that are not positive, or with a strain energy that is not positive.
 fn check_constants(field: Field, elasticity: &Elasticity) -> Checked {
     match elasticity {
-        Elasticity::Isotropic(Isotropic { young, poisson }) => {
-            positive(field.part("elasticity.young"), Some(*young))?;
-            require(
-                *poisson > -1.0 && *poisson < 0.5,
-                field.part("elasticity.poisson"),
-                "greater than -1 and less than 0.5",
-                poisson,
-            )
-        }
+        Elasticity::Isotropic(constants) => in_range(constants, |key| {
+            field.part(match key {
+                "young" => "elasticity.young",
+                _ => "elasticity.poisson",
+            })
+        }),
         Elasticity::Orthotropic(constants) => check_orthotropic(field, constants),
         Elasticity::Anisotropic(constants) => check_anisotropic(field, constants),
     }
@@ -483,4 +474,107 @@ pub(super) fn require_unique<'a>(
         }
     }
     Ok(())
+}
+
+impl Setup {
+    pub(super) fn check_far_field(&self) -> Checked {
+        let Some(far_field) = &self.far_field else {
+            return Ok(());
+        };
+        let field = Field::whole("far_field");
+        if !matches!(self.body.origin(), Origin::Mesh(_) | Origin::SolidMesh(_)) {
+            let reason = "the elements of the far field are the cells of a mesh: take a mesh";
+            return contradiction(field, reason);
+        }
+        if !matches!(self.correction.surface, Surface::Patch(_)) {
+            let text = "bonds and elements bear the same forces only where the bonds pass uniform strains exactly: take {}";
+            let patch = Setting::Surface(Surface::Patch(patch::Settings::default()));
+            return contradiction(
+                Field::whole("correction").part("surface"),
+                Advice::new(text, [patch]),
+            );
+        }
+        match far_field.strength_share {
+            Some(share) => self.check_growth(share),
+            None if far_field.near.is_empty() => {
+                let reason = "nothing says where bonds are: give places, or with `strength_share` a share of the strength from which on elements become bonds";
+                contradiction(field.part("near"), reason)
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Checks a near field that grows.
+    fn check_growth(&self, share: f64) -> Checked {
+        let field = Field::whole("far_field").part("strength_share");
+        if !(share > 0.0 && share <= 1.0) {
+            let reason = format!("a share of the strength is above 0 and at most 1, found {share}");
+            return contradiction(field, reason);
+        }
+        let without = |it: &MaterialRegion| it.material.tensile_strength.is_none();
+        match self.materials.iter().position(without) {
+            Some(index) => {
+                let field = Field::element("materials", index).part("tensile_strength");
+                let reason = "the near field grows where elements reach a share of it: give it, or remove `far_field.strength_share`";
+                contradiction(field, reason)
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+impl Setup {
+    /// Refuses distributions with factors out of range, a property that varies twice, and scatter that no criterion depends on.
+    pub(super) fn check_scatter(&self) -> Checked {
+        for (place, scatter) in self.scatter.iter().enumerate() {
+            let field = Field::element("scatter", place);
+            check_range(scatter, field)?;
+            if !self.analysis.is_fracture() {
+                return contradiction(field, "no bond breaks in this analysis: remove it");
+            }
+            let text = if self.scatter[..place].iter().any(|it| it.of == scatter.of) {
+                "it varies at random already: take {}, or remove one of the two"
+            } else if self.criteria.iter().any(|it| it.feels(scatter.of)) {
+                continue;
+            } else {
+                match scatter.of {
+                    Scattered::Strength => {
+                        "no criterion has a limit from a strength or of its own, so that nothing varies: take {}"
+                    }
+                    Scattered::FractureEnergy => {
+                        "no criterion takes the fracture energy, so that nothing varies: take {}"
+                    }
+                }
+            };
+            let other = Setting::Scattered(scatter.of.other());
+            return contradiction(field.part("of"), Advice::new(text, [other]));
+        }
+        Ok(())
+    }
+}
+
+/// Refuses a distribution with factors out of range, and a negative length.
+fn check_range(scatter: &Scatter, field: Field) -> Checked {
+    match scatter.distribution {
+        Distribution::Weibull { modulus } => require(
+            (1.0..=1e4).contains(&modulus),
+            field.part("modulus"),
+            "between 1 and 1e4",
+            modulus,
+        )?,
+        Distribution::Normal { deviation } => require(
+            deviation > 0.0 && deviation < Distribution::LARGEST_DEVIATION,
+            field.part("deviation"),
+            "greater than 0 and less than 0.25, so that no strength is negative",
+            deviation,
+        )?,
+        Distribution::Lognormal { deviation } => require(
+            deviation > 0.0 && deviation <= 10.0,
+            field.part("deviation"),
+            "greater than 0 and at most 10",
+            deviation,
+        )?,
+    }
+    let length = field.part("correlation_length");
+    not_negative(length, scatter.correlation_length)
 }

@@ -1,4 +1,4 @@
-//! Supports, loads, temperatures and initial velocities, and where they act.
+//! Supports, loads, temperatures, initial velocities and the far field, and where they act.
 
 use ligament_analysis::{Amplitude, Component, Timed};
 use ligament_model::case_type;
@@ -25,31 +25,34 @@ impl From<&str> for Place {
     }
 }
 
+/// Far field of a meshed body, where linear finite elements take the place of bonds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FarField {
+    /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
+    pub near: Vec<Place>,
+    /// Share of the strength, above 0 and up to 1, that the principal stresses of elements may reach. Where a run meets a larger one the near field
+    /// grows, and the run begins anew. Without one the near field stays as it is.
+    pub strength_share: Option<f64>,
+}
+
 case_type! {
     /// Prescribed displacements; a component that is not given is free. Velocities and accelerations have the same components.
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     #[case(schemars(extend("minProperties" = 1)))]
     pub struct Displacement {
         /// Along x, m.
-        #[unit("m")]
         pub x: Option<f64>,
         /// Along y, m.
-        #[unit("m")]
         pub y: Option<f64>,
         /// Rotation in the plane, rad, counter-clockwise.
-        #[unit("rad")]
         pub rotation: Option<f64>,
         /// Along z of a solid, m.
-        #[unit("m")]
         pub z: Option<f64>,
         /// Rotation about x in a solid, rad, right-handed.
-        #[unit("rad")]
         pub rotation_x: Option<f64>,
         /// Rotation about y in a solid, rad, right-handed.
-        #[unit("rad")]
         pub rotation_y: Option<f64>,
         /// Rotation about z in a solid, rad, right-handed.
-        #[unit("rad")]
         pub rotation_z: Option<f64>,
     }
 }
@@ -61,22 +64,18 @@ case_type! {
     pub struct SpringStiffness {
         /// Along x, N/m.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("N/m")]
         pub x: Option<f64>,
         /// Along y, N/m.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("N/m")]
         pub y: Option<f64>,
         /// Against rotations of the points, in N m/rad.
         #[range("exclusiveMinimum" = 0)]
         pub rotation: Option<f64>,
         /// Along z of a solid, N/m.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("N/m")]
         pub z: Option<f64>,
         /// Along the `normal` of the support, N/m.
         #[range("exclusiveMinimum" = 0)]
-        #[unit("N/m")]
         pub normal: Option<f64>,
     }
 }

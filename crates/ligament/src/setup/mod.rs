@@ -2,21 +2,16 @@
 
 mod analysis;
 pub(crate) mod check;
-mod check_contact;
 mod check_dimension;
-mod check_far_field;
-mod check_motion;
-mod check_stages;
+mod check_loading;
 mod conditions;
 mod contact;
 mod correction;
 mod curve;
-mod far_field;
 mod not_together;
 mod precrack;
 mod probe;
 mod restraint;
-mod scatter;
 mod section;
 pub mod setting;
 pub mod stage;
@@ -31,13 +26,12 @@ use crate::body::AnyBody;
 
 pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
 pub use conditions::{
-    Action, Axis, Couple, Displacement, InitialVelocity, Load, Place, Position, Profile, QuietEdge,
-    Sample, SpringStiffness, Support, Temperature, TemperatureChange, begins_as_formula,
+    Action, Axis, Couple, Displacement, FarField, InitialVelocity, Load, Place, Position, Profile,
+    QuietEdge, Sample, SpringStiffness, Support, Temperature, TemperatureChange, begins_as_formula,
 };
 pub use contact::{ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub(crate) use curve::CurveAxis;
-pub use far_field::FarField;
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use not_together::{Exclusion, Feature, NOT_TOGETHER};
 pub use precrack::{CrackShape, PreCrack};
@@ -181,7 +175,7 @@ impl Setup {
     /// Fracture energy G_c of all materials, J/m^2, where a criterion or a softening law spends it; `None` where they differ.
     pub fn spent_fracture_energy(&self) -> Option<f64> {
         let mut criteria = self.criteria.iter();
-        if !criteria.any(|it| it.spends_fracture_energy() || it.after.law.softens) {
+        if !criteria.any(|it| it.spends_fracture_energy() || it.after.softens) {
             return None;
         }
         let mut regions = self.materials.iter();

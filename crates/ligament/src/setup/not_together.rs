@@ -92,7 +92,7 @@ fn motion_with(setup: &Setup, holds: fn(&MotionSettings) -> bool) -> bool {
 }
 
 fn softens(setup: &Setup) -> bool {
-    setup.criteria.iter().any(|it| it.after.law.softens)
+    setup.criteria.iter().any(|it| it.after.softens)
 }
 
 macro_rules! features {

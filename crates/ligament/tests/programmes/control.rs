@@ -31,12 +31,7 @@ fn brittle() -> Choice {
 }
 
 fn softening() -> Choice {
-    let mut choice: Choice = STRENGTH.into();
-    choice.after = After {
-        law: linear::LAW,
-        parameter: Some(10.0),
-    };
-    choice
+    Choice::from(STRENGTH).with_softening(linear::LAW, Some(10.0))
 }
 
 /// A force on a point that follows the displacement of that point is the reaction to that displacement: both go through the same states,

@@ -30,10 +30,7 @@ fn bar(law: softening::Law, analysis: Analysis, stage: Stage) -> Setup {
     setup.loads = vec![Load::new("right", Action::Displacement(pull))];
     let mut choice: Choice = BOND_ENERGY.into();
     choice.limit = Some(1e-4);
-    choice.after = After {
-        law,
-        parameter: None,
-    };
+    choice.after = law;
     setup.criteria = vec![choice];
     setup.analysis = analysis;
     setup.stages = vec![stage];

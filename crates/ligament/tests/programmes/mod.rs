@@ -13,7 +13,6 @@ use ligament_analysis::history::{
 };
 use ligament_analysis::probe::PointField;
 use ligament_analysis::{Attempt, BondDeformation, Equilibrium, LoadCourse, State};
-use ligament_model::failure::After;
 use ligament_model::failure::softening::linear;
 
 mod control;

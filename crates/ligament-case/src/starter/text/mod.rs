@@ -1,8 +1,6 @@
 //! The text of a starter case.
 
 mod body;
-mod numbers;
-mod precrack;
 mod section;
 
 use std::fmt::Write;
@@ -12,14 +10,12 @@ use toml_edit::{Key, Value};
 use super::groups::{Ends, LoadPlace};
 use crate::case::key_path::KeyPath;
 use crate::case::values::{is_unseen, require_column_name};
-use body::size;
 pub(super) use body::{Body, Section};
+use body::{coordinates, digits, exact, quoted, size};
 use ligament::setup::Law;
 use ligament_model::law::{BondLaw, LAWS, Materials, PaperCorrection};
 use ligament_model::material::Space;
-use numbers::{coordinates, digits, exact, quoted};
-use precrack::precrack;
-use section::section;
+use section::{precrack, section};
 
 /// Young's modulus and tensile strength of the example material, similar to concrete, Pa.
 const YOUNG: f64 = 30e9;

@@ -23,6 +23,9 @@ pub const LAWS: [&Law; 6] = [
     &linear::BILINEAR,
 ];
 
+#[cfg(feature = "case")]
+crate::worded_by_table! { Law: LAWS, LAWS.into_iter().copied(), it => [it.word, it.words] }
+
 /// Distance of the end from the limit, over the limit, below which the force of a bond drops.
 const DROP: f64 = 1e-3;
 
