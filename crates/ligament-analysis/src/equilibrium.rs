@@ -10,6 +10,7 @@ mod equations;
 mod external;
 mod intact;
 mod iterate;
+mod iteration;
 mod line;
 mod line_search;
 mod mechanism;
@@ -50,7 +51,7 @@ use crate::unknowns::Unknowns;
 use active_set::ActiveSet;
 use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
-use iterate::Way;
+use iteration::Way;
 use newton::Newton;
 use secant::Secant;
 
@@ -474,7 +475,7 @@ impl Equilibrium {
         } else {
             &mut Newton { target }
         };
-        let attempt = iterate::balance(equations, state, breakage, way, observer)?;
+        let attempt = iteration::balance(equations, state, breakage, way, observer)?;
         Ok(self.accepted(attempt, state))
     }
 

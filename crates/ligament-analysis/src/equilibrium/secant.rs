@@ -2,7 +2,8 @@
 
 use super::earlier_equilibria::EarlierEquilibria;
 use super::equations::Equations;
-use super::iterate::{Iterate, Iteration, Way};
+use super::iterate::Iterate;
+use super::iteration::{Iteration, Way};
 use super::line;
 use super::line_search;
 use super::residual::RESIDUAL_TOLERANCE;
