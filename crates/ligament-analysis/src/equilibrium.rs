@@ -10,6 +10,7 @@ mod equations;
 mod external;
 mod intact;
 mod iterate;
+mod iteration;
 mod line;
 mod line_search;
 mod mechanism;
@@ -49,7 +50,7 @@ use crate::unknowns::Unknowns;
 use active_set::ActiveSet;
 use earlier_equilibria::EarlierEquilibria;
 use equations::Equations;
-use iterate::Method;
+use iteration::Method;
 use newton::Newton;
 use secant::Secant;
 
@@ -473,7 +474,7 @@ impl Equilibrium {
         } else {
             &mut Newton { target }
         };
-        let attempt = iterate::balance(equations, state, breakage, method, observer)?;
+        let attempt = iteration::balance(equations, state, breakage, method, observer)?;
         Ok(self.accepted(attempt, state))
     }
 

@@ -10,7 +10,8 @@
 //! is no energy then; a step ends where the residual forces do no work along it.
 
 use super::equations::Equations;
-use super::iterate::{Iterate, Iteration, Method};
+use super::iterate::Iterate;
+use super::iteration::{Iteration, Method};
 use super::line_search;
 use super::rigid::{self, Correction};
 use crate::contact::faces;

@@ -23,7 +23,7 @@ use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::thermal::ThermalStrain;
 
 use super::equations::Equations;
-use super::iterate;
+use super::iteration;
 use super::line;
 use super::secant::Secant;
 use super::target::Target;
@@ -76,7 +76,7 @@ pub(super) fn balance(
     if !breakage.bonds.is_empty() || goal.energy - start <= MISSED * goal.step {
         let target = opening(&equations.problem, state, &here, goal);
         let mut way = Secant::new(target.as_ref());
-        return iterate::balance(equations, state, breakage, &mut way, observer);
+        return iteration::balance(equations, state, breakage, &mut way, observer);
     }
     let ahead = match ahead(equations, state, &here, goal) {
         Ok(ahead) => ahead,
@@ -98,7 +98,7 @@ pub(super) fn balance(
             ..there.clone()
         };
         let mut secant = Secant::new(Some(&target));
-        let attempt = iterate::balance(equations, state, breakage, &mut secant, observer)?;
+        let attempt = iteration::balance(equations, state, breakage, &mut secant, observer)?;
         let Attempt::Balanced(balanced) = &attempt else {
             return Ok(attempt);
         };

@@ -2,7 +2,8 @@
 
 use super::earlier_equilibria::EarlierEquilibria;
 use super::equations::Equations;
-use super::iterate::{Iterate, Iteration, Method};
+use super::iterate::Iterate;
+use super::iteration::{Iteration, Method};
 use super::line;
 use super::line_search;
 use super::residual::RESIDUAL_TOLERANCE;
