@@ -9,7 +9,6 @@ mod earlier_equilibria;
 mod equations;
 mod external;
 mod intact;
-mod iterate;
 mod iteration;
 mod line;
 mod line_search;

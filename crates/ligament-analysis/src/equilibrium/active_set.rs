@@ -9,8 +9,7 @@
 //! it stays symmetric: the iteration converges linearly with mu times the coupling of pressure and shear, where that is below one. There
 //! is no energy then; a step ends where the residual forces do no work along it.
 
-use super::equations::Equations;
-use super::iterate::Iterate;
+use super::equations::{Equations, Iterate};
 use super::iteration::{Iteration, Method};
 use super::line_search;
 use super::rigid::{self, Correction};

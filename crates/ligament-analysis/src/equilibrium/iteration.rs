@@ -1,7 +1,6 @@
 //! The iteration to equilibrium: one loop for all ways to correct a state.
 
-use super::equations::Equations;
-use super::iterate::Iterate;
+use super::equations::{Equations, Iterate};
 use crate::balanced::Attempt;
 use crate::breakage::Breakage;
 use crate::history::{Observer, ObserverError};

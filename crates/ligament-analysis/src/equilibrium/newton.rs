@@ -1,6 +1,6 @@
 //! Equilibrium of bonds that are intact or broken, by Newton-Raphson (NHPD eqs 19 to 21).
 
-use super::iterate::Iterate;
+use super::equations::Iterate;
 use super::iteration::{Iteration, Method};
 use super::line;
 use super::target::Target;

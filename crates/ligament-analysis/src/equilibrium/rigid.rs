@@ -13,8 +13,7 @@ use ligament_model::surface::{Pose, Vector};
 use ligament_model::tensor::dot;
 use nalgebra::{DMatrix, DVector};
 
-use super::equations::Equations;
-use super::iterate::Iterate;
+use super::equations::{Equations, Iterate};
 use crate::contact::Contacts;
 use crate::contact::resisting::Resisting;
 use crate::state::State;

@@ -1,8 +1,7 @@
 //! Equilibrium of bonds that soften, by a quasi-Newton iteration from their secant stiffness.
 
 use super::earlier_equilibria::EarlierEquilibria;
-use super::equations::Equations;
-use super::iterate::Iterate;
+use super::equations::{Equations, Iterate};
 use super::iteration::{Iteration, Method};
 use super::line;
 use super::line_search;

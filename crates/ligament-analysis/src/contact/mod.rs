@@ -9,16 +9,15 @@ mod friction;
 mod problem;
 pub(crate) mod resisting;
 mod rigid_body;
-mod rigid_motion;
 mod search;
-mod surface_energy;
+mod steps;
 mod surfaces;
 
 pub use energy_bound::{Drag, PairContacts};
 pub use friction::Friction;
 pub use problem::{ContactProblem, ContactReading, ContactStiffness, SurfaceContact};
 pub use rigid_body::{RigidBody, RigidMotion, RigidRates, RigidState};
-pub use surface_energy::{SurfaceEnergy, SurfaceWork};
+pub use steps::{SurfaceEnergy, SurfaceWork};
 pub use surfaces::{ContactStep, LastTouching, SurfaceSearch, Touching};
 
 pub(crate) use rigid_body::add;
