@@ -46,11 +46,12 @@ const UNITS: [&str; 20] = [
     "N/m^2", "N/m^3", "N m/m^3", "J/m^2", "kg/m^3", "kg m^2",
 ];
 
-/// The unit that a description names, "The velocity, m/s.": after the first comma with a unit behind it.
+/// The unit that a description names before its words, "The velocity, m/s.": after the first comma with a unit behind it.
 fn unit_in(description: &str) -> Option<&'static str> {
-    let mut places = description.match_indices(", ");
+    let sentence = description.lines().next()?;
+    let mut places = sentence.match_indices(", ");
     places.find_map(|(place, comma)| {
-        let rest = &description[place + comma.len()..];
+        let rest = &sentence[place + comma.len()..];
         UNITS.into_iter().find(|unit| {
             let behind = rest.strip_prefix(unit);
             behind.is_some_and(|it| it.starts_with(['.', ',', ';', ':']))

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
+use schemars::{JsonSchema, Schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -61,6 +61,7 @@ pub enum Quantity {
 /// The factors that a load goes to in a stage.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
+#[schemars(transform = without_description)]
 pub enum Factors {
     /// The factor at the end of the stage.
     End(f64),
@@ -68,6 +69,11 @@ pub enum Factors {
     EqualParts(#[schemars(length(min = 1))] Vec<f64>),
     /// Shares of the stage, ascending, more than 0 and at most 1, with the factors there.
     Table(#[schemars(length(min = 1))] Vec<[f64; 2]>),
+}
+
+/// Leaves the description to the forms.
+fn without_description(schema: &mut Schema) {
+    schema.remove("description");
 }
 
 impl Stage {
