@@ -84,6 +84,9 @@ impl Observer for Collector {
     }
 }
 
+/// Rows as dictionaries, and the word and the sentence of the end, if the run ended.
+type Advanced<'py> = (Vec<Bound<'py, PyDict>>, Option<[String; 2]>);
+
 /// Names of the columns of the history, and the number of components of a displacement.
 type Begun = (Vec<String>, usize);
 
@@ -188,11 +191,8 @@ impl Rows {
         })
     }
 
-    /// Goes on by a row: the rows that were recorded meanwhile as dictionaries, and the word and the sentence of the end, if the run ended.
-    fn advance<'py>(
-        &self,
-        py: Python<'py>,
-    ) -> PyResult<(Vec<Bound<'py, PyDict>>, Option<[String; 2]>)> {
+    /// Goes on by a row; the rows that were recorded meanwhile.
+    fn advance<'py>(&self, py: Python<'py>) -> PyResult<Advanced<'py>> {
         let Answer::Rows(rows, end) = self.ask(py, Question::Advance)? else {
             return Err(unexpected(py));
         };

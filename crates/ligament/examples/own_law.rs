@@ -36,7 +36,6 @@ const COSINE: SofteningLaw = SofteningLaw {
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut setup = watched_plate::plate()?;
-    setup.criteria.clear();
     setup.analysis = Analysis::Stepped(stepped((1..=40).map(|it| f64::from(it) / 40.0).collect()));
     let model = Model::build(setup, &mut ())?;
     let mut problem = Loading::new(&model)?.problem(&model);

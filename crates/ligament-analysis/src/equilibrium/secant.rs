@@ -170,12 +170,12 @@ impl Method for Secant<'_> {
             self.earlier.curvature.discard();
         }
         let force = equations.out_of_balance(state, iterate);
-        let mut direction = self.direction(equations, state, force.clone())?;
-        if equations.dot(&direction.force, &direction.step) <= 0.0 {
+        let mut search_direction = self.search_direction(equations, state, force.clone())?;
+        if equations.dot(&search_direction.force, &search_direction.step) <= 0.0 {
             self.forget();
-            direction = self.direction(equations, state, force)?;
+            search_direction = self.search_direction(equations, state, force)?;
         }
-        Ok(self.search(at, direction, has_value))
+        Ok(self.search(at, search_direction, has_value))
     }
 }
 
@@ -201,7 +201,7 @@ impl<'a> Secant<'a> {
 
     /// Correction for a residual force (n_unknowns) by the stiffness with the recorded curvature. The growth with the load of an earlier
     /// correction is near enough for an iterative solver: the motion reaches its value along any growth.
-    fn direction(
+    fn search_direction(
         &mut self,
         equations: &mut Equations,
         state: &State,
@@ -266,17 +266,17 @@ impl<'a> Secant<'a> {
     fn search(
         &mut self,
         at: &mut Iteration<'_>,
-        mut direction: Direction,
+        mut search_direction: Direction,
         has_value: bool,
     ) -> Iterate {
         let is_one_way = at.number > ONE_WAY_AFTER;
         let (equations, state) = (&mut *at.equations, &mut *at.state);
-        let is_short = shorten(equations, &mut direction.step);
+        let is_short = shorten(equations, &mut search_direction.step);
         let Direction {
             force,
             step,
             load_change,
-        } = direction;
+        } = search_direction;
         state.load_factor += load_change;
         let (start, subdomain) = (state.displacement.clone(), equations.subdomain().clone());
         let work = dot_of_all(&subdomain, &force, &step);

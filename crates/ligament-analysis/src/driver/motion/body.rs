@@ -255,7 +255,9 @@ impl Body {
 
     /// Begins the contact between surfaces at the present motions, without force where surfaces overlap; returns the rates of the rigid bodies.
     pub(super) fn begin_contact(&mut self) -> Vec<RigidRates> {
-        self.state.surfaces = LastTouching::new(Arc::default(), &self.state.displacement);
+        if !self.problem.contact.is_empty() {
+            self.state.surfaces = LastTouching::new(Arc::default(), &self.state.displacement);
+        }
         self.touch(0.0, &mut []);
         self.problem.contact.rates_at_start(&self.balanced.touching)
     }
