@@ -124,7 +124,7 @@ pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
 ];
 
 /// Packages that few crates may use, in their tests too: texts of cases and records, the command line, errors for people.
-const RESERVED: [(&str, &[&str]); 17] = [
+const RESERVED: [(&str, &[&str]); 18] = [
     ("clap", &["ligament-cli", "ligament-verify"]),
     ("clap_complete", &["ligament-cli"]),
     ("indicatif", &["ligament-run", "ligament-study"]),
