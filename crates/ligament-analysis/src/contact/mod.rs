@@ -1,6 +1,6 @@
 //! Contact: faces of cracks that close, with their friction, and surfaces that meet each other or rigid bodies.
 //!
-//! A [`ContactSearch`] finds what meets in a state, in equilibria, along the exact path and in the steps of a motion alike, and moves the
+//! A `ContactSearch` finds what meets in a state, in equilibria, along the exact path and in the steps of a motion alike, and moves the
 //! friction and the contact of the state on where a step is accepted.
 
 mod energy_bound;

@@ -411,7 +411,7 @@ impl SurfaceSearch {
         found
     }
 
-    /// Where surfaces touch after an explicit step, as in [`touching`](Self::touching), with forces that never give energy.
+    /// Where surfaces touch after an explicit step to a time (s) and these places of free rigid bodies, with forces that never give energy.
     pub fn touching_in_time(&mut self, step: ContactStep<'_>, at: (f64, &[Pose])) -> Touching {
         let mut found = self.touching(step, at);
         let before = step.before();
