@@ -137,8 +137,8 @@ impl BondNumbers {
         self.subdomain.count(owned.filter(|it| it.1).count())
     }
 
-    /// Reads the values of all bonds of the body, and returns those of the local bonds (n_bonds), of which `usual` is the one that takes
-    /// a bit; an empty list stays empty.
+    /// Reads the values of all bonds of the body, and returns the values of the local bonds (n_bonds). The `usual` value takes a bit; an empty
+    /// list stays empty.
     ///
     /// # Errors
     ///

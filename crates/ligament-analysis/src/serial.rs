@@ -89,7 +89,7 @@ impl ser_flavors::Flavor for ToSink<'_> {
     }
 }
 
-/// Bytes of values from a stream, of which the last ones that were read together are in memory.
+/// Bytes of values from a stream; the bytes that were read together last are in memory.
 struct FromStream<'a> {
     stream: &'a mut dyn Read,
     bytes: Vec<u8>,
@@ -153,7 +153,7 @@ pub fn require_end(from: &mut dyn Read) -> Result<(), Damaged> {
     }
 }
 
-/// Appends the values of a long list, without their number: those of its slices of [`SLICE`] values one after the other. Values with the bytes
+/// Appends the values of a long list, without their number, in slices of [`SLICE`] values one after the other. Values with the bytes
 /// of the `usual` one take a bit.
 pub fn write_values<T: Serial>(list: &[T], usual: &T, out: &mut dyn Sink) {
     let mut of_usual = Vec::new();

@@ -235,7 +235,7 @@ pub struct LastTouching {
 }
 
 impl LastTouching {
-    /// Contact that was stored with a state, of which the motions of all points (n_degrees_of_freedom) are; empty without contacts.
+    /// Contact that was stored with a state and the motions of its points (n_degrees_of_freedom); empty without contacts.
     pub(crate) fn restored(touching: Touching, motions: &[f64]) -> Self {
         match touching.pairs.is_empty() {
             true => Self::default(),
