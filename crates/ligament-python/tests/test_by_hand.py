@@ -14,13 +14,17 @@ PLATE: dict[str, Any] = {
     "material": {"young": 15e9, "poisson": 0.21, "tensile_strength": 3.81e6},
     "model": {"law": "nhpd", "horizon_factor": 3.0},
     "support": [{"group": "left", "displacement": {"x": 0.0, "y": 0.0}}],
+    "precrack": [{"points": [[0.03, -0.001], [0.03, 0.0101]]}],
     "load": [{"group": "right", "displacement": {"x": 2e-5}}],
-    "probe": [{"name": "end", "at": [0.05, 0.015], "component": "x"}],
+    "probe": [{"name": "end", "between": [[0.001, 0.015], [0.059, 0.015]], "component": "x"}],
     "fracture": {"steps": 10},
 }
 
 
-@pytest.mark.parametrize("changes", [{}, {"fracture__control": "event", "fracture__steps": None}])
+EVENTS: dict[str, Any] = {"fracture__control": "event", "fracture__steps": None, "fracture__stop": {"bonds": 40}}
+
+
+@pytest.mark.parametrize("changes", [{}, EVENTS])
 def test_rows_have_the_bits_of_a_run(changes: dict[str, Any]) -> None:
     rows = ligament.begin(PLATE, **changes)
     found = list(rows)
@@ -31,9 +35,17 @@ def test_rows_have_the_bits_of_a_run(changes: dict[str, Any]) -> None:
     assert len(found) == len(history["step"]) > 3
     for name in ["step", "load_factor", "reaction", "stored_energy", "broken_bonds", "end"]:
         assert [row[name] for row in found] == list(history[name]), name
-    last = result.steps[-1]
-    assert np.array_equal(rows.displacement, result.field("displacement", last))
-    assert np.array_equal(rows.damage, result.field("damage", last))
+
+
+def test_the_body_is_that_of_its_row() -> None:
+    result = ligament.run(PLATE, progress=False, output__fields_every=1)
+    rows = ligament.begin(PLATE)
+    for row in rows:
+        if row["broken_bonds"] > 0:
+            break
+    assert row["broken_bonds"] > 0
+    assert np.array_equal(rows.displacement, result.field("displacement", row["step"])[:, :2])
+    assert np.array_equal(rows.damage, result.field("damage", row["step"]))
 
 
 def test_a_run_takes_another_load_and_is_left() -> None:
