@@ -1,5 +1,5 @@
-//! A way of one's own through a load program: fatigue. The load stays; the bond that is used most breaks after 1000/ratio^8 cycles, where the
-//! ratio is its measure over its limit, and the next row is the equilibrium after it.
+//! A way of one's own through a load program: fatigue. The load stays; the bond that is used most breaks after N = 1000/ratio^8 cycles, a law of
+//! Basquin's form with numbers of this example, where the ratio is its measure over its limit. The next row is the equilibrium after it.
 
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
@@ -18,7 +18,9 @@ struct Fatigue<'a> {
     run: Run<'a>,
     /// Bonds that broke last.
     breakage: Breakage,
+    /// Number of cycles so far.
     cycles: f64,
+    /// Number of cycles after which the test ends.
     most: f64,
 }
 

@@ -1,4 +1,8 @@
-//! Rigid bodies that move as prescribed, or with a mass by velocity Verlet.
+//! Rigid bodies that move as prescribed, or with a mass by velocity Verlet (central differences):
+//!
+//! q' = q + dt v + dt^2/2 a, v' = v + dt/2 (a + a') with a = F/m + g, and the same for the angles with the moment M over the inertia I.
+//!
+//! The kinetic energy m/2 v-.v+ with the velocities v -+ dt/2 a in the middles of the steps before and after is m/2 (v.v - (dt/2 a).(dt/2 a)).
 
 use ligament_model::surface::{Pose, Vector};
 use ligament_model::tensor::dot;

@@ -17,7 +17,7 @@ use crate::problem::Problem;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// Finds what meets in the states of a body.
+/// Search for the contacts in the states of a body: pairs of faces that close, and surfaces that touch.
 #[derive(Clone)]
 pub(crate) struct ContactSearch {
     system: Arc<dyn Bonds>,
@@ -50,7 +50,7 @@ fn step<'a>(system: &'a dyn Bonds, state: &'a State) -> ContactStep<'a> {
 }
 
 impl ContactSearch {
-    /// What may meet in the body of a problem, without pairs across cracks.
+    /// Search in the body of a problem, without pairs across cracks.
     pub(crate) fn new(problem: &Problem) -> Self {
         let layout = problem.system.layout();
         Self {
@@ -115,7 +115,7 @@ impl ContactSearch {
         self.surfaces.join(broken.iter().copied());
     }
 
-    /// Adds the forces of what meets to those of the bonds.
+    /// Adds the forces and energies of faces and surfaces in contact to the sums over the bonds.
     pub(crate) fn add_to(
         &self,
         swept: &mut BondSweep,

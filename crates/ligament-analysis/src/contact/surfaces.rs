@@ -136,7 +136,7 @@ impl Touching {
         loads.into_iter().map(|[force, _]| force).collect()
     }
 
-    /// Adds the internal forces that keep the points in place against the contacts to those of the bonds.
+    /// Adds the internal forces by which the points bear the contacts to the sums over the bonds.
     pub(crate) fn add_to(&self, swept: &mut BondSweep, problem: &ContactProblem, layout: Layout) {
         swept.internal.on_rigid_bodies = self.forces_on_rigid_bodies(problem);
         let forces = self.forces(problem, swept.internal.values.len());
@@ -152,7 +152,7 @@ impl Touching {
         }
     }
 
-    /// What the contacts resist, in the order of the keys, behind those of the faces of cracks.
+    /// Motions that the contacts resist, in the order of their keys; the keys of faces of cracks come before them.
     pub(crate) fn resisting(&self, problem: &ContactProblem, layout: Layout) -> Vec<Resisting> {
         let of_touch = |(number, contact, touch): (u64, &SurfaceContact, &Touch)| {
             let friction = contact.surfaces.friction();
@@ -284,7 +284,7 @@ impl LastTouching {
     }
 }
 
-/// What moves in a step: the contact before it, and what is there after it.
+/// A step from the last contact: the contact before it, and the motions and bonds after it.
 #[derive(Clone, Copy)]
 pub struct ContactStep<'a> {
     /// Contact before the step.

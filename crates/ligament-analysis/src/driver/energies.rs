@@ -295,8 +295,8 @@ impl Energies {
         }
     }
 
-    /// Adds the energies of pairs across cracks and of contact between surfaces in a step with inertia to those of a motion: there what pairs
-    /// lost was taken by what closes and opens them.
+    /// Adds the energies of pairs across cracks and of contact between surfaces, in a step with inertia, to the energies of a motion. The energy that
+    /// pairs lose where they open and close counts as friction there.
     pub(super) fn add_contact_in_motion(
         &mut self,
         problem: &Problem,

@@ -412,7 +412,7 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Records an equilibrium; the numbers of broken bonds, solves and negative eigenvalues are those of the run.
+    /// Records an equilibrium; the run itself counts broken bonds, solves and negative eigenvalues.
     ///
     /// # Errors
     ///

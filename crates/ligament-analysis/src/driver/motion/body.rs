@@ -284,7 +284,7 @@ impl Body {
         self.load_by_surfaces();
     }
 
-    /// Adds the forces of contact between surfaces to those of the bonds.
+    /// Adds the forces of contact between surfaces to the internal forces.
     fn load_by_surfaces(&mut self) {
         let (surfaces, balanced) = (&self.problem.contact, &mut self.balanced);
         let (touching, internal) = (&balanced.touching, &mut balanced.internal);
