@@ -1,11 +1,11 @@
 //! Runs that are killed again and again.
 
 use std::fs;
+use std::path::Path;
+use std::process::Stdio;
 use std::time::Instant;
 
-use super::bench::{
-    Bench, EVENT, EXPLICIT, IMPLICIT, SOFTENING, STEPPED, assert_same, started, succeeded,
-};
+use super::bench::{Bench, EVENT, EXPLICIT, IMPLICIT, SOFTENING, STEPPED, assert_same, succeeded};
 
 /// Kills a run, and what goes on with it, again and again at moments of a fixed sequence; what is finished at last is as if nothing
 /// had happened. Gives the number of kills.
@@ -24,16 +24,26 @@ fn kill_and_resume(fracture: &str, n_kills: usize, seed: u64) -> usize {
                 .wrapping_mul(6364136223846793005)
                 .wrapping_add(1442695040888963407);
             let share = (random >> 33) as f64 / (1u64 << 31) as f64;
-            let mut child = started(command);
+            let quiet = command.stdout(Stdio::null()).stderr(Stdio::piped());
+            let mut child = quiet.spawn().unwrap();
             std::thread::sleep(whole.mul_f64(0.02 + 0.7 * share));
             let ended = child.try_wait().unwrap();
             child.kill().unwrap();
-            let status = child.wait().unwrap();
+            let output = child.wait_with_output().unwrap();
             if ended.is_some() {
-                assert_eq!(status.code(), Some(0), "after {killed} kills");
+                let said = String::from_utf8_lossy(&output.stderr);
+                assert_eq!(
+                    output.status.code(),
+                    Some(0),
+                    "after {killed} kills: {said}"
+                );
                 break;
             }
             killed += 1;
+            // Killed behind its last file, it is complete.
+            if is_complete(&bench.out("killed")) {
+                break;
+            }
             // Killed before its first file, it starts anew.
             let has_begun = bench.out("killed").join("case.resolved.toml").is_file();
             command = if has_begun {
@@ -45,6 +55,20 @@ fn kill_and_resume(fracture: &str, n_kills: usize, seed: u64) -> usize {
         assert_same(&bench.out("whole"), &bench.out("killed"));
     }
     killed
+}
+
+/// Whether a run wrote its summary and has no checkpoint to go on from.
+fn is_complete(folder: &Path) -> bool {
+    let has_checkpoint = || {
+        let mut files = fs::read_dir(folder).unwrap();
+        files.any(|it| {
+            it.unwrap()
+                .file_name()
+                .to_string_lossy()
+                .starts_with("checkpoint")
+        })
+    };
+    folder.join("summary.json").is_file() && !has_checkpoint()
 }
 
 #[test]
