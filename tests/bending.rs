@@ -11,7 +11,7 @@ use ligament::bending_test::{bending_test, thinnest_section};
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
 use ligament::setup::{Axis, Surface};
-use ligament_cli::check::{Extent, check};
+use ligament_cli::check::{Extent, Lines, check};
 use ligament_mesh::{Cell, SolidCell, SolidMesh};
 use ligament_model::Canvas;
 use ligament_model::correction::patch::Settings;
@@ -371,7 +371,14 @@ fn checked(across: u32, extent: Extent, settings: &[&str]) -> String {
         .chain(settings.iter().copied())
         .collect();
     let mut report = Vec::new();
-    check(&case(CASE, &settings), extent, None, &mut report).unwrap();
+    check(
+        &case(CASE, &settings),
+        extent,
+        None,
+        Lines::All,
+        &mut report,
+    )
+    .unwrap();
     String::from_utf8(report).unwrap()
 }
 

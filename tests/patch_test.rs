@@ -9,7 +9,7 @@ use ligament::patch_test::{PatchTest, Untested, patch_test};
 use ligament::prelude::*;
 use ligament::setup::Surface;
 use ligament_case::case::CaseFile;
-use ligament_cli::check::{Extent, check};
+use ligament_cli::check::{Extent, Lines, check};
 use ligament_model::correction::patch::Settings;
 use verification::{meshes, repository};
 
@@ -180,7 +180,7 @@ fn checked(case: &str, settings: &[&str], extent: Extent) -> String {
     let path = repository().join(Path::new(case));
     let case = CaseFile::load(&path, &settings).unwrap();
     let mut report = Vec::new();
-    check(&case, extent, None, &mut report).unwrap();
+    check(&case, extent, None, Lines::All, &mut report).unwrap();
     String::from_utf8(report).unwrap()
 }
 

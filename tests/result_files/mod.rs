@@ -17,7 +17,7 @@ use std::process::Command;
 use ligament::Loading;
 use ligament::run::follow;
 use ligament_case::case::CaseFile;
-use ligament_cli::check::{self, Extent};
+use ligament_cli::check::{self, Extent, Lines};
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_post::yielding::field::families;
@@ -146,7 +146,14 @@ impl Case {
     /// What `ligament check --out` writes.
     fn check(&self) {
         let mut said = Vec::new();
-        check::check(&self.file, Extent::Model, Some(&self.results()), &mut said).unwrap();
+        check::check(
+            &self.file,
+            Extent::Model,
+            Some(&self.results()),
+            Lines::All,
+            &mut said,
+        )
+        .unwrap();
         let (model, canvas) = self.model();
         let mut expected = Expected::new(self.mesh.as_deref(), &model);
         canvas.grid("points.vtu", &mut expected);

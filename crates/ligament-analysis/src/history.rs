@@ -124,22 +124,22 @@ impl InMotion {
 }
 
 impl StepRecord {
-    /// [Energy imbalance](Self::missing_energy) over the external work or the energy floor, whichever is larger; 0 without work. In a
-    /// motion the energy at time zero counts as work.
+    /// [Energy imbalance](Self::missing_energy) over the [energy put in](Self::energy_put_in), with the sign of a negative work; 0 where no
+    /// energy was put in.
     pub fn energy_error(&self) -> f64 {
-        let at_start = self.motion.map_or(0.0, |it| it.initial_energy);
-        let scale = if self.external_work.abs() + at_start < self.energy_floor {
-            self.energy_floor
-        } else if at_start > 0.0 {
-            self.external_work.abs() + at_start
-        } else {
-            self.external_work
-        };
-        if scale == 0.0 {
-            0.0
-        } else {
-            self.missing_energy() / scale
+        let put_in = self.energy_put_in();
+        let is_negative_work = put_in == -self.external_work;
+        match put_in == 0.0 {
+            true => 0.0,
+            false if is_negative_work => self.missing_energy() / self.external_work,
+            false => self.missing_energy() / put_in,
         }
+    }
+
+    /// Size of the external work and, in a motion, the energy at time zero, but at least the energy floor, J.
+    pub fn energy_put_in(&self) -> f64 {
+        let at_start = self.motion.map_or(0.0, |it| it.initial_energy.max(0.0));
+        (self.external_work.abs() + at_start).max(self.energy_floor)
     }
 
     /// External work - stored - released energy - that of contact and friction, J; in a motion the kinetic energy, the energies of damping, contact and friction count as

@@ -47,7 +47,10 @@ fn bar(load: &str, rest: &str) -> String {
 fn check(folder: &Path, case: &str, settings: &[&str]) -> (Option<i32>, String, String) {
     fs::write(folder.join("case.toml"), case).unwrap();
     let sets = settings.iter().flat_map(|it| change(it));
-    let arguments: Vec<&str> = ["check", "case.toml"].into_iter().chain(sets).collect();
+    let arguments: Vec<&str> = ["check", "case.toml", "--all"]
+        .into_iter()
+        .chain(sets)
+        .collect();
     let output = ligament_in(folder, &arguments);
     (output.status.code(), stdout(&output), stderr(&output))
 }

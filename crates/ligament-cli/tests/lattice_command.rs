@@ -15,6 +15,7 @@ fn check(folder: &Path, settings: &[&str]) -> (Option<i32>, String) {
         OsStr::new("check"),
         path.as_os_str(),
         "--model-only".as_ref(),
+        "--all".as_ref(),
     ];
     let settings = settings.iter().flat_map(|it| ["--set", it]);
     let output = Command::new(env!("CARGO_BIN_EXE_ligament"))

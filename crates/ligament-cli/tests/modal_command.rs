@@ -85,7 +85,7 @@ fn a_modal_run_writes_its_modes() {
     }
     assert!(!out.join("history.csv").exists());
 
-    let (done, shown, errors) = call("check", &[]);
+    let (done, shown, errors) = call("check", &["--all"]);
     assert!(done, "{errors}");
     for line in [
         "\nsupports\n",

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -51,6 +52,31 @@ field = "velocity_y"
 fields_every = 5
 "#;
 
+/// A bar in implicit steps, held at its left end.
+const BAR: &str = r#"title = "A body comes against a bar"
+analysis = "motion"
+[lattice]
+cells = [12, 4]
+spacing = 1e-3
+[lattice.set]
+left = { left = 1 }
+[material]
+young = 1e9
+poisson = 0.2
+density = 1000.0
+[model]
+law = "nhpd"
+horizon_factor = 3.0
+[motion]
+duration = 20e-6
+rows = 4
+scheme = "implicit"
+step = 1e-6
+[[support]]
+group = "left"
+displacement = { x = 0.0, y = 0.0 }
+"#;
+
 /// Runs a command and gives what it says on both streams.
 fn said(folder: &Path, words: &str) -> String {
     let arguments: Vec<&str> = words.split_whitespace().collect();
@@ -67,7 +93,7 @@ fn folder() -> tempfile::TempDir {
 }
 
 /// Rows of a table by the names of its columns; what is empty is NaN.
-fn table(path: &Path) -> Vec<std::collections::BTreeMap<String, f64>> {
+fn table(path: &Path) -> Vec<BTreeMap<String, f64>> {
     let text = fs::read_to_string(path).unwrap();
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -259,28 +285,7 @@ fn bonds_and_the_page_tell_times() {
 /// the bar.
 #[test]
 fn an_implicit_motion_writes_its_rigid_bodies() {
-    const BAR: &str = r#"title = "A wall comes against a bar"
-analysis = "motion"
-[lattice]
-cells = [12, 4]
-spacing = 1e-3
-[lattice.set]
-left = { left = 1 }
-[material]
-young = 1e9
-poisson = 0.2
-density = 1000.0
-[model]
-law = "nhpd"
-horizon_factor = 3.0
-[motion]
-duration = 20e-6
-rows = 4
-scheme = "implicit"
-step = 1e-6
-[[support]]
-group = "left"
-displacement = { x = 0.0, y = 0.0 }
+    const WALL: &str = r#"
 [[rigid]]
 name = "wall"
 shape = "wall"
@@ -289,11 +294,44 @@ normal = [-1.0, 0.0]
 velocity = { x = -0.1 }
 "#;
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("case.toml"), BAR).unwrap();
+    fs::write(folder.path().join("case.toml"), BAR.to_owned() + WALL).unwrap();
     said(folder.path(), "run case.toml --out results");
     let rows = table(&folder.path().join("results/history.csv"));
     let last = rows.last().unwrap();
     assert!((last["wall.displacement_x"] + 2e-6).abs() < 1e-15);
     assert_eq!(last["wall.velocity_x"], -0.1);
     assert!(last["wall.force_x"] < 0.0, "{}", last["wall.force_x"]);
+}
+
+/// Without external work the energy balance is measured by the energy at time zero, which is that of a ball of 1 g at 0.1 m/s: 5 uJ.
+#[test]
+fn a_motion_without_work_has_an_energy_balance() {
+    const BALL: &str = r#"
+[[rigid]]
+name = "ball"
+shape = "circle"
+centre = [0.01505, 0.002]
+radius = 0.003
+mass = 1e-3
+velocity = { x = -0.1 }
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("case.toml"), BAR.to_owned() + BALL).unwrap();
+    let said = said(folder.path(), "run case.toml --out results");
+    assert!(said.contains("of the energy put in"), "{said}");
+    let results = folder.path().join("results");
+    let rows = table(&results.join("history.csv"));
+    let missing = |row: &BTreeMap<String, f64>| {
+        let held = ["kinetic_energy", "stored_energy", "contact_energy"];
+        (5e-6 - held.iter().map(|it| row[*it]).sum::<f64>()).abs()
+    };
+    let off = rows.iter().map(missing).fold(0.0, f64::max) / 5e-6;
+    let summary = fs::read_to_string(results.join("summary.json")).unwrap();
+    let summary: Value = serde_json::from_str(&summary).unwrap();
+    let written = summary["energy_balance_error"].as_f64().unwrap();
+    // The columns have 17 digits: their sum is rounded a few times.
+    assert!(
+        written > 0.0 && (written - off).abs() < 1e-14,
+        "{written} {off}"
+    );
 }

@@ -89,7 +89,8 @@ pub struct Summary {
     /// Whether breakage continues in the last state, or no equilibrium follows it.
     #[serde(skip_serializing_if = "is_false")]
     pub last_state_not_at_rest: bool,
-    /// Largest |external work - stored - released energy| over the largest external work, dimensionless.
+    /// Largest |external work - stored - released energy| over the largest external work, dimensionless. In a motion all energies of its
+    /// ledger count, and the energy at time zero counts as work.
     #[serde(deserialize_with = "number")]
     pub energy_balance_error: f64,
     /// Energies, crack area, residual and ties of a run in statics.

@@ -187,7 +187,7 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
     };
     let broken = format!("{} in {}", summary.broken_bonds, steps_in_words(summary));
     let balance = Some(summary.energy_balance_error).filter(|it| it.is_finite());
-    let balance = balance.map(|it| entry("Energy balance", format!("off by {it:.1e} of the work")));
+    let balance = balance.map(|_| entry("Energy balance", summary.energy_balance()));
     let rows = [
         load_at("Largest load", summary.peak),
         load_at("First peak", other_peak),

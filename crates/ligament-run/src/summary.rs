@@ -28,7 +28,9 @@ use ligament_case::case::CaseFile;
 pub(crate) use certificate::certificate;
 use certificate::write_certificate;
 pub use modal::{modal_summary, write_modal};
-pub use model::{OfPoints, correction_line, family, formulation_line, heading, scatter};
+pub use model::{
+    OfPoints, analysis_words, correction_line, family, formulation_line, heading, scatter,
+};
 use motion::{motion_summary, write_motion};
 use places::{bond_event, resultants_at_peak};
 use solver::solver_summary;
@@ -88,8 +90,7 @@ pub fn summary(
         point.map(PathPoint::from)
     };
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let scale = |step: &StepRecord| step.external_work.abs().max(step.energy_floor);
-    let work = largest(&mut outcome.at_rest().map(scale));
+    let put_in = largest(&mut outcome.at_rest().map(StepRecord::energy_put_in));
     let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
     let last_state_not_at_rest = history.last().is_some_and(|last| !last.at_rest);
     let end = (outcome.termination.row().verdict).end(without_equilibrium, last_state_not_at_rest);
@@ -120,7 +121,7 @@ pub fn summary(
         termination_message: ending(outcome, model),
         without_equilibrium,
         last_state_not_at_rest,
-        energy_balance_error: if work > 0.0 { missing / work } else { 0.0 },
+        energy_balance_error: if put_in > 0.0 { missing / put_in } else { 0.0 },
         certificate: noted.certificate,
         overlap: outcome.overlap.map(|it| OverlapSummary {
             depth: it.depth,
@@ -138,6 +139,7 @@ pub fn summary(
 /// Writes the report of a run for the user.
 pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", heading(&summary.model.title))?;
+    writeln!(out, "{}", summary.model.analysis)?;
     writeln!(out, "  {}", summary.model.formulation)?;
     writeln!(
         out,
@@ -169,8 +171,7 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     };
     writeln!(out, "  broken bonds       {broken} in {of_steps}")?;
     if !summary.without_equilibrium {
-        let off = summary.energy_balance_error;
-        writeln!(out, "  energy balance     off by {off:.1e} of the work")?;
+        writeln!(out, "  energy balance     {}", summary.energy_balance())?;
     }
     if let Some(certificate) = &summary.certificate {
         write_certificate(certificate, out)?;

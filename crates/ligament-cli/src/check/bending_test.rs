@@ -1,6 +1,6 @@
 //! Report of `ligament check` on the stiffness of the body in bending and, in space, in torsion.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::Model;
 use ligament::bending_test::{
@@ -11,11 +11,11 @@ use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
 use super::Extent;
-use super::entry::entry;
+use super::report::Report;
 
 /// Writes the stiffness of the body at its thinnest section over that of the continuum; returns a warning where it is too large.
 pub(super) fn write(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     extent: Extent,
     model: &Model,
     stages: &mut Stages,
@@ -23,14 +23,14 @@ pub(super) fn write(
     if extent == Extent::Model {
         return Ok(None);
     }
-    writeln!(out, "strip at the thinnest section, bent")?;
+    report.head("strip at the thinnest section, bent");
     let (most_points, most_sides) = match extent {
         Extent::PatchTest => (usize::MAX, usize::MAX),
         _ => (most_points(model.setup.body.dimensions()), MOST_SIDES),
     };
     let section = match stages.time("section", || thinnest_section(model, most_sides)) {
         Ok(section) => section,
-        Err(reason) => return entry(out, "not computed", reason).map(|()| None),
+        Err(reason) => return report.detail("not computed", reason).map(|()| None),
     };
     let words = format!(
         "{} at {}, {:.1} distances of points across, {:.1} horizons",
@@ -39,10 +39,10 @@ pub(super) fn write(
         section.thickness / section.spacing,
         section.horizons()
     );
-    entry(out, "thinnest section", words)?;
+    report.detail("thinnest section", words)?;
     if section.horizons() > THICK && !model.setup.law.row.resists_rotations() {
         let words = format!("more than {THICK} horizons across, which is enough for bending");
-        entry(out, "not tested", words)?;
+        report.detail("not tested", words)?;
         return Ok(None);
     }
     let tested = stages.time("bending test", || {
@@ -50,14 +50,14 @@ pub(super) fn write(
     });
     match tested {
         Ok(test) => {
-            write_test(out, &test)?;
+            write_test(report, &test)?;
             Ok((test.largest() > TOO_STIFF).then(|| warning(model, &section, &test)))
         }
-        Err(reason) => entry(out, "not computed", reason).map(|()| None),
+        Err(reason) => report.detail("not computed", reason).map(|()| None),
     }
 }
 
-fn write_test(out: &mut dyn Write, test: &BendingTest) -> io::Result<()> {
+fn write_test(report: &mut Report<'_>, test: &BendingTest) -> io::Result<()> {
     let words = |stiffness: f64| {
         let more = 100.0 * (stiffness - 1.0);
         format!(
@@ -66,9 +66,9 @@ fn write_test(out: &mut dyn Write, test: &BendingTest) -> io::Result<()> {
         )
     };
     let of = format!("{}, a strip of {} points", words(test.bending), test.points);
-    entry(out, "in bending", of)?;
+    report.entry("in bending", of)?;
     match test.torsion {
-        Some(torsion) => entry(out, "in torsion", words(torsion)),
+        Some(torsion) => report.entry("in torsion", words(torsion)),
         None => Ok(()),
     }
 }

@@ -1,6 +1,6 @@
 //! Report of `ligament check` on the body.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::body::{Body, Origin};
 use ligament_mesh::{Group, Mesh, SolidMesh};
@@ -9,52 +9,64 @@ use ligament_model::cloud::lattice::SolidLattice;
 
 use ligament_output::quantity::{between, quantity};
 
-use super::entry::entry;
+use super::report::Report;
 
 /// Writes the composition of a body and the volume of its points.
-pub(super) fn write(out: &mut dyn Write, body: &dyn Body, volume: f64) -> io::Result<()> {
+pub(super) fn write(report: &mut Report<'_>, body: &dyn Body, volume: f64) -> io::Result<()> {
     match body.origin() {
-        Origin::Mesh(mesh) => write_mesh(out, mesh, volume),
-        Origin::Lattice(lattice) => write_lattice(out, body, lattice, volume),
-        Origin::SolidMesh(mesh) => write_solid_mesh(out, mesh, volume),
-        Origin::SolidLattice(lattice) => write_solid_lattice(out, body, lattice, volume),
+        Origin::Mesh(mesh) => write_mesh(report, mesh, volume),
+        Origin::Lattice(lattice) => write_lattice(report, body, lattice, volume),
+        Origin::SolidMesh(mesh) => write_solid_mesh(report, mesh, volume),
+        Origin::SolidLattice(lattice) => write_solid_lattice(report, body, lattice, volume),
         Origin::Points => {
             let (points, volume) = (body.n_points(), quantity(volume, "m^3"));
-            writeln!(out, "{points} points of {volume}")
+            report.line(format!("{points} points of {volume}"))
         }
     }
 }
 
-fn write_mesh(out: &mut dyn Write, mesh: &Mesh, volume: f64) -> io::Result<()> {
-    writeln!(out, "mesh")?;
+fn write_mesh(report: &mut Report<'_>, mesh: &Mesh, volume: f64) -> io::Result<()> {
+    report.head("mesh");
     let [nodes, cells] = [mesh.positions.len(), mesh.cells.len()];
-    entry(out, "nodes, cells", format!("{nodes}, {cells}"))?;
-    entry(out, "area", quantity(mesh.area(), "m^2"))?;
-    entry(out, "volume of the points", quantity(volume, "m^3"))?;
-    write_groups(out, &mesh.groups)
+    report.entry("nodes, cells", format!("{nodes}, {cells}"))?;
+    report.detail("area", quantity(mesh.area(), "m^2"))?;
+    report.detail("volume of the points", quantity(volume, "m^3"))?;
+    write_groups(report, &mesh.groups)
 }
 
-fn write_solid_mesh(out: &mut dyn Write, mesh: &SolidMesh, volume: f64) -> io::Result<()> {
-    writeln!(out, "mesh of a solid")?;
+fn write_solid_mesh(report: &mut Report<'_>, mesh: &SolidMesh, volume: f64) -> io::Result<()> {
+    report.head("mesh of a solid");
     let [nodes, cells] = [mesh.positions.len(), mesh.cells.len()];
-    entry(out, "nodes, cells", format!("{nodes}, {cells}"))?;
-    entry(out, "volume", quantity(mesh.volume(), "m^3"))?;
-    entry(out, "volume of the points", quantity(volume, "m^3"))?;
-    write_groups(out, &mesh.groups)
+    report.entry("nodes, cells", format!("{nodes}, {cells}"))?;
+    report.entry("volume", quantity(mesh.volume(), "m^3"))?;
+    report.detail("volume of the points", quantity(volume, "m^3"))?;
+    write_groups(report, &mesh.groups)
 }
 
-fn write_groups(out: &mut dyn Write, groups: &[Group]) -> io::Result<()> {
+fn write_groups(report: &mut Report<'_>, groups: &[Group]) -> io::Result<()> {
+    let names: Vec<&str> = groups.iter().map(|it| it.name.as_str()).collect();
+    if !names.is_empty() {
+        report.entry("groups", names.join(", "))?;
+    }
     for group in groups {
         let kinds = ["points", "curve", "surface", "volume"];
         let kind = kinds.get(usize::from(group.dimension)).unwrap_or(&"group");
         let of_nodes = format!("{kind} of {} nodes", group.nodes.len());
-        entry(out, &format!("group {}", group.name), of_nodes)?;
+        report.detail(&format!("group {}", group.name), of_nodes)?;
     }
     Ok(())
 }
 
+/// Writes the names of the sets of a lattice.
+fn write_sets(report: &mut Report<'_>, body: &dyn Body) -> io::Result<()> {
+    match body.group_names() {
+        names if names.is_empty() => Ok(()),
+        names => report.entry("sets", names.join(", ")),
+    }
+}
+
 fn write_solid_lattice(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     body: &dyn Body,
     lattice: &SolidLattice,
     volume: f64,
@@ -62,21 +74,22 @@ fn write_solid_lattice(
     let [nx, ny, nz] = lattice.size;
     let left = lattice.cells.len();
     let removed = lattice.n_whole() - left;
-    writeln!(out, "lattice of a solid")?;
+    report.head("lattice of a solid");
     let cells = format!("{left} of {nx} x {ny} x {nz} ({removed} removed)");
-    entry(out, "cells", cells)?;
+    report.entry("cells", cells)?;
     let sides = lattice.spacing.map(|it| quantity(it, "m"));
-    entry(out, "spacing", sides.join(" x "))?;
-    entry(out, "volume of the points", quantity(volume, "m^3"))?;
+    report.entry("spacing", sides.join(" x "))?;
+    report.detail("volume of the points", quantity(volume, "m^3"))?;
+    write_sets(report, body)?;
     for name in body.group_names() {
         let points = body.points_of(&name).unwrap_or_default().len();
-        entry(out, &format!("set {name}"), format!("{points} points"))?;
+        report.detail(&format!("set {name}"), format!("{points} points"))?;
     }
     Ok(())
 }
 
 fn write_lattice(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     body: &dyn Body,
     lattice: &Lattice,
     volume: f64,
@@ -86,29 +99,30 @@ fn write_lattice(
     let removed = lattice.n_whole() - left;
     let [right, top] = [x + f64::from(nx) * dx, y + f64::from(ny) * dy];
     let area = left as f64 * dx * dy;
-    writeln!(out, "lattice")?;
+    report.head("lattice");
     let cells = format!("{left} of {nx} x {ny} ({removed} removed)");
-    entry(out, "cells", cells)?;
+    report.entry("cells", cells)?;
     let [wide, high] = [dx, dy].map(|it| quantity(it, "m"));
-    entry(out, "spacing", format!("{wide} x {high}"))?;
+    report.entry("spacing", format!("{wide} x {high}"))?;
     let [of_x, of_y] = [[x, right], [y, top]].map(|it| between(it, "m"));
     let sides = format!("x {of_x}, y {of_y}");
-    entry(out, "rectangle", sides)?;
-    entry(out, "area", quantity(area, "m^2"))?;
-    entry(out, "volume of the points", quantity(volume, "m^3"))?;
+    report.detail("rectangle", sides)?;
+    report.detail("area", quantity(area, "m^2"))?;
+    report.detail("volume of the points", quantity(volume, "m^3"))?;
+    write_sets(report, body)?;
     for name in body.group_names() {
         let mut words = format!("{} points", body.points_of(&name).unwrap_or_default().len());
         if let Some((_, length)) = body.lengths_of(&name).first() {
             words += &format!(", {} of a side each", quantity(*length, "m"));
         }
-        entry(out, &format!("set {name}"), words)?;
+        report.detail(&format!("set {name}"), words)?;
     }
     Ok(())
 }
 
 /// Writes a group of points that are supported or loaded.
 pub(super) fn write_group(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     body: &dyn Body,
     name: &str,
     points: &[u32],
@@ -117,5 +131,5 @@ pub(super) fn write_group(
         [only] => body.place(*only),
         points => format!("{} points", points.len()),
     };
-    entry(out, name, where_at)
+    report.entry(name, where_at)
 }

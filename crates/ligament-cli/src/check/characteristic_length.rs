@@ -1,6 +1,6 @@
 //! What `ligament check` tells of the characteristic length of a material, and whether a run that breaks bonds depends on the mesh.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::Setup;
 use ligament_model::Material;
@@ -9,7 +9,7 @@ use ligament_model::material::Space;
 use ligament_output::quantity::{between, four_digits, quantity};
 use ligament_run::model::Model;
 
-use super::entry::entry;
+use super::report::Report;
 
 /// Writes for each material with a strength and a fracture energy its characteristic length
 ///
@@ -17,14 +17,10 @@ use super::entry::entry;
 ///
 /// and the horizon over it. With a horizon of at most l_ch a crack spends its energy over several bonds that soften, and neither strength nor
 /// toughness hang on the mesh. Bonds that break at once by a strength know no energy: K_Ic grows with the root of the horizon.
-pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+pub(super) fn write(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     for material in model.setup.materials() {
         if let Some(length) = characteristic_length(model, &material) {
-            entry(
-                out,
-                "characteristic length",
-                words(model, &material, length),
-            )?;
+            report.entry("characteristic length", words(model, &material, length))?;
         }
     }
     let list = &model.criteria.list;
@@ -33,7 +29,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     if list.iter().any(|it| breaks_by_stress(&it)) && !starts {
         let words = "brittle bonds with a limit of stress: the strength does not depend on the mesh, but the toughness does (K_Ic grows \
             with sqrt(H)); `rankine` softens according to the fracture energy";
-        entry(out, "cracks", words)?;
+        report.entry("cracks", words)?;
     }
     Ok(())
 }

@@ -1,12 +1,12 @@
 //! What `ligament check` foresees that a crack through the body will spend.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament_model::cloud::PointCloud;
 use ligament_output::quantity::{place, quantity};
 use ligament_run::model::Model;
 
-use super::entry::entry;
+use super::report::Report;
 
 /// Names of the axes.
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -16,7 +16,7 @@ const PARTS: f64 = 8.0;
 
 /// Writes the energy G_c A of a crack through the body, where all materials have the same fracture energy and a criterion uses it: on from
 /// each end of a straight pre-crack that lies in the body, otherwise through the mean section across each axis, volume over length.
-pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+pub(super) fn write(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     let Some(given) = model.setup.spent_fracture_energy() else {
         return Ok(());
     };
@@ -27,7 +27,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let ahead = ahead_of_precracks(model);
     for (tip, area) in &ahead {
         let words = format!("on from {} {}", place(tip), taken(*area));
-        entry(out, "a crack through", words)?;
+        report.detail("a crack through", words)?;
     }
     if ahead.is_empty() {
         let sections = sections(model);
@@ -35,7 +35,7 @@ pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         let words = words.map(|(axis, area)| format!("across {axis} {}", taken(*area)));
         let words: Vec<String> = words.collect();
         let words = format!("the mean section {}", words.join(", "));
-        entry(out, "a crack through", words)?;
+        report.detail("a crack through", words)?;
     }
     Ok(())
 }

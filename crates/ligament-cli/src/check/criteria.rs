@@ -1,6 +1,6 @@
 //! Report of `ligament check` on the failure criteria: limits, and their relation to the fracture energy.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
@@ -15,35 +15,35 @@ use ligament_run::summary::scatter;
 
 use super::characteristic_length::{self, young};
 use super::crack_work;
-use super::entry::entry;
+use super::report::Report;
 
 /// Writes the criteria with their limits over the bonds.
-pub(super) fn write(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+pub(super) fn write(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     if model.setup.criteria.is_empty() {
         return Ok(());
     }
-    writeln!(out, "failure criteria")?;
+    report.head("failure criteria");
     for criterion in &model.criteria.list {
         match criterion.starting() {
-            Some(starting) => write_start(out, criterion, starting)?,
-            None => write_limits(out, criterion)?,
+            Some(starting) => write_start(report, criterion, starting)?,
+            None => write_limits(report, criterion)?,
         }
         let given = model.setup.criteria.get(criterion.choice);
         if given.is_some_and(Choice::spends_fracture_energy) {
-            write_energy(out, model, criterion)?;
+            write_energy(report, model, criterion)?;
         }
     }
-    write_cracks(out, model)?;
-    crack_work::write(out, model)?;
-    characteristic_length::write(out, model)?;
-    write_scatters(out, model)
+    write_cracks(report, model)?;
+    crack_work::write(report, model)?;
+    characteristic_length::write(report, model)?;
+    write_scatters(report, model)
 }
 
 /// Writes the energy that cracks dissipate in each material.
-fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_cracks(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     for (index, material) in model.setup.materials().into_iter().enumerate() {
         if let Some(energies) = crack_energies(model, index) {
-            write_crack(out, model, &material, energies)?;
+            write_crack(report, model, &material, energies)?;
         }
     }
     Ok(())
@@ -51,7 +51,7 @@ fn write_cracks(out: &mut dyn Write, model: &Model) -> io::Result<()> {
 
 /// Writes the energies that cracks opening along x and along y dissipate in a material.
 fn write_crack(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     model: &Model,
     material: &Material,
     energies: [CrackEnergy; 2],
@@ -86,7 +86,7 @@ fn write_crack(
         let percent = four_digits(100.0 * unbroken);
         words += &format!("; {percent} % of the bonds across it never break");
     }
-    entry(out, "a crack spends", words)
+    report.entry("a crack spends", words)
 }
 
 /// Text of the energies per area of cracks opening along x and along y, J/m^2, compared with a fracture energy: "97.09 to 97.63 J/m^2 (0.97
@@ -114,13 +114,13 @@ fn spent_words([x, y]: [f64; 2], given: Option<f64>) -> String {
 }
 
 /// Writes the random properties, whose factors are included in the limits above.
-fn write_scatters(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_scatters(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     let mut properties = model.setup.scatter.iter().zip(scatter(model));
-    properties.try_for_each(|(scatter, summary)| write_scatter(out, scatter, &summary))
+    properties.try_for_each(|(scatter, summary)| write_scatter(report, scatter, &summary))
 }
 
 fn write_scatter(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     scatter: &Scatter,
     summary: &ScatterSummary,
 ) -> io::Result<()> {
@@ -143,60 +143,65 @@ fn write_scatter(
     let words = format!(
         "{distribution}, {correlation}, seed {seed}: factors {min:.4} to {max:.4}, deviation {deviation:.2} %"
     );
-    entry(out, name, words)
+    report.entry(name, words)
 }
 
 /// Writes where bonds begin to soften by the stress around them, and what they take then.
-fn write_start(out: &mut dyn Write, criterion: &Criterion, starting: &Starting) -> io::Result<()> {
+fn write_start(
+    report: &mut Report<'_>,
+    criterion: &Criterion,
+    starting: &Starting,
+) -> io::Result<()> {
     let finite = |values: &[f64]| Range::over(values.iter().copied().filter(|it| it.is_finite()));
     let both = finite(starting.strengths()).zip(finite(starting.critical_stretches()));
     let Some((strength, critical)) = both else {
-        return writeln!(out, "  {:<21} no limit: no bond can fail", criterion.name);
+        return report.entry(criterion.name, "no limit: no bond can fail");
     };
-    writeln!(
-        out,
-        "  {:<21} begins at {} = {strength} around a bond; {}; takes what a brittle bond takes up to the stretch {critical}",
-        criterion.name,
+    let words = format!(
+        "begins at {} = {strength} around a bond; {}; takes what a brittle bond takes up to the stretch {critical}",
         starting.formula(),
         criterion.after.law().force,
-    )
+    );
+    report.entry(criterion.name, words)
 }
 
-fn write_limits(out: &mut dyn Write, criterion: &Criterion) -> io::Result<()> {
+fn write_limits(report: &mut Report<'_>, criterion: &Criterion) -> io::Result<()> {
     let measure = criterion.measure;
-    write!(out, "  {:<21} {} = ", criterion.name, measure.formula())?;
     let failing = |bond: &usize| criterion.limit[*bond].is_finite();
     let bonds: Vec<usize> = (0..criterion.limit.len()).filter(failing).collect();
     let of_bonds =
         |value: &dyn Fn(usize) -> f64| Range::over(bonds.iter().map(|&bond| value(bond)));
+    let mut words = format!("{} = ", measure.formula());
     let Some(limits) = of_bonds(&|bond| criterion.limit[bond]) else {
-        return writeln!(out, "no limit: no bond can fail");
+        return report.entry(criterion.name, words + "no limit: no bond can fail");
     };
-    write!(out, "{limits}")?;
+    words += &limits.to_string();
     let stored = criterion.coefficients(0).len();
     let names = measure.coefficient_names().iter().take(stored);
     for (place, name) in names.enumerate() {
         if let Some(values) = of_bonds(&|bond| criterion.coefficients(bond)[place]) {
-            write!(out, "; {name} = {values}")?;
+            words += &format!("; {name} = {values}");
         }
     }
     let after = &criterion.after;
-    write!(out, "; {}", after.law().force)?;
+    words += &format!("; {}", after.law().force);
     let parameter = after.parameter();
     if !parameter.is_empty()
         && let Some(ends) = of_bonds(&|bond| parameter[bond])
     {
-        write!(out, " {ends} times the limit")?;
+        words += &format!(" {ends} times the limit");
     }
     match criterion.limit.len() - bonds.len() {
-        0 => writeln!(out),
-        never => writeln!(out, "; {never} bonds never fail"),
+        0 => {}
+        1 => words += "; 1 bond never fails",
+        never => words += &format!("; {never} bonds never fail"),
     }
+    report.entry(criterion.name, words)
 }
 
 /// Writes the strengths that correspond to limits from the fracture energy: these decrease with the root of the horizon, so that the
 /// strength of a body without a crack depends on the mesh.
-fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io::Result<()> {
+fn write_energy(report: &mut Report<'_>, model: &Model, criterion: &Criterion) -> io::Result<()> {
     // Bonds across the bar may reach their limit before those along it.
     let at_most = if criterion.measure.needs_shear_stiffness() {
         "at most "
@@ -210,12 +215,11 @@ fn write_energy(out: &mut dyn Write, model: &Model, criterion: &Criterion) -> io
         && let Some(limits) =
             Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {
-        writeln!(
-            out,
-            "{:<24}a bar without a crack fails at {at_most}E s_0 = {}, which depends on the horizon",
-            "",
-            limits.times(young).text("Pa")
-        )?;
+        let strength = limits.times(young).text("Pa");
+        let words = format!(
+            "a bar without a crack fails at {at_most}E s_0 = {strength}, which depends on the horizon"
+        );
+        report.entry("", words)?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Report of `ligament check` on the equations: size, and choice of the solver with its reason.
 
-use std::io::{self, Write};
+use std::io;
 use std::time::Instant;
 
 use ligament_analysis::Equilibrium;
@@ -10,7 +10,7 @@ use ligament_analysis::solver::{
 };
 use ligament_analysis::stiffness::Stiffness;
 
-use super::entry::{entry, megabytes};
+use super::report::{Report, megabytes};
 use ligament::Setup;
 use ligament_case::case::CaseFile;
 use ligament_run::memory;
@@ -18,15 +18,15 @@ use ligament_run::model::Model;
 
 /// Writes the size of the equations and the choice of the solver.
 pub(super) fn write(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     case: &CaseFile,
     model: &Model,
     equilibrium: &Equilibrium,
 ) -> anyhow::Result<()> {
     match (equilibrium.stiffness(), equilibrium.choice()) {
-        (Some(stiffness), _) => write_with_matrix(out, case, model, stiffness),
+        (Some(stiffness), _) => write_with_matrix(report, case, model, stiffness),
         (None, SolverChoice::Iterative(choice)) => {
-            write_iteration(out, case, model, (equilibrium.unknowns().len(), choice))
+            write_iteration(report, case, model, (equilibrium.unknowns().len(), choice))
         }
         (
             None,
@@ -37,7 +37,7 @@ pub(super) fn write(
 
 /// Writes the size of equations with a matrix and the choices for its factor.
 pub(super) fn write_with_matrix(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     case: &CaseFile,
     model: &Model,
     stiffness: &Stiffness,
@@ -45,24 +45,24 @@ pub(super) fn write_with_matrix(
     let symbolic = stiffness.symbolic();
     let matrix = symbolic.pattern().n_entries();
     let factor = symbolic.n_factor_values();
-    writeln!(out, "equations")?;
-    entry(out, "unknowns", stiffness.unknowns().len())?;
+    report.head("equations");
+    report.entry("unknowns", stiffness.unknowns().len())?;
     let entries = format!("{matrix} in the matrix, {factor} in the factor");
-    entry(out, "entries", entries)?;
-    write_memory(out, case, model, Some(stiffness))?;
+    report.detail("entries", entries)?;
+    write_memory(report, case, model, Some(stiffness))?;
     let choice = stiffness.choice();
-    entry(out, "method", format!("direct: {}", choice.reason))?;
-    write_choice(out, &model.setup, choice)?;
-    entry(out, "ordering", ordering_reason(model))?;
+    report.detail("method", format!("direct: {}", choice.reason))?;
+    write_choice(report, &model.setup, choice)?;
+    report.detail("ordering", ordering_reason(model))?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
-        write_ordering(out, stiffness, ordering)?;
+        write_ordering(report, stiffness, ordering)?;
     }
     Ok(())
 }
 
 /// Writes the number of unknowns without a matrix and the choices for the iteration.
 fn write_iteration(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     case: &CaseFile,
     model: &Model,
     (unknowns, choice): (usize, &IterativeChoice),
@@ -73,48 +73,46 @@ fn write_iteration(
         aggregate,
         cluster,
     } = choice;
-    writeln!(out, "equations")?;
-    entry(out, "unknowns", unknowns)?;
-    write_memory(out, case, model, None)?;
+    report.head("equations");
+    report.entry("unknowns", unknowns)?;
+    write_memory(report, case, model, None)?;
     let method = format!("iterative, by conjugate gradients without a matrix: {reason}");
-    entry(out, "method", method)?;
+    report.detail("method", method)?;
     let aggregates = match cluster {
         None => format!("rigid motions of at most {aggregate} points each"),
         Some(cluster) => {
             format!("rigid motions of at most {aggregate} points each, then of {cluster}")
         }
     };
-    entry(out, "coarse space", aggregates)?;
+    report.detail("coarse space", aggregates)?;
     let tied = TIED * tolerance;
     let left = format!(
         "{tolerance:e} of the forces after a breakage; bonds within {tied:e} break together"
     );
-    entry(out, "tolerance", left)?;
-    Ok(entry(out, "threads", rayon::current_num_threads())?)
+    report.detail("tolerance", left)?;
+    Ok(report.detail("threads", rayon::current_num_threads())?)
 }
 
 fn write_memory(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     case: &CaseFile,
     model: &Model,
     stiffness: Option<&Stiffness>,
 ) -> io::Result<()> {
     let bytes = memory::of_equations(&*model.system, stiffness);
-    entry(out, "estimated memory", megabytes(bytes as f64))?;
+    report.entry("estimated memory", megabytes(bytes as f64))?;
     if let Some(there) = memory::allowed(case) {
-        entry(out, "available memory", megabytes(there as f64))?;
+        report.detail("available memory", megabytes(there as f64))?;
     }
     match memory::foresee(case, &*model.system, stiffness) {
         Ok(()) => Ok(()),
-        Err(too_large) => writeln!(out, "warning: {too_large}"),
+        Err(too_large) => report.line(format!("warning: {too_large}")),
     }
 }
 
-fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io::Result<()> {
+fn write_choice(report: &mut Report<'_>, setup: &Setup, choice: &DirectChoice) -> io::Result<()> {
     if choice.unsymmetric {
-        return entry(
-            out,
-            "factorisation",
+        return report.detail("factorisation",
             "L U, because the printed forces derive from no energy; entries and ordering are those of the energy form",
         );
     }
@@ -132,7 +130,7 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io
         FactorKind::Llt => "L L^T",
         FactorKind::Ldlt => "L D L^T",
     };
-    entry(out, "factorisation", format!("{name}: {why}"))?;
+    report.detail("factorisation", format!("{name}: {why}"))?;
     let when_broken = match (setup.analysis.is_fracture(), choice.update) {
         (false, _) => "no bond breaks".to_owned(),
         (true, Update::Refactor) => "the factor is recomputed".to_owned(),
@@ -141,8 +139,8 @@ fn write_choice(out: &mut dyn Write, setup: &Setup, choice: &DirectChoice) -> io
             choice.most_bonds_in_place, choice.rebuild_every
         ),
     };
-    entry(out, "when bonds break", when_broken)?;
-    entry(out, "threads", rayon::current_num_threads())
+    report.detail("when bonds break", when_broken)?;
+    report.detail("threads", rayon::current_num_threads())
 }
 
 fn ordering_reason(model: &Model) -> String {
@@ -158,7 +156,7 @@ fn ordering_reason(model: &Model) -> String {
 }
 
 fn write_ordering(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     stiffness: &Stiffness,
     ordering: Ordering,
 ) -> anyhow::Result<()> {
@@ -175,5 +173,5 @@ fn write_ordering(
     let costs = format!(
         "{values} values in the factor, {multiplications:.2e} multiplications, analysed in {seconds:.3} s{taken}"
     );
-    Ok(entry(out, name, costs)?)
+    Ok(report.detail(name, costs)?)
 }

@@ -1,6 +1,6 @@
 //! Prediction of `ligament check` for the first bond at its limit, by the first solutions of a run.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::Message;
 use ligament::foresight::predict;
@@ -16,7 +16,7 @@ use ligament_run::stability;
 use ligament_run::stages::Stages;
 
 use super::Extent;
-use super::entry::entry;
+use super::report::Report;
 
 /// Largest number of a factor's multiplications for which the prediction is made by default, some seconds on one processor.
 const MOST_MULTIPLICATIONS: f64 = 5e10;
@@ -42,7 +42,7 @@ pub(super) struct Foreseen {
 ///
 /// If a run would be refused.
 pub(super) fn write(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     case: &CaseFile,
     model: &Model,
     problem: &Problem,
@@ -55,7 +55,7 @@ pub(super) fn write(
             true => "first breakage",
             false => "first solution",
         };
-        entry(out, name, format!("not computed: {reason}"))?;
+        report.entry(name, format!("not computed: {reason}"))?;
         return Ok(Foreseen::default());
     }
     let mut messages = Messages::default();
@@ -67,7 +67,7 @@ pub(super) fn write(
             Some(stages.time("stability", || stability::words(&end, model)))
         }
         Some(prediction) => {
-            write_prediction(out, model, problem, &prediction)?;
+            write_prediction(report, model, problem, &prediction)?;
             None
         }
         None => None,
@@ -108,7 +108,7 @@ pub(super) fn too_costly(
 }
 
 fn write_prediction(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     model: &Model,
     problem: &Problem,
     prediction: &Prediction,
@@ -119,9 +119,9 @@ fn write_prediction(
     };
     let name = "first breakage";
     match prediction {
-        Prediction::FirstFailure(first) => write_first(out, model, first, stage(first.part)),
+        Prediction::FirstFailure(first) => write_first(report, model, first, stage(first.part)),
         Prediction::NoFailure { utilisation } if *utilisation < ROUNDING => {
-            entry(out, name, "none: no bond is strained towards its limit")
+            report.entry(name, "none: no bond is strained towards its limit")
         }
         Prediction::NoFailure { utilisation } => {
             let words = match stage(0) {
@@ -134,22 +134,19 @@ fn write_prediction(
                     four_digits(*utilisation)
                 ),
             };
-            entry(out, name, words)
+            report.entry(name, words)
         }
         Prediction::NoEquilibrium { part, reason } => {
             let at = stage(*part).map_or(String::new(), |it| format!(" at the end of {it}"));
             let body = model.body();
             let reason = reason.words(&|point| body.place(point));
-            writeln!(
-                out,
+            report.line(format!(
                 "warning: the intact body has no equilibrium under the loads{at}: {reason}"
-            )
+            ))
         }
         // The reason is the end of the check.
         Prediction::Refused(_) => Ok(()),
-        Prediction::Nonlinear => entry(
-            out,
-            name,
+        Prediction::Nonlinear => report.entry(name,
             "not predicted, because strains are not proportional to the loads (crack faces close, surfaces meet, strains are true \
              strains, or bonds soften by a stress in stages)",
         ),
@@ -158,7 +155,7 @@ fn write_prediction(
 
 /// Writes load, load step and bond of the first limit.
 fn write_first(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     model: &Model,
     first: &FirstFailure,
     stage: Option<String>,
@@ -179,7 +176,7 @@ fn write_first(
     let units = model.setup.units();
     let load = quantity(first.point.reaction, units.force);
     let moved = quantity(first.point.displacement, units.displacement);
-    entry(out, name, format!("{at}: {load} at {moved}"))?;
+    report.entry(name, format!("{at}: {load} at {moved}"))?;
     let system = &model.system;
     let ends = (system.numbering()).ordered(system.ends()[first.bond as usize]);
     let [one, other] = ends.map(|end| model.body().tag(end));
@@ -196,7 +193,7 @@ fn write_first(
             step.beyond
         );
     }
-    entry(out, "", bond)
+    report.entry("", bond)
 }
 
 /// Observer that collects the messages of a run.

@@ -1,6 +1,6 @@
 //! Report of `ligament check` on a case with loads.
 
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use ligament::Loading;
@@ -20,8 +20,8 @@ use ligament_run::stages::Stages;
 use ligament_run::summary::temperature_change;
 
 use super::body::write_group;
-use super::entry::{entry, megabytes, spread};
 use super::foresight::Foreseen;
+use super::report::{Report, megabytes, spread};
 use super::{Extent, equations, foresight, model, restraints};
 
 /// Checks supports, loads and equations, and returns what a run would tell before its first load step.
@@ -30,7 +30,7 @@ pub(super) fn check(
     extent: Extent,
     model: &Model,
     stages: &mut Stages,
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
 ) -> anyhow::Result<Foreseen> {
     let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;
@@ -43,8 +43,8 @@ pub(super) fn check(
         })?),
     };
 
-    model::write(out, case, model)?;
-    write_boundary(out, model, &loading)?;
+    model::write(report, case, model)?;
+    write_boundary(report, model, &loading)?;
     // Contact may hold a free body.
     let free = gauges::of_intact_body(&*model.system, &*loading.boundary);
     for free in free.into_iter().filter(|_| !model.setup.has_contact()) {
@@ -53,12 +53,12 @@ pub(super) fn check(
             model.body(),
             &model.setup,
         );
-        writeln!(out, "  not held: {message}")?;
+        report.entry("not held", message)?;
     }
-    write_loading(out, &model.setup)?;
-    write_room(out, case, model)?;
+    write_loading(report, &model.setup)?;
+    write_room(report, case, model)?;
     if let Some(equilibrium) = &equilibrium {
-        equations::write(out, case, model, equilibrium)?;
+        equations::write(report, case, model, equilibrium)?;
     }
     refuse(&problem, &model.setup.analysis).map_err(|it| case.explained(it))?;
     let Some(equilibrium) = equilibrium else {
@@ -66,46 +66,49 @@ pub(super) fn check(
     };
     let too_costly = foresight::too_costly(case, extent, &problem, &equilibrium);
     drop(equilibrium);
-    foresight::write(out, case, model, &problem, too_costly, stages)
+    foresight::write(report, case, model, &problem, too_costly, stages)
 }
 
 /// Writes the disk space of the fields, and a warning where the disk of the current folder has less.
-pub(super) fn write_room(out: &mut dyn Write, case: &CaseFile, model: &Model) -> io::Result<()> {
+pub(super) fn write_room(
+    report: &mut Report<'_>,
+    case: &CaseFile,
+    model: &Model,
+) -> io::Result<()> {
     let fields = FieldsOnDisk::new(case, model);
     let of_one = megabytes(fields.of_one);
     let Some((most, all)) = fields.most.zip(fields.all()) else {
         let words = format!("about {of_one} every {} events", fields.every);
-        return entry(out, "fields on disk", words);
+        return report.detail("fields on disk", words);
     };
     let words = format!(
         "about {}, at most {most} states of {of_one}",
         megabytes(all)
     );
-    entry(out, "fields on disk", words)?;
+    report.detail("fields on disk", words)?;
     match disk::free(Path::new(".")) {
-        Some(free) if all > free => writeln!(
-            out,
+        Some(free) if all > free => report.line(format!(
             "warning: the fields may need {}, and the disk has {} free: set a larger output.fields_every, or output.bonds = false",
             megabytes(all),
             megabytes(free)
-        ),
+        )),
         _ => Ok(()),
     }
 }
 
 pub(super) fn write_boundary(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     model: &Model,
     loading: &Loading,
 ) -> io::Result<()> {
     let body = model.body();
-    writeln!(out, "supports and loads")?;
+    report.head("supports and loads");
     for group in &loading.boundary.groups {
-        write_group(out, body, &group.name, &group.points)?;
+        write_group(report, body, &group.name, &group.points)?;
     }
-    restraints::write(out, &model.setup)?;
+    restraints::write(report, &model.setup)?;
     if let Some(changes) = temperature_change(&loading.boundary) {
-        spread(out, "temperature change", changes, "K")?;
+        report.entry("temperature change", spread(changes, "K"))?;
     }
     let control = &loading.boundary.control;
     let points = control.points.len();
@@ -120,11 +123,11 @@ pub(super) fn write_boundary(
     };
     let unit = model.setup.control_unit();
     let words = format!("{what} {}", quantity(control.magnitude, unit));
-    entry(out, "controlled by", words)?;
+    report.entry("controlled by", words)?;
     if control.kind == ControlKind::Force && units == Units::COUPLE {
         let words =
             "mean rotation of the loaded points, rad, which is larger than that of the section";
-        entry(out, "displacement is", words)?;
+        report.detail("displacement is", words)?;
     }
     for (probe, given) in loading.probes.iter().zip(&model.setup.probes) {
         let words = |(place, position): (&Shares, &Position)| place_words(model, place, *position);
@@ -137,7 +140,7 @@ pub(super) fn write_boundary(
             (Reading::SectionForce { bonds, .. }, _) => format!("{} bonds", bonds.len()),
             _ => continue,
         };
-        entry(out, &format!("probe {}", probe.name), reads)?;
+        report.entry(&format!("probe {}", probe.name), reads)?;
     }
     Ok(())
 }
@@ -158,11 +161,11 @@ fn place_words(model: &Model, place: &Shares, position: Position) -> String {
     format!("{words}, {} from the position", quantity(distance, unit))
 }
 
-fn write_loading(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
+fn write_loading(report: &mut Report<'_>, setup: &Setup) -> io::Result<()> {
     let steps = setup.n_steps().unwrap_or(0);
     let stages: Vec<&str> = setup.stages.iter().map(|it| it.name.as_str()).collect();
     if !stages.is_empty() {
-        entry(out, "stages", stages.join(", "))?;
+        report.entry("stages", stages.join(", "))?;
     }
     let loading = match &setup.analysis {
         Analysis::Stepped(_) => format!("{steps} load steps"),
@@ -179,5 +182,5 @@ fn write_loading(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
             "one elastic solution at load factor 1".to_owned()
         }
     };
-    entry(out, "followed in", loading)
+    report.entry("analysis", loading)
 }

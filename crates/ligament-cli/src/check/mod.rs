@@ -5,7 +5,6 @@ mod body;
 mod characteristic_length;
 mod crack_work;
 mod criteria;
-mod entry;
 mod equations;
 mod extent;
 mod foresight;
@@ -14,10 +13,11 @@ mod modal;
 mod model;
 mod motion;
 mod patch_test;
+mod report;
 mod restraints;
 
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use ligament_analysis::connectivity::Fragments;
 use ligament_analysis::distributed_matrix::Solo;
@@ -36,9 +36,10 @@ use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
-use entry::{entry, megabytes};
 pub use extent::Extent;
 use foresight::Foreseen;
+pub use report::Lines;
+use report::{Report, megabytes};
 
 /// Name of the file with the fields of the points.
 pub const FIELDS: &str = "points.vtu";
@@ -49,96 +50,94 @@ pub fn check(
     case: &CaseFile,
     extent: Extent,
     fields: Option<&Path>,
+    lines: Lines,
     out: &mut (dyn Write + Send),
 ) -> anyhow::Result<Option<String>> {
-    on_threads(case.threads(), || check_here(case, extent, fields, out))?
-}
-
-/// Checks a case on the caller's threads.
-fn check_here(
-    case: &CaseFile,
-    extent: Extent,
-    fields: Option<&Path>,
-    out: &mut (dyn Write + Send),
-) -> anyhow::Result<Option<String>> {
-    let mut stages = Stages::default();
-    let progress = Progress::new(ProgressMode::Quiet);
-    let model = build_model(case, &mut stages, &progress)?;
-    on_pool(&Solo, || {
-        write_report(case, extent, fields, (&model, stages), out)
-    })
+    on_threads(case.threads(), || {
+        let mut stages = Stages::default();
+        let progress = Progress::new(ProgressMode::Quiet);
+        let model = build_model(case, &mut stages, &progress)?;
+        on_pool(&Solo, || {
+            let mut report = Report::new(out, lines);
+            let refused = write_report(case, extent, (&model, stages), &mut report)?;
+            if let Some(folder) = fields {
+                let path = write_fields(&model, folder)?;
+                report.line(format!("fields written to {}", path.display()))?;
+            }
+            Ok(refused)
+        })
+    })?
 }
 
 /// Reports a model.
 fn write_report(
     case: &CaseFile,
     extent: Extent,
-    fields: Option<&Path>,
     (model, mut stages): (&Model, Stages),
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
 ) -> anyhow::Result<Option<String>> {
     let Foreseen { messages, refused } = match model.setup.analysis {
         Analysis::Modal(settings) => {
-            modal::check(case, settings, extent, model, &mut stages, out)?;
+            modal::check(case, settings, extent, model, &mut stages, report)?;
             Foreseen::default()
         }
         Analysis::Motion(ref settings) => {
-            motion::check(case, settings, extent, model, &mut stages, out)?;
+            motion::check(case, settings, extent, model, &mut stages, report)?;
             Foreseen::default()
         }
         Analysis::Elastic { .. } | Analysis::Stepped(_) | Analysis::Event(_) => {
-            loading::check(case, extent, model, &mut stages, out)?
+            loading::check(case, extent, model, &mut stages, report)?
         }
     };
-    patch_test::write(out, extent, model, &mut stages)?;
-    let too_stiff = bending_test::write(out, extent, model, &mut stages)?;
-    write_stages(out, stages.done())?;
+    patch_test::write(report, extent, model, &mut stages)?;
+    let too_stiff = bending_test::write(report, extent, model, &mut stages)?;
+    write_stages(report, stages.done())?;
     let intact = vec![true; model.system.ends().len()];
     let loose = Fragments::find(&*model.system, &intact).points.len();
     if loose > 1 {
-        writeln!(
-            out,
+        report.line(format!(
             "warning: the body consists of {loose} parts with no bond between them"
-        )?;
+        ))?;
     }
     for warning in counted(model.warnings.iter().cloned().chain(messages)) {
-        writeln!(out, "warning: {warning}")?;
+        report.line(format!("warning: {warning}"))?;
     }
     if let Some(warning) = too_stiff {
-        writeln!(out, "warning: {warning}")?;
+        report.line(format!("warning: {warning}"))?;
     }
     for note in notes(&model.setup) {
-        writeln!(out, "note: {note}")?;
-    }
-    if let Some(folder) = fields {
-        std::fs::create_dir_all(folder)?;
-        let path = folder.join(FIELDS);
-        let (grid, system) = (model.body().grid(), &model.system);
-        let points = ModelPoints {
-            fixed: &model.fixed,
-            volumes: system.volumes(),
-            spacing: system.spacing(),
-        };
-        point_grid(&path, &grid, points)?;
-        writeln!(out, "fields written to {}", path.display())?;
+        report.line(format!("note: {note}"))?;
     }
     Ok(refused)
 }
 
+/// Writes the fixed fields of the points into a folder; returns the path of the file.
+fn write_fields(model: &Model, folder: &Path) -> anyhow::Result<PathBuf> {
+    std::fs::create_dir_all(folder)?;
+    let path = folder.join(FIELDS);
+    let points = ModelPoints {
+        fixed: &model.fixed,
+        volumes: model.system.volumes(),
+        spacing: model.system.spacing(),
+    };
+    point_grid(&path, &model.body().grid(), points)?;
+    Ok(path)
+}
+
 /// Writes time and memory of the check and the available disk space, the part of the report that varies.
-fn write_stages(out: &mut dyn Write, stages: &[Stage]) -> io::Result<()> {
-    writeln!(out, "time, memory and disk")?;
+fn write_stages(report: &mut Report<'_>, stages: &[Stage]) -> io::Result<()> {
+    report.head("time, memory and disk");
     for stage in stages {
         let name = format!("time, {}", stage.name);
-        entry(out, &name, format!("{:.3} s", stage.seconds))?;
+        report.detail(&name, format!("{:.3} s", stage.seconds))?;
     }
     let total: f64 = stages.iter().map(|stage| stage.seconds).sum();
-    entry(out, "time, all", format!("{total:.3} s"))?;
+    report.entry("time, all", format!("{total:.3} s"))?;
     if let Some(bytes) = stages.last().and_then(|stage| stage.peak_bytes) {
-        entry(out, "peak memory", megabytes(bytes as f64))?;
+        report.entry("peak memory", megabytes(bytes as f64))?;
     }
     match disk::free(Path::new(".")) {
-        Some(bytes) => entry(out, "free on the disk", megabytes(bytes)),
+        Some(bytes) => report.detail("free on the disk", megabytes(bytes)),
         None => Ok(()),
     }
 }

@@ -1,12 +1,10 @@
 //! Report of `ligament check` on a modal case.
 
-use std::io::Write;
-
 use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::body::write_group;
-use super::entry::entry;
+use super::report::Report;
 use super::{Extent, equations, model};
 use ligament_case::case::CaseFile;
 use ligament_run::model::Model;
@@ -19,7 +17,7 @@ pub(super) fn check(
     extent: Extent,
     model: &Model,
     stages: &mut Stages,
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
 ) -> anyhow::Result<()> {
     let vibration = Vibration::new(model);
     let vibration = vibration.map_err(|error| case.located(error))?;
@@ -30,16 +28,16 @@ pub(super) fn check(
             Some(stages.time("analysis", || ModalAnalysis::new(&problem, settings))?)
         }
     };
-    model::write(out, case, model)?;
-    writeln!(out, "supports")?;
+    model::write(report, case, model)?;
+    report.head("supports");
     for group in &vibration.supports.groups {
-        write_group(out, model.body(), &group.name, &group.points)?;
+        write_group(report, model.body(), &group.name, &group.points)?;
     }
     if vibration.supports.groups.is_empty() {
-        writeln!(out, "  none: the body is free")?;
+        report.words("none: the body is free")?;
     }
-    writeln!(out, "modes")?;
-    entry(out, "wanted", settings.modes)?;
+    report.head("modes");
+    report.entry("wanted", settings.modes)?;
     if let Some(analysis) = &analysis {
         let why = match settings.rotations {
             Some(_) => "set in the case",
@@ -52,9 +50,9 @@ pub(super) fn check(
             Rotations::Inertia => "with inertia",
             Rotations::Massless => "without inertia",
         };
-        entry(out, "rotations", format!("{what}, {why}"))?;
+        report.detail("rotations", format!("{what}, {why}"))?;
         let stiffness = analysis.stiffness();
-        equations::write_with_matrix(out, case, model, stiffness)?;
+        equations::write_with_matrix(report, case, model, stiffness)?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Report of `ligament check` on the model, before supports and loads.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::body::Origin;
 use ligament::setup::Section;
@@ -9,24 +9,25 @@ use ligament_model::{Elasticity, Plane};
 use ligament_output::quantity::quantity;
 use ligament_output::summary::Spread;
 use ligament_run::model::Model;
-use ligament_run::summary::{correction_line, family, formulation_line, heading};
+use ligament_run::summary::{analysis_words, correction_line, family, formulation_line, heading};
 
-use super::entry::{entry, spread};
+use super::report::{Report, spread};
 use super::{body, criteria};
 
 /// Writes the report on the model.
-pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
-    writeln!(out, "{}", heading(&case.case.title))?;
+pub(super) fn write(report: &mut Report<'_>, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
+    report.line(heading(&case.case.title))?;
+    report.line(analysis_words(&model.setup))?;
     let volume = model.system.volumes().iter().sum();
-    body::write(out, model.body(), volume)?;
-    write_section(out, model)?;
-    write_materials(out, model)?;
-    write_bonds(out, model)?;
-    criteria::write(out, model)?;
-    Ok(write_energy_ratios(out, model)?)
+    body::write(report, model.body(), volume)?;
+    write_section(report, model)?;
+    write_materials(report, model)?;
+    write_bonds(report, model)?;
+    criteria::write(report, model)?;
+    Ok(write_energy_ratios(report, model)?)
 }
 
-fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_section(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     let Section::Plane { state, thickness } = model.setup.section else {
         return Ok(());
     };
@@ -35,11 +36,11 @@ fn write_section(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         Plane::Strain => "plane strain",
     };
     let thickness = quantity(thickness, "m");
-    entry(out, "thickness", format!("{thickness}, {state}"))
+    report.entry("thickness", format!("{thickness}, {state}"))
 }
 
-fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    writeln!(out, "materials")?;
+fn write_materials(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
+    report.head("materials");
     for (index, material) in model.setup.materials().iter().enumerate() {
         let volume = model.volume_of_material(index);
         let name = if material.name.is_empty() {
@@ -48,11 +49,7 @@ fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             &material.name
         };
         let constants = constants(&material.elasticity);
-        write!(
-            out,
-            "  {name}: {constants}, volume {}",
-            quantity(volume, "m^3")
-        )?;
+        let mut words = format!("{name}: {constants}, volume {}", quantity(volume, "m^3"));
         for (name, value, unit) in [
             ("F_t", material.tensile_strength, "Pa"),
             ("F_c", material.compressive_strength, "Pa"),
@@ -60,20 +57,20 @@ fn write_materials(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             ("G_IIc", material.fracture_energy_sliding, "J/m^2"),
         ] {
             if let Some(value) = value {
-                write!(out, ", {name} = {}", quantity(value, unit))?;
+                words += &format!(", {name} = {}", quantity(value, unit));
             }
         }
         if let Some(expansion) = material.expansion {
             let [one, two] = expansion.in_plane;
-            write!(out, ", alpha = {}", quantity(one, "1/K"))?;
+            words += &format!(", alpha = {}", quantity(one, "1/K"));
             if one != two {
-                write!(out, " and {}", quantity(two, "1/K"))?;
+                words += &format!(" and {}", quantity(two, "1/K"));
             }
         }
-        match material.density {
-            Some(density) => writeln!(out, ", mass {}", quantity(density * volume, "kg"))?,
-            None => writeln!(out)?,
+        if let Some(density) = material.density {
+            words += &format!(", mass {}", quantity(density * volume, "kg"));
         }
+        report.words(words)?;
     }
     Ok(())
 }
@@ -101,46 +98,48 @@ fn constants(elasticity: &Elasticity) -> String {
     }
 }
 
-fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_bonds(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     let (system, fixed) = (&model.system, &model.fixed);
     let over = |values: &[f64]| Spread::over(values.iter().copied());
-    writeln!(out, "bonds")?;
+    report.head("bonds");
     let (bonds, cut) = (model.counts.bonds, model.cut_bonds());
-    entry(out, "bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
+    report.entry("bonds", format!("{bonds} ({cut} cut by pre-cracks)"))?;
     let has_holes = match model.body().origin() {
         Origin::Lattice(lattice) => !lattice.holes.is_empty(),
         Origin::SolidLattice(lattice) => !lattice.holes.is_empty(),
         Origin::Mesh(_) | Origin::SolidMesh(_) | Origin::Points => false,
     };
     if has_holes || model.across_voids() > 0 {
-        entry(out, "pairs across voids", model.across_voids())?;
+        report.entry("pairs across voids", model.across_voids())?;
     }
     if model.counts.across_layers > 0 {
-        entry(out, "through a layer", model.counts.across_layers)?;
+        report.entry("through a layer", model.counts.across_layers)?;
     }
     if model.counts.far_points > 0 {
         let elements = format!("{} points of elements", model.counts.far_points);
-        entry(out, "far field", elements)?;
+        report.entry("far field", elements)?;
     }
-    entry(out, "points with no_fail", model.no_fail_points())?;
-    spread(out, "nearest distance", over(system.spacing()), "m")?;
-    spread(out, "horizon", over(&fixed.horizon), "m")?;
+    if model.no_fail_points() > 0 {
+        report.entry("points with no_fail", model.no_fail_points())?;
+    }
+    report.detail("nearest distance", spread(over(system.spacing()), "m"))?;
+    report.entry("horizon", spread(over(&fixed.horizon), "m"))?;
     let Spread { min, mean, max } = family(model);
     let of_points = format!("{min} to {max}, mean {mean:.1}");
-    entry(out, "bonds of a point", of_points)?;
-    let formulation = formulation_line(&model.setup);
-    writeln!(out, "  {formulation}")?;
-    let correction = correction_line(&model.setup.correction, model.correction.as_ref());
-    writeln!(out, "  {correction}")?;
-    spread(out, "correction factor", over(&fixed.domain_factor), "-")
+    report.entry("bonds of a point", of_points)?;
+    report.words(formulation_line(&model.setup))?;
+    report.words(correction_line(
+        &model.setup.correction,
+        model.correction.as_ref(),
+    ))?;
+    report.detail("correction factor", spread(over(&fixed.domain_factor), "-"))
 }
 
-fn write_energy_ratios(out: &mut dyn Write, model: &Model) -> io::Result<()> {
-    writeln!(out, "strain energy of the points over the continuum's")?;
+fn write_energy_ratios(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
+    report.head("strain energy of the points over the continuum's");
     for ratios in &model.fixed.energy_ratios {
         let Spread { min, mean, max } = Spread::over(ratios.at_points.iter().copied());
-        entry(
-            out,
+        report.detail(
             ratios.strain,
             format!("{min:.4} to {max:.4}, mean {mean:.4}"),
         )?;

@@ -1,6 +1,6 @@
 //! Report of `ligament check` on a motion in time.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::Loading;
 use ligament::setup::Setup;
@@ -12,7 +12,7 @@ use ligament_output::quantity::quantity;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
-use super::entry::entry;
+use super::report::Report;
 use super::{Extent, loading, model};
 
 /// Fewest points along a wave that is not much slower than the wave of the material.
@@ -25,7 +25,7 @@ pub(super) fn check(
     extent: Extent,
     model: &Model,
     stages: &mut Stages,
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
 ) -> anyhow::Result<()> {
     let loads = Loading::new(model);
     let loads = loads.map_err(|it| case.located(it))?;
@@ -36,14 +36,13 @@ pub(super) fn check(
         }
         (Extent::Model, _) | (_, None) => None,
     };
-    model::write(out, case, model)?;
-    loading::write_boundary(out, model, &loads)?;
-    loading::write_room(out, case, model)?;
-    writeln!(out, "motion")?;
+    model::write(report, case, model)?;
+    loading::write_boundary(report, model, &loads)?;
+    loading::write_room(report, case, model)?;
+    report.head("motion");
     let rows = settings.rows;
     let duration = quantity(settings.duration, "s");
-    entry(
-        out,
+    report.entry(
         "duration",
         format!("{duration}, {rows} rows of the history"),
     )?;
@@ -55,7 +54,7 @@ pub(super) fn check(
             model.body().place(critical.point),
             critical.component.name()
         );
-        entry(out, "critical step", words)?;
+        report.entry("critical step", words)?;
         let length = quantity(step.step, "s");
         let words = match settings.scheme {
             Scheme::Auto => format!(
@@ -66,13 +65,13 @@ pub(super) fn check(
                 format!("{length}, {count} steps")
             }
         };
-        entry(out, "time step", words)?;
+        report.entry("time step", words)?;
     }
-    Ok(write_waves(out, model)?)
+    Ok(write_waves(report, model)?)
 }
 
 /// Writes the speeds of plane waves along x in each material, and how many points lie along the shortest wave of the loads.
-fn write_waves(out: &mut dyn Write, model: &Model) -> io::Result<()> {
+fn write_waves(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     let setup = &model.setup;
     let speeds: Vec<Vec<f64>> = (0..setup.materials.len())
         .filter_map(|index| speeds(setup, index))
@@ -83,7 +82,7 @@ fn write_waves(out: &mut dyn Write, model: &Model) -> io::Result<()> {
             name => format!("waves in {name}"),
         };
         let words: Vec<String> = speeds.iter().map(|it| quantity(*it, "m/s")).collect();
-        entry(out, &name, words.join(", "))?;
+        report.entry(&name, words.join(", "))?;
     }
     let amplitudes = setup.loads.iter().filter_map(|it| it.amplitude.as_ref());
     let shortest = amplitudes
@@ -99,17 +98,15 @@ fn write_waves(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let spacing = model.system.spacing().iter().copied().fold(0.0, f64::max);
     let points = time * speed / spacing;
     let length = quantity(time * speed, "m");
-    entry(
-        out,
+    report.entry(
         "shortest wave",
         format!("{length}, {points:.0} points long"),
     )?;
     if points < FEWEST_POINTS {
-        writeln!(
-            out,
+        report.line(format!(
             "warning: the shortest wave of the loads is {points:.1} points long, and waves of fewer than {FEWEST_POINTS} points are too slow: \
              take a longer pulse or more points"
-        )?;
+        ))?;
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Report of `ligament check` on the stiffness of the discrete body.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::Model;
 use ligament::patch_test::{Constants, PatchTest, patch_test};
@@ -9,7 +9,7 @@ use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
 use super::Extent;
-use super::entry::entry;
+use super::report::Report;
 
 /// Largest number of points for which the test is done by default, in the plane and in space: at 10,000 points of thirty bonds it takes a
 /// second or two, several times the rest of a check, at 100,000 half a minute and 3 GB.
@@ -23,7 +23,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Writes the elastic constants of the free body, and the deviation of its bonds from uniform strains.
 pub(super) fn write(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     extent: Extent,
     model: &Model,
     stages: &mut Stages,
@@ -31,29 +31,28 @@ pub(super) fn write(
     if extent == Extent::Model {
         return Ok(());
     }
-    writeln!(out, "free body under uniform stress")?;
+    report.head("free body under uniform stress");
     let kind = model.setup.body.dimensions() - 2;
     let (most, cost) = (MOST_POINTS[kind], COST[kind]);
     if extent == Extent::Matrix && model.system.n_points() > most {
         let words =
             format!("it needs {cost}, and the body has more than {most} points; use --patch-test");
-        return entry(out, "not computed", words);
+        return report.entry("not computed", words);
     }
     if model.cut_bonds() > 0 {
-        entry(out, "pre-cracks", "ignored: the test uses the intact body")?;
+        report.detail("pre-cracks", "ignored: the test uses the intact body")?;
     }
     match stages.time("patch test", || patch_test(model)) {
-        Ok(test) => write_test(out, &test),
-        Err(reason) => entry(out, "not computed", reason),
+        Ok(test) => write_test(report, &test),
+        Err(reason) => report.entry("not computed", reason),
     }
 }
 
-fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
+fn write_test(report: &mut Report<'_>, test: &PatchTest) -> io::Result<()> {
     let dimensions = test.place.len();
     match &test.constants {
-        Some(constants) => write_constants(out, constants, dimensions)?,
-        None => entry(
-            out,
+        Some(constants) => write_constants(report, constants, dimensions)?,
+        None => report.entry(
             "E, nu",
             "none: a body of several materials does not strain uniformly under a uniform stress",
         )?,
@@ -73,11 +72,11 @@ fn write_test(out: &mut dyn Write, test: &PatchTest) -> io::Result<()> {
         100.0 * test.largest,
         place(&test.place)
     );
-    entry(out, "strains of the bonds", words)
+    report.detail("strains of the bonds", words)
 }
 
 fn write_constants(
-    out: &mut dyn Write,
+    report: &mut Report<'_>,
     constants: &Constants,
     dimensions: usize,
 ) -> io::Result<()> {
@@ -99,7 +98,7 @@ fn write_constants(
         format!("{modulus} along {}", axis(it))
     });
     let young: Vec<String> = young.collect();
-    entry(out, "Young's modulus", young.join(", "))?;
+    report.entry("Young's modulus", young.join(", "))?;
     let given = material.poisson[0][1];
     let pairs = (0..dimensions).flat_map(|a| (0..dimensions).map(move |b| (a, b)));
     let ratios = pairs.filter(|(a, b)| a != b);
@@ -112,7 +111,7 @@ fn write_constants(
             ratios.join(", ")
         ),
     };
-    entry(out, "Poisson's ratio", words)?;
+    report.entry("Poisson's ratio", words)?;
     let places = SymTensor::<3>::COMPONENTS
         .iter()
         .filter(|[i, j]| i < j && *j < dimensions);
@@ -125,5 +124,5 @@ fn write_constants(
         }
     });
     let moduli: Vec<String> = moduli.collect();
-    entry(out, "shear modulus", moduli.join(", "))
+    report.detail("shear modulus", moduli.join(", "))
 }

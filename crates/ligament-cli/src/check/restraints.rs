@@ -1,29 +1,24 @@
 //! Report of `ligament check` on supports, and on springs and platens of loads.
 
-use std::io::{self, Write};
+use std::io;
 
 use ligament::setup::{Load, Setup, Support};
 
 use ligament_output::quantity::quantity;
 
-use super::entry::entry;
+use super::report::Report;
 
 /// Writes the fixed components and springs of each support, and the loads through springs or a platen.
-pub(super) fn write(out: &mut dyn Write, setup: &Setup) -> io::Result<()> {
+pub(super) fn write(report: &mut Report<'_>, setup: &Setup) -> io::Result<()> {
     for (index, support) in setup.supports.iter().enumerate() {
         let name = format!("{} holds", support.name(index));
-        entry(
-            out,
+        report.entry(
             &name,
             of_support(support, setup.body.dimensions()).join(", "),
         )?;
     }
     for load in setup.loads.iter().filter(|it| it.is_restraint()) {
-        entry(
-            out,
-            &format!("{} acts", load.name),
-            of_load(load).join(", "),
-        )?;
+        report.entry(&format!("{} acts", load.name), of_load(load).join(", "))?;
     }
     Ok(())
 }

@@ -10,13 +10,14 @@ use ligament_run::end::End;
 
 use super::case_args::CaseArgs;
 use super::output;
-use crate::check::{Extent, FIELDS, check};
+use crate::check::{Extent, FIELDS, Lines, check};
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament check cases/disk/case.toml
   ligament check case.toml --set model.horizon_factor=4
+  ligament check case.toml --all           what the points, the correction and the solver are like in detail
   ligament check case.toml --model-only    points and bonds alone, no matrix: for large meshes
   ligament check case.toml --out check     writes check/points.vtu to look at in ParaView";
 
@@ -33,6 +34,9 @@ pub struct CheckArgs {
     /// in a solid above 2000
     #[arg(long, conflicts_with = "model_only")]
     pub patch_test: bool,
+    /// Show all lines: groups, correction, energies, solver, patch test and times in detail
+    #[arg(long)]
+    pub all: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
     #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -53,8 +57,12 @@ impl CheckArgs {
             (false, false) => Extent::Matrix,
             (false, true) => Extent::PatchTest,
         };
+        let lines = match self.all {
+            true => Lines::All,
+            false => Lines::Main,
+        };
         let out = &mut terminal::stdout();
-        let Some(reason) = check(&case, extent, self.out.as_deref(), out)? else {
+        let Some(reason) = check(&case, extent, self.out.as_deref(), lines, out)? else {
             return Ok(ExitCode::SUCCESS);
         };
         out.flush()?;

@@ -21,6 +21,15 @@ impl Summary {
         verdict.end(self.without_equilibrium, self.last_state_not_at_rest)
     }
 
+    /// Words about the error of the energy balance.
+    pub fn energy_balance(&self) -> String {
+        let put_in = match self.motion.is_some() {
+            true => "energy put in",
+            false => "work",
+        };
+        format!("off by {:.1e} of the {put_in}", self.energy_balance_error)
+    }
+
     /// Head and words about the results of a run that did not end well.
     pub fn warning_of_end(&self) -> Option<[&'static str; 2]> {
         Some(match (self.end(), verdict(&self.termination)) {

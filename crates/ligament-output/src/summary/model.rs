@@ -14,6 +14,8 @@ pub struct ModelSummary {
     pub title: String,
     /// Version of the program.
     pub version: Text,
+    /// What is computed, in which space.
+    pub analysis: String,
     /// Description of the law and the corrections of the bonds.
     pub formulation: String,
     /// Number of points.

@@ -17,45 +17,11 @@ async function bytesOfText(text) {
   return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-// What the predictions of a step left, from its planes of bytes. `along`: each number less the one before it.
-function leftovers(bytes, at, planes, count, along) {
-  const left = new Int32Array(count);
-  let previous = 0;
-  for (let place = 0; place < count; place++) {
-    let folded = 0;
-    for (let plane = 0; plane < planes; plane++) folded |= bytes[at + plane * count + place] << (8 * plane);
-    const number = (folded >>> 1) ^ -(folded & 1);
-    previous = along ? (number + previous) | 0 : number;
-    left[place] = previous;
-  }
-  return left;
-}
-
-// The steps of a group, each as whole multiples of its unit.
-function stepsOfGroup(bytes, count, units) {
-  const steps = [];
-  const rounded = [];
-  let at = 0;
-  for (const unit of units) {
-    const [mode, planes] = [bytes[at], bytes[at + 1]];
-    const multiples = leftovers(bytes, at + 2, planes, count, (mode & 1) === 1);
-    at += 2 + planes * count;
-    const order = mode >> 1;
-    const last = rounded[rounded.length - 1];
-    const before = rounded[rounded.length - 2];
-    const values = new Float64Array(count);
-    for (let place = 0; place < count; place++) {
-      if (order > 0) {
-        const predicted = order === 1 ? last[place] : 2 * last[place] - before[place];
-        multiples[place] += Math.floor(predicted / unit + 0.5);
-      }
-      // What is no number takes no part in predictions.
-      values[place] = multiples[place] < NOT_A_NUMBER ? multiples[place] * unit : 0;
-    }
-    steps.push(multiples);
-    rounded.push(values);
-  }
-  return steps;
+// The steps of a group, each as whole multiples of its unit, which are stored lowest byte first.
+function stepsOfGroup(bytes, count, steps) {
+  const view = new DataView(bytes.buffer);
+  const multiples = (step) => Int32Array.from({ length: count }, (_, place) => view.getInt32(4 * (step * count + place), true));
+  return Array.from({ length: steps }, (_, step) => multiples(step));
 }
 
 // Share of the largest value of all steps below which a whole step is nothing but rounding.
@@ -88,7 +54,7 @@ class Column {
   async read(group) {
     const from = group * STEPS_OF_A_GROUP;
     const units = this.units.slice(from, from + STEPS_OF_A_GROUP);
-    const steps = stepsOfGroup(await bytesOfText(textOfGroup(this.texts, group)), this.count, units);
+    const steps = stepsOfGroup(await bytesOfText(textOfGroup(this.texts, group)), this.count, units.length);
     steps.forEach((multiples, place) => {
       const isNothing = (multiple) => multiple >= NOT_A_NUMBER || Math.abs(multiple * units[place]) < this.least;
       if (this.least > 0 && multiples.every(isNothing)) multiples.forEach((it, at) => { if (it < NOT_A_NUMBER) multiples[at] = 0; });

@@ -63,12 +63,14 @@ pub fn modal_summary(
 pub fn write_modal(summary: &ModalSummary, out: &mut dyn Write) -> io::Result<()> {
     let ModelSummary {
         title,
+        analysis,
         formulation,
         points,
         bonds,
         ..
     } = &summary.model;
     writeln!(out, "{}", heading(title))?;
+    writeln!(out, "{analysis}")?;
     writeln!(out, "  {formulation}")?;
     writeln!(
         out,

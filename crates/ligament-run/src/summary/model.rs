@@ -1,11 +1,11 @@
 //! The discrete model in summaries and reports, for all analyses.
 
-use ligament_model::ElementKind;
 use ligament_model::correction::{CorrectionReport, DomainReport};
+use ligament_model::{ElementKind, Plane};
 use ligament_output::summary::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 
 use ligament::Model;
-use ligament::setup::{Alpha, Calibration, Correction, Form, Setup, Surface};
+use ligament::setup::{Alpha, Analysis, Calibration, Correction, Form, Setup, Surface};
 use ligament_case::case::{CaseFile, Word, word_of};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::material::Space;
@@ -54,6 +54,7 @@ pub(super) fn model_summary(case: &CaseFile, model: &Model, of_points: OfPoints)
     ModelSummary {
         title: case.case.title.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
+        analysis: analysis_words(&model.setup),
         formulation: formulation_words(model),
         points: model.system.subdomain().n_all(),
         bonds: model.counts.bonds,
@@ -104,6 +105,25 @@ fn scatter_of(
         deviation: variance.sqrt() / factor.mean,
         beside: Vec::new(),
     }
+}
+
+/// Words about what is computed, in which space.
+pub fn analysis_words(setup: &Setup) -> String {
+    let breaks = !setup.criteria.is_empty();
+    let what = match &setup.analysis {
+        Analysis::Stepped(_) => "growth of cracks in load steps",
+        Analysis::Event(_) => "growth of cracks on the exact path, from breakage to breakage",
+        Analysis::Elastic { .. } => "elastic deformation, without breakage",
+        Analysis::Modal(_) => "natural frequencies and modes, without breakage",
+        Analysis::Motion(_) if breaks => "growth of cracks in a motion",
+        Analysis::Motion(_) => "elastic motion, without breakage",
+    };
+    let space = match setup.space() {
+        Space::Plane(Plane::Stress) => "plane stress",
+        Space::Plane(Plane::Strain) => "plane strain",
+        Space::Solid => "a solid",
+    };
+    format!("{what}; {space}")
 }
 
 /// Description of the law and the corrections of the bonds.
