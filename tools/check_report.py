@@ -44,10 +44,11 @@ def fields(folder, step):
 
 
 def number(text):
-    """A shown number with half of its last digit."""
+    """A shown number with half of its last digit; the zeros at the end of a large whole number are no digits."""
     written = re.match(r"[−-]?[\d.]+", text)[0].replace("−", "-")
-    decimals = len(written.partition(".")[2])
-    return float(written), 0.5 * 10.0**-decimals
+    whole, _, decimals = written.partition(".")
+    zeros = 0 if decimals or not float(whole) else len(whole) - len(whole.rstrip("0"))
+    return float(written), 0.5 * 10.0 ** (zeros - len(decimals))
 
 
 def choose(page, control, value, event="change"):

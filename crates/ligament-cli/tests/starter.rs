@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use ligament::setup::Law;
 use ligament_case::case::{CaseFile, schema};
 use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
-use ligament_cli::check::{Extent, check};
+use ligament_cli::check::{Extent, Lines, check};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -25,7 +25,7 @@ fn case(starter: &Starter, folder: &Path) -> CaseFile {
 
 fn checked(case: &CaseFile, extent: Extent) -> String {
     let mut report = Vec::new();
-    check(case, extent, None, &mut report)
+    check(case, extent, None, Lines::All, &mut report)
         .unwrap_or_else(|error| panic!("{error:#}\n{}", case.source.text));
     String::from_utf8(report).unwrap()
 }

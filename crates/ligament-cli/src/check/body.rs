@@ -131,5 +131,5 @@ pub(super) fn write_group(
         [only] => body.place(*only),
         points => format!("{} points", points.len()),
     };
-    report.entry(name, where_at)
+    report.detail(name, where_at)
 }

@@ -77,7 +77,7 @@ fn write_iteration(
     report.entry("unknowns", unknowns)?;
     write_memory(report, case, model, None)?;
     let method = format!("iterative, by conjugate gradients without a matrix: {reason}");
-    report.detail("method", method)?;
+    report.entry("method", method)?;
     let aggregates = match cluster {
         None => format!("rigid motions of at most {aggregate} points each"),
         Some(cluster) => {

@@ -182,5 +182,5 @@ fn write_loading(report: &mut Report<'_>, setup: &Setup) -> io::Result<()> {
             "one elastic solution at load factor 1".to_owned()
         }
     };
-    report.entry("analysis", loading)
+    report.detail("analysis", loading)
 }

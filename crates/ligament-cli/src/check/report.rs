@@ -11,7 +11,7 @@ use crate::lines;
 /// Lines of a report that are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lines {
-    /// Lines by which a case is judged before a run: about 25.
+    /// Lines by which a case is judged before a run: some 30.
     Main,
     /// All lines, with the details of groups, corrections, solvers and times.
     All,

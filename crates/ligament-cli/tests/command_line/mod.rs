@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use crate::support::{ligament, stderr, stdout};
+use crate::support::{assert_success, ligament, stderr, stdout};
 
 #[cfg(unix)]
 mod meshing;
@@ -247,7 +247,7 @@ fn check_can_leave_the_matrix_out() {
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
         stdout(&output)
     };
-    let (whole, model) = (check(&[]), check(&["--model-only"]));
+    let (whole, model) = (check(&["--all"]), check(&["--all", "--model-only"]));
     for stage in ["read mesh", "points", "bonds", "correction", "rigidities"] {
         let line = format!("\n  time, {stage} ");
         assert!(whole.contains(&line) && model.contains(&line), "{stage}");
@@ -264,6 +264,25 @@ fn check_can_leave_the_matrix_out() {
     assert!(head.contains("\n  fields on disk ") && !head.contains("free on"));
     if cfg!(unix) {
         assert!(machine.contains("\n  free on the disk "), "{model}");
+    }
+}
+
+/// Without `--all` a check prints half of its lines; but for times and memory they are lines of the whole report.
+#[test]
+fn a_check_is_short() {
+    let case = data("brazilian-disk.toml");
+    let [short, whole] = [&[][..], &["--all"]].map(|more| {
+        let arguments = [OsStr::new("check"), case.as_os_str()];
+        let output = ligament(arguments.into_iter().chain(more.iter().map(OsStr::new)));
+        assert_success(&output);
+        stdout(&output)
+    });
+    let (short, _) = short.split_once("time, memory and disk\n").unwrap();
+    assert!(short.contains("\ngrowth of cracks in "), "{short}");
+    assert!(short.lines().count() < 30, "{short}");
+    assert!(2 * short.lines().count() < whole.lines().count());
+    for line in short.lines() {
+        assert!(whole.lines().any(|it| it == line), "{line}");
     }
 }
 

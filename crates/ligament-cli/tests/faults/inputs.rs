@@ -169,7 +169,7 @@ fn room_on_the_disk_is_foreseen() {
         assert_success(&output);
         stdout(&output)
     };
-    let told = with_settings("check case.toml");
+    let told = with_settings("check case.toml --all");
     let line = |what: &str| told.lines().find(|line| line.starts_with(what)).unwrap();
     assert!(line("  free on the disk ").ends_with(" MB"), "{told}");
     // "about 10.9 MB, at most 12 states of 0.9 MB"

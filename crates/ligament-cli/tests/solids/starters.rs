@@ -5,7 +5,7 @@ use std::path::Path;
 use ligament::setup::Law;
 use ligament_case::case::{CaseFile, schema};
 use ligament_case::starter::{StarterError, of_mesh, of_solid_lattice};
-use ligament_cli::check::{Extent, check};
+use ligament_cli::check::{Extent, Lines, check};
 
 use super::block::Block;
 use super::{folder_with, meshes};
@@ -18,7 +18,7 @@ fn case(text: &str, folder: &Path) -> CaseFile {
 
 fn checked(case: &CaseFile) -> String {
     let mut report = Vec::new();
-    check(case, Extent::Model, None, &mut report)
+    check(case, Extent::Model, None, Lines::All, &mut report)
         .unwrap_or_else(|error| panic!("{error:#}\n{}", case.source.text));
     String::from_utf8(report).unwrap()
 }

@@ -111,12 +111,18 @@ fn scatter_of(
 pub fn analysis_words(setup: &Setup) -> String {
     let breaks = !setup.criteria.is_empty();
     let what = match &setup.analysis {
-        Analysis::Stepped(_) => "growth of cracks in load steps",
-        Analysis::Event(_) => "growth of cracks on the exact path, from breakage to breakage",
-        Analysis::Elastic { .. } => "elastic deformation, without breakage",
-        Analysis::Modal(_) => "natural frequencies and modes, without breakage",
-        Analysis::Motion(_) if breaks => "growth of cracks in a motion",
-        Analysis::Motion(_) => "elastic motion, without breakage",
+        Analysis::Stepped(_) => match setup.n_steps() {
+            Some(1) => "growth of cracks in one load step".to_owned(),
+            Some(steps) => format!("growth of cracks in {steps} load steps"),
+            None => "growth of cracks in load steps".to_owned(),
+        },
+        Analysis::Event(_) => {
+            "growth of cracks on the exact path, from breakage to breakage".to_owned()
+        }
+        Analysis::Elastic { .. } => "elastic deformation, without breakage".to_owned(),
+        Analysis::Modal(_) => "natural frequencies and modes, without breakage".to_owned(),
+        Analysis::Motion(_) if breaks => "growth of cracks in a motion".to_owned(),
+        Analysis::Motion(_) => "elastic motion, without breakage".to_owned(),
     };
     let space = match setup.space() {
         Space::Plane(Plane::Stress) => "plane stress",
