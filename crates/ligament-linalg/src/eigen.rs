@@ -253,7 +253,7 @@ impl Basis {
     /// Eigenpairs of the projection, largest first, with the residuals of the approximations; none where products are not finite.
     fn ritz(&self) -> Option<Ritz> {
         let m = self.n_projected;
-        // The decomposition reads the lower triangle and sorts ascending; that of -A gives A's eigenvalues descending.
+        // The decomposition reads the lower triangle and sorts ascending; the decomposition of -A gives A's eigenvalues descending.
         let lower = Mat::from_fn(m, m, |row, column| {
             -self.projected[(row.min(column), row.max(column))]
         });
