@@ -47,7 +47,7 @@ impl Numbering {
         }
     }
 
-    /// Point at a place in the order of the file; for a whole body the point of a number of the file.
+    /// Point at a place in the order of the file; for a whole body the place is a number of the file.
     pub fn point(&self, place: u32) -> u32 {
         match &self.0 {
             None => place,
@@ -95,7 +95,7 @@ impl Numbering {
         Cow::Owned(sorted)
     }
 
-    /// Ends of a bond, that of the smaller number in the file first.
+    /// Ends of a bond, first the end with the smaller number in the file.
     pub fn ordered(&self, [a, b]: [u32; 2]) -> [u32; 2] {
         match self.in_file(b) < self.in_file(a) {
             true => [b, a],
@@ -266,7 +266,7 @@ mod tests {
             [[2, 3], [1, 2], [0, 1]]
         );
         assert_eq!(numbering.bonds_in_file(&ends), Some(vec![2, 1, 0]));
-        // Of a part with nodes 0, 3 and 2 of the file, the last two are exchanged.
+        // In a part with nodes 0, 3 and 2 of the file, the last two are exchanged.
         let part = numbering.part(&[0, 2, 3]);
         assert_eq!([0, 1, 2].map(|it| part.in_file(it)), [0, 3, 1]);
         assert_eq!(part.order_of_file(), Some(&[0, 2, 1][..]));

@@ -9,7 +9,7 @@ pub enum Remark {
     HigherOrderCells {
         /// Number of such cells.
         cells: usize,
-        /// Number of nodes dropped with these cells: those on sides and in the interior.
+        /// Number of nodes dropped with these cells: nodes on their sides and in their interior.
         nodes: usize,
     },
     /// Nodes that no cell uses, dropped from the mesh and from its groups.
