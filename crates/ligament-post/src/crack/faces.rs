@@ -34,7 +34,7 @@ pub enum Part {
     Open,
 }
 
-/// Distance over the side of a square within which corners of squares are one corner.
+/// Distance, relative to the side of a square, within which corners of squares are merged.
 const ONE_CORNER: f64 = 0.01;
 
 impl Faces {
