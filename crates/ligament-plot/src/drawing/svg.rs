@@ -47,7 +47,7 @@ impl Drawing {
     }
 }
 
-/// The attributes of a paint, whose lengths in pixels have so many units.
+/// The attributes of a paint, with `units` per pixel of its lengths.
 fn attributes(paint: &Paint, units: f64) -> String {
     let mut attributes = format!(" fill=\"{}\"", paint.fill.map_or("none".to_owned(), hex));
     if let Some((colour, width)) = paint.stroke {
@@ -108,7 +108,7 @@ fn data(path: &PathData) -> String {
                 _ => {}
             }
             let [x, y] = [point[0] - at[0], point[1] - at[1]];
-            // A sign parts numbers as a space does.
+            // A minus sign separates numbers like a space.
             let before = if place > 1 && x >= 0 { " " } else { "" };
             let between = if y >= 0 { " " } else { "" };
             let _ = write!(data, "{before}{x}{between}{y}");
