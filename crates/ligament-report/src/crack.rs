@@ -183,7 +183,7 @@ fn of_lattice(cracks: &SolidCracks, body: &Body, texts: &mut Texts) -> Value {
 mod tests {
     use super::*;
 
-    /// Halves of a quadrangle have the sides of its corners, whichever numbers these had around it.
+    /// Both halves of a quadrangle have the sides of its corners, wherever the numbering of the sides began.
     #[test]
     fn sides_of_halves_are_numbered_from_their_first_corner() {
         assert_eq!(from_first([0, 0, 0]), [0; 4]);
