@@ -94,7 +94,7 @@ pub struct Request<'a> {
     pub keeps_inputs: bool,
     /// Receiver of the state at the end of each load step.
     pub steps: Option<Sender<StepLine>>,
-    /// Processes of the run; rank 0 writes all results but the pieces of grids of each process.
+    /// Processes of the run; rank 0 writes all results except the pieces of grids, which each process writes.
     pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
