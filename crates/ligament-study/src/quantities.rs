@@ -9,7 +9,7 @@ use ligament_output::folder::refuse_link;
 use ligament_output::summary::{SUMMARY, verdict};
 use ligament_output::{Error, read_json};
 
-/// Lists of a summary of which a table of runs has the lengths only.
+/// Lists of a summary of which only the lengths are in a table of runs.
 const COUNTED: [&str; 1] = ["warnings"];
 
 /// Key of the provenance, which tables of runs do not have.
@@ -118,7 +118,7 @@ impl Quantities {
         })
     }
 
-    /// Names of numbers to offer for a name that there is not: those of the part that its beginning resembles, otherwise all.
+    /// Names of numbers to suggest for an unknown name: the names in the part that its beginning resembles, otherwise all.
     fn near(&self, name: &str) -> Vec<String> {
         fn part(name: &str) -> &str {
             name.split('.').next().unwrap_or(name)

@@ -20,7 +20,7 @@ pub struct Request<'a> {
     pub seed: u64,
     /// Number of displacements at which curves are compared.
     pub points: usize,
-    /// Largest of these displacements; by default 1.25 times that of the body without random factors.
+    /// Largest of these displacements; by default 1.25 times the largest one of the body without random factors.
     pub displacement: Option<f64>,
     /// Folder of the ensemble.
     pub out: &'a Path,

@@ -75,7 +75,7 @@ fn parts_of<'a>(
     cells.map(move |(key, cell)| (key.as_str(), label(cell)))
 }
 
-/// Lists the runs of a study, with the last axis varying fastest, and checks the case of each; `folder` is that of the study.
+/// Lists the runs of a study, with the last axis varying fastest, and checks the case of each; `folder` is the folder of the study.
 ///
 /// # Errors
 ///
@@ -119,7 +119,7 @@ fn place(axes: &[Axis], number: usize) -> Vec<usize> {
     place
 }
 
-/// What the runs of a study have in common.
+/// Common data of the runs of a study.
 struct Planning<'a> {
     study: &'a Study,
     /// Text of the base case.

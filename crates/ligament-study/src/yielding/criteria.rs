@@ -44,7 +44,7 @@ pub struct Combination {
     parts: Vec<Part>,
 }
 
-/// Strengths from which limits follow: those of a bar with strain limit s_0t in tension and a multiple of it in compression.
+/// Strengths from which limits follow: the strengths of a bar with strain limit s_0t in tension and a multiple of it in compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strengths {
     /// Poisson's ratio in the plane.
