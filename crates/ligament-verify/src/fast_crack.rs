@@ -30,7 +30,7 @@ pub(super) fn breaks(model: &Model, records: &[BreakRecord]) -> Vec<Break> {
 pub(super) struct Branches {
     /// Number of cracks: 2 with branches on both sides of the line of the notch, otherwise 1.
     pub(super) cracks: f64,
-    /// First broken bond of the upper branch; without branches not a number.
+    /// First broken bond of the upper branch; NaN without branches.
     pub(super) first: Break,
     /// Largest speed of the broken bond farthest from the tip, m/s.
     pub(super) speed: f64,

@@ -19,7 +19,7 @@ pub(super) fn poisson(test: &PatchTest) -> anyhow::Result<f64> {
     Ok(constants(test)?.body.poisson[0][1])
 }
 
-/// Largest root mean square of what the strains of bonds have more than the mean one, over its size.
+/// Largest root mean square deviation of the strains of bonds from the mean strain, over the size of the mean strain.
 pub(super) fn scatter(test: &PatchTest) -> f64 {
     test.scatter.iter().copied().fold(0.0, f64::max)
 }

@@ -16,7 +16,8 @@ pub(super) struct Pressed {
     pub(super) reach: f64,
 }
 
-/// Pressures under a rigid body from the sides of cells in contact, over so many directions along the surface and so many integration points of a side.
+/// Pressures under a rigid body from the sides of cells in contact; `along` is the number of directions along the surface, `points` the
+/// number of integration points of a side.
 ///
 /// Hertz's pressure is p = p_0 sqrt(1 - r^2/a^2) at the distance r from the middle (Johnson 1985, sections 4.2 and 4.3), so that p^2 is a straight line over
 /// r^2, whose value at r = 0 is p_0^2. The mean of r^2, weighted by p, is a^2/4 over a strip and 2 a^2/5 over a disk.

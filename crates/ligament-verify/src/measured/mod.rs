@@ -69,7 +69,7 @@ pub fn experiments() -> anyhow::Result<&'static [Experiment]> {
 }
 
 impl MeasuredTest {
-    /// Runs the test on its meshes, or on those of the fast subset, and judges what comes out.
+    /// Runs the test on its meshes, or on the meshes of the fast subset, and judges the results.
     ///
     /// # Errors
     ///

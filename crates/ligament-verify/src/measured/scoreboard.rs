@@ -25,7 +25,7 @@ pub struct Score {
     pub points: usize,
     /// Number of increments: load steps, or events of the exact path.
     pub increments: usize,
-    /// Number of increments that found no rest, among them one that ended the run.
+    /// Number of increments that did not come to rest, including one that ended the run.
     pub failed: usize,
     /// Processor time with meshing and output, s.
     pub seconds: f64,
