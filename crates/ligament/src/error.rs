@@ -354,7 +354,7 @@ pub enum Fault {
         /// The requested analysis.
         wanted: &'static str,
     },
-    /// What the first of several processes, which alone has the cells of a mesh, refuses, in its words.
+    /// A fault found by rank 0, which alone has the cells of a mesh, as text.
     #[error("the first process refuses it: {0}")]
     OfFirstProcess(String),
     /// Settings that contradict each other.

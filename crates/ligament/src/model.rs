@@ -235,7 +235,7 @@ impl Model {
 /// Bonds of a body with their rigidities, before criteria.
 struct Bonded<const D: usize> {
     system: BondSystem<D>,
-    /// Fields of the preparation but for those that name parts of the body.
+    /// Fields of the preparation except for fields that name parts of the body.
     fixed: ConstantFields,
     correction: Correction,
     crossed: Precracked,

@@ -18,8 +18,8 @@ use crate::parts::Parts;
 use crate::setup::{Place, Setup};
 use crate::system::over_dimension;
 
-/// Distance by which a near field grows over its size, the root of its area or the cubic root of its volume: a crack that runs on reaches the
-/// border a few times only.
+/// Distance by which a near field grows over its size, the root of its area or the cubic root of its volume: a growing crack reaches the
+/// border only a few times.
 const GROWTH: f64 = 0.5;
 
 /// Largest stresses of the elements of a far field.
@@ -53,7 +53,7 @@ pub struct Growth {
 }
 
 impl Setup {
-    /// Takes the places of a growth into the near field.
+    /// Adds the places of a growth to the near field.
     pub fn grow(&mut self, growth: Growth) {
         if let Some(far_field) = &mut self.far_field {
             far_field.near.extend(growth.places);
