@@ -84,7 +84,7 @@ pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<
     })
 }
 
-/// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, and half of that of its closed
+/// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, and half of the energy of its closed
 /// pairs, over its volume.
 pub fn strain_energy_density(
     system: &dyn Bonds,

@@ -362,8 +362,8 @@ impl<'a> ModelPoints<'a> {
     }
 }
 
-/// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; on a divided body those of
-/// owned points and of the ends of their bonds.
+/// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; on a divided body only at
+/// owned points and at the ends of their bonds.
 pub fn displacements(view: &View<'_>) -> Vec<f64> {
     vectors(view.system.layout(), &view.state.displacement)
 }

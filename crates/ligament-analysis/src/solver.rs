@@ -32,7 +32,7 @@ pub struct SolverSettings {
     pub update: Option<Update>,
     /// Interval in the number of broken bonds, counted from the start, at which the factor is computed anew.
     ///
-    /// A factor that was updated in place depends on all its updates; a resumed run repeats those since the factor was last
+    /// A factor that was updated in place depends on all its updates; a resumed run repeats the updates since the factor was last
     /// computed anew.
     pub rebuild_every: usize,
     /// Number of points in space from which conjugate gradients have a third level. The factor of the second takes memory as n^(4/3) and

@@ -398,7 +398,7 @@ impl Equations {
         }
     }
 
-    /// Forces of the bonds of a state at a thermal strain, without those of its closed faces.
+    /// Forces of the bonds of a state at a thermal strain, without the forces of its closed faces.
     pub(super) fn swept(&self, state: &State, expansion: ThermalStrain<'_>) -> BondSweep {
         let system = &self.problem.system;
         let deformations = system.deformations(&state.intact, &state.displacement, expansion);

@@ -78,7 +78,7 @@ impl Iteration<'_> {
     }
 }
 
-/// Brings a state into equilibrium after a breakage in some way.
+/// Brings a state into equilibrium after a breakage by a method.
 ///
 /// # Errors
 ///

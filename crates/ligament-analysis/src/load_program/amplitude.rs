@@ -168,7 +168,7 @@ impl Amplitude {
         self.at(time).first
     }
 
-    /// Second integral from time zero to a time, s^2: that of the integral.
+    /// Second integral from time zero to a time, s^2: the integral of the integral.
     pub fn second_integral(&self, time: f64) -> f64 {
         self.at(time).second
     }

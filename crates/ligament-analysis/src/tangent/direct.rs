@@ -62,7 +62,7 @@ impl DirectSolver {
         }
     }
 
-    /// A solver with the same factor, which changes by itself from then on.
+    /// An independent copy with the same factor.
     fn copy(&self) -> Self {
         Self {
             stiffness: self.stiffness.clone(),
