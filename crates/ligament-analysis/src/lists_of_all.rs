@@ -1,4 +1,4 @@
-//! Lists over the points, unknowns or bonds of a body in a checkpoint, of which each process has some values.
+//! Lists over the points, unknowns or bonds of a body in a checkpoint; each process has some of their values.
 //!
 //! Rank 0 receives the values in slices and writes each slice before the next arrives; a reader keeps only its own values. So no process
 //! has a list over the whole body.

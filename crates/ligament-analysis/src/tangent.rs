@@ -126,7 +126,7 @@ pub(crate) trait TangentSolver {
     /// Makes the solver recompute K from the bonds the next time.
     fn discard(&mut self);
 
-    /// The solver as it is now, for runs that begin from here; None where it cannot be copied.
+    /// A copy of the solver in its present state, for runs that begin from it; None where it cannot be copied.
     fn intact(&self) -> Option<Box<dyn IntactSolver>> {
         None
     }

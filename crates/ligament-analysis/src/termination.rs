@@ -202,7 +202,7 @@ pub struct Row {
     pub is_by_rule: bool,
 }
 
-/// The table of ends, of which `Termination::row` and [`ENDS`] are made: name, verdict, and whether the run could continue.
+/// The table of ends, from which `Termination::row` and [`ENDS`] are made: name, verdict, and whether the run could continue.
 macro_rules! ends {
     ($($end:pat => $name:literal, $verdict:ident, $is_by_rule:literal;)*) => {
         /// All rows of the table of ends.

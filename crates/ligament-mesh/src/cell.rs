@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Interface of a cell in D dimensions.
 pub trait MeshCell<const D: usize>: Copy + Sync + Serialize + DeserializeOwned {
-    /// The cell with given corner nodes, in their order; `None` where no kind of cell has so many.
+    /// The cell with given corner nodes, in their order; `None` where no kind of cell has this number of corners.
     fn from_corners(corners: &[u32]) -> Option<Self>;
 
     /// The corner nodes of the cell.

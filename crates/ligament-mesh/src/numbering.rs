@@ -117,12 +117,12 @@ impl Numbering {
         Some(bonds.into_iter().map(|(_, bond)| bond).collect())
     }
 
-    /// Reorders values from the order of the points to that of the file, with any number of values per point.
+    /// Reorders values from the order of the points to the order of the file, with any number of values per point.
     pub fn to_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         taken(self.order_of_file(), values)
     }
 
-    /// Reorders values from the order of the file to that of the points, with any number of values per point.
+    /// Reorders values from the order of the file to the order of the points, with any number of values per point.
     pub fn from_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         let order = self.0.as_ref().map(|orders| orders.in_file.as_slice());
         taken(order, values)
@@ -210,7 +210,7 @@ impl<const D: usize, C: MeshCell<D>> Mesh<D, C> {
 mod tests {
     use super::*;
 
-    /// Four nodes of two triangles, of which the curve meets the first, third, fourth and second: (0, 0), (0, 1), (1, 1), (1, 0).
+    /// Four nodes of two triangles; the curve visits the first, third, fourth and second in turn: (0, 0), (0, 1), (1, 1), (1, 0).
     fn square() -> Mesh {
         Mesh {
             node_tags: [10, 20, 30, 40].into(),

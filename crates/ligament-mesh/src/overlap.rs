@@ -112,7 +112,7 @@ mod tests {
         first_covering(positions, &cells, Cell::triangles)
     }
 
-    /// A fan of six triangles around a node, and one triangle more between nodes halfway between those of the fan.
+    /// A fan of six triangles around a node, and one triangle more between nodes halfway between the nodes of the fan.
     #[test]
     fn a_fan_of_more_than_a_turn_is_found() {
         let on_circle = |sixth: f64| {

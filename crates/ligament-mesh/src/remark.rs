@@ -5,7 +5,7 @@ use std::fmt;
 /// A remark on a part of the file that was changed or left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Remark {
-    /// Cells of second or higher order, of which only the corner nodes were read.
+    /// Cells of second or higher order; only their corner nodes were read.
     HigherOrderCells {
         /// Number of such cells.
         cells: usize,

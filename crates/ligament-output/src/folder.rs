@@ -38,7 +38,7 @@ pub struct ResultFolder {
 }
 
 impl ResultFolder {
-    /// Creates the folder of a run and its parents. An existing empty folder is used as it is.
+    /// Creates the folder of a run and its parents. An existing empty folder is used.
     ///
     /// A folder with results is refused unless `replace` is set; then new results are written beside it. A folder with other files only is
     /// always refused.

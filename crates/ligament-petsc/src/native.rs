@@ -148,7 +148,7 @@ pub(crate) fn transfer(from: usize, to: usize, bytes: &mut [u8]) {
     unsafe { ligament_transfer(bytes.as_mut_ptr(), bytes.len() as i64, from, to) }
 }
 
-/// A PETSc matrix, of which this rank has some rows.
+/// The rows of a PETSc matrix on this rank.
 #[derive(Debug)]
 pub(crate) struct Handle {
     matrix: *mut c_void,

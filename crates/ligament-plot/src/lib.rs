@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`picture`] | fields, cracks, modes and histories from folders of results |
 //! | [`plots`] | curves, polar diagrams and scatter, of numbers given in memory |
-//! | [`drawing`] | paths and text, of which all pictures and plots consist, as files of each kind |
+//! | [`drawing`] | paths and text that make up all pictures and plots, as files of each kind |
 //! | [`stored_loading`] | nothing: reads the loading of a stored run |
 #![cfg_attr(
     test,

@@ -23,7 +23,7 @@ const BOND: usize = 250;
 /// Upper estimate of the bytes of a point without bonds (position, volume, cell and corners): the lattice of 99,276 points took about 100.
 const POINT: usize = 200;
 
-/// Upper bound of the memory of equations over that of their bonds: where this bound fits, no symbolic analysis is needed. Plates of 6016
+/// Upper bound of the memory of equations over the memory of their bonds: where this bound fits, no symbolic analysis is needed. Plates of 6016
 /// points with horizon factors of 1.1 to 5 have ratios of 4.2 to 5.2, of 99,276 points with 1.1 to 3 ratios of 6.0 to 8.9: the ratio grows
 /// with the logarithm of the number of points.
 const MOST_OVER_BONDS: usize = 40;

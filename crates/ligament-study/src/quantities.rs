@@ -9,13 +9,13 @@ use ligament_output::folder::refuse_link;
 use ligament_output::summary::{SUMMARY, verdict};
 use ligament_output::{Error, read_json};
 
-/// Lists of a summary of which only the lengths are in a table of runs.
+/// Lists of a summary that are in a table of runs only by their lengths.
 const COUNTED: [&str; 1] = ["warnings"];
 
 /// Key of the provenance, which tables of runs do not have.
 const PROVENANCE: &str = "provenance";
 
-/// Key of the stages, of which tables of runs have the total time and the peak memory.
+/// Key of the stages; tables of runs have their total time and peak memory.
 const STAGES: &str = "stages";
 
 /// The single results of a run, in the order of its summary.

@@ -7,7 +7,7 @@ use ligament_mesh::{AnyMesh, gmsh};
 
 use super::trial::Trial;
 
-/// Young's modulus of the body over that of the material, along the axis where it differs more.
+/// Ratio of the Young's moduli of the body and of the material, along the axis where it differs more.
 pub(super) fn young(test: &PatchTest) -> anyhow::Result<f64> {
     let constants = constants(test)?;
     let ratio = |axis: usize| constants.body.young[axis] / constants.material.young[axis];

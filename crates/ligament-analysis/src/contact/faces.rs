@@ -70,7 +70,7 @@ impl FacePairs {
     }
 }
 
-/// Adds the forces and energies of closed pairs to those of the bonds.
+/// Adds the forces and energies of closed pairs to the forces and energies of the bonds.
 pub(crate) fn add_to(
     swept: &mut BondSweep,
     closed: &[ClosedPair],

@@ -1,7 +1,7 @@
 //! Coulomb's friction on the closed faces of cracks, with stick and slip.
 //!
 //! A closed pair resists the motion P w - s of its faces along the crack ([`ContactPair::slip`]) with its stiffness k, up to mu times its pressure: where the force exceeds that, the
-//! anchor s follows. The anchor of a pair that was never open is zero, so that the force along the crack begins from that of its bond; the
+//! anchor s follows. The anchor of a pair that was never open is zero, so that the force along the crack begins from the force of its bond; the
 //! anchor of an open pair follows its faces.
 //!
 //! The friction of each equilibrium, and of each explicit step, follows from the friction of the one before, which [`Friction`] stores: the

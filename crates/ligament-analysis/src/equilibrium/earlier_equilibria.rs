@@ -33,7 +33,7 @@ struct Precedent {
     displacement: Vec<f64>,
 }
 
-/// Places of the owned unknowns among those of the body, in the order of the degrees of freedom.
+/// Places of the owned unknowns among the unknowns of the body, in the order of the degrees of freedom.
 struct OwnUnknowns {
     places: Vec<usize>,
     n_all: usize,

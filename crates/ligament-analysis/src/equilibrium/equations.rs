@@ -451,7 +451,7 @@ impl Equations {
         now.max(self.accuracy.largest_extents.unloaded_force())
     }
 
-    /// Updates the largest forces so far by those of an equilibrium.
+    /// Updates the largest forces so far by the forces of an equilibrium.
     pub(super) fn remember(&mut self, extents: Extents) {
         let largest = &mut self.accuracy.largest_extents;
         *largest = largest.or(extents);

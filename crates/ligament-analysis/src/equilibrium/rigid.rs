@@ -1,4 +1,4 @@
-//! Rigid bodies with a mass in the step of a motion: their displacements are unknowns beside those of the points.
+//! Rigid bodies with a mass in the step of a motion: their displacements are unknowns in addition to the displacements of the points.
 //!
 //! A contact with the stiffness k resists the motion c . u - d . q along d of a place of the body against a rigid body with the displacement q.
 //! With the springs kappa and the forces of a step ([`on_rigid`](super::on_rigid)), and the residual forces r on the points and s on the

@@ -1,7 +1,7 @@
 //! Restraints, which resist the motion of a body without fixing it, such as springs, inclined rollers and rigid platens.
 //!
 //! A restraint is a symmetric stiffness S between some degrees of freedom and the ground. It exerts -S u on the body, an external
-//! force like that of a support: its energy is not part of the bond energies, and its work is work of the supports. Where the far
+//! force like a support: its energy is not part of the bond energies, and its work is work of the supports. Where the far
 //! end of a spring is moved, a loading adds S g to its given forces.
 
 mod supports_to_add;

@@ -1,7 +1,7 @@
 //! Update of the panel of one supernode by terms.
 //!
 //! Large panels are divided into tiles of columns. Rows below the square of a tile are independent: once the square is updated and its
-//! rotations are known, they are tasks, the first of which goes on to the next square. Tiles and tasks begin at multiples of the widths of
+//! rotations are known, they are tasks; the first task continues with the next square. Tiles and tasks begin at multiples of the widths of
 //! vectors and of blocks of columns, so that a row undergoes the same instructions as in an undivided panel: the bits are the same.
 
 use std::ops::Range;

@@ -44,7 +44,7 @@ impl<C> Cells<C> {
         higher.count()
     }
 
-    /// Element records of which cells were made.
+    /// Element records from which cells were made.
     pub(super) fn elements_of<'a, const N: usize>(
         &self,
         records: &'a Records,

@@ -6,7 +6,7 @@
 //!   group (`Mesh.SaveAll`) are part of the mesh as well. With `Mesh.SaveAll`, Gmsh drops the groups from files of 2.2: save 4.1
 //!   then.
 //! - Nodes that no cell uses are dropped, also from the groups.
-//! - `$NodeData` gives the fields of the mesh, of which scalars are stored.
+//! - `$NodeData` gives the fields of the mesh; only scalars are stored.
 //! - In a planar mesh the z coordinate must be constant and is dropped.
 //! - Clockwise or inverted cells are reoriented. In a solid mesh a surface element in a group must be a face of a cell.
 //!

@@ -133,7 +133,7 @@ impl SolidCell {
 
     /// Volume of the cell with the nodes at `positions`, m³; negative for an inverted cell.
     ///
-    /// A quadrangular face that is not plane is the bilinear surface through its corners: the volume is that of the trilinear cell, the mean
+    /// A quadrangular face that is not plane is the bilinear surface through its corners: the volume belongs to the trilinear cell, the mean
     /// of the volumes of the two polyhedra in which each face is split along one diagonal and along the other.
     ///
     /// # Panics

@@ -19,7 +19,7 @@ pub struct Column {
     pub name: &'static str,
     /// SI unit; `-` for a number without a unit, empty for a count or a word.
     pub unit: &'static str,
-    /// Whether the tables of a body in the plane, and those of a solid, have the column.
+    /// Whether the tables of a body in the plane have the column, and whether the tables of a solid have it.
     spaces: [bool; 2],
     /// Meaning, as on the page of columns.
     pub meaning: &'static str,

@@ -36,7 +36,7 @@ struct Piece {
     cells: Places,
 }
 
-/// Places of the rows of a piece among those of the grid.
+/// Places of the rows of a piece among the rows of the grid.
 #[derive(Debug)]
 enum Places {
     /// Consecutive places from this one on.

@@ -30,7 +30,7 @@ const OF_ENERGIES: [&str; 9] = [
     "dissipated_energy",
 ];
 
-/// Files with columns over the records of a run, the first of which is always there.
+/// Files with columns over the records of a run; only the first always exists.
 const TABLES: [&str; 3] = ["history.csv", "crack_growth.csv", "crack_tips.csv"];
 
 /// The tables of a run whose columns are drawn.

@@ -154,7 +154,7 @@ fn joined(pieces: Vec<[Place; 2]>, position: impl Fn(Place) -> [f64; 2]) -> Vec<
 mod tests {
     use super::*;
 
-    /// A unit square of n x n cells, each two triangles, of which every other is given clockwise.
+    /// A unit square of n x n cells, each two triangles; every other triangle is given clockwise.
     fn square(n: u32, keep: impl Fn(u32, u32) -> bool) -> (Vec<[f64; 2]>, Vec<[u32; 3]>) {
         let positions = (0..=n)
             .flat_map(|j| (0..=n).map(move |i| [i, j].map(|it| f64::from(it) / f64::from(n))))

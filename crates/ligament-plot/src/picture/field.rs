@@ -16,7 +16,7 @@ const NORM: &str = "magnitude";
 /// Quantile of a mode's field that is drawn as its largest value, because values at the corners of a clamp are far larger than all others.
 const MODE_QUANTILE: f64 = 0.995;
 
-/// A field as it is drawn.
+/// A field to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field {
     /// Name of the field with its component.

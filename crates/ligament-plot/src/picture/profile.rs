@@ -12,7 +12,7 @@ use ligament_output::vtu::read::VtuFile;
 use super::PictureError;
 use super::field::Field;
 
-/// Columns of the table before those of the fields.
+/// Columns of the table before the columns of the fields.
 pub const PROFILE_COLUMNS: [&str; 4] = ["step", "along", "x", "y"];
 
 /// Distance outside of a cell, over the size of the cell, up to which a place counts as in it: places on the outline.

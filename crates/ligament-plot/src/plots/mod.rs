@@ -16,7 +16,7 @@ use series::LETTERS;
 pub use series::{Colour, Mark, Series};
 use sheet::Sheet;
 
-/// Size of the title, and room around what is drawn, pixels of a screen.
+/// Size of the title, and room around the plot, pixels of a screen.
 const TITLE: f64 = 19.0;
 const MARGIN: f64 = 14.0;
 

@@ -117,7 +117,7 @@ impl Series {
         }
     }
 
-    /// Draws the curve into a frame, with so many pixels of the drawing to one of a screen.
+    /// Draws the curve into a frame; `pen` is the number of pixels of the drawing per pixel of a screen.
     pub(super) fn draw(&self, drawing: &mut Drawing, frame: Frame, pen: f64) {
         if let Some(paint) = self.stroke(pen) {
             let mut path = PathData::default();

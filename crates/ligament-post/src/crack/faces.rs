@@ -189,7 +189,7 @@ fn mean(places: impl ExactSizeIterator<Item = [f64; 2]>) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// Two triangles on the unit square: five edges, of which one lies inside.
+    /// Two triangles on the unit square: five edges, one of them inside.
     #[test]
     fn cells_of_nodes_meet_along_the_edges_of_the_mesh() {
         let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

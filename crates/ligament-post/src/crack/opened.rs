@@ -127,7 +127,7 @@ mod tests {
         opened
     }
 
-    /// Squares that are parted along a row fall into halves, and the triangles, of which one edge is parted at most, stay whole. The pieces fill
+    /// Squares that are parted along a row fall into halves, and the triangles, with at most one parted edge, stay whole. The pieces fill
     /// the cells, and their corners follow the points of their side.
     #[test]
     fn a_row_falls_into_halves() {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Family, PrincipalStretches};
 
-/// Distance from zero, over that of the nearest point, beyond which a locus counts as open; parallel lines give larger values in spite of
+/// Distance from zero, relative to the nearest point, beyond which a locus counts as open; parallel lines give larger values in spite of
 /// rounding.
 const OPEN: f64 = 1e6;
 

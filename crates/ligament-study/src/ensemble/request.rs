@@ -53,7 +53,7 @@ pub struct Settings {
 }
 
 impl Request<'_> {
-    /// Number of threads of all samples together: those of the case, or as many as there are processors.
+    /// Number of threads of all samples together: as in the case, or as many as there are processors.
     pub(super) fn threads(&self) -> usize {
         let all = thread::available_parallelism().map_or(1, NonZero::get);
         self.case.threads().unwrap_or(all)

@@ -63,7 +63,7 @@ pub struct StudyPlot {
     pub x: String,
     /// The column along y: a key of an axis, a derived column or a result.
     pub y: String,
-    /// A key of an axis, each value of which has a curve.
+    /// A key of an axis; each of its values has a curve.
     pub by: Option<String>,
     /// Title; by default the title of the study.
     pub title: Option<String>,

@@ -37,7 +37,7 @@ const FIGURES: [&str; 5] = [
     "frictional+stretch",
 ];
 
-/// Combination of criteria, of which the first that is met decides: `sliding+stretch`.
+/// Combination of criteria, such as `sliding+stretch`; the first one that is met decides.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combination {
     name: String,

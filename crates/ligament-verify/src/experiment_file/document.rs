@@ -1,4 +1,4 @@
-//! The file of an experiment as it is written.
+//! Structure of the file of an experiment.
 
 use std::collections::BTreeMap;
 

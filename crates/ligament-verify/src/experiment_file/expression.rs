@@ -73,7 +73,7 @@ static FUNCTIONS: [Function; 30] = [
     function("asin", 1, Numbers(|x| x[0].asin())),
     function("atan", 1, Numbers(|x| x[0].atan())),
     function("hypot", 2, Numbers(|x| x[0].hypot(x[1]))),
-    // Speed of Rayleigh waves over that of shear waves, for Poisson's ratio in plane strain.
+    // Speed of Rayleigh waves over the speed of shear waves, for Poisson's ratio in plane strain.
     function("rayleigh", 1, Numbers(|x| rayleigh(x[0]))),
     // The largest and the smallest of all values of all runs.
     function(

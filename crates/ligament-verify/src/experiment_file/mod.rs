@@ -3,7 +3,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | `document` | the file as it is written |
+//! | `document` | the structure of the file |
 //! | `expression` | numbers, names, + - * / ^ and functions of numbers, of runs and of the history of a run |
 //! | `quantity`, `loaded_run`, `history` | what an expression can read from a run, and from every row of its history |
 //! | `entry_runs` | the runs of an entry, each with its labels and its trial, and the memory of their results |

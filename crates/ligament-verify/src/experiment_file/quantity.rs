@@ -44,7 +44,7 @@ use crate::square_elements::SquareLoad;
 use crate::trial::{Number, Trial};
 use crate::{griffith, lamina_elements, square_elements};
 
-/// Name of the curve of displacement and load among what is read.
+/// Name of the curve of displacement and load among the quantities.
 pub(super) const CURVE: &str = "curve";
 
 /// Way to a quantity.
