@@ -221,7 +221,7 @@ impl Softening {
         })
     }
 
-    /// What happens after the limit of a criterion.
+    /// Law after the limit of a criterion.
     fn after<'a>(&'a self, criteria: &'a Criteria, place: usize) -> &'a AfterLimit {
         let own = &criteria.list[place];
         let variables = self.variables.get(place);

@@ -39,7 +39,7 @@ pub struct SolverSettings {
     /// time as n^2 for n points: at 47,000 points both levels are made in 1.7 times the time without a third, and at 97,000 a run takes 1.2 times
     /// the memory (measured).
     pub clusters_from: usize,
-    /// Whether a run goes on where the intact stiffness has more negative eigenvalues than its rotations explain.
+    /// Whether a run continues where the intact stiffness has more negative eigenvalues than its rotations explain.
     pub allows_unstable: bool,
     /// Bytes available for the matrix and its factor; open: unknown.
     pub memory: Option<usize>,

@@ -18,7 +18,7 @@ use crate::unknowns::Unknowns;
 pub struct Stiffness {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
-    /// Unknowns without what contacts couple.
+    /// Unknowns without the couplings by contacts.
     uncoupled: Arc<Unknowns>,
     pattern: Arc<Pattern>,
     symbolic: Arc<Symbolic>,

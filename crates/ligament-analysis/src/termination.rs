@@ -1,4 +1,4 @@
-//! Reasons for the end of a run, and the table of what each means for its results.
+//! Reasons for the end of a run, and the table of their consequences for the results.
 //!
 //! A new end is a variant of [`Termination`] with its words, and a row of the table `ends!` below. Exit codes, summaries, studies and the table in
 //! `docs/commands.md` follow from the row.

@@ -90,7 +90,7 @@ pub enum Unbalanced {
     Missed {
         /// Name of the contact.
         contact: String,
-        /// Where, and how far.
+        /// Place at which the surfaces missed each other, and their motion.
         missed: Missed,
     },
     /// The matrix could not be factorised.

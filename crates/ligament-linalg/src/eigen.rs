@@ -18,7 +18,7 @@ const BLOCK: usize = 2;
 /// Vectors of the basis beyond three times the number of pairs.
 const ROOM: usize = 20;
 
-/// Relative size of the part of a vector outside the basis below which the vector lies in the basis, but for rounding.
+/// Relative size of the part of a vector outside the basis below which the vector lies in the basis up to rounding.
 const DEPENDENT: f64 = 1e-13;
 
 /// Eigenpairs of an operator of dimension n.

@@ -70,7 +70,7 @@ fn is_near<const D: usize>(nodes: &[u32], positions: &[[f64; D]], position: [f64
     })
 }
 
-/// Weights in the cell in which the position lies deepest, the first of several.
+/// Weights in the cell with the largest depth of the position, the first of several.
 fn deepest(found: impl Iterator<Item = Found>) -> Option<Vec<(u32, f64)>> {
     let best = found.reduce(|best, it| if it.depth > best.depth { it } else { best });
     let mut shares = best.filter(|it| it.depth >= -OUTSIDE)?.shares;

@@ -114,7 +114,7 @@ fn least(unit: &str) -> f64 {
     }
 }
 
-/// Share of the largest value of a column or curve below which a value is nothing but rounding.
+/// Share of the largest value of a column or curve below which a value is only rounding.
 const NOTHING: f64 = 1e-12;
 
 /// A value, or 0 where it is only rounding compared with the largest value of its column or curve.
@@ -126,7 +126,7 @@ pub fn settled(value: f64, largest: f64) -> f64 {
     }
 }
 
-/// A value in an SI unit: 0 where it is so small that it is nothing but rounding.
+/// A value in an SI unit: 0 where it is so small that it is only rounding.
 pub fn without_rounding(value: f64, unit: &str) -> f64 {
     if value.abs() < least(unit) {
         0.0

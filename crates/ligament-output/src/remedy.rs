@@ -34,7 +34,7 @@ pub enum Remedy {
     LeaveOut(&'static str),
 }
 
-/// What a path is meant for.
+/// Purpose of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// A file.

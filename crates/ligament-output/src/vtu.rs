@@ -22,7 +22,7 @@ pub(crate) use field::Chosen;
 pub use field::Field;
 pub use pieces::{Held, IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
 
-/// Name of the time in the field data of a grid, by which VTK knows it.
+/// Name of the time in the field data of a grid, which VTK recognises.
 pub const TIME_VALUE: &str = "TimeValue";
 
 /// A cell given by its points, indices from 0.

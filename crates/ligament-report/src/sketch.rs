@@ -97,7 +97,7 @@ fn support(entry: &Table, dimension: usize) -> Value {
     })
 }
 
-/// What a load does: axes that it holds, a prescribed motion or a force along the axes, a turn about them.
+/// Action of a load: fixed axes, a prescribed motion or a force along the axes, a turn about them.
 fn load(entry: &Table, dimension: usize) -> Value {
     let table = |keys: &[&str]| keys.iter().find_map(|key| entry.get(*key)?.as_table());
     let motion = table(&MOTIONS);

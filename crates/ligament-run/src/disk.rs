@@ -20,7 +20,7 @@ const BOND: f64 = 46.0;
 pub struct FieldsOnDisk {
     /// Bytes of the files of one state.
     pub of_one: f64,
-    /// Number of states at most; None on the exact path, which has as many events as it takes.
+    /// Largest number of states; None on the exact path, whose number of events is not known.
     pub most: Option<usize>,
     /// Steps or events between two states; 0 for the first and the last one alone.
     pub every: usize,

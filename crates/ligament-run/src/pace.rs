@@ -19,7 +19,7 @@ const PREPARED_BOND: f64 = 1.3e-6;
 /// Shortest estimated time that a run announces before it begins, s.
 const LONG: f64 = 60.0;
 
-/// Number of time steps from which on a run announces them, whatever time they take.
+/// Number of time steps from which on a run announces them, even if they take little time.
 const MANY: usize = 1_000_000_000;
 
 /// Announcement of a run of a body with a number of bonds, where it takes long.

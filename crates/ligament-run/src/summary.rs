@@ -61,7 +61,7 @@ pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
 /// Data of a run for the summary, beside its model and its outcome.
 #[derive(Debug, Clone)]
 pub struct Noted {
-    /// What the summary says about the points of the model.
+    /// Data on the points of the model.
     pub of_points: OfPoints,
     /// Origin of the results.
     pub provenance: Provenance,

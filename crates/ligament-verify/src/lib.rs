@@ -69,7 +69,7 @@ use report::{console, files, markdown, page, scoreboard};
 use table::Extent;
 use tally::Tally;
 
-/// Where an experiment is written.
+/// Place in which an experiment is written.
 enum Written {
     /// In its own module.
     Code(&'static Experiment),

@@ -8,7 +8,7 @@ use ligament::run::Solution;
 /// Pressures of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pressed {
-    /// Force, N; of the cylinder for each length, N/m.
+    /// Force, N; for the cylinder per length, N/m.
     pub(super) force: f64,
     /// Largest pressure of a side of a cell, and of the fit, Pa.
     pub(super) largest: [f64; 2],

@@ -1,4 +1,4 @@
-//! Displacements of a thick ring under internal pressure, compared with Lame's.
+//! Displacements of a thick ring under internal pressure, compared with Lame's solution.
 
 use ligament::run::Solution;
 

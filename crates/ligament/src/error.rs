@@ -38,7 +38,7 @@ pub enum Error {
 pub struct SetupError {
     /// Path of the field in the setup.
     pub field: Field,
-    /// Fault of the field, with what to do about it.
+    /// Fault of the field, with advice.
     pub fault: Box<Fault>,
 }
 

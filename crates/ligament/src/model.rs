@@ -36,7 +36,7 @@ use crate::warning;
 /// The discrete model: everything before the equations.
 #[derive(Debug)]
 pub struct Model {
-    /// Setup that the model was built from; of several processes, each has its part of the body.
+    /// Setup from which the model was built; each of several processes has its part of the body.
     pub setup: Setup,
     /// The points of the whole body, for their descriptions.
     pub names: Arc<dyn Body>,

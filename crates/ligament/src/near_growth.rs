@@ -1,4 +1,4 @@
-//! Growth of a near field: where the stress of elements reaches a share of the strength, bonds take their place and the run begins anew.
+//! Growth of a near field: where the stress of elements reaches a share of the strength, bonds replace them and the run begins again.
 
 use ligament_analysis::history::{
     Ahead, BreakRecord, Moment, ObserverError, Onward, StepRecord, View,

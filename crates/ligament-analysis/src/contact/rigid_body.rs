@@ -15,7 +15,7 @@ use crate::load_program::Amplitude;
 pub struct RigidBody {
     /// Name in results.
     pub name: String,
-    /// How it moves.
+    /// Motion of the body.
     pub motion: RigidMotion,
 }
 

@@ -103,7 +103,7 @@ impl ContactSearch {
         (gaps, closed)
     }
 
-    /// Where surfaces touch after an explicit step to a state, with forces that never give energy.
+    /// Contact between surfaces after an explicit step to a state; its forces never release energy.
     pub(crate) fn touching_in_time(&mut self, state: &State) -> Touching {
         let at = (state.load_factor, &*state.rigid);
         (self.surfaces).touching_in_time(step(&*self.system, state), at)

@@ -379,7 +379,7 @@ impl SurfaceSearch {
         }
     }
 
-    /// Where surfaces touch after a step, at a load factor, which is the time in a motion, and with these places of free rigid bodies.
+    /// Contact between surfaces after a step, at a load factor, which is the time in a motion, and with these poses of free rigid bodies.
     ///
     /// Where nothing has moved since the last equilibrium, the contact is the same to the last bit.
     pub(crate) fn touching(
@@ -412,7 +412,7 @@ impl SurfaceSearch {
         found
     }
 
-    /// Where surfaces touch after an explicit step to a time (s) and these places of free rigid bodies, with forces that never give energy.
+    /// Contact between surfaces after an explicit step to a time (s) and these poses of free rigid bodies; its forces never release energy.
     pub fn touching_in_time(&mut self, step: ContactStep<'_>, at: (f64, &[Pose])) -> Touching {
         let mut found = self.touching(step, at);
         let before = step.before();

@@ -133,7 +133,7 @@ pub(super) fn reach(
     changes.fold(f64::INFINITY, f64::min)
 }
 
-/// All contacts in a state, in the order of the keys of what they resist, with the loads at load factor 1.
+/// All contacts in a state, in the order of the keys of the resisted motions, with the loads at load factor 1.
 fn on_line(
     equations: &mut Equations,
     state: &State,

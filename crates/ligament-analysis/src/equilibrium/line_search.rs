@@ -12,7 +12,7 @@ const INSIDE: f64 = 0.1;
 /// Part of a correction du at which the work r . du of the residual force is near zero, the first minimum of the potential energy
 /// along the correction (Nocedal and Wright 2006, section 3.5).
 ///
-/// `work` is the work at part zero, `now` that at part one with what was measured there, and `at` computes both at other parts, found
+/// `work` is the work at part zero, `now` the work at part one with the state measured there, and `at` computes both at other parts, found
 /// by the secant method; the last of at most `tries` is returned. Without positive work at the beginning (equations that are not
 /// definite) the whole correction is taken.
 pub(super) fn part<T>(

@@ -60,7 +60,7 @@ const DIVERGING: (usize, f64) = (20, 1e6);
 /// earlier equilibria, and a line search ([`line_search`]). Both lower the energy and end in a stable equilibrium. The factor may
 /// differ from the secants, because both need only an approximate stiffness.
 ///
-/// A load step begins at the extrapolation of the last one if that has the smaller residual. Where faces close, nothing is taken
+/// A load step begins at the extrapolation of the last one if that has the smaller residual. Where faces close, nothing is used
 /// from earlier equilibria, and after a breakage no curvature. Otherwise the first correction takes the bonds of the last
 /// equilibrium, because bonds next to prescribed motions deform too much until their surroundings follow. The iteration ends by
 /// NHPD's energy rule (eq. 21) with a residual below 1e-8, or with a residual below 1e-10. Extremes of iterates do not count unless

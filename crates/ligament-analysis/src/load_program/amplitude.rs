@@ -143,7 +143,7 @@ impl Amplitude {
         Self(Course::Table(knots))
     }
 
-    /// A shape from its start until a duration has passed, s; zero before, and after the end as the shape says.
+    /// A shape from its start until a duration has passed, s; zero before, and after the end the end value of the shape.
     pub fn pulse(shape: Shape, start: f64, duration: f64) -> Self {
         let span = [start, duration];
         Self(Course::Pulse { shape, span })

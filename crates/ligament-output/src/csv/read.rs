@@ -145,7 +145,7 @@ impl Row<'_> {
         text.parse().map_err(|_| self.no_value(column, text))
     }
 
-    /// The number in a column, which is neither infinite nor not a number.
+    /// The number in a column, which is finite.
     ///
     /// # Errors
     ///

@@ -143,7 +143,7 @@ impl StoredCracks {
         sides_of_cells(&self.cells, self.is_parted(step))
     }
 
-    /// The cells between the points of the body, in the order of the files; none of a lattice.
+    /// The cells between the points of the body, in the order of the files; empty for a lattice.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }

@@ -14,7 +14,7 @@ use crate::Error;
 use crate::csv::read::Sheet;
 use crate::vtu::read::VtuFile;
 
-/// What happened to the bonds of a run.
+/// Fate of the bonds of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Happened {
     /// No bond broke or softened.

@@ -90,7 +90,7 @@ fn text_element(line: &TextLine) -> String {
     format!("<text {place} font-size=\"{size}\"{anchor}>{text}</text>")
 }
 
-/// The text as content of an element; what XML cannot hold is left out.
+/// The text as content of an element; characters that XML does not allow are left out.
 fn escaped(text: &str) -> String {
     let text = text.replace(char::is_control, "").replace('&', "&amp;");
     text.replace('<', "&lt;").replace('>', "&gt;")

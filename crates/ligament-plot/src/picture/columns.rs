@@ -201,7 +201,7 @@ pub(super) fn in_common(unit: &str) -> &'static str {
     }
 }
 
-/// Whether each of the rows is in equilibrium with its load; all are in tables of earlier versions and other tables, which do not tell.
+/// Whether each of the rows is in equilibrium with its load; in tables without this column, of earlier versions or of other kinds, all are.
 fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
     if !sheet.columns().iter().any(|name| name == "at_rest") {
         return Ok(vec![true; n_rows]);

@@ -2,7 +2,7 @@
 //!
 //! An edge that two triangles share bounds nothing, so that an outline consists of edges of the body's boundary and of one
 //! straight piece in every triangle that the level crosses. Ends of pieces are named by the node or the edge that they lie on: they
-//! meet exactly, whatever rounding does. Regions of rising levels painted over each other leave no seams between the bands.
+//! meet exactly in spite of rounding. Regions of rising levels painted over each other leave no seams between the bands.
 
 use std::collections::HashMap;
 
@@ -15,7 +15,7 @@ pub(super) struct Surface {
     boundary: Vec<[u32; 2]>,
 }
 
-/// Where a piece of an outline ends: at a node (twice the same), or on an edge between two, the smaller number first.
+/// End of a piece of an outline: at a node (twice the same), or on an edge between two, the smaller number first.
 type Place = [u32; 2];
 
 impl Surface {

@@ -44,7 +44,7 @@ impl Levels {
         let is_multiple = |it: f64| (it / step - (it / step).round()).abs() < 1e-6;
         let [first, last] = match rule.range {
             None => [(low / step).floor(), (high / step).ceil()],
-            // A range whose ends are multiples, but for rounding, is kept.
+            // A range whose ends are multiples up to rounding is kept.
             Some(_) if is_multiple(low) && is_multiple(high) => {
                 [low, high].map(|it| (it / step).round())
             }

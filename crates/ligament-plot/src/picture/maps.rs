@@ -37,8 +37,8 @@ pub struct Maps {
     pub bodies: Vec<MappedBody>,
     /// Bodies in a row.
     pub columns: usize,
-    /// Whether the bodies are natural modes, whose amplitude is arbitrary: all have the same largest displacement and values over the
-    /// largest.
+    /// Whether the bodies are natural modes, whose amplitude is arbitrary: all have the same largest displacement, and values relative to
+    /// their largest.
     pub are_modes: bool,
 }
 

@@ -169,7 +169,7 @@ pub enum PictureError {
         /// Unit of another.
         other: String,
     },
-    /// The file name ends like none of the formats of pictures.
+    /// The file name has no ending of a format of pictures.
     #[error(
         "{0}: a picture ends in .png, .svg or .pdf, and an animation, which --animate makes, in .gif"
     )]

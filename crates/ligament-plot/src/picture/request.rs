@@ -19,7 +19,7 @@ pub enum Magnification {
     Times(f64),
 }
 
-/// How cracks are drawn.
+/// Style of cracks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CrackDrawing {
     /// The broken bonds, coloured by criterion.
@@ -55,7 +55,7 @@ impl FieldRequest {
     }
 }
 
-/// What is drawn of solids, and from where.
+/// Parts of solids that are drawn, and the side from which they are seen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SolidRequest {
     /// The side from which solids are seen; `None`: obliquely, for a section along its normal, or from the front if it is across y.
@@ -104,7 +104,7 @@ pub struct FieldRequest {
     pub choice: Choice,
     /// Factor on the displacement.
     pub magnification: Magnification,
-    /// How cracks are drawn; `None`: only pre-cracks in a mesh.
+    /// Style of cracks; `None`: only pre-cracks in a mesh.
     pub crack: Option<CrackDrawing>,
     /// Tables `x,y` (m) of lines to draw over the body, separated by empty rows.
     pub lines: Vec<PathBuf>,
@@ -118,7 +118,7 @@ pub struct FieldRequest {
     pub map: Option<ColourMap>,
     /// Bodies in a row.
     pub columns: Option<usize>,
-    /// What is drawn of solids.
+    /// Settings of solids.
     pub solid: SolidRequest,
     /// Size and file.
     pub target: Target,

@@ -29,7 +29,7 @@ pub enum Choice {
 /// The row of the history of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moment {
-    /// Load factor, of a motion the time, s.
+    /// Load factor; in a motion the time, s.
     pub(super) load_factor: f64,
     /// Displacement of the first load.
     pub(super) displacement: f64,

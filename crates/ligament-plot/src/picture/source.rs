@@ -27,7 +27,7 @@ use super::units::Shown;
 use super::{PictureError, labels_of, solid};
 use crate::stored_loading::stored_loading;
 
-/// What titles and legends call a step in which bonds were still failing.
+/// Words in titles and legends for a step in which bonds were still failing.
 const NOT_CONVERGED: &str = "not converged";
 
 /// The results in a folder.
@@ -46,9 +46,9 @@ pub(super) struct Source {
     cracks: Option<StoredCracks>,
     /// Cracks of a solid that are drawn.
     solid_cracks: Option<SolidCracks>,
-    /// How cracks are drawn.
+    /// Style of cracks.
     drawing: Option<CrackDrawing>,
-    /// What is drawn of solids.
+    /// Settings of solids.
     solid: SolidRequest,
     /// Frequencies of modes by number, Hz.
     frequencies: BTreeMap<usize, f64>,

@@ -20,7 +20,7 @@ pub struct Series {
     points: Vec<[f64; 2]>,
 }
 
-/// How a curve is drawn.
+/// Style of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
     /// A line with dots, for computed values.

@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// What is met first decides: MPPD Table 7 has both limits, here (0, 1) and (-3, 0) with s_0c = -3 s_0t; per
+    /// The criterion that is met first decides: MPPD Table 7 has both limits, here (0, 1) and (-3, 0) with s_0c = -3 s_0t; per
     /// cent, printed to 2 decimals, at the 101 orientations of the paper.
     #[test]
     fn limits_in_tension_and_in_compression() {
@@ -303,7 +303,7 @@ mod tests {
     }
 
     /// An irregular family with limits of its own for each bond, against 200,000 orientations: their distance of
-    /// 1.6e-5 rad times the slope, 2 s_d/limit < 9, is what they may miss the least utilisation by.
+    /// 1.6e-5 rad times the slope, 2 s_d/limit < 9, bounds their error of the least utilisation.
     #[test]
     fn the_worst_orientation_of_an_irregular_family() {
         let directions = [0.03, 0.31, 0.42, 0.97, 1.5, 1.52, 2.2, 2.41, 2.9];

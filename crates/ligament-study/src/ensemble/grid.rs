@@ -71,7 +71,7 @@ fn load_at(curve: &[LoadPoint], displacement: f64) -> Option<f64> {
 
 /// A number rounded to two digits.
 fn two_digits(value: f64) -> f64 {
-    // A number is read as it was written.
+    // A parsed number equals the written one.
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 

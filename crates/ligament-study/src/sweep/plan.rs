@@ -388,7 +388,7 @@ mod tests {
                 .iter()
                 .all(|name| name.is_ascii() && !name.contains('/'))
         );
-        // Without its neighbours a label keeps its name, unless it was told apart from one of them.
+        // Without its neighbours a label keeps its name, unless a digest distinguished it from one of them.
         assert_eq!(super::names(&[axis("a", &["r"])])[0], ["a=r"]);
     }
 }

@@ -20,7 +20,7 @@ use ligament_case::input_file;
 /// A study: its cases, derived results and plots.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// The study file, as it was given.
+    /// Parsed text of the study, with its file.
     pub source: Source,
     /// Title of the study.
     pub title: String,

@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `document` | the structure of the file |
 //! | `expression` | numbers, names, + - * / ^ and functions of numbers, of runs and of the history of a run |
-//! | `quantity`, `loaded_run`, `history` | what an expression can read from a run, and from every row of its history |
+//! | `quantity`, `loaded_run`, `history` | quantities that an expression can read from a run, and from every row of its history |
 //! | `entry_runs` | the runs of an entry, each with its labels and its trial, and the memory of their results |
 //! | `figure` | plots |
 

@@ -120,7 +120,7 @@ fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
         }
         _ => Reliability::Sound,
     };
-    // Only what misses its band is shown with the reason.
+    // Only a value outside its band is shown with the reason.
     let standing = match allowed.admits(&known, computed) {
         true => Reliability::Sound,
         false => standing,

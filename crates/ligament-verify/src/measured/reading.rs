@@ -22,7 +22,7 @@ use crate::places::repository;
 pub(super) struct Reading {
     /// Name of the run.
     pub(super) run: String,
-    /// Series and size, of a run in a series.
+    /// Series and size, for a run in a series.
     pub(super) in_series: Option<(String, f64)>,
     /// Computed curve in the units of the axes, shape (n_rows, 2).
     pub(super) curve: Vec<[f64; 2]>,

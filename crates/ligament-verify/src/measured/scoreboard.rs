@@ -10,7 +10,7 @@ use super::test::MeasuredTest;
 pub struct Scores {
     /// Case file, from the root of the repository.
     pub case: String,
-    /// Material, and what the source leaves open.
+    /// Material, and the properties that the source leaves open.
     pub material: String,
     /// Scores of the runs, in their order.
     pub runs: Vec<Score>,

@@ -17,7 +17,7 @@ pub struct MeasuredTest {
     pub title: String,
     /// Key of the source in the references.
     pub source: String,
-    /// Material as the source gives it, and what the source leaves open.
+    /// Material as in the source, and the properties that the source leaves open.
     pub material: String,
     /// Case file, from the root of the repository.
     pub case: String,
@@ -311,7 +311,7 @@ fast = true
         assert!(test.run[0].fast && test.run[0].numbers.is_empty() && test.set.is_empty());
     }
 
-    /// Every fault names the test and what is wrong with it; an unknown key is named with its line.
+    /// Every fault names the test and the error; an unknown key is named with its line.
     #[test]
     fn wrong_entries_are_refused() {
         for (from, to, expected) in [

@@ -1,4 +1,4 @@
-//! The page of the measured tests: what missed its band first, then a table of all runs, then a figure for each test.
+//! The page of the measured tests: first the values outside their bands, then a table of all runs, then a figure for each test.
 
 use std::fmt::Write as _;
 

@@ -180,7 +180,7 @@ impl PointNames for &dyn Body {
     }
 }
 
-/// A meshed body; of several processes, only rank 0 has all cells.
+/// A meshed body; only rank 0 of several processes has all cells.
 pub trait MeshedBody<const D: usize> {
     /// Corners of a cell.
     fn corners_of(&self, cell: u32) -> &[u32];

@@ -350,7 +350,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         }
     }
 
-    /// Refuses a rigid body that begins inside what it meets: the facets with a side, and the points of their groups.
+    /// Refuses a rigid body that begins inside its opposite: the facets with a side, and the points of their groups.
     fn require_outside(
         &self,
         field: Field,

@@ -67,7 +67,7 @@ fn check_overlap(
     })
 }
 
-/// Refuses surface elements in a group that are not faces of cells: shells beside the solid, or a surface that was meshed anew.
+/// Refuses surface elements in a group that are not faces of cells: shells beside the solid, or a surface that was meshed again.
 fn check_faces(
     cursor: &Cursor<'_>,
     records: &Records,
