@@ -74,8 +74,8 @@ fn area(file: &VtuFile) -> f64 {
     file.cells().unwrap().iter().map(of).sum()
 }
 
-/// A whole bar that is free to contract has each displacement along x between those of its ends on one surface across it, the section of
-/// 40 x 40 mm: sections stay flat up to the errors of the corrections, which the area contains squared.
+/// A whole bar that is free to contract has each displacement between the displacements of its ends on one surface across it, the section
+/// of 40 x 40 mm: sections stay flat up to the errors of the corrections, which the area contains squared.
 #[test]
 fn a_value_between_both_ends_has_the_section_as_surface() {
     let place = Place::new();
