@@ -1,4 +1,4 @@
-//! Finds what the program is built from, for the record of its runs: the commit, the compiler and what it was asked for.
+//! Finds the origin of the program, for the record of its runs: the commit, the compiler, the profile and the target.
 //!
 //! Without Git, or outside a checkout, the commit is not known and the program says so.
 #![allow(
@@ -51,7 +51,7 @@ fn main() {
     set("COMPILER", &compiler.unwrap_or_default());
 }
 
-/// All that the program is built from, as seen from the repository; its tests and pages are none of it.
+/// All sources of the program, as seen from the repository, without its tests and pages.
 fn sources(repository: &Path) -> Vec<PathBuf> {
     let mut found = vec!["Cargo.toml".into(), "Cargo.lock".into()];
     let crates = fs::read_dir(repository.join("crates"));
@@ -65,13 +65,13 @@ fn sources(repository: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// What Git says of the repository, if that is a checkout and not a folder inside another one.
+/// Output of Git for the repository, if it is a checkout and not a folder inside another one.
 fn git(repository: &Path, arguments: &[&str]) -> Option<String> {
     if !repository.join(".git").exists() {
         return None;
     }
     let mut command = Command::new("git");
-    // What a hook of Git sets would point elsewhere.
+    // Variables that a hook of Git sets would point elsewhere.
     for variable in ["GIT_DIR", "GIT_WORK_TREE", "GIT_INDEX_FILE"] {
         command.env_remove(variable);
     }
@@ -79,7 +79,7 @@ fn git(repository: &Path, arguments: &[&str]) -> Option<String> {
     said(command.arg(repository).args(arguments))
 }
 
-/// What a program wrote to its output; nothing if it failed or is not there.
+/// Output of a program; nothing if it failed or does not exist.
 fn said(command: &mut Command) -> Option<String> {
     let output = command.output().ok().filter(|it| it.status.success())?;
     let text = String::from_utf8(output.stdout).ok()?;

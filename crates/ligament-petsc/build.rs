@@ -12,7 +12,7 @@ mod library {
         reason = "a build script speaks to Cargo through its output"
     )]
 
-    /// The file of our own.
+    /// The C source of the crate.
     const SOURCE: &str = "src/petsc.c";
 
     /// Names under which systems list an MPI for C.
@@ -38,7 +38,7 @@ mod library {
             build.includes(&mpi.include_paths);
         }
         build.warnings(true).compile("ligament_petsc");
-        // After the file that needs them: linkers look from left to right.
+        // After the file that needs them: linkers search from left to right.
         for name in &petsc.libs {
             println!("cargo::rustc-link-lib={name}");
         }

@@ -109,7 +109,7 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// Fills the columns with entries by block, row and column: the blocks of the `lower` points (ascending), and then that of the
+    /// Fills the columns with entries by block, row and column: the blocks of the `lower` points (ascending), and then the block of the
     /// point itself.
     fn fill(self, lower: &[u32], entry: impl Fn(usize, usize, usize) -> f64) {
         let Self {

@@ -137,8 +137,8 @@ impl BondNumbers {
         self.subdomain.count(owned.filter(|it| it.1).count())
     }
 
-    /// Reads the values of all bonds of the body, and returns the values of the local bonds (n_bonds). The `usual` value takes a bit; an empty
-    /// list stays empty.
+    /// Reads the values of all bonds of the body, and returns the values of the local bonds (n_bonds). A `usual` value takes one bit; an
+    /// empty list stays empty.
     ///
     /// # Errors
     ///
@@ -189,7 +189,7 @@ impl BondNumbers {
         Ok(local)
     }
 
-    /// Reads values at all points of the body, as many per point as `n_values`, and returns those of the local points.
+    /// Reads values at all points of the body, as many per point as `n_values`, and returns the values of the local points.
     ///
     /// # Errors
     ///
@@ -213,8 +213,8 @@ impl BondNumbers {
         Ok(read_by_index(count, &usual, indices, from)?)
     }
 
-    /// Appends values at all points of the body, as many per point as `n_values`, from those at the local points; on a divided body rank 0
-    /// writes them and the others an empty list. Values equal to `usual` are not sent. Collective.
+    /// Appends values at all points of the body, as many per point as `n_values`, from the values at the local points; on a divided body
+    /// rank 0 writes them and the others an empty list. Values equal to `usual` are not sent. Collective.
     pub(crate) fn write_points<T, const N: usize>(
         &self,
         (local, n_values): (&[T], usize),
@@ -241,8 +241,8 @@ impl BondNumbers {
         );
     }
 
-    /// Appends the values of all bonds of the body, from those of the local bonds (n_bonds); on a divided body rank 0 writes those that are
-    /// not `usual`, with their numbers. Collective.
+    /// Appends the values of all bonds of the body, from the values of the local bonds (n_bonds); on a divided body rank 0 writes the
+    /// values that are not `usual`, with the numbers of their bonds. Collective.
     pub(crate) fn write<T, const N: usize>(&self, local: &[T], usual: T, out: &mut dyn Sink)
     where
         T: Serial + Wire<N> + Copy + PartialEq,
@@ -260,13 +260,13 @@ impl BondNumbers {
     }
 }
 
-/// Appends the number of some values and these, with a `usual` one.
+/// Appends the number of some values and the values, most of which are `usual`.
 fn write_all<T: Serial>(values: &[T], usual: &T, out: &mut dyn Sink) {
     values.len().write(out);
     write_values(values, usual, out);
 }
 
-/// Reads `count` values, with a `usual` one.
+/// Reads `count` values, most of which are `usual`.
 fn all<T: Serial + Clone>(count: usize, usual: &T, from: &mut dyn Read) -> Result<Vec<T>, Damaged> {
     let mut values = Vec::new();
     read_values(count, usual, from, |value| values.push(value))?;

@@ -16,7 +16,7 @@ pub struct Breakage {
     pub bonds: Vec<u32>,
     /// Supports added for rigid motions of detached parts.
     pub holds: Vec<AddedSupport>,
-    /// Elements that change: those of the bonds, in order, and then those that depend on them, ascending.
+    /// Elements that change: the elements of the bonds, in order, and then elements that depend on them, ascending.
     elements: Option<Box<dyn ChangedElements>>,
     /// Elements of the owned bonds, on a divided body.
     owned: Option<(Subdomain, Box<dyn ChangedElements>)>,
@@ -63,7 +63,7 @@ impl Breakage {
     }
 
     /// Residual force due to the breakage at displacements (n_degrees_of_freedom), N and N m: forces of the elements on their
-    /// points before it minus those after it, as terms with their degrees of freedom.
+    /// points before the breakage minus their forces after it, as terms with their degrees of freedom.
     pub fn unbalanced_force(
         &self,
         displacement: &[f64],

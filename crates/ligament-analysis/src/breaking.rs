@@ -73,7 +73,7 @@ pub fn next_to_break(
     chosen(rule, numbers.subdomain().all_gather_list(near))
 }
 
-/// Bonds to break now of some intact ones of a whole body that are near their limits, as [`next_to_break`] chooses them of all.
+/// Bonds to break now, as [`next_to_break`] chooses them, from some intact bonds of a whole body that are near their limits.
 pub(crate) fn next_of_near(
     rule: &BreakingRule,
     near: &[(u32, BondDeformation)],
@@ -91,13 +91,13 @@ pub(crate) fn next_of_near(
 }
 
 impl BreakingRule {
-    /// Factor on a measure that reaches the limit of a bond that may be tied with one beyond its limit.
+    /// Factor that raises the measure of a bond to its limit if the bond may be tied with one beyond its limit.
     pub(crate) fn near(&self) -> f64 {
         1.0 + 2.0 * self.tie_tolerance
     }
 }
 
-/// Intact bonds beyond their limits, or close enough to them to be tied with one that is.
+/// Intact bonds beyond their limits, or so close to their limits that they may be tied with one beyond its limit.
 fn near_limit(
     rule: &BreakingRule,
     deformations: &[BondDeformation],
@@ -152,7 +152,7 @@ fn chosen(rule: &BreakingRule, mut ranked: Vec<Candidate>) -> Vec<u32> {
 pub struct FirstToBreak {
     /// Largest ratio of measure to limit; 0 where no measure of an intact bond is positive.
     pub ratio: f64,
-    /// Bond with this ratio and those tied with it, in the order of their numbers.
+    /// Bonds with this ratio or tied with it, in the order of their numbers.
     pub bonds: Vec<u32>,
 }
 

@@ -10,7 +10,7 @@ pub enum CheckpointError {
     /// The bytes are no checkpoint.
     #[error(transparent)]
     Damaged(#[from] Damaged),
-    /// Points, bonds or unknowns differ from those of the problem.
+    /// Points, bonds or unknowns differ from the problem.
     #[error("it belongs to another model: points, bonds or supports differ")]
     OtherModel,
     /// The run belongs to another driver.

@@ -128,7 +128,7 @@ impl Fragments {
         system.free_shapes(points, &is_fixed, &|_| false).motions
     }
 
-    /// Splits a part off its fragment; both are numbered in the order of their first points. One process has all points.
+    /// Splits a part off its fragment, for a body on one process; both are numbered in the order of their first points.
     fn split_off(&mut self, mut part: Vec<u32>) {
         part.sort_unstable();
         let fragment = self.of_point[part[0] as usize] as usize;

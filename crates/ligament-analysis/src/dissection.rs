@@ -17,7 +17,7 @@ const SMALLEST_PART: usize = 12;
 /// Least number of points of a part whose two sides are parallel tasks.
 const TASK: usize = 1024;
 
-/// Unknowns in elimination order: those of a point together, points by nested dissection.
+/// Unknowns in elimination order: the unknowns of a point together, points by nested dissection.
 pub fn elimination_order(system: &dyn Bonds, unknowns: &Unknowns) -> Vec<usize> {
     points_in_order(system)
         .into_iter()

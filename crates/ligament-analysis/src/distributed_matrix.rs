@@ -23,7 +23,7 @@ impl MatrixCommunicator for Solo {
     }
 }
 
-/// Structure of a matrix of blocks, one for each two coupled points, of which each rank stores the rows of its owned points. Points
+/// Structure of a matrix of blocks, one for each two coupled points; each rank stores the rows of its owned points. Points
 /// are numbered from 0 on, rank by rank.
 #[derive(Debug, Clone, Copy)]
 pub struct Rows<'a> {

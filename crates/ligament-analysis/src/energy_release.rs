@@ -7,7 +7,7 @@
 //!   where one proportional load acts alone and an unloaded body has no forces; sudden drops between the states count
 //!   as their chord.
 //! - from the energies, G = (W' - W)/(A' - A) with the energy W released by breakages, for any loads. Sudden growth in a load
-//!   step at constant displacement has its larger rate here.
+//!   step at constant displacement shows its larger rate here.
 //! - dissipated energy over the new area: the fracture energy that the criterion actually spends. It is smaller than the
 //!   released energy where a crack runs faster than the load.
 //!

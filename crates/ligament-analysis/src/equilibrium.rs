@@ -277,7 +277,7 @@ impl Equilibrium {
     /// Breaks bonds, given by global numbers: marks them as broken in the state and fixes detached parts.
     ///
     /// Must be called before the first solution with all bonds that the state lacks, and later with every bond that breaks; the
-    /// next equilibrium is that after the breakage.
+    /// next equilibrium is the one after the breakage.
     pub fn break_bonds(&mut self, state: &mut State, bonds: &[u32]) -> Breakage {
         let Equations {
             problem,
@@ -335,7 +335,7 @@ impl Equilibrium {
     }
 
     /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom), for the bonds of an equilibrium state under
-    /// the given loads at load factor 1; the loads must prescribe the same degrees of freedom as those of the problem.
+    /// the given loads at load factor 1; the loads must prescribe the same degrees of freedom as the loads of the problem.
     ///
     /// # Errors
     ///
@@ -373,7 +373,7 @@ impl Equilibrium {
         contact_line::reach(&mut self.equations, state, (&*loads, growth), heading)
     }
 
-    /// Measures a state known to be in equilibrium, whose contacts are those of the last equilibrium from then on.
+    /// Measures a state known to be in equilibrium, whose contacts become the contacts of the last equilibrium.
     pub(crate) fn arrived(&mut self, state: &mut State) -> Balanced {
         let balanced = self.equations.measured(state);
         self.equations.contact.settle(state, &balanced);
@@ -477,7 +477,8 @@ impl Equilibrium {
         Ok(self.accepted(attempt, state))
     }
 
-    /// An equilibrium from which surfaces and friction go on, unless forces on a part do not balance or surfaces missed each other.
+    /// Accepts an equilibrium, from which surfaces and friction continue, unless forces on a part do not balance or surfaces missed each
+    /// other.
     fn accepted(&self, attempt: Attempt, state: &mut State) -> Attempt {
         let Attempt::Balanced(balanced) = &attempt else {
             return attempt;

@@ -9,7 +9,7 @@ use crate::state::State;
 
 /// Damage of every point (NHPD eq. 17): 1 - (sum over its intact bonds of Omega alpha)/(sum over all its bonds).
 ///
-/// The bonds are those of the start: bonds cut by a pre-crack are no damage, and a point that lost all its bonds to one has damage
+/// The bonds are the bonds of the start: bonds cut by a pre-crack are no damage, and a point that lost all its bonds to one has damage
 /// 0.
 pub fn damage(system: &dyn Bonds, intact: &[bool]) -> Vec<f64> {
     gather(system, |point| point_damage(system, intact, point))
@@ -84,7 +84,7 @@ pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<
     })
 }
 
-/// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, and half of that of its closed
+/// Strain energy density of every point, J/m^3: its share of the energy of its bonds, mostly a half, and half of the energy of its closed
 /// pairs, over its volume.
 pub fn strain_energy_density(
     system: &dyn Bonds,

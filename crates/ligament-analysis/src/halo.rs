@@ -55,13 +55,13 @@ impl HaloExchange {
         &self.subdomain
     }
 
-    /// Sets motions (n_degrees_of_freedom) at ghosts and common points to those of their owners.
+    /// Sets motions (n_degrees_of_freedom) at ghosts and common points to the values of their owners.
     pub(crate) fn update_motions(&self, motions: &mut [f64]) {
         self.ghosts.update(motions, self.layout.components.len());
         self.update_forces(motions);
     }
 
-    /// Sets forces (n_degrees_of_freedom) at common points to those of their owners.
+    /// Sets forces (n_degrees_of_freedom) at common points to the values of their owners.
     pub(crate) fn update_forces(&self, forces: &mut [f64]) {
         if self.subdomain.is_whole() {
             return;

@@ -101,12 +101,12 @@ pub struct InMotion {
     pub damping_energy: f64,
     /// Energy stored in contacts between surfaces, J.
     pub contact_energy: f64,
-    /// Energy that friction and the birth and end of contacts have taken so far, J.
+    /// Energy that friction and the begin and end of contacts have taken so far, J.
     pub friction_energy: f64,
 }
 
 impl InMotion {
-    /// Energies that are positive or zero, whatever happens, by their names, J.
+    /// Energies that can never be negative, with their names, J.
     pub fn taken(&self) -> [(&'static str, f64); 3] {
         [
             ("damping", self.damping_energy),
@@ -115,7 +115,7 @@ impl InMotion {
         ]
     }
 
-    /// Energy at work beside the stored and released energies of the bonds, less the energy at time zero, J.
+    /// Energy besides the stored and released energies of the bonds, less the energy at time zero, J.
     fn beside_bonds(&self) -> f64 {
         let now =
             self.kinetic_energy + self.damping_energy + self.contact_energy + self.friction_energy;
@@ -142,8 +142,8 @@ impl StepRecord {
         (self.external_work.abs() + at_start).max(self.energy_floor)
     }
 
-    /// External work - stored - released energy - that of contact and friction, J; in a motion the kinetic energy, the energies of damping, contact and friction count as
-    /// well, and the energy at time zero.
+    /// External work minus stored and released energy and minus the energies of contact and friction, J; in a motion also minus the kinetic
+    /// energy and the energy of damping, plus the energy at time zero.
     pub fn missing_energy(&self) -> f64 {
         let of_bonds = self.external_work - self.stored_energy - self.released_energy;
         let of_bonds = self.contact.map_or(of_bonds, |it| {
@@ -218,7 +218,7 @@ pub struct View<'a> {
     pub is_last: bool,
     /// Velocities and accelerations of a motion; None in statics.
     pub motion: Option<Rates<'a>>,
-    /// Whether the whole body is known; otherwise motions and forces are those of supported and loaded points alone, and there are
+    /// Whether the whole body is known; otherwise motions and forces are known only at supported and loaded points, and there are
     /// no deformations.
     pub is_whole: bool,
 }
@@ -281,7 +281,7 @@ pub enum Onward {
 
 /// Observer of a run. All methods except [`Observer::step`] have defaults.
 pub trait Observer {
-    /// Called once, before a run does what may take long.
+    /// Called once, before a part of a run that may take long.
     fn begins(&mut self, _ahead: Ahead) {}
 
     /// Called after a Newton-Raphson iteration.
@@ -328,7 +328,7 @@ pub trait Observer {
         Ok(Onward::Go)
     }
 
-    /// Whether the observer reads the body itself after a step, and not its record alone.
+    /// Whether the observer reads the body itself after a step, and not only its record.
     ///
     /// Where it does not, the exact path may delay updates of parts of the body, and the view is not [whole](View::is_whole).
     fn looks(&self, _step: usize) -> bool {
@@ -339,7 +339,7 @@ pub trait Observer {
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError>;
 }
 
-/// What a run is about to do.
+/// Work that a run is about to do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ahead {
     /// Time steps of a motion.

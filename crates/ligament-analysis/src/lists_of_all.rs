@@ -1,7 +1,7 @@
-//! Lists over the points, unknowns or bonds of a body in a checkpoint, of which each process has some values.
+//! Lists over the points, unknowns or bonds of a body in a checkpoint; each process has some of their values.
 //!
-//! Rank 0 receives the values in slices and writes each before the next comes; a reader keeps only its own values. So no process has a list
-//! over the whole body.
+//! Rank 0 receives the values in slices and writes each slice before the next arrives; a reader keeps only its own values. So no process
+//! has a list over the whole body.
 
 use std::io::Read;
 use std::iter;
@@ -36,7 +36,7 @@ pub fn write_by_index<T, const N: usize>(
     }
 }
 
-/// Reads a list of `count` values with a `usual` one, and returns those with some indices (ascending).
+/// Reads a list of `count` values, most of which are `usual`, and returns the values with some indices (ascending).
 ///
 /// # Errors
 ///

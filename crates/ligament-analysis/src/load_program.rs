@@ -85,7 +85,7 @@ pub trait LoadProgram: Debug + Send + Sync {
     /// Changes of the temperature, shape (n_points), K; empty where no temperature changes at any time.
     fn temperature_change(&self, time: f64) -> Vec<f64>;
 
-    /// Temperature factor: the ratio of the changes of the temperature to those at factor 1.
+    /// Temperature factor: the ratio of the changes of the temperature to the changes at factor 1.
     fn temperature_factor(&self, time: f64) -> f64;
 
     /// Factor of the control load.
@@ -197,7 +197,7 @@ pub struct Control {
     pub kind: ControlKind,
     /// Points of the load.
     pub points: Vec<u32>,
-    /// Shares of the points in a load of unit size, shape (n_points of the load, n_components); of a rigid body its direction.
+    /// Shares of the points in a load of unit size, shape (n_points of the load, n_components); for a rigid body its direction.
     pub shape: Vec<f64>,
     /// Size at load factor 1 of the displacement (m, rad), of the force or couple in total (N, N m) or of the pressure (Pa), before
     /// a profile.

@@ -10,7 +10,7 @@ use crate::state::State;
 /// Stress of a point by the law of its material. Both are equal where no bond of the point is broken or softening.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MaterialStress {
-    /// Stress that the material carries with what its bonds have left.
+    /// Stress that the material carries with the remaining stiffness of its bonds.
     Carried,
     /// Stress of sound material at the strain of the bonds that are neither broken nor softening.
     Effective,

@@ -9,7 +9,7 @@ use crate::serial::{Damaged, Serial, Sink};
 /// Largest number of bytes of a message.
 pub const LONGEST: usize = 1 << 20;
 
-/// Way of a value between processes.
+/// Route of a value between processes.
 #[derive(Debug, Clone, Copy)]
 pub enum Way {
     /// From rank 0 to all ranks.

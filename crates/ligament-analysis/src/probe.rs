@@ -23,7 +23,7 @@ pub type Shares = Vec<(u32, f64)>;
 /// Quantity that a probe reads.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Reading {
-    /// Motion at the second location minus that at the first (crack mouth opening, strain gauge), m or rad.
+    /// Motion at the second location minus the motion at the first (crack mouth opening, strain gauge), m or rad.
     RelativeDisplacement {
         /// First and second location.
         places: [Shares; 2],
@@ -212,7 +212,7 @@ impl PointField {
         }
     }
 
-    /// All fields: those of the [table of fields](FIELDS) that are read at a point, then the components of other vectors and
+    /// All fields: the fields of the [table](FIELDS) that are read at a point, then the components of other vectors and
     /// tensors.
     pub const ALL: [Self; N_OF_TABLE + OF_VECTORS_AND_TENSORS.len()] = {
         let mut all = [OF_VECTORS_AND_TENSORS[0]; N_OF_TABLE + OF_VECTORS_AND_TENSORS.len()];
@@ -259,7 +259,7 @@ impl PointField {
         Self::ALL.into_iter().find(|it| it.word == word)
     }
 
-    /// Whether the field is a velocity or an acceleration, which a motion in time alone has.
+    /// Whether the field is a velocity or an acceleration, which only a motion in time has.
     pub fn is_rate(&self) -> bool {
         matches!(
             self.reading,
@@ -325,7 +325,7 @@ pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
         }
         Reading::SectionForce { bonds, component } => {
             let ends = system.ends();
-            // Pairs that pre-cracks cut stand beyond the bonds; only a single process has forces of pairs.
+            // Pairs cut by pre-cracks are numbered after the bonds; only a single process has forces of pairs.
             let owned = bonds.iter().filter(|(bond, _)| {
                 let ends = ends.get(*bond as usize);
                 ends.is_none_or(|ends| subdomain.owns_bond(*ends))
@@ -344,7 +344,7 @@ pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
 }
 
 impl Reading {
-    /// Degrees of freedom and weights whose weighted motions add up to the reading; None for other quantities than motions.
+    /// The reading as a linear form in the displacements: degrees of freedom with weights; None for other quantities than motions.
     pub fn weights(&self, layout: Layout) -> Option<Vec<(u32, f64)>> {
         let (shares, component) = match self {
             Self::RelativeDisplacement { places, component } => {

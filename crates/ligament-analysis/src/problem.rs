@@ -71,8 +71,8 @@ impl Problem {
         }
     }
 
-    /// Lets the bonds begin to soften whose stress in an equilibrium has come to the strength; whether some do. That changes no force: a
-    /// bond begins at the deformation at which its stress was the strength, and softens when equilibrium is sought again.
+    /// Starts the softening of bonds whose stress in an equilibrium has reached the strength; returns whether there are any. This changes
+    /// no force: a bond begins at the deformation at which its stress was the strength, and softens when equilibrium is sought again.
     pub(crate) fn begin_softening(&self, state: &mut State, balanced: &Balanced) -> bool {
         let begun = self.beginning(state, balanced);
         let some = self.system.subdomain().any(begun.is_some());
@@ -82,8 +82,8 @@ impl Problem {
         some
     }
 
-    /// The deformations at which bonds began to soften by the stress around them, with those that begin in an equilibrium; None where
-    /// none begins.
+    /// The deformations at which bonds began to soften by the stress around them, including the bonds that begin in an equilibrium; None
+    /// where none begins.
     fn beginning(&self, state: &State, balanced: &Balanced) -> Option<Vec<Vec<f64>>> {
         let begun = state.softening.begun();
         if begun.iter().all(Vec::is_empty) {

@@ -362,8 +362,8 @@ impl<'a> ModelPoints<'a> {
     }
 }
 
-/// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; on a divided body those of
-/// owned points and of the ends of their bonds.
+/// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; on a divided body only at
+/// owned points and at the ends of their bonds.
 pub fn displacements(view: &View<'_>) -> Vec<f64> {
     vectors(view.system.layout(), &view.state.displacement)
 }
@@ -467,7 +467,7 @@ fn thermal_strain(view: &View<'_>) -> Vec<f64> {
     of_points.flat_map(of_point).collect()
 }
 
-/// Indices of the components of [`THERMAL_STRAIN`] among those of a strain in space.
+/// Indices of the components of [`THERMAL_STRAIN`] among the components of a strain in space.
 pub fn thermal_strain_places(in_space: bool) -> impl Iterator<Item = usize> + Clone {
     let names = THERMAL_STRAIN.components(in_space).names().iter();
     names.filter_map(|name| SymTensor::<3>::NAMES.iter().position(|it| it == name))

@@ -154,7 +154,7 @@ pub fn require_end(from: &mut dyn Read) -> Result<(), Damaged> {
 }
 
 /// Appends the values of a long list, without their number, in slices of [`SLICE`] values one after the other. Values with the bytes
-/// of the `usual` one take a bit.
+/// of `usual` take one bit.
 pub fn write_values<T: Serial>(list: &[T], usual: &T, out: &mut dyn Sink) {
     let mut of_usual = Vec::new();
     usual.write(&mut of_usual);
@@ -175,7 +175,7 @@ pub fn write_values<T: Serial>(list: &[T], usual: &T, out: &mut dyn Sink) {
     }
 }
 
-/// Reads `count` values of a long list with a `usual` one, and passes them to `each` one by one.
+/// Reads `count` values of a long list, most of which are `usual`, and passes them to `each` one by one.
 ///
 /// # Errors
 ///

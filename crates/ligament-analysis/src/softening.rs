@@ -23,14 +23,14 @@ const SAME: f64 = 1e-9;
 /// State of bonds beyond their limits; empty where no bond softens.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Softening {
-    /// Largest e/e_0 in equilibrium states, shape (n_bonds) for each criterion; empty for those that do not soften.
+    /// Largest e/e_0 in equilibrium states, shape (n_bonds) for each criterion; empty for criteria that do not soften.
     pub largest: Vec<Vec<f64>>,
     /// Largest e/e_0 including the present iterate, shape (n_bonds) for each criterion.
     trial: Vec<Vec<f64>>,
     /// Remaining stiffness at the deformations of the iterate, shape (n_bonds).
     pub remaining: Vec<StiffnessFactors>,
-    /// Deformations at which bonds began to soften by the stress around them, infinite for those that did not, shape (n_bonds) for each
-    /// criterion; empty for those that ask for no stress.
+    /// Deformations at which bonds began to soften by the stress around them, infinite for bonds that did not, shape (n_bonds) for each
+    /// criterion; empty for criteria without stress.
     begun: Vec<Vec<f64>>,
     /// Limits and laws of the criteria that follow from where bonds began; empty where no criterion lets bonds begin.
     variables: Vec<StateVariables>,
@@ -58,7 +58,7 @@ impl Softening {
         (self.begun.iter()).for_each(|list| numbers.write(list, f64::INFINITY, out));
     }
 
-    /// Reads the softening of all bonds, and keeps that of the local bonds.
+    /// Reads the softening of all bonds, and keeps the softening of the local bonds.
     ///
     /// # Errors
     ///
@@ -105,8 +105,8 @@ impl Softening {
         }
     }
 
-    /// Deformations at which bonds began to soften by the stress around them, infinite for those that did not, shape (n_bonds) for each
-    /// criterion; empty for those that ask for no stress.
+    /// Deformations at which bonds began to soften by the stress around them, infinite for bonds that did not, shape (n_bonds) for each
+    /// criterion; empty for criteria without stress.
     pub fn begun(&self) -> &[Vec<f64>] {
         &self.begun
     }
@@ -158,7 +158,7 @@ impl Softening {
         });
     }
 
-    /// The bonds that are neither broken nor have begun to soften: those that show the strain of the body.
+    /// The bonds that are neither broken nor have begun to soften: only these show the strain of the body.
     pub fn sound<'a>(&self, intact: &'a [bool]) -> Cow<'a, [bool]> {
         if self.largest.iter().all(Vec::is_empty) {
             return Cow::Borrowed(intact);
@@ -221,7 +221,7 @@ impl Softening {
         })
     }
 
-    /// What happens after the limit of a criterion.
+    /// Law after the limit of a criterion.
     fn after<'a>(&'a self, criteria: &'a Criteria, place: usize) -> &'a AfterLimit {
         let own = &criteria.list[place];
         let variables = self.variables.get(place);

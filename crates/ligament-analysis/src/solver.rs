@@ -32,14 +32,14 @@ pub struct SolverSettings {
     pub update: Option<Update>,
     /// Interval in the number of broken bonds, counted from the start, at which the factor is computed anew.
     ///
-    /// A factor that was updated in place depends on all its updates; a resumed run repeats those since the factor was last
+    /// A factor that was updated in place depends on all its updates; a resumed run repeats the updates since the factor was last
     /// computed anew.
     pub rebuild_every: usize,
     /// Number of points in space from which conjugate gradients have a third level. The factor of the second takes memory as n^(4/3) and
     /// time as n^2 for n points: at 47,000 points both levels are made in 1.7 times the time without a third, and at 97,000 a run takes 1.2 times
     /// the memory (measured).
     pub clusters_from: usize,
-    /// Whether a run goes on where the intact stiffness has more negative eigenvalues than its rotations explain.
+    /// Whether a run continues where the intact stiffness has more negative eigenvalues than its rotations explain.
     pub allows_unstable: bool,
     /// Bytes available for the matrix and its factor; open: unknown.
     pub memory: Option<usize>,

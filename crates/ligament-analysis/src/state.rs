@@ -34,7 +34,7 @@ pub struct State {
     pub friction: Friction,
     /// Contact between surfaces in the last equilibrium, or after the last time step.
     pub surfaces: LastTouching,
-    /// Place of each rigid body that moves by itself, zero of others; those at the end may be missing as long as they rest.
+    /// Pose of each rigid body that moves by itself, zero for others; the last poses may be missing as long as they are zero.
     pub rigid: Vec<Pose>,
 }
 
@@ -114,7 +114,7 @@ impl State {
         }
     }
 
-    /// Appends the state of all points and bonds of the body, from those of each process; valid on rank 0 alone. Collective.
+    /// Appends the state of all points and bonds of the body, from the states on each process; valid on rank 0 alone. Collective.
     pub(crate) fn write(&self, numbers: &BondNumbers, out: &mut dyn Sink) {
         let n_components = self.displacement.len() / numbers.subdomain().n_points().max(1);
         self.load_factor.write(out);

@@ -18,7 +18,7 @@ use crate::unknowns::Unknowns;
 pub struct Stiffness {
     system: Arc<dyn Bonds>,
     unknowns: Arc<Unknowns>,
-    /// Unknowns without what contacts couple.
+    /// Unknowns without the couplings by contacts.
     uncoupled: Arc<Unknowns>,
     pattern: Arc<Pattern>,
     symbolic: Arc<Symbolic>,
@@ -26,7 +26,7 @@ pub struct Stiffness {
     analysis: Duration,
 }
 
-/// Memory until the matrix is factorised, as a multiple of that of its values.
+/// Memory until the matrix is factorised, as a multiple of the memory of its values.
 const MATRICES: usize = 4;
 
 /// Least bytes of the matrix of some bonds and its factor: a block for each bond, and as much in the factor.

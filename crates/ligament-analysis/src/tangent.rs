@@ -93,7 +93,7 @@ pub(crate) trait TangentSolver {
     /// Updates the solver for the softening of bonds.
     fn update_for_softening(&mut self, state: &State, costs: &mut Costs);
 
-    /// Updates the solver for what faces in contact resist, in the order of the keys; nothing where none can meet.
+    /// Updates the solver for the motions that contacts resist, in the order of the keys; does nothing where there can be no contact.
     fn close(&mut self, resisting: Vec<Resisting>, costs: &mut Costs);
 
     /// Makes the solver ready for a state. Returns the degrees of freedom of vanishing pivots, which must be fixed in the state
@@ -126,7 +126,7 @@ pub(crate) trait TangentSolver {
     /// Makes the solver recompute K from the bonds the next time.
     fn discard(&mut self);
 
-    /// The solver as it is now, for runs that begin from here; None where it cannot be copied.
+    /// A copy of the solver in its present state, for runs that begin from it; None where it cannot be copied.
     fn intact(&self) -> Option<Box<dyn IntactSolver>> {
         None
     }
@@ -147,6 +147,6 @@ pub(crate) trait TangentSolver {
 
 /// A solver of an intact body, which does not change: each run begins with a copy.
 pub(crate) trait IntactSolver: Send + Sync {
-    /// A solver that is ready, and changes by itself from then on.
+    /// An independent copy, ready to solve.
     fn copied(&self) -> Box<dyn TangentSolver>;
 }

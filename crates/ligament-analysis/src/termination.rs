@@ -1,4 +1,4 @@
-//! Reasons for the end of a run, and the table of what each means for its results.
+//! Reasons for the end of a run, and the table of their consequences for the results.
 //!
 //! A new end is a variant of [`Termination`] with its words, and a row of the table `ends!` below. Exit codes, summaries, studies and the table in
 //! `docs/commands.md` follow from the row.
@@ -62,7 +62,7 @@ pub enum Termination {
     EnergyGrew {
         /// Time, s.
         time: f64,
-        /// What grew.
+        /// Quantity that grew.
         growth: Growth,
     },
     /// The intact model is unstable, and the problem does not allow that.
@@ -144,7 +144,7 @@ impl Termination {
     }
 }
 
-/// What grew in a motion without cause.
+/// Quantity that grew in a motion without cause.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Growth {
     /// Energies and work do not balance, by this share of the work.
@@ -174,12 +174,12 @@ pub enum Growth {
     Kinetic(f64),
 }
 
-/// What the end of a run says of its results.
+/// Verdict on the results of a run by its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// The loading was completed, or a rule that looks at states at rest ended the run.
     Complete,
-    /// A rule ended the run that does so during breakage as well.
+    /// A rule ended the run that may do so during breakage as well.
     AskedFor,
     /// The user stopped the run, which can be resumed.
     Stopped,
@@ -196,13 +196,13 @@ pub enum Verdict {
 pub struct Row {
     /// Short name for files.
     pub name: &'static str,
-    /// What the end says of the results.
+    /// Verdict on the results.
     pub verdict: Verdict,
     /// Whether the run could continue from there, because a rule ended it.
     pub is_by_rule: bool,
 }
 
-/// The table of ends, of which `Termination::row` and [`ENDS`] are made: name, verdict, and whether the run could continue.
+/// The table of ends, from which `Termination::row` and [`ENDS`] are made: name, verdict, and whether the run could continue.
 macro_rules! ends {
     ($($end:pat => $name:literal, $verdict:ident, $is_by_rule:literal;)*) => {
         /// All rows of the table of ends.

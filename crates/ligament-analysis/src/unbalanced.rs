@@ -90,7 +90,7 @@ pub enum Unbalanced {
     Missed {
         /// Name of the contact.
         contact: String,
-        /// Where, and how far.
+        /// Place at which the surfaces missed each other, and their motion.
         missed: Missed,
     },
     /// The matrix could not be factorised.
@@ -114,7 +114,7 @@ impl Place {
 }
 
 impl Unbalanced {
-    /// What a contact of a problem, by its number, missed.
+    /// The reason for a contact of a problem, given by its number, that surfaces missed.
     pub(crate) fn missed(problem: &ContactProblem, (contact, missed): (usize, Missed)) -> Self {
         let contact = problem.contacts[contact].name.clone();
         Self::Missed { contact, missed }
@@ -183,7 +183,7 @@ impl Unbalanced {
     }
 }
 
-/// What surfaces of a contact moved through unseen, at a place.
+/// Description of what surfaces of a contact moved through undetected, at a place.
 fn unseen(contact: &str, missed: &Missed, place: &str) -> String {
     let Missed { way, seen, .. } = *missed;
     format!(

@@ -20,7 +20,7 @@ pub trait PointNames {
     fn sorted(&self, points: &[u32]) -> Vec<u32>;
 }
 
-/// Where in a run a message applies.
+/// Part of a run to which a message applies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub enum Place {
     /// The model, before the run.
@@ -34,16 +34,16 @@ pub enum Place {
 /// A message to the user.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Message {
-    /// Where in the run it applies.
+    /// Part of the run to which the message applies.
     pub place: Place,
-    /// Name of what it tells, the same for all models: `parts-detached`.
+    /// Kind of the message, the same for all models: `parts-detached`.
     pub kind: Cow<'static, str>,
-    /// What it tells, a sentence without a full stop. `{}` stands for the name of the next point, `{at}` for its name and position, and `{all}`
-    /// for the names of all points.
+    /// Text of the message, a sentence without a full stop. `{}` stands for the name of the next point, `{at}` for its name and position,
+    /// and `{all}` for the names of all points.
     pub text: String,
     /// Points in the order in which the text names them.
     pub points: Vec<u32>,
-    /// What the user can do about it, if anything is known.
+    /// Advice to the user, if there is any.
     pub advice: Option<String>,
 }
 
@@ -113,7 +113,7 @@ impl Message {
         }
     }
 
-    /// Whether another message tells the same, at whatever step or time.
+    /// Whether another message differs at most in its step or time.
     pub fn tells_the_same(&self, other: &Self) -> bool {
         self.text == other.text && self.advice == other.advice
     }

@@ -45,7 +45,7 @@ pub(crate) fn weighted_square(weights: &[f64], values: &[f64]) -> f64 {
     sums.iter().sum()
 }
 
-/// Sum of the values that a function makes of ranges of n places, by chunks on all threads.
+/// Sum of the values of a function for ranges of n indices, by chunks on all threads.
 pub(crate) fn sum_of_chunks(n: usize, of: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
     let chunks = (0..n.div_ceil(CHUNK)).into_par_iter();
     let sums: Vec<f64> = chunks

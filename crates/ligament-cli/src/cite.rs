@@ -96,7 +96,7 @@ impl Reference {
         entry(kind, &word, &fields)
     }
 
-    /// The year: the last number of four digits from 1800 to 2099, those of pages apart.
+    /// The year: the last number of four digits from 1800 to 2099 that is no page number.
     fn year(&self) -> Option<&'static str> {
         let is_year = |it: &&str| {
             it.len() == 4 && (it.starts_with("18") || it.starts_with("19") || it.starts_with("20"))
@@ -144,7 +144,7 @@ pub fn program() -> String {
 fn entry(kind: &str, key: &str, fields: &[(&str, String)]) -> String {
     let mut text = format!("@{kind}{{{key},\n");
     for (name, value) in fields {
-        // What TeX reads as a column, and what Markdown sets in italics.
+        // TeX reads `&` as the end of a column, and Markdown sets text between asterisks in italics.
         let value = value.replace('&', "\\&").replace('*', "");
         // Writing to a text does not fail.
         let _ = writeln!(text, "  {name} = {{{value}}},");

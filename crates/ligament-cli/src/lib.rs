@@ -2,7 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`commands`] | a file for each command: its options, its help and what it calls |
+//! | [`commands`] | a file for each command: its options, its help and its execution |
 //! | [`check`] | report of `ligament check` on a case |
 //! | [`cite`] | references as BibTeX |
 //! | [`explain`] | report of `ligament explain` on the bonds of a stored run |
@@ -11,7 +11,7 @@
 //! | [`terminal`] | standard output and standard error |
 //! | `build` | commit and compiler of the program |
 //! | `lines` | lines of reports: names with values, aligned columns |
-//! | `ranks` | the processes of a run |
+//! | `processes` | the processes of a run |
 //! | `stop_signal` | signals that stop a run, files beyond a size limit |
 #![cfg_attr(
     test,

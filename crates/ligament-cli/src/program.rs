@@ -85,7 +85,7 @@ fn print_error(error: &anyhow::Error) {
     }
 }
 
-/// Whether the error is that of standard output, or another pipe, closed by its reader, as in `ligament inspect ... | head`.
+/// Whether the error comes from standard output or another pipe that its reader closed, as in `ligament inspect ... | head`.
 fn is_closed_pipe(error: &anyhow::Error) -> bool {
     let mut causes = error.chain().filter_map(|it| it.downcast_ref());
     causes.any(|it: &io::Error| it.kind() == io::ErrorKind::BrokenPipe)

@@ -1,4 +1,4 @@
-//! `ligament calibrate` as it is called.
+//! Calls of `ligament calibrate`.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -66,7 +66,7 @@ fn the_stiffness_of_a_plate_is_proportional_to_youngs_modulus() {
         record["value"].as_f64().unwrap()
     );
     assert!(stdout.contains(&setting), "{stdout}");
-    // The runs are there as any other run is, and the table has a row for each.
+    // The runs are stored as any other run is, and the table has a row for each.
     for run in ["run-01", "run-02"] {
         assert!(
             parent
@@ -103,7 +103,7 @@ fn a_frequency_goes_with_the_root_of_the_stiffness() {
 #[test]
 fn a_result_that_jumps_is_told_with_both_sides() {
     let parent = tempfile::tempdir().unwrap();
-    // Broken bonds are whole numbers, so that a half is jumped over.
+    // The number of broken bonds is an integer, so that a half is jumped over.
     let of = ["--key", "material.tensile_strength", "--of", "broken_bonds"];
     let goal = ["--target", "0.5", "--max-runs", "40"];
     let case = "cracked-plate-force/case.toml";
@@ -139,7 +139,7 @@ fn limits_out_of_reach_keep_the_record() {
         .map(|run| run["key"].as_f64().unwrap())
         .collect();
     assert!(keys.contains(&2e11) && keys.contains(&1e10), "{keys:?}");
-    // A calibration of something else is replaced on demand alone.
+    // A calibration of something else is replaced only on demand.
     let other = ["--key", "material.poisson", "--of", "elastic_stiffness"];
     let again = calibrate(parent.path(), PLATE, &[&other[..], &goal].concat());
     assert!(text(&again.stderr).contains("is one of material.young"));
@@ -228,7 +228,7 @@ fn a_calibration_goes_on_with_the_runs_that_it_has() {
     let first = calibrate(parent.path(), PLATE, &[of, goal].concat());
     assert!(first.status.success(), "{}", text(&first.stderr));
     let whole = record(parent.path());
-    // As if it had been killed in the second run: no end of it, and a folder that is begun.
+    // As if killed in the second run: this run has no end, and its folder is begun.
     let mut cut = whole.clone();
     cut["runs"].as_array_mut().unwrap().truncate(1);
     fs::write(parent.path().join("out/calibration.json"), cut.to_string()).unwrap();
@@ -246,7 +246,7 @@ fn a_calibration_goes_on_with_the_runs_that_it_has() {
     let after = record(parent.path());
     assert_eq!(after["value"], whole["value"]);
     assert_eq!(after["runs"].as_array().unwrap().len(), 2);
-    // Another target takes the runs as trials.
+    // Another target uses the runs as trials.
     let other = calibrate(
         parent.path(),
         PLATE,

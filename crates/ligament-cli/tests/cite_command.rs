@@ -1,4 +1,4 @@
-//! `ligament cite`: the program and the papers of a case; and names of cases by which editors know them.
+//! `ligament cite`: the program and the papers of a case; and file names by which editors recognise cases.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::fs;

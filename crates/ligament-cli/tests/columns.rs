@@ -160,7 +160,7 @@ fn page() -> BTreeMap<&'static str, Vec<&'static str>> {
     tables
 }
 
-/// The columns that a line of the page stands for.
+/// The columns that a line of the page describes.
 fn meant(column: &str, names: &Names) -> BTreeSet<String> {
     for (word, values) in names {
         let is_whole = |it: &str| {
@@ -472,7 +472,7 @@ fn of_verification(names: &mut Names, wrong: &mut Vec<String>) {
     let tables = tables.filter(|it| it.extension().is_some_and(|it| it == "csv"));
     let tables = tables.filter(|it| !it.ends_with("verification.csv"));
     let headers: Vec<Vec<String>> = tables.map(|it| header(&it)).collect();
-    // What a value is of stands before what is known of it.
+    // The name of a column precedes the known values.
     let labels = headers
         .iter()
         .flat_map(|it| it.iter().take_while(|it| *it != "known"));

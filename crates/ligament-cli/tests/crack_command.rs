@@ -1,4 +1,4 @@
-//! `ligament crack` and `ligament profile` as they are called, and where a run says that the body gave way.
+//! Calls of `ligament crack` and `ligament profile`, and the place at which a run reports the failure of the body.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -74,8 +74,8 @@ fn number(text: &str) -> f64 {
 }
 
 /// The ligament of 40 mm above the slit parts between the two middle columns: one line at x = 60 mm from the slit to the outline, 400 mm^2.
-/// The bonds across a crack along the rows hold 0.99 of the fracture energy at m = 3, the others of a family none: what they took
-/// lies within a tenth of 50 J/m^2, and the compliance and the energies release no less.
+/// The bonds across a crack along the rows hold 0.99 of the fracture energy at m = 3, the other bonds of a family none: the energy that
+/// they dissipated is within a tenth of 50 J/m^2, and the compliance and the energies release no less.
 #[test]
 fn a_ligament_that_parts_is_one_crack_with_its_energy() {
     let place = Place::with(BAR, &[]);
@@ -160,7 +160,7 @@ fn a_bar_that_softens_tells_where_that_began() {
     let growth = place.table("crack_growth.csv");
     let length = number(&growth[growth.len() - 1][6]);
     assert!((length - 0.04).abs() < 1e-9, "{growth:?}");
-    // Earlier a crack at half of the force is longer than one at a tenth.
+    // Before that, a crack at half of the force is longer than one at a tenth.
     let step = opened[0].to_string();
     let length_below = |share: &str| {
         let output = place.call(&["crack", "out", "--step", &step, "--force-left", share]);

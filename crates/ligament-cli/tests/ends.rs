@@ -152,7 +152,7 @@ fn studies_refuse_an_unstable_model() {
     assert!(shown.contains("NOT TO BE TRUSTED"), "{shown}");
 }
 
-/// Implicit steps of an unstable body grow without end: the code is 3, the last row is marked, and no number of it is shown.
+/// Implicit steps of an unstable body grow without end: the code is 3, the last row is marked, and none of its numbers is shown.
 #[test]
 fn a_motion_that_grows_has_no_success() {
     let folder = tempfile::tempdir().unwrap();
@@ -181,8 +181,8 @@ fn a_motion_that_grows_has_no_success() {
     );
 }
 
-/// A strip collapses under a force in a load step: its certificate is that of the last state at rest, and the bonds that broke after it are
-/// counted apart.
+/// A strip collapses under a force in a load step: its certificate describes the last state at rest, and the bonds that broke after it are
+/// counted separately.
 #[test]
 fn numbers_of_a_state_to_ignore_are_no_results() {
     let folder = tempfile::tempdir().unwrap();

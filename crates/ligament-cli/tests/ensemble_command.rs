@@ -14,7 +14,7 @@ use serde_json::Value;
 
 use crate::support::{assert_success, ligament_in, stderr, stdout};
 
-/// A bar of 72 cells whose strength is another one at each place.
+/// A bar of 72 cells whose strength varies from place to place.
 const CASE: &str = r#"title = "Bars"
 [lattice]
 cells = [12, 6]
@@ -86,7 +86,7 @@ impl Place {
 }
 
 /// Twelve samples at once; one after the other; first five, then all; in shards in one folder and in two; and after a process that was
-/// killed while it wrote, so that rows are beyond what counts: always the same bits.
+/// killed while it wrote, so that there are rows beyond the valid length: always the same bits.
 #[test]
 fn all_ways_to_the_same_samples_give_the_same_files() {
     let place = Place::new();
@@ -129,7 +129,7 @@ fn all_ways_to_the_same_samples_give_the_same_files() {
     );
     place.ensemble("--samples 12 --collect --out all --from shards --from elsewhere --from shards");
     assert_eq!(place.files("all"), known);
-    // The rest of a shared folder.
+    // The other shards of a shared folder.
     place.ensemble("--samples 12 --out shards");
     assert_eq!(place.files("shards"), known);
     // A folder with all and one with a part of it count once.
@@ -139,7 +139,7 @@ fn all_ways_to_the_same_samples_give_the_same_files() {
     assert_success(&output);
 }
 
-/// The row of a sample is the run of its seed; the fields count the rows.
+/// The row of a sample equals the run with its seed; the fields count the rows.
 #[test]
 fn rows_and_fields_are_those_of_runs() {
     let place = Place::new();

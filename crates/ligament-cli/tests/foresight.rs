@@ -1,4 +1,4 @@
-//! `ligament check` foretells where the first bond fails, refuses what a run refuses, and warns of what is hardly ever meant.
+//! `ligament check` predicts where the first bond fails, refuses whatever a run refuses, and warns of probable mistakes.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::fs;
@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::support::{ligament_in, stderr, stdout};
 
-/// A bar of 30 by 10 cells under the patch correction, whose uniform strains are those of the material: it is pulled by its ends and free to
-/// contract.
+/// A bar of 30 by 10 cells under the patch correction, whose uniform strains equal the strains of the material: it is pulled by its ends
+/// and free to contract.
 const BAR: &str = r#"
 [lattice]
 cells = [30, 10]
@@ -55,7 +55,7 @@ fn check(folder: &Path, case: &str, settings: &[&str]) -> (Option<i32>, String, 
     (output.status.code(), stdout(&output), stderr(&output))
 }
 
-/// A setting on top of a case, or with a minus in front a key that is taken away.
+/// A setting on top of a case, or with a minus in front a key that is removed.
 fn change(setting: &str) -> [&str; 2] {
     match setting.strip_prefix('-') {
         Some(key) => ["--unset", key],
@@ -122,9 +122,9 @@ fn a_uniform_bar_fails_at_its_strength() {
     }
 }
 
-/// The run breaks its first bond, or lets its first bond soften, in the step and at the load that the check foretells: in load steps up and
-/// down, along the exact path, by heating, in stages, and where the opening of a probe controls the load. In load steps the step is the same; along
-/// the exact path the load factor to the printed digits.
+/// The run breaks its first bond, or lets its first bond soften, in the step and at the load that the check predicts: in load steps up and
+/// down, along the exact path, by heating, in stages, and where the opening of a probe controls the load. In load steps the step is the
+/// same; along the exact path the load factor to the printed digits.
 #[test]
 fn the_run_comes_where_the_check_foretells() {
     let folder = tempfile::tempdir().unwrap();
@@ -203,7 +203,8 @@ fn the_run_comes_where_the_check_foretells() {
     }
 }
 
-/// A load that is too small by a factor is raised by as much; a thousandfold load breaks the body at once, which check, run and summary say.
+/// A load that is too small by a factor is raised by this factor; a thousandfold load breaks the body at once, which check, run and summary
+/// report.
 #[test]
 fn loads_out_of_proportion_are_told() {
     let folder = tempfile::tempdir().unwrap();
@@ -248,8 +249,8 @@ fn loads_out_of_proportion_are_told() {
     );
 }
 
-/// So it is in stages, where the first step of the first stage counts: with the load factor, and where a probe controls it; with bonds that
-/// break and such as soften. A stage whose first step is a little beyond the first breakage does not warn.
+/// The same in stages, where the first step of the first stage counts: with the load factor, and where a probe controls it; with bonds that
+/// break and bonds that soften. A stage whose first step is a little beyond the first breakage gives no warning.
 #[test]
 fn stages_that_break_the_body_at_once_are_told() {
     let folder = tempfile::tempdir().unwrap();
@@ -292,7 +293,7 @@ fn stages_that_break_the_body_at_once_are_told() {
     }
 }
 
-/// What the run refuses the check refuses, with the same words and the same exit code.
+/// The check refuses whatever the run refuses, with the same words and the same exit code.
 #[test]
 fn the_check_refuses_what_the_run_refuses() {
     let folder = tempfile::tempdir().unwrap();
@@ -330,8 +331,8 @@ fn the_check_refuses_what_the_run_refuses() {
     }
 }
 
-/// Mistakes of units and what has no effect: each is told once by the check, at the start of the run and in its summary; the case itself has
-/// nothing to tell.
+/// Mistakes of units and settings without effect: each is reported once by the check, at the start of the run and in its summary; the
+/// correct case gives no message.
 #[test]
 fn what_is_hardly_ever_meant_is_told_once() {
     let folder = tempfile::tempdir().unwrap();
@@ -411,7 +412,7 @@ fn what_is_hardly_ever_meant_is_told_once() {
     assert!(!said.contains("thickness of the body"), "{said}");
 }
 
-/// A disk beside a solid cuts nothing, one through it does; and the first breakage of a solid is foretold as that of a plate.
+/// A disk beside a solid cuts nothing, one through it does; the first breakage of a solid is predicted as in a plate.
 #[test]
 fn a_precrack_beside_a_solid_is_told() {
     const SOLID: &str = include_str!("support/small-solid.toml");

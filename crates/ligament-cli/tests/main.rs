@@ -1,4 +1,4 @@
-//! The commands as a user meets them: the program is run, and its files and words are looked at.
+//! The commands as a user calls them: the program is run, and its files and messages are checked.
 
 mod calibrate_command;
 mod cite_command;

@@ -77,7 +77,7 @@ group = "left"
 displacement = { x = 0.0, y = 0.0 }
 "#;
 
-/// Runs a command and gives what it says on both streams.
+/// Runs a command and returns its messages on both streams.
 fn said(folder: &Path, words: &str) -> String {
     let arguments: Vec<&str> = words.split_whitespace().collect();
     let output = ligament_in(folder, &arguments);
@@ -92,7 +92,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// Rows of a table by the names of its columns; what is empty is NaN.
+/// Rows of a table by the names of its columns; empty values are NaN.
 fn table(path: &Path) -> Vec<BTreeMap<String, f64>> {
     let text = fs::read_to_string(path).unwrap();
     let mut lines = text.lines();
@@ -157,7 +157,7 @@ fn a_run_and_its_summary_tell_times_steps_and_energies() {
     assert!(summary["first_peak"].is_null());
 }
 
-/// What the crack grew by its rates is its length, and each tip moved by its speed.
+/// The rates of crack growth add up to its length, and each tip moved by its speed.
 #[test]
 fn cracks_have_speeds_that_add_up_to_their_ways() {
     let folder = folder();

@@ -21,7 +21,7 @@ fracture = { steps = 50, stop = { bonds = 12 } }
 output = { fields_every = 20 }
 "#;
 
-/// A table that makes all nodes of a mesh so much warmer.
+/// A table that raises the temperature of all nodes of a mesh by a change.
 fn table(mesh: &str, change: f64) -> String {
     let nodes = mesh.split("$Nodes").nth(1).unwrap();
     let mut rows = "x,y,change\n".to_owned();
@@ -47,7 +47,7 @@ load = [{ group = "top", displacement = { y = 1e-5 } }]
 /// A folder with a case.
 struct Bench(TempDir);
 
-/// The exit code, and all that was said in one line.
+/// The exit code, and all messages in one line.
 type Said = (Option<i32>, String);
 
 impl Bench {
@@ -87,7 +87,7 @@ impl Bench {
         self.ligament(&[&["repeat", "out"], more].concat())
     }
 
-    /// Repeats the run, which comes out the same and leaves nothing; gives what was said.
+    /// Repeats the run, which has the same results and leaves no folder; returns the messages.
     fn assert_same(&self, more: &[&str]) -> String {
         let (code, words) = self.repeat(more);
         assert_eq!(code, Some(0), "{words}");
@@ -96,7 +96,7 @@ impl Bench {
         words
     }
 
-    /// Repeats the run, which comes out otherwise; gives what was said.
+    /// Repeats the run, which has other results; returns the messages.
     fn assert_different(&self) -> String {
         let (code, words) = self.repeat(&[]);
         assert_eq!(code, Some(5), "{words}");
@@ -104,7 +104,7 @@ impl Bench {
         words
     }
 
-    /// Tries to repeat the run, which is refused; gives the reasons.
+    /// Tries to repeat the run, which is refused; returns the reasons.
     fn refused(&self, more: &[&str]) -> String {
         let (code, words) = self.repeat(more);
         assert_eq!(code, Some(1), "{words}");
@@ -238,7 +238,7 @@ fn a_changed_number_is_found() {
     }
 }
 
-/// Neither a run whose mesh, table or case is another now nor one whose mesh is gone is repeated; the message names what it is.
+/// A run whose mesh, table or case has changed, or whose mesh is missing, is not repeated; the message names the input.
 #[test]
 fn changed_inputs_are_named() {
     let bench = Bench::new(DISK);
@@ -276,7 +276,7 @@ fn changed_inputs_are_named() {
     );
 }
 
-/// Results of an earlier version, of a run that goes on, of none at all.
+/// Results of an earlier version, of a run that has not ended, and none at all.
 #[test]
 fn folders_that_are_not_as_they_should_be() {
     let bench = Bench::new(DISK);
@@ -307,7 +307,7 @@ fn folders_that_are_not_as_they_should_be() {
     assert!(bench.refused(&[]).contains("is incomplete"));
 }
 
-/// A run that a signal or its time cut short is followed up to there, and is the same; so is one that went on later.
+/// A run that was cut short by a signal or its time limit is repeated up to there, and is the same; so is one that was resumed later.
 #[test]
 fn runs_that_were_cut_short_are_compared_up_to_there() {
     for fracture in [
@@ -340,7 +340,7 @@ fn runs_that_were_cut_short_are_compared_up_to_there() {
     }
 }
 
-/// Natural modes, an elastic solution, and a body that nothing holds.
+/// Natural modes, an elastic solution, and a body without supports.
 #[test]
 fn other_runs_are_repeated() {
     let fracture = DISK.find("temperature").unwrap();
@@ -373,7 +373,7 @@ load = [{ group = "high", displacement = { z = 2e-5 } }]
 fracture = { steps = 10, stop = { load_fraction = 0.3 } }
 "#;
 
-/// Files of cracks and surfaces are made of results afterwards, and are none of what a run repeats.
+/// Files of cracks and surfaces are derived from results afterwards, and are not compared.
 #[test]
 fn surfaces_that_were_made_later_are_no_difference() {
     let bench = Bench::new(BLOCK);

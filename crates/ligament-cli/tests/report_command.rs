@@ -1,4 +1,4 @@
-//! `ligament report` as it is called: the page of a run, of several, of modes and of a run that was cut short.
+//! Calls of `ligament report`: the page of a run, of several, of modes and of a run that was cut short.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -10,7 +10,7 @@ use serde_json::Value;
 
 const TITLE: &str = "<script>alert(1)</script> & \\\"more\\\"";
 
-/// A bar of 24 x 12 cells that is pulled apart, with a title that is no markup.
+/// A bar of 24 x 12 cells that is pulled apart, with a title that contains markup characters.
 fn bar(end: &str) -> String {
     format!(
         r#"title = "{TITLE}"
@@ -74,7 +74,7 @@ fn report(folder: &Path, words: &[&str]) -> (String, String) {
     (fs::read_to_string(folder.join(name)).unwrap(), said)
 }
 
-/// What a page describes to its viewer.
+/// The description that a page passes to its viewer.
 fn description(page: &str) -> Value {
     let (_, rest) = page.split_once("id=\"description\">").unwrap();
     serde_json::from_str(rest.split_once("</script>").unwrap().0).unwrap()

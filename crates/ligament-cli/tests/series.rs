@@ -1,4 +1,4 @@
-//! Series of output files: times that grow whatever the loads do, and the numbers of the history in each file.
+//! Series of output files: times that increase whatever the loads do, and the numbers of the history in each file.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::fs;
@@ -64,8 +64,8 @@ fn times(out: &Path, name: &str) -> Vec<f64> {
     listed.into_iter().map(|it| it.0).collect()
 }
 
-/// Loads that are held, go back, come again and are zero: a time is the number of the row, for displacements and for forces, in load steps and
-/// along the exact path.
+/// Loads that are constant, decrease, return and are zero: a time is the number of the row, for displacements and for forces, in load steps
+/// and along the exact path.
 #[test]
 fn times_are_rows_where_loads_go_back() {
     let stages = "stage = [{ loads = { pull = 1.0 }, steps = 2 }, { loads = { pull = 1.0 }, steps = 1 }, { loads = { pull = 0.0 }, steps = 2 }, { loads = { pull = 1.0 }, steps = 2 }]\n";

@@ -1,4 +1,4 @@
-//! Results of a solid as commands show them: its crack, the surface of a value, its page and its pictures.
+//! Results of a solid in the commands: its crack, a level surface, its page and its pictures.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -35,7 +35,7 @@ impl Place {
         self.0.path().join(name)
     }
 
-    /// What a command says.
+    /// Messages of a command.
     fn call(&self, words: &str) -> String {
         let words: Vec<&str> = words.split_whitespace().collect();
         let output = ligament_in(self.0.path(), &words);
@@ -43,7 +43,7 @@ impl Place {
         text(&output.stdout)
     }
 
-    /// Why a command refuses.
+    /// Reason for the refusal of a command.
     fn refused(&self, words: &str) -> String {
         let words: Vec<&str> = words.split_whitespace().collect();
         let output = ligament_in(self.0.path(), &words);
@@ -74,8 +74,8 @@ fn area(file: &VtuFile) -> f64 {
     file.cells().unwrap().iter().map(of).sum()
 }
 
-/// A whole bar that is free to contract has each displacement along x between those of its ends on one surface across it, the section of
-/// 40 x 40 mm: sections stay flat but for what the corrections leave, of which the area sees the square.
+/// A whole bar that is free to contract has each displacement between the displacements of its ends on one surface across it, the section
+/// of 40 x 40 mm: sections stay flat up to the errors of the corrections, which the area contains squared.
 #[test]
 fn a_value_between_both_ends_has_the_section_as_surface() {
     let place = Place::new();

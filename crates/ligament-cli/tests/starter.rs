@@ -30,7 +30,7 @@ fn checked(case: &CaseFile, extent: Extent) -> String {
     String::from_utf8(report).unwrap()
 }
 
-/// The text with all settings that stand as comments taken.
+/// The text with all commented settings active.
 fn with_all_settings(text: &str) -> String {
     let lines = text.lines().map(|line| match line.strip_prefix('#') {
         Some(setting) if setting.starts_with(|it: char| it.is_alphabetic() || it == '[') => setting,
@@ -39,7 +39,7 @@ fn with_all_settings(text: &str) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-/// Every third mesh of the repository, from one on, gets a case that checks, and so it does with all settings that are there as comments.
+/// Every third mesh of the repository, starting at `from`, gets a case that passes the check, also with all commented settings active.
 fn meshes_have_cases_that_check(from: usize) {
     let folder = TempDir::new().unwrap();
     let files = std::fs::read_dir(meshes()).unwrap();
@@ -59,7 +59,7 @@ fn meshes_have_cases_that_check(from: usize) {
         );
         let report = checked(&case(&starter, folder.path()), Extent::Model);
         assert!(report.contains("surface correction: patch"), "{report}");
-        // The correction is the one of above: a coarse one will do.
+        // The correction is the one of above: a coarse one is enough.
         let text = with_all_settings(&starter.text);
         starter.text = text.replace("regularisation = 3e-7", "regularisation = 1e-3");
         assert_ne!(starter.text, text);
@@ -88,7 +88,7 @@ fn every_mesh_has_a_case_that_checks_to_the_end() {
     meshes_have_cases_that_check(2);
 }
 
-/// What a user would name so is held and loaded; a platen is pressed, an end pulled, by displacements away from zero in the right
+/// Groups with usual names are supported and loaded; a platen is pressed, an end pulled, by nonzero displacements in the right
 /// direction.
 #[test]
 fn groups_are_found_by_their_names() {
@@ -244,7 +244,7 @@ fn of_text(text: &str) -> (TempDir, Result<Starter, StarterError>) {
     (folder, starter)
 }
 
-/// Names with blanks, dots, commas and backslashes stand in the case as TOML wants them.
+/// Names with blanks, dots, commas and backslashes are quoted in the case as TOML requires.
 #[test]
 fn names_are_quoted() {
     let names = ["left half", "right.half", "bottom, held", "top \\ 'moved'"];
@@ -268,8 +268,8 @@ fn names_are_quoted() {
     assert_eq!(case.case.loads[0].name.as_deref(), Some("load"));
 }
 
-/// Names with characters that are not seen, which head no column, stand in the case with these escaped, and are loaded by another name; what
-/// people are told shows them, too.
+/// Names with invisible characters, which head no column, are escaped in the case, and are loaded by another name; messages
+/// show these characters, too.
 #[test]
 fn names_that_are_not_seen_are_escaped() {
     let names = ["a\u{200b}", "b", "bottom\tx", "top\u{202e}"];
@@ -288,7 +288,7 @@ fn names_that_are_not_seen_are_escaped() {
     checked(&case, Extent::Matrix);
 }
 
-/// Groups whose names tell nothing are found by where they lie.
+/// Groups whose names have no meaning are used by their positions.
 #[test]
 fn groups_are_found_by_their_place() {
     let (folder, starter) = of_text(&square(0.1, ["1", "2", "17", "4"]));

@@ -1,4 +1,4 @@
-//! `ligament stiffness` as it is called.
+//! Calls of `ligament stiffness`.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -70,7 +70,7 @@ fn along_the_axes_it_is_the_printed_constants() {
     assert_eq!(again.status.code(), Some(1));
 }
 
-/// A group may have any name, and the name of a file none that leads elsewhere.
+/// A group may have any name, but the name of a file must not lead elsewhere.
 #[test]
 fn a_material_with_a_name_that_is_no_file_name_gets_its_number() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! A run without a result, or with a last state that is none, says so wherever it is shown.
+//! A run without a result, or whose last state is no result, is marked wherever it is shown.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::fs;
@@ -94,7 +94,7 @@ fn a_last_state_that_is_not_at_rest_is_marked() {
     }
 }
 
-/// A stop rule that ends the strip while its bonds break was asked for: the state is marked, and the run went as it should.
+/// A stop rule that ends the strip while its bonds break was requested: the state is marked, and the run succeeded.
 #[test]
 fn a_run_that_a_rule_ends_went_well() {
     let folder = tempfile::tempdir().unwrap();
@@ -167,7 +167,7 @@ fn loads_that_nothing_resists_are_refused() {
     assert!(error.contains("[[support]]"), "{error}");
 }
 
-/// A study has no results of a run that found no equilibrium, however often it is asked, and names runs whose last state is none; a
+/// A study has no results of a run that found no equilibrium, however often it is run, and names runs whose last state is no result; a
 /// calibration takes no result of the first kind, and marks the second.
 #[test]
 fn studies_and_calibrations_mark_such_runs() {
@@ -255,8 +255,8 @@ fn studies_and_calibrations_mark_such_runs() {
     );
 }
 
-/// Bonds soften in one step of a force that is taken back in another: the work follows the chords of both and comes to nothing, while bonds
-/// dissipated 8 % of the largest. The run says that its steps are too coarse; with 200 of them both agree to 1 %, and it says nothing.
+/// Bonds soften in one step of a force that is reversed in another: the work follows the chords of both and adds up to zero, while bonds
+/// dissipated 8 % of the largest. The run reports that its steps are too coarse; with 200 steps both agree to 1 %, without a message.
 #[test]
 fn steps_that_are_too_coarse_for_softening_are_told() {
     let folder = tempfile::tempdir().unwrap();

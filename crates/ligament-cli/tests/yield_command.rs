@@ -1,4 +1,4 @@
-//! `ligament yield` as it is called.
+//! Calls of `ligament yield`.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -23,7 +23,7 @@ fn case(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// A folder for results in a folder that goes away.
+/// A folder for results in a temporary folder.
 struct Results(tempfile::TempDir);
 
 impl Results {

@@ -1,25 +1,25 @@
 //! The elimination tree, cut into branches that are independent of each other.
 //!
-//! A supernode needs those of its own subtree alone (Liu 1990), so subtrees are separate tasks. Supernodes are not renumbered: a subtree
-//! here is a range of them, which includes any supernodes that the order puts between two descendants. The branches do not depend on the
-//! number of threads.
+//! The columns of a supernode depend only on supernodes of its own subtree (Liu 1990), so disjoint subtrees are independent tasks.
+//! Supernodes are not renumbered: a subtree is stored as a range of supernodes, which includes any that the order puts between two
+//! descendants. The branches do not depend on the number of threads.
 
 use std::ops::Range;
 
 use crate::supernodes::Supernodes;
 
-/// Number of values of the factor that make a task worth while: their substitution takes a tenth of a millisecond.
+/// Number of values of the factor that make a task worthwhile: their substitution takes a tenth of a millisecond.
 const SMALLEST_TASK: usize = 100_000;
 
 /// Reciprocal of the largest share of the factor in one task, unless one supernode has more.
 const MOST_TASKS: usize = 32;
 
-/// Consecutive supernodes that need no others: independent parts, followed by a stem.
+/// A range of supernodes that depends on no supernode outside: independent parts, followed by a stem.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Branch {
     /// Branches that are independent of each other, ascending and without a gap up to the stem; none or several.
     pub(crate) parts: Vec<Branch>,
-    /// Supernodes that may need those of all parts and preceding ones of the stem.
+    /// Supernodes that may depend on all parts and on earlier supernodes of the stem.
     pub(crate) stem: Range<usize>,
 }
 
@@ -50,7 +50,7 @@ impl Branch {
     }
 }
 
-/// First supernode of the smallest range that ends with each supernode and needs no supernode outside, shape (n_supernodes).
+/// For each supernode, the first one of the smallest range that ends with it and depends on no supernode outside, shape (n_supernodes).
 fn first_supernodes(supernodes: Supernodes<'_>) -> Vec<usize> {
     let count = supernodes.len();
     let of_row = supernodes.of_rows();
@@ -87,7 +87,7 @@ impl TreePartition<'_> {
         self.supernodes.values_before(end) - self.supernodes.values_before(start) > self.most
     }
 
-    /// Independent ranges, ascending, of a range that needs no supernode outside.
+    /// Divides a range that depends on no supernode outside into independent ranges, ascending.
     fn independent(&self, range: Range<usize>) -> Vec<Range<usize>> {
         let mut ranges = Vec::new();
         let mut end = range.end;
@@ -100,7 +100,7 @@ impl TreePartition<'_> {
         ranges
     }
 
-    /// The branch of a range that needs no supernode outside. Only where two heavy ranges meet are branches nested, which bounds their
+    /// The branch of a range that depends on no supernode outside. Branches are nested only where two heavy ranges meet, which bounds their
     /// depth.
     fn branch(&self, range: Range<usize>) -> Branch {
         let mut stem = range.end..range.end;
@@ -142,7 +142,7 @@ impl TreePartition<'_> {
     }
 }
 
-/// A branch of supernodes that are done one after the other.
+/// A branch of supernodes that are processed one after the other.
 fn task(stem: Range<usize>) -> Branch {
     let parts = Vec::new();
     Branch { parts, stem }
@@ -172,7 +172,7 @@ mod tests {
         Symbolic::analyse(pattern, in_turn).expect("analysis")
     }
 
-    /// Checks that parts need nothing of each other, and gives the supernodes of the branch, in their order, and its depth.
+    /// Checks that parts do not depend on each other, and returns the supernodes of the branch, in their order, and its depth.
     fn checked(supernodes: Supernodes<'_>, branch: &Branch) -> (Vec<usize>, usize) {
         let (mut all, mut depth) = (Vec::new(), 0);
         let of_row = supernodes.of_rows();

@@ -1,7 +1,7 @@
 //! Dense factorisation of the panel of a supernode: its columns, then the rows below.
 //!
-//! The arithmetic is faer's. Large panels are divided into the blocks that faer uses on one thread; independent rows and columns of them are
-//! tasks, so that all bits are those of one thread.
+//! The arithmetic is faer's. Large panels are divided into the blocks that faer uses on one thread; independent rows and columns of these
+//! blocks are tasks. The results have the same bits on any number of threads.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::{ldlt, llt};

@@ -27,7 +27,7 @@ fn of_chunk(values: &[f64]) -> [u64; LANES] {
     digests
 }
 
-/// The hash of Fowler, Noll and Vo, of words instead of bytes, extended by one word; a rotation moves high bits down.
+/// Extends a hash of Fowler, Noll and Vo, taken over words instead of bytes, by one word; a rotation moves high bits down.
 fn with(digest: u64, word: u64) -> u64 {
     (digest.rotate_left(29) ^ word).wrapping_mul(0x0000_0100_0000_01b3)
 }

@@ -18,7 +18,7 @@ const BLOCK: usize = 2;
 /// Vectors of the basis beyond three times the number of pairs.
 const ROOM: usize = 20;
 
-/// Relative size of the part of a vector outside the basis below which the vector lies in the basis, but for rounding.
+/// Relative size of the part of a vector outside the basis below which the vector lies in the basis up to rounding.
 const DEPENDENT: f64 = 1e-13;
 
 /// Eigenpairs of an operator of dimension n.
@@ -253,7 +253,7 @@ impl Basis {
     /// Eigenpairs of the projection, largest first, with the residuals of the approximations; none where products are not finite.
     fn ritz(&self) -> Option<Ritz> {
         let m = self.n_projected;
-        // The decomposition reads the lower triangle and sorts ascending; that of -A gives A's eigenvalues descending.
+        // The decomposition reads the lower triangle and sorts ascending; the decomposition of -A gives A's eigenvalues descending.
         let lower = Mat::from_fn(m, m, |row, column| {
             -self.projected[(row.min(column), row.max(column))]
         });

@@ -16,8 +16,8 @@ pub trait Factorisation: Send + Sync {
     /// Adds the terms c w w^T to the matrix A by updating its factor in place, and does the forward substitution of A' x = b for a sparse b,
     /// given as (unknown, value).
     ///
-    /// Terms are applied one after the other, and each intermediate matrix must have a factor: terms that add stiffness belong before those
-    /// that remove it. Entries of b for the same unknown add up. The cost is that of the supernodes that the terms and the entries reach.
+    /// Terms are applied one after the other, and each intermediate matrix must have a factor: terms that add stiffness must precede terms
+    /// that remove it. Entries of b for the same unknown add up. Only the supernodes that the terms and the entries reach are visited.
     ///
     /// After an error (a vanishing pivot, [`VANISHING_PIVOT`](crate::VANISHING_PIVOT)) the factor must not be used before
     /// [`Factorisation::refactorise`] succeeds.
@@ -44,7 +44,7 @@ pub trait Factorisation: Send + Sync {
     /// Numbers of positive and negative pivots. The eigenvalues have the same signs (Sylvester's law of inertia).
     fn inertia(&self) -> Inertia;
 
-    /// A factor with the same values, which changes by itself from then on.
+    /// An independent copy of the factor.
     fn copied(&self) -> Box<dyn Factorisation>;
 
     /// A hash of the values of the factor: values that differ in a bit give, almost certainly, different hashes.

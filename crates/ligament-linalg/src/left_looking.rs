@@ -2,7 +2,7 @@
 //! factorised as a dense matrix.
 //!
 //! Branches of the elimination tree are factorised in parallel, and so are blocks of columns within the large panels near the root. Updates
-//! are subtracted from an entry in the order of the supernodes on any thread: the bits are those of one thread.
+//! are subtracted from an entry in the order of the supernodes: the results have the same bits on any number of threads.
 
 use rayon::prelude::*;
 
@@ -59,7 +59,8 @@ impl LeftLooking<'_> {
         Ok(())
     }
 
-    /// Computes the panel of a supernode from `before`, the values of the factor from a position on and that position; `place_of_row` (n) is
+    /// Computes the panel of a supernode. `before` holds the factor's values from some position on, and this position; `place_of_row` (n)
+    /// is
     /// working memory.
     fn panel(
         self,

@@ -55,7 +55,7 @@ impl Pattern {
         self.column_starts.len() - 1
     }
 
-    /// Number of stored entries, those of the upper triangle.
+    /// Number of stored entries: the upper triangle and the diagonal.
     pub fn n_entries(&self) -> usize {
         self.rows.len()
     }

@@ -52,7 +52,7 @@ impl Sources {
     }
 }
 
-/// For each supernode, the supernodes before it that update it: those with rows among its columns.
+/// For each supernode, the earlier supernodes that update it because they have rows among its columns.
 #[derive(Debug)]
 pub(crate) struct UpdatingSupernodes {
     /// First updating supernode of each supernode in the list, then the length of the list, shape (n_supernodes + 1).

@@ -42,7 +42,7 @@ type Addition = (usize, f64);
 
 /// Forward substitution in the rows of a branch; returns the contributions to rows beyond it, in the order of its supernodes.
 ///
-/// Sums are taken in the order of the supernodes for any number of threads: a part keeps single contributions instead of sums.
+/// Sums are taken in the order of the supernodes for any number of threads: a part returns single contributions instead of sums.
 fn forward_branch(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) -> Vec<Addition> {
     let rows = panels.rows(branch.supernodes());
     let mut beyond = Vec::new();

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Interface of a cell in D dimensions.
 pub trait MeshCell<const D: usize>: Copy + Sync + Serialize + DeserializeOwned {
-    /// The cell with given corner nodes, in their order; `None` where no kind of cell has so many.
+    /// The cell with given corner nodes, in their order; `None` where no kind of cell has this number of corners.
     fn from_corners(corners: &[u32]) -> Option<Self>;
 
     /// The corner nodes of the cell.
@@ -20,8 +20,8 @@ pub trait MeshCell<const D: usize>: Copy + Sync + Serialize + DeserializeOwned {
     /// Area of the cell with the nodes at `positions`, m², or in space its volume, m³.
     fn size(&self, positions: &[[f64; D]]) -> f64;
 
-    /// Corner nodes of the cell, each with its part of the size of the cell, the integral of its shape function: these keep the centre of
-    /// mass of the cell, if its faces are parallelograms or triangles.
+    /// Corner nodes of the cell, each with its share of the cell's size, the integral of its shape function. The shares have the centre of
+    /// mass of the cell if its faces are parallelograms or triangles.
     fn shares(&self, positions: &[[f64; D]]) -> impl Iterator<Item = (u32, f64)>;
 }
 
@@ -59,7 +59,7 @@ impl Cell {
     pub fn area(&self, positions: &[[f64; 2]]) -> f64 {
         let corners = self.corners();
         let [x0, y0] = positions[corners[0] as usize];
-        // Triangles fanned from the first corner: differences keep the digits of a cell far from the origin.
+        // A fan of triangles from the first corner: differences keep the digits of a cell far from the origin.
         let twice: f64 = corners[1..]
             .windows(2)
             .map(|pair| {
@@ -72,7 +72,7 @@ impl Cell {
     }
 
     /// Area of a face in space times its unit normal, with the nodes at `positions`, m²: towards the side from which its corners are
-    /// counter-clockwise. For a quadrangle that is not plane, it is that of any surface with its edges.
+    /// counter-clockwise. For a warped quadrangle the vector is the same for every surface with these edges.
     ///
     /// # Panics
     /// Panics if a corner is no index into `positions`.
@@ -92,7 +92,8 @@ impl Cell {
         ]
     }
 
-    /// Triangles of a face, in its orientation: a quadrangle is split along the diagonal from its lowest node, for either of its cells.
+    /// Triangles of a face, in its orientation. A quadrangle is split along the diagonal from its lowest node, so both of its cells split
+    /// it alike.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + use<> {
         let (first, second) = match *self {
             Cell::Triangle(corners) => (corners, None),

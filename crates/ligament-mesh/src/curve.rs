@@ -102,7 +102,7 @@ fn index_in_square(mut x: u64, mut y: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// A Hilbert curve meets every cell of a grid, and each beside the last one.
+    /// A Hilbert curve visits every cell of a grid, each next to the one before.
     fn goes_from_cell_to_neighbouring_cell<const D: usize>(side: usize) {
         let positions: Vec<[f64; D]> = (0..side.pow(D as u32))
             .map(|cell| std::array::from_fn(|axis| (cell / side.pow(axis as u32) % side) as f64))

@@ -11,7 +11,7 @@ pub struct NodeField {
     pub time_step: i32,
     /// Number of values per node: 1 for scalars, 3 for vectors, 9 for tensors.
     pub components: u64,
-    /// Nodes with their values, ascending; nodes without a value are left out. Empty for all but scalars, which alone are stored.
+    /// Nodes with their values, ascending; nodes without a value are left out. Empty for vectors and tensors: only scalars are stored.
     pub values: Vec<(u32, f64)>,
 }
 

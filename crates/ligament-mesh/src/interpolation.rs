@@ -4,11 +4,11 @@ use crate::cell::Cell;
 use crate::mesh::{Mesh, SolidMesh};
 use crate::solid::SolidCell;
 
-/// Depth outside the sides of a cell, over its height from them, up to which a position beside the mesh belongs to it: a position on a round
-/// rim lies outside the straight sides between its nodes.
+/// Largest distance of a position outside a side of a cell, relative to the height of the cell over this side, at which the position still
+/// belongs to the cell: a position on a round rim lies outside the straight sides between its nodes.
 const OUTSIDE: f64 = 0.1;
 
-/// Weight below which a corner is left out: that of corners opposite to a side, for a position on the side.
+/// Weight below which a corner is left out: for a position on a side, the weights of the opposite corners are only rounding.
 const NOTHING: f64 = 1e-9;
 
 /// Ratio of the pivot to the largest entry below which equations have no reliable solution.
@@ -17,7 +17,7 @@ const SINGULAR: f64 = 1e-12;
 /// Largest number of steps of Newton's method, and the step size below which it has converged.
 const STEPS: (usize, f64) = (30, 1e-13);
 
-/// A position in a cell.
+/// Weights of the corners of a cell at a position.
 struct Found {
     /// Depth inside the sides of the cell, over its height; negative outside.
     depth: f64,
@@ -70,7 +70,7 @@ fn is_near<const D: usize>(nodes: &[u32], positions: &[[f64; D]], position: [f64
     })
 }
 
-/// Weights in the cell in which the position lies deepest, the first of several.
+/// Weights in the cell with the largest depth of the position, the first of several.
 fn deepest(found: impl Iterator<Item = Found>) -> Option<Vec<(u32, f64)>> {
     let best = found.reduce(|best, it| if it.depth > best.depth { it } else { best });
     let mut shares = best.filter(|it| it.depth >= -OUTSIDE)?.shares;
@@ -207,7 +207,7 @@ mod tests {
         parts.sum()
     }
 
-    /// A linear field is what it is anywhere, a node has its own value, a place on an edge those of its two ends.
+    /// A linear field is interpolated exactly; a node has its own value, a position on an edge the values of its two ends.
     #[test]
     fn linear_fields_are_met_in_the_plane() {
         let mesh = mesh();
@@ -225,7 +225,7 @@ mod tests {
         assert_eq!(mesh.interpolation_weights([1.0, -0.5]), None);
     }
 
-    /// The middle of a square is a fourth of each corner, whichever diagonal there is; a cube and a prism meet a linear field.
+    /// The middle of a square has a quarter of each corner, for either diagonal; in a cube and a prism a linear field is exact.
     #[test]
     fn blocks_and_prisms() {
         let corner = |k: u32| [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]][k as usize % 4];

@@ -47,7 +47,7 @@ impl Numbering {
         }
     }
 
-    /// Point at a place in the order of the file; for a whole body the point of a number of the file.
+    /// Point at a place in the order of the file; for a whole body the place is a number of the file.
     pub fn point(&self, place: u32) -> u32 {
         match &self.0 {
             None => place,
@@ -95,7 +95,7 @@ impl Numbering {
         Cow::Owned(sorted)
     }
 
-    /// Ends of a bond, that of the smaller number in the file first.
+    /// Ends of a bond, first the end with the smaller number in the file.
     pub fn ordered(&self, [a, b]: [u32; 2]) -> [u32; 2] {
         match self.in_file(b) < self.in_file(a) {
             true => [b, a],
@@ -117,12 +117,12 @@ impl Numbering {
         Some(bonds.into_iter().map(|(_, bond)| bond).collect())
     }
 
-    /// Reorders values from the order of the points to that of the file, with any number of values per point.
+    /// Reorders values from the order of the points to the order of the file, with any number of values per point.
     pub fn to_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         taken(self.order_of_file(), values)
     }
 
-    /// Reorders values from the order of the file to that of the points, with any number of values per point.
+    /// Reorders values from the order of the file to the order of the points, with any number of values per point.
     pub fn from_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         let order = self.0.as_ref().map(|orders| orders.in_file.as_slice());
         taken(order, values)
@@ -210,7 +210,7 @@ impl<const D: usize, C: MeshCell<D>> Mesh<D, C> {
 mod tests {
     use super::*;
 
-    /// Four nodes of two triangles, of which the curve meets the first, third, fourth and second: (0, 0), (0, 1), (1, 1), (1, 0).
+    /// Four nodes of two triangles; the curve visits the first, third, fourth and second in turn: (0, 0), (0, 1), (1, 1), (1, 0).
     fn square() -> Mesh {
         Mesh {
             node_tags: [10, 20, 30, 40].into(),
@@ -266,7 +266,7 @@ mod tests {
             [[2, 3], [1, 2], [0, 1]]
         );
         assert_eq!(numbering.bonds_in_file(&ends), Some(vec![2, 1, 0]));
-        // Of a part with nodes 0, 3 and 2 of the file, the last two are exchanged.
+        // In a part with nodes 0, 3 and 2 of the file, the last two are exchanged.
         let part = numbering.part(&[0, 2, 3]);
         assert_eq!([0, 1, 2].map(|it| part.in_file(it)), [0, 3, 1]);
         assert_eq!(part.order_of_file(), Some(&[0, 2, 1][..]));

@@ -8,17 +8,18 @@ use crate::cell::MeshCell;
 use crate::curve::along_hilbert_curve;
 use crate::interpolation::barycentric;
 
-/// Depth within a triangle or tetrahedron, over its height from each of its sides, beyond which a position lies inside. Rounded coordinates
-/// or bent faces do not bring valid cells that only touch to this depth.
+/// Depth of a position within a triangle or tetrahedron, relative to the height over each side, beyond which the position lies inside. In
+/// valid cells that only touch, rounded coordinates or bent faces give less.
 const DEPTH: f64 = 0.01;
 
-/// Number of places that the search tree has in one box: a box costs it as much memory as three places.
+/// Number of positions in one box of the search tree: a box takes as much memory as three positions.
 const RUN: usize = 8;
 
-/// First pair of a cell and another cell with a node, or the middle, inside the first one, whose corner the node is not.
+/// First pair of overlapping cells: a node of the second cell that is no corner of the first one, or the middle of the second cell, lies
+/// inside the first.
 ///
-/// `simplices` returns the triangles of a cell, in space its tetrahedra. A middle is not the centroid: its weights are uneven, since
-/// centroids of regular meshes lie on edges of others.
+/// `simplices` returns the triangles of a cell, in space its tetrahedra. The middle is a mean of the corners with uneven weights, since
+/// centroids of regular meshes lie on edges of other meshes.
 pub(crate) fn first_covering<const D: usize, const N: usize, C, S>(
     positions: &[[f64; D]],
     cells: &[C],
@@ -62,7 +63,7 @@ fn box_around<const D: usize>(positions: impl Iterator<Item = [f64; D]>) -> [[f6
     })
 }
 
-/// Nodes, each with its first cell, and the middles of the cells, along a curve: neighbours are near each other.
+/// Nodes, each with its first cell, and the middles of the cells, sorted along a curve: neighbours are near each other.
 fn places<const D: usize, C: MeshCell<D>>(
     positions: &[[f64; D]],
     cells: &[C],
@@ -83,7 +84,7 @@ fn places<const D: usize, C: MeshCell<D>>(
             std::array::from_fn(|axis| middle[axis] + weight / sum * p[axis])
         })
     };
-    // Places are made twice, so that the unordered ones need not be kept beside the others.
+    // Places are made twice, so that the unordered ones need not be stored as well.
     let middles = cells.iter().map(middle);
     let order = along_hilbert_curve(&Vec::from_iter(positions.iter().copied().chain(middles)));
     let place = |index: u32| match (index as usize).checked_sub(positions.len()) {
@@ -111,7 +112,7 @@ mod tests {
         first_covering(positions, &cells, Cell::triangles)
     }
 
-    /// A fan of six triangles around a node, and one triangle more between nodes halfway between those of the fan.
+    /// A fan of six triangles around a node, and one triangle more between nodes halfway between the nodes of the fan.
     #[test]
     fn a_fan_of_more_than_a_turn_is_found() {
         let on_circle = |sixth: f64| {

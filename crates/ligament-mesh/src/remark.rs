@@ -5,11 +5,11 @@ use std::fmt;
 /// A remark on a part of the file that was changed or left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Remark {
-    /// Cells of second or higher order, of which only the corner nodes were read.
+    /// Cells of second or higher order; only their corner nodes were read.
     HigherOrderCells {
         /// Number of such cells.
         cells: usize,
-        /// Number of nodes dropped with these cells: those on sides and in the interior.
+        /// Number of nodes dropped with these cells: nodes on their sides and in their interior.
         nodes: usize,
     },
     /// Nodes that no cell uses, dropped from the mesh and from its groups.

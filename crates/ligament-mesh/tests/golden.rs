@@ -1,4 +1,4 @@
-//! Files written by Gmsh and meshio, against what Gmsh says of them (`tests/data/README.md`).
+//! Files written by Gmsh and meshio, compared with the reports of Gmsh on them (`tests/data/README.md`).
 
 #![allow(clippy::unwrap_used, missing_docs)]
 
@@ -197,7 +197,7 @@ fn group_lists_are_ascending_and_name_their_own_nodes() {
                 .chain(group.edges.iter().flatten())
                 .copied()
                 .collect();
-            // A node at the end of a dropped edge stays in the group.
+            // A node at the end of a dropped edge remains in the group.
             assert!(named.iter().all(|node| group.nodes.contains(node)));
             if group.dimension == 2 {
                 assert_eq!(

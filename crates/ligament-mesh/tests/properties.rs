@@ -184,9 +184,9 @@ static GOLDEN: LazyLock<Vec<Vec<u8>>> = LazyLock::new(|| {
     files.iter().map(|path| fs::read(path).unwrap()).collect()
 });
 
-/// A damage: where, how long, and which bytes come instead.
+/// A damage: place, length, and the bytes that replace it.
 fn damages() -> impl Strategy<Value = Vec<(prop::sample::Index, usize, Vec<u8>)>> {
-    // Digits and separators pass the reader of words and reach what lies behind it.
+    // Digits and separators pass the reader of words and reach the code behind it.
     let byte = prop_oneof![any::<u8>(), prop::sample::select(&b"0123456789 -.\n$"[..])];
     let damage = (
         any::<prop::sample::Index>(),
@@ -206,7 +206,7 @@ fn damaged(file: &[u8], damages: &[(prop::sample::Index, usize, Vec<u8>)]) -> Ve
     bytes
 }
 
-/// What holds for every mesh, however it came about.
+/// Conditions that every mesh satisfies, whatever its origin.
 fn check_sound(mesh: &ligament_mesh::Mesh) -> Result<(), TestCaseError> {
     let n = mesh.positions.len() as u32;
     prop_assert_eq!(mesh.node_tags.len(), mesh.positions.len());
@@ -254,7 +254,7 @@ proptest! {
         }
     }
 
-    /// What the crate writes it reads back as the same mesh, whatever groups its elements are in.
+    /// A mesh that the crate writes is read back as the same mesh, whatever groups its elements are in.
     #[test]
     fn a_mesh_that_is_written_is_read_back(model in models()) {
         let mut mesh = gmsh::parse(&model.write(Version::V4, Encoding::Ascii)).unwrap();

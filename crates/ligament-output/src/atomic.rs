@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 
 use crate::Error;
 
-/// File that marks a folder whose files need not survive a failure of the machine, such as a temporary one: they are not synced.
+/// Name of a file that marks a folder, such as a temporary one, whose files need not survive a failure of the machine: they are not synced.
 pub(crate) const PASSING: &str = ".passing";
 
 /// Writes a file to `path` with a function, and moves the previous file to `older`; both are synced to disk when this returns.
@@ -89,7 +89,7 @@ pub fn read_text(path: &Path) -> Result<String, Error> {
 ///
 /// # Errors
 ///
-/// If the file cannot be read, or has something else.
+/// If the file cannot be read, or its content is not such a value.
 pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Error> {
     serde_json::from_str(&read_text(path)?).map_err(|error| Error::Unreadable {
         path: path.to_owned(),

@@ -8,9 +8,9 @@
 //! | ... | content: version of the program, inputs, results, messages, solution |
 //! | 8 | XXH64 of the content |
 //!
-//! Numbers are little-endian. The solution goes into the file as it is written and is read from there, so that it is never in memory as
-//! bytes. A file is written under a temporary name and renamed when it is complete and synced to disk; the previous checkpoint is kept, in
-//! case the newest one is damaged later.
+//! Numbers are little-endian. The solution is streamed into the file and from it, so that its bytes are never in memory as a whole. A file
+//! is written under a temporary name and renamed when it is complete and synced to disk; the previous checkpoint is kept, in case the
+//! newest one is damaged later.
 
 use std::fs::File;
 use std::hash::Hasher;
@@ -132,8 +132,8 @@ impl Checkpoint {
         names.try_for_each(|name| remove_file(&folder.join(name)))
     }
 
-    /// Reads a checkpoint of a number of bytes, and returns it with the first byte and the length of its solution; as the error the reason why
-    /// it is none.
+    /// Reads a checkpoint of a number of bytes; returns it with the first byte and the length of its solution, or as the error the reason
+    /// why the bytes are no checkpoint.
     ///
     /// # Errors
     ///
@@ -173,14 +173,14 @@ impl Checkpoint {
     }
 }
 
-/// Reads so many bytes.
+/// Reads the next N bytes.
 fn fixed<const N: usize>(from: &mut impl Read) -> Result<[u8; N], Damaged> {
     let mut bytes = [0; N];
     let read = from.read_exact(&mut bytes);
     read.map(|()| bytes).map_err(|_| Damaged)
 }
 
-/// Content of a checkpoint on the way into its file.
+/// Content of a checkpoint while it is written to its file.
 struct Content<'a> {
     file: &'a mut File,
     /// Bytes that are not yet in the file.
@@ -268,7 +268,7 @@ mod tests {
         }
     }
 
-    /// A solution of a number, longer than what is written at a time.
+    /// A solution filled with a number, longer than what is written at a time.
     fn solution(number: u8) -> Vec<u8> {
         vec![number; 3 * AT_ONCE + 100]
     }
@@ -308,7 +308,7 @@ mod tests {
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     }
 
-    /// Every cut and every changed bit is noticed, and the one before is still there.
+    /// Every cut and every changed bit is detected, and the previous checkpoint is still readable.
     #[test]
     fn a_damaged_one_is_refused() {
         let folder = tempfile::tempdir().unwrap();

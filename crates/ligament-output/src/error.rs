@@ -50,7 +50,7 @@ pub enum Error {
     NoResults {
         /// Path of the folder.
         path: PathBuf,
-        /// The reason, and what to do.
+        /// The reason, with advice.
         reason: String,
     },
     /// Values that readers of the file would refuse or misread, such as wrong lengths or duplicate names.

@@ -38,7 +38,7 @@ pub struct ResultFolder {
 }
 
 impl ResultFolder {
-    /// Creates the folder of a run and its parents. An existing empty folder is used as it is.
+    /// Creates the folder of a run and its parents. An existing empty folder is used.
     ///
     /// A folder with results is refused unless `replace` is set; then new results are written beside it. A folder with other files only is
     /// always refused.
@@ -191,7 +191,7 @@ impl ResultFolder {
         remove_file(&self.file(name))
     }
 
-    /// Removes files that were derived from the earlier results of the run, such as those of its cracks.
+    /// Removes files that were derived from the earlier results of the run, such as the files of its cracks.
     ///
     /// # Errors
     ///
@@ -329,7 +329,7 @@ mod tests {
         names
     }
 
-    /// Makes new results in a folder, up to the end.
+    /// Replaces the results in a folder completely.
     fn replace(path: &Path) {
         let folder = ResultFolder::create(path, true).unwrap();
         folder.write(RESOLVED_CASE, "new").unwrap();

@@ -58,7 +58,7 @@ impl Collection {
     ///
     /// # Errors
     ///
-    /// If the time is not finite or not above that of the file before, or the collection cannot be written.
+    /// If the time is not finite or not after the time of the previous file, or the collection cannot be written.
     pub fn append(&mut self, time: f64, file: impl Into<String>) -> Result<(), Error> {
         let file = file.into();
         let before = self.outputs.last().map_or(f64::NEG_INFINITY, |it| it.0);

@@ -9,7 +9,7 @@ pub struct Shown {
     pub factor: f64,
     /// Prefix of the unit: `k`; `u` for a millionth.
     pub prefix: &'static str,
-    /// SI unit without the prefix: `J/m^2`; empty for a number of no unit.
+    /// SI unit without the prefix: `J/m^2`; empty for a number without a unit.
     pub unit: String,
     /// Power of ten behind the number, where the unit has no prefix; 0 for none.
     pub power: i32,
@@ -28,7 +28,7 @@ impl Shown {
         };
         let symbol = if unit == "-" { "" } else { unit };
         match unit {
-            // Longer times are no kiloseconds.
+            // Long times are shown in s, not ks.
             "s" if exact >= 3.0 => return Self::plain(symbol),
             "m^2" => return Self::of_lengths(symbol, exact, 2),
             "m^3" => return Self::of_lengths(symbol, exact, 3),
@@ -114,10 +114,10 @@ fn least(unit: &str) -> f64 {
     }
 }
 
-/// Share of the largest value of a column or curve below which a value is nothing but rounding.
+/// Share of the largest value of a column or curve below which a value is only rounding.
 const NOTHING: f64 = 1e-12;
 
-/// A value beside the largest one of its column or curve: 0 where it is nothing but rounding.
+/// A value, or 0 where it is only rounding compared with the largest value of its column or curve.
 pub fn settled(value: f64, largest: f64) -> f64 {
     if value.abs() < NOTHING * largest.abs() {
         0.0
@@ -126,7 +126,7 @@ pub fn settled(value: f64, largest: f64) -> f64 {
     }
 }
 
-/// A value in an SI unit: 0 where it is so small that it is nothing but rounding.
+/// A value in an SI unit: 0 where it is so small that it is only rounding.
 pub fn without_rounding(value: f64, unit: &str) -> f64 {
     if value.abs() < least(unit) {
         0.0
@@ -187,7 +187,7 @@ mod tests {
             ("m", -0.05, "-50.00 mm"),
             ("m", 2e-7, "0.2000 um"),
             ("m", 0.0, "0 m"),
-            // Left of sums that cancel.
+            // Remainders of sums that cancel.
             ("N", -9.737e-27, "0 N"),
             ("m", 2.776e-17, "0 m"),
             ("J", 1e-19, "100.0e-21 J"),

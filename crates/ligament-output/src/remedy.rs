@@ -3,11 +3,11 @@
 use std::error::Error;
 use std::fmt;
 
-/// What the user can do about an error. It stands at the end of the sources of the error, and so passes through all errors around it to the
-/// front end ([`causes`]), which has its own terms for it.
+/// What the user can do about an error. It is the last source of the error, so it passes through all errors around it to the front end
+/// ([`causes`]), which words it in its own terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Remedy {
-    /// Another path for what is written, or another way.
+    /// Another path for the file or folder, or another way to write to this path.
     Elsewhere(Place, Option<Way>),
     /// Another run, with this value of a key of the case.
     RunAgain {
@@ -20,7 +20,7 @@ pub enum Remedy {
     Give {
         /// Name of the option on the command line, `at`.
         option: &'static str,
-        /// What stands for its value, `X,Y,Z`.
+        /// Placeholder for its value, `X,Y,Z`.
         value: &'static str,
     },
     /// An option of the request, with a number.
@@ -34,7 +34,7 @@ pub enum Remedy {
     LeaveOut(&'static str),
 }
 
-/// What a path is meant for.
+/// Purpose of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     /// A file.
@@ -46,28 +46,29 @@ pub enum Place {
 /// A way to write to the same path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Way {
-    /// What is there is replaced.
+    /// The existing file or folder is replaced.
     Replace,
-    /// The user removes what is there.
+    /// The user removes the existing file or folder.
     Remove,
-    /// Another process ends.
+    /// The user waits for the end of another process.
     Wait,
 }
 
 /// Terms of a front end.
 #[derive(Debug, Clone, Copy)]
 pub struct Terms {
-    /// What asks for another path, behind the words: " with --out".
+    /// Text that asks for another path, appended to a message: " with --out".
     pub elsewhere: &'static str,
-    /// What asks for a replacement, behind the words: " with --force".
+    /// Text that asks for a replacement, appended to a message: " with --force".
     pub replace: &'static str,
-    /// What sets a key to a value.
+    /// Words for setting a key to a value.
     pub setting: fn(&str, &str) -> String,
-    /// An option, by its name on the command line, with what stands for its value; empty where it is only named.
+    /// Words for an option, from its name on the command line and the placeholder of its value; the latter is empty where the option is
+    /// only named.
     pub option: fn(&str, &str) -> String,
 }
 
-/// Terms for no front end in particular.
+/// Terms that belong to no front end.
 const COMMON: Terms = Terms {
     elsewhere: "",
     replace: "",
@@ -134,7 +135,7 @@ mod tests {
 
     use super::*;
 
-    /// Another error around one that has a remedy, as front ends see it.
+    /// An error around another one that has a remedy, as front ends see it.
     #[derive(Debug, thiserror::Error)]
     enum Around {
         #[error(transparent)]

@@ -1,4 +1,4 @@
-//! Single output files at paths of the user, such as that of `ligament plot --out`.
+//! Single output files at paths of the user, such as the file of `ligament plot --out`.
 //!
 //! An existing file is replaced only with the user's consent. Pipes, devices and `/dev/stdout` are written to; a link is neither replaced
 //! nor followed to a file.
@@ -82,7 +82,7 @@ fn occupant(path: &Path) -> Result<Occupant, Error> {
         return Ok(Occupant::Nothing);
     };
     let kind = found.file_type();
-    // Writing through a link to a device, such as many in /dev, or to a pipe destroys nothing.
+    // Writing through a link to a pipe or a device, such as many in /dev, destroys nothing.
     let target = fs::metadata(path).map(|it| it.file_type());
     match target {
         Ok(target) if is_pipe_or_device(target) => Ok(Occupant::Stream),

@@ -294,7 +294,7 @@ fn is_false(value: &bool) -> bool {
 mod tests {
     use super::*;
 
-    /// A summary as a version wrote it that had neither provenance nor stages; of its reaction no number is known.
+    /// A summary of an early version, without provenance and stages; its reaction, null, is NaN.
     const EARLY: &str = r#"{
         "title": "plate", "points": 40, "bonds": 200,
         "horizon": { "min": 0.003, "mean": 0.003, "max": 0.003 },

@@ -1,7 +1,7 @@
 //! VTU files: fields on the points and cells of an unstructured grid.
 //!
 //! The files are binary, compressed by zlib and little-endian. Integers are `Int64`, which VTK, PyVista and meshio read
-//! exactly. The format is that of VTK XML files, version 1.0 (<https://vtk.org/Wiki/VTK_XML_Formats>).
+//! exactly. The format is VTK XML, version 1.0 (<https://vtk.org/Wiki/VTK_XML_Formats>).
 
 mod field;
 mod pieces;
@@ -22,7 +22,7 @@ pub(crate) use field::Chosen;
 pub use field::Field;
 pub use pieces::{Held, IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
 
-/// Name of the time in the field data of a grid, by which VTK knows it.
+/// Name of the time in the field data of a grid, which VTK recognises.
 pub const TIME_VALUE: &str = "TimeValue";
 
 /// A cell given by its points, indices from 0.
@@ -204,14 +204,14 @@ impl UnstructuredGrid<'_> {
     }
 }
 
-/// The element `FieldData` of some numbers; without any, nothing.
+/// The element `FieldData` of some numbers; empty without any.
 fn field_data_xml(numbers: &[(&str, f64)]) -> String {
     if numbers.is_empty() {
         return String::new();
     }
     let array = |(name, number): &(&str, f64)| {
         let array = Field::scalar(name, std::slice::from_ref(number)).to_xml();
-        // The length of other arrays is that of the points or cells.
+        // Other arrays have the number of the points or cells.
         array.replacen("<DataArray", "<DataArray NumberOfTuples=\"1\"", 1)
     };
     let arrays: String = numbers.iter().map(array).collect();

@@ -1,6 +1,6 @@
-//! PETSc over MPI: matrices whose rows are shared out among processes, multigrid and factors of them.
+//! PETSc over MPI: matrices whose rows are distributed over processes, their multigrid and their factors.
 //!
-//! What a run asks for is the interface of [`ligament_analysis::distributed_matrix`]. Everything here is behind the feature `petsc`, which needs the
+//! Runs use it through the interface of [`ligament_analysis::distributed_matrix`]. All code depends on the feature `petsc`, which needs the
 //! libraries of the system; without it the crate is empty.
 #![cfg(feature = "petsc")]
 

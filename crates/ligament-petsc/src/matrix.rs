@@ -1,4 +1,4 @@
-//! A matrix whose rows are shared out among ranks.
+//! A matrix whose rows are distributed over ranks.
 
 use ligament_analysis::distributed_matrix::{DistributedMatrix, Pivots, Rows, Solved, Tolerated};
 

@@ -1,4 +1,4 @@
-//! Functions of `petsc.c`, which says what each of them does: the only unsafe code.
+//! Bindings to the functions of `petsc.c`, which documents each of them: the only unsafe code.
 #![allow(
     unsafe_code,
     reason = "another language is called here and nowhere else"
@@ -55,14 +55,14 @@ unsafe extern "C" {
     ) -> c_int;
 }
 
-/// Held through each call: MPI was started for calls from several threads, one at a time.
+/// Locked during each call: MPI was started for calls from several threads, one at a time.
 static CALLS: Mutex<()> = Mutex::new(());
 
 fn alone() -> MutexGuard<'static, ()> {
     CALLS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// How an iteration ended, by the numbers of `petsc.c`.
+/// Codes for the end of an iteration, as in `petsc.c`.
 pub(crate) const INDEFINITE: i32 = 2;
 
 /// Starts MPI and PETSc; to be called once.
@@ -100,28 +100,28 @@ pub(crate) fn abort(code: i32) {
 
 pub(crate) fn all_reduce_max(values: &mut [f64]) {
     let _alone = alone();
-    // SAFETY: as many values are read and written as there are.
+    // SAFETY: exactly as many values are read and written as the slice has.
     unsafe { ligament_all_reduce_max(values.as_mut_ptr(), values.len() as i64) }
 }
 
-/// The values of all ranks; those of this one are as many as `counts` says of it.
+/// The values of all ranks; `own` has as many values as `counts` gives for this rank.
 pub(crate) fn all_gather(own: &[f64], counts: &[i64]) -> Vec<f64> {
     assert_eq!(counts.len(), size(), "a number of values for each rank");
     assert_eq!(counts[rank()], own.len() as i64, "the values of this rank");
     let mut all = vec![0.0; counts.iter().sum::<i64>() as usize];
     let _alone = alone();
-    // SAFETY: a count a rank, as many own values as the count of this rank, and room for all.
+    // SAFETY: one count per rank, as many own values as this rank's count, and room for the values of all ranks.
     unsafe { ligament_all_gather(own.as_ptr(), counts.as_ptr(), all.as_mut_ptr()) }
     all
 }
 
-/// The values that other ranks send to this one, `from` of each; it sends `to` of its own to each.
+/// Exchanges values between all ranks: `to` has the number of values of `own` for each rank, `from` the number of values from each rank.
 pub(crate) fn all_to_all(own: &[f64], to: &[i64], from: &[i64]) -> Vec<f64> {
     assert_eq!([to.len(), from.len()], [size(); 2], "a number a rank");
     assert_eq!(to.iter().sum::<i64>(), own.len() as i64, "values to send");
     let mut received = vec![0.0; from.iter().sum::<i64>() as usize];
     let _alone = alone();
-    // SAFETY: two counts a rank, as many own values as the first of them say, and room for as many as the others do.
+    // SAFETY: two counts per rank, as many own values as the counts `to` add up to, and room for the sum of the counts `from`.
     unsafe {
         ligament_all_to_all(
             own.as_ptr(),
@@ -135,20 +135,20 @@ pub(crate) fn all_to_all(own: &[f64], to: &[i64], from: &[i64]) -> Vec<f64> {
 
 pub(crate) fn broadcast(bytes: &mut [u8]) {
     let _alone = alone();
-    // SAFETY: as many bytes are read or written as there are.
+    // SAFETY: exactly as many bytes are read or written as the slice has.
     unsafe { ligament_broadcast(bytes.as_mut_ptr(), bytes.len() as i64) }
 }
 
-/// Sends bytes of a rank to another one; this one is either of them.
+/// Sends bytes from one rank to another; this process is one of the two.
 pub(crate) fn transfer(from: usize, to: usize, bytes: &mut [u8]) {
     assert_ne!([from, to].map(|it| it == rank()), [false; 2], "an end");
     let [from, to] = [from, to].map(|it| it as c_int);
     let _alone = alone();
-    // SAFETY: as many bytes are read or written as there are.
+    // SAFETY: exactly as many bytes are read or written as the slice has.
     unsafe { ligament_transfer(bytes.as_mut_ptr(), bytes.len() as i64, from, to) }
 }
 
-/// A matrix of PETSc, of this rank its rows.
+/// The rows of a PETSc matrix on this rank.
 #[derive(Debug)]
 pub(crate) struct Handle {
     matrix: *mut c_void,
@@ -161,7 +161,7 @@ impl Handle {
         let [own, other] = blocks;
         assert_eq!(own.len(), other.len(), "blocks of each own point");
         let _alone = alone();
-        // SAFETY: two lists of a number for each own point.
+        // SAFETY: two lists with one number for each own point.
         let matrix = unsafe {
             ligament_matrix_new(
                 n_components as i64,
@@ -190,7 +190,7 @@ impl Handle {
             "a block for each column"
         );
         let _alone = alone();
-        // SAFETY: the matrix lives as long as its handle; a block of values for each column.
+        // SAFETY: the matrix lives as long as its handle; one block of values for each column.
         unsafe {
             ligament_matrix_set(
                 self.matrix,
@@ -211,13 +211,13 @@ impl Handle {
     pub(crate) fn precondition(&mut self, motions: &[f64], n: usize, n_coupled: usize) {
         assert_eq!(motions.len(), n * self.n_own_values(), "whole motions");
         let _alone = alone();
-        // SAFETY: the matrix lives as long as its handle; as many motions as are named, each at all own degrees of freedom.
+        // SAFETY: the matrix lives as long as its handle; `n` motions, each at all own degrees of freedom.
         unsafe {
             ligament_matrix_precondition(self.matrix, motions.as_ptr(), n as i64, n_coupled as i64);
         }
     }
 
-    /// Negative, vanishing and positive pivots.
+    /// Factorises the matrix; returns the numbers of negative, vanishing and positive pivots.
     pub(crate) fn factorise(&mut self) -> [i64; 3] {
         let mut inertia = [0; 3];
         let _alone = alone();
@@ -226,7 +226,8 @@ impl Handle {
         inertia
     }
 
-    /// Motions at the own degrees of freedom, how the iteration ended, its length, and the norms of its first and last residual.
+    /// Solves for the motions at the own degrees of freedom; returns them with the code of the end of the iteration, the number of
+    /// iterations, and the norms of the first and the last residual.
     pub(crate) fn solve(
         &mut self,
         force: &[f64],
@@ -238,7 +239,7 @@ impl Handle {
         assert!(limits.is_none_or(|it| it.len() == n), "as many limits");
         let (mut motions, mut iterations, mut norms) = (vec![0.0; n], 0, [0.0; 2]);
         let _alone = alone();
-        // SAFETY: the matrix lives as long as its handle; all arrays are of its own degrees of freedom, or missing where that is said.
+        // SAFETY: the matrix lives as long as its handle; all arrays cover its own degrees of freedom, `limits` may be null.
         let end = unsafe {
             ligament_matrix_solve(
                 self.matrix,

@@ -13,7 +13,7 @@ use crate::native;
 /// Whether MPI was started: it can be started once in the life of a process.
 static STARTED: AtomicBool = AtomicBool::new(false);
 
-/// Why the processes could not be started.
+/// Reason why the processes could not be started.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum StartError {
     /// MPI starts once in the life of a process.
@@ -44,12 +44,12 @@ impl Processes {
         STARTED.load(Ordering::SeqCst).then_some(Self(()))
     }
 
-    /// Number of processes on the machine of this one.
+    /// Number of processes on the machine of this process.
     pub fn size_here(&self) -> usize {
         native::size_here()
     }
 
-    /// Waits for all processes to come here, for so many seconds at most or, without a number, for ever; tells whether all came.
+    /// Waits until all processes have called this function, for a number of seconds or, without one, for ever; returns whether all did.
     pub fn meet(&self, seconds: Option<f64>) -> bool {
         native::meet(seconds.unwrap_or(-1.0))
     }

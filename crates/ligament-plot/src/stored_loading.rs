@@ -1,4 +1,4 @@
-//! What the loading of a stored run was like, from the case beside its results.
+//! Loading of a stored run, from the case beside its results.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,12 +9,12 @@ use ligament_output::{Error, read_text};
 
 use ligament::units::Units;
 
-/// What the loading of the run was like.
+/// Loading of a stored run.
 #[derive(Debug, Clone)]
 pub struct StoredLoading {
     /// Whether the rows of the history are events, each just before its bonds break.
     pub follows_path: bool,
-    /// Whether the run is a motion in time, of which the load factor is the time in s.
+    /// Whether the run is a motion in time, whose load factor is the time in s.
     pub in_time: bool,
     /// Units of the first load.
     pub units: Units,
@@ -88,7 +88,7 @@ pub fn resolved_case(folder: &Path) -> Result<toml::Table, Error> {
         .parse()
         .map_err(|error: toml::de::Error| Error::Unreadable {
             path,
-            // Not the line: it may be one of any file.
+            // The message without the line of the case: a link may lead to any file.
             reason: error.message().trim().to_owned(),
         })
 }

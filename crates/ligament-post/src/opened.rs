@@ -15,7 +15,7 @@ pub struct OpenedCells<C> {
     pub of: Vec<u32>,
 }
 
-/// Numbers of the corners of pieces by the points between which they lie, and by those of them on their side.
+/// Numbers of the corners of pieces, by the points between which a corner lies, and the subset of these points on its side.
 pub(crate) type Found = HashMap<(Vec<u32>, Vec<u32>), u32>;
 
 impl<C> OpenedCells<C> {

@@ -1,4 +1,4 @@
-//! A run that goes on row by row, on a thread of its own.
+//! A run that advances row by row, on a thread of its own.
 
 use std::sync::Mutex;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
@@ -34,7 +34,7 @@ enum Entry {
     Nothing,
 }
 
-/// What Python asks of the run.
+/// Request from Python to the run.
 enum Question {
     Advance,
     NextLoadFactor(f64),
@@ -42,7 +42,7 @@ enum Question {
     Damage,
 }
 
-/// What the run answers.
+/// Answer of the run to a request.
 enum Answer {
     /// The rows since the last one, and the word and the sentence of the end, if the run ended.
     Rows(Vec<Vec<Entry>>, Option<[String; 2]>),
@@ -62,7 +62,7 @@ pub(crate) struct Rows {
     answers: Mutex<Receiver<Answer>>,
 }
 
-/// Passes the rows of the history on.
+/// Observer that passes on the rows of the history.
 struct Collector {
     rows: Sender<Vec<Entry>>,
 }
@@ -90,7 +90,7 @@ type Advanced<'py> = (Vec<Bound<'py, PyDict>>, Option<[String; 2]>);
 /// Names of the columns of the history, and the number of components of a displacement.
 type Begun = (Vec<String>, usize);
 
-/// Begins the run of a case, tells what its rows have, and answers questions until nobody asks any more.
+/// Begins the run of a case, reports the columns of its rows, and answers requests until there are no more.
 fn answer(
     file: &CaseFile,
     begun: &Sender<Result<Begun, Failure>>,
@@ -124,7 +124,7 @@ fn answer(
     Ok(())
 }
 
-/// Goes on by a row; the rows that were recorded meanwhile.
+/// Advances by a row; returns the rows recorded meanwhile.
 fn advance(way: &mut dyn Way, collected: &Receiver<Vec<Entry>>) -> Answer {
     let end = match way.advance() {
         Ok(()) => None,
@@ -252,7 +252,7 @@ impl Rows {
     }
 }
 
-/// The next value from another thread, between which signals are checked.
+/// Waits for the next value from another thread, and checks for signals meanwhile.
 fn received<T: Send>(py: Python<'_>, from: &Receiver<T>) -> PyResult<T> {
     loop {
         py.check_signals()?;
@@ -266,7 +266,7 @@ fn received<T: Send>(py: Python<'_>, from: &Receiver<T>) -> PyResult<T> {
     }
 }
 
-/// The exception for an answer to another question, which may be there after Ctrl-C.
+/// The exception for an answer to another request, which may remain after Ctrl-C.
 fn unexpected(py: Python<'_>) -> PyErr {
     of_request(
         py,

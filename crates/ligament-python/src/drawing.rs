@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 
 use crate::errors;
 
-/// What a picture of a field shows, and how.
+/// Contents and style of a picture of a field.
 #[derive(Debug, FromPyObject)]
 #[pyo3(from_item_all)]
 pub(crate) struct Wanted {

@@ -1,13 +1,13 @@
 //! The Python package `ligament`: Python objects become a setup, and results of a run become arrays.
 //!
-//! A run is that of the command line, into a folder of results; a result reads that folder. Sections are those of a case
+//! A run works as on the command line, into a folder of results; a result reads that folder. Sections are the sections of a case
 //! ([`ligament_case`]). The interface for Python users is in `python/ligament`, which calls this module.
 //!
 //! | module | holds |
 //! |---|---|
 //! | `document` | conversion of Python objects to sections of a case |
 //! | `body` | bodies from arrays, as files that a case reads |
-//! | `by_hand` | a run that goes on row by row |
+//! | `by_hand` | a run that advances row by row |
 //! | `case` | cases |
 //! | `keys` | the keys of a case |
 //! | `solution` | a run on a separate thread, with progress and Ctrl-C |

@@ -139,7 +139,7 @@ fn order(positions: &[[f64; 3]], dimension: usize) -> Vec<u32> {
     order
 }
 
-/// The bits of a number, `apart` places from one to the next.
+/// The bits of a number, with a distance of `apart` places from each bit to the next.
 fn spread(number: u32, apart: usize) -> u64 {
     (0..BITS as usize).fold(0, |sum, bit| {
         sum | u64::from(number >> bit & 1) << (apart * bit)

@@ -135,12 +135,12 @@ fn add_sides(described: &mut Value, of_steps: impl Iterator<Item = Vec<f64>>, te
     described["sides"] = texts.add(sides.finish());
 }
 
-/// Sides of four corners, the first of which is 0, as one number; the fourth of a triangle is 0.
+/// Sides of four corners as one number; the first is 0, and the fourth of a triangle as well.
 fn code(sides: &[u8; 4]) -> f64 {
     f64::from(sides[1] + 2 * sides[2] + 8 * sides[3])
 }
 
-/// Simplices of a mesh, by their corners in the files, as their numbers among those of the body.
+/// Simplices of a mesh, by their corners in the files, as their numbers among the simplices of the body.
 fn of_mesh<const N: usize>(corners: &[[u32; N]], body: &Body, texts: &mut Texts) -> Value {
     let all = body.numbered();
     let numbers = corners.iter().filter_map(|it| all.get(it).copied());
@@ -183,7 +183,7 @@ fn of_lattice(cracks: &SolidCracks, body: &Body, texts: &mut Texts) -> Value {
 mod tests {
     use super::*;
 
-    /// Halves of a quadrangle have the sides of its corners, whichever numbers these had around it.
+    /// Both halves of a quadrangle have the sides of its corners, wherever the numbering of the sides began.
     #[test]
     fn sides_of_halves_are_numbered_from_their_first_corner() {
         assert_eq!(from_first([0, 0, 0]), [0; 4]);

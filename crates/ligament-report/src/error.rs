@@ -21,7 +21,7 @@ pub enum ReportError {
         /// Number of its columns.
         found: usize,
     },
-    /// The number of labels differs from that of the results.
+    /// The number of labels differs from the number of results.
     #[error(
         "{n_labels} labels for {n_results} results; give one label for each result, in the same order"
     )]

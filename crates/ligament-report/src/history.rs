@@ -25,7 +25,7 @@ pub(crate) fn read(folder: &Path, loading: &StoredLoading) -> Result<Value, Erro
     let sheet = Sheet::read(path)?;
     let mut columns = Vec::new();
     for (place, name) in sheet.columns().iter().enumerate() {
-        // A load may be called as another column begins.
+        // The name of a load may equal the name of an earlier column.
         if sheet.columns()[..place].contains(name) {
             continue;
         }
@@ -42,7 +42,7 @@ pub(crate) fn read(folder: &Path, loading: &StoredLoading) -> Result<Value, Erro
     Ok(Value::Array(columns))
 }
 
-/// A column with its unit for display; values that are nothing beside the largest are zero.
+/// A column with its unit for display; values negligible beside the largest are zero.
 pub(crate) fn column(name: &str, unit: &str, values: &[f64]) -> Value {
     let finite = values.iter().filter(|it| it.is_finite());
     let largest = finite.fold(0.0_f64, |largest, it| largest.max(it.abs()));

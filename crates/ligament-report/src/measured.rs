@@ -1,4 +1,4 @@
-//! Measured curves that a page draws over those of its runs.
+//! Measured curves that a page draws over the curves of its runs.
 
 use std::path::Path;
 

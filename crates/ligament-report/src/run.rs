@@ -165,7 +165,7 @@ impl Drawn<'_> {
     }
 }
 
-/// The step with fields under the largest load that the body carries; none of modes and of a run without a history.
+/// The step with fields under the largest load that the body carries; none for modes and for a run without a history.
 fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
     let history = outputs.folder.join("history.csv");
     if outputs.kind == OutputKind::Modes || !history.is_file() {
@@ -175,7 +175,7 @@ fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
     let stored = rows
         .into_iter()
         .filter(|it| outputs.files.contains_key(&(it[0] as usize)));
-    // A state in which bonds were still breaking is no answer to its load.
+    // States at rest come first: a state in which bonds were still breaking is not in equilibrium.
     let size = |[_, reaction, at_rest]: &[f64; 3]| (*at_rest, reaction.abs());
     let largest = stored.reduce(|largest, it| {
         if size(&it) > size(&largest) {

@@ -27,7 +27,7 @@ const FORCES: [&str; 5] = [
 /// Keys of couples.
 const COUPLES: [&str; 2] = ["moment", "body_couple"];
 
-/// Supports and loads of a case with points that they act on, for the viewer; empty of results that do not say where that is.
+/// Supports and loads of a case with points that they act on, for the viewer; empty if the results do not record these points.
 pub(crate) fn describe(case: &Table, model: &StoredModel, body: &Body) -> Value {
     let places: HashMap<i64, u32> = body.tags.iter().copied().zip(0..).collect();
     let mut names = Names::default();
@@ -61,7 +61,7 @@ pub(crate) fn describe(case: &Table, model: &StoredModel, body: &Body) -> Value 
     Value::Array(found)
 }
 
-/// Places that met under each name, of which the second and later ones have a numbered name in the history.
+/// Places found under each name; in the history the second and later places have a numbered name.
 #[derive(Default)]
 struct Names(HashMap<String, Vec<[Option<toml::Value>; 3]>>);
 
@@ -80,7 +80,7 @@ impl Names {
     }
 }
 
-/// What a support holds: axes, a direction, rotations; and the axes and direction of its springs.
+/// Motions that a support fixes: axes, a direction, rotations; and the axes and direction of its springs.
 fn support(entry: &Table, dimension: usize) -> Value {
     let held = entry.get("displacement").and_then(toml::Value::as_table);
     let springs = entry.get("stiffness").and_then(toml::Value::as_table);
@@ -97,7 +97,7 @@ fn support(entry: &Table, dimension: usize) -> Value {
     })
 }
 
-/// What a load does: axes that it holds, a prescribed motion or a force along the axes, a turn about them.
+/// Action of a load: fixed axes, a prescribed motion or a force along the axes, a turn about them.
 fn load(entry: &Table, dimension: usize) -> Value {
     let table = |keys: &[&str]| keys.iter().find_map(|key| entry.get(*key)?.as_table());
     let motion = table(&MOTIONS);
@@ -145,7 +145,7 @@ fn text<'a>(entry: &'a Table, key: &str) -> Option<&'a str> {
     entry.get(key)?.as_str()
 }
 
-/// Points for symbols, evenly over where they are, or the one in the middle where most of the body is acted on.
+/// Points that get symbols: spread evenly over the given points, or only the middle one where most of the body is acted on.
 fn chosen(points: &[u32], model: &StoredModel) -> Vec<u32> {
     let at = |point: u32| model.positions[point as usize];
     if 2 * points.len() > model.positions.len() {
@@ -161,7 +161,7 @@ fn chosen(points: &[u32], model: &StoredModel) -> Vec<u32> {
         let nearest = (points.iter()).min_by(|a, b| distance(a).total_cmp(&distance(b)));
         return nearest.copied().into_iter().collect();
     }
-    // Each is the one that is farthest from those before it.
+    // Each point is the one farthest from all points before it.
     let mut distances = vec![f64::INFINITY; points.len()];
     let mut found = Vec::new();
     let mut next = points.first().copied();

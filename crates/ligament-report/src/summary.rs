@@ -136,7 +136,7 @@ fn warnings(texts: &[&str]) -> String {
     format!("<section class=\"card warnings\"><h3>Warnings</h3><ul>\n{items}</ul></section>\n")
 }
 
-/// A value with a suitable prefix of its unit; 0 for what is nothing but rounding.
+/// A value with a suitable prefix of its unit; 0 for a value that is only rounding.
 pub(crate) fn quantity(value: f64, unit: &str) -> String {
     let value = without_rounding(value, unit);
     Shown::new(unit, value.abs()).value(value)
@@ -203,7 +203,7 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
     rows.into_iter().flatten().chain(motion).collect()
 }
 
-/// The number of steps with what they are called.
+/// The number of steps with its noun.
 fn steps_in_words(summary: &Summary) -> String {
     match &summary.motion {
         Some(motion) => format!("{} time steps", motion.time_steps),

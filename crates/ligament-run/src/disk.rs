@@ -1,4 +1,4 @@
-//! Room that the results of a case take on a disk, foreseen, and what there is.
+//! Estimated disk space of the results of a case, and free disk space.
 
 use std::path::Path;
 
@@ -6,28 +6,28 @@ use ligament::Model;
 use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
 
-/// Bytes of a point in a file of fields, compressed, rounded up from the largest that was measured: a Brazilian disk of 846,
-/// 1273, 2998 and 4808 points took 109 a point before its load and up to 163, 159, 160 and 157 after it. The file of a regular
+/// Bytes of a point in a file of fields, compressed, rounded up from the largest measured value: a Brazilian disk of 846,
+/// 1273, 2998 and 4808 points took 109 per point before its load and up to 163, 159, 160 and 157 after it. The file of a regular
 /// lattice is smaller: up to 120.
 const POINT: f64 = 165.0;
 
 /// Bytes of a bond in a file of bonds, compressed, rounded up likewise: the bonds of these disks took 19 before their load and up
-/// to 45.4 after it, those of a cracked plate of 997 points up to 46.0.
+/// to 45.4 after it, the bonds of a cracked plate of 997 points up to 46.0.
 const BOND: f64 = 46.0;
 
-/// The room that fields take.
+/// Disk space of the fields of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FieldsOnDisk {
     /// Bytes of the files of one state.
     pub of_one: f64,
-    /// Number of states at most; None on the exact path, which has as many events as it takes.
+    /// Largest number of states; None on the exact path, whose number of events is not known.
     pub most: Option<usize>,
     /// Steps or events between two states; 0 for the first and the last one alone.
     pub every: usize,
 }
 
 impl FieldsOnDisk {
-    /// The room that the fields of a case take.
+    /// The disk space of the fields of a case.
     pub fn new(case: &CaseFile, model: &Model) -> Self {
         let output = &case.case.output;
         let every = output.fields_every.unwrap_or_default() as usize;

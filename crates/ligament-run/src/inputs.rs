@@ -166,8 +166,8 @@ pub(crate) fn set_mesh(case: &mut CaseFile, mesh: Option<&Path>) -> anyhow::Resu
     Ok(())
 }
 
-/// Finds files of a case that are gone where they were, for results that moved together with them: a file has the place below the results, or
-/// below a folder above them, that ends its earlier path, and a content that the run read.
+/// Finds files of a case that are missing at their earlier paths because they were moved together with the results: an ending of the
+/// earlier path leads to the file from the results or from a folder above them, and the content is one that the run read.
 pub(crate) fn find_moved(case: &mut CaseFile, folder: &Path, was_read: &dyn Fn(&Identity) -> bool) {
     let Ok(folder) = folder.canonicalize() else {
         return;

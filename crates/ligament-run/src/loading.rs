@@ -149,7 +149,7 @@ impl LoadedBody<'_> {
     }
 }
 
-/// The grid of the body on this process, with the tags of all points where it has a part of the body.
+/// The grid of the body on this process, with the tags of all points where the process has only a part of the body.
 fn grid(model: &Model) -> BodyGrid {
     let is_whole = model.system.subdomain().is_whole();
     BodyGrid {

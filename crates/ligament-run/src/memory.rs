@@ -23,14 +23,14 @@ const BOND: usize = 250;
 /// Upper estimate of the bytes of a point without bonds (position, volume, cell and corners): the lattice of 99,276 points took about 100.
 const POINT: usize = 200;
 
-/// Upper bound of the memory of equations over that of their bonds: where this bound fits, no symbolic analysis is needed. Plates of 6016
+/// Upper bound of the memory of equations over the memory of their bonds: where this bound fits, no symbolic analysis is needed. Plates of 6016
 /// points with horizon factors of 1.1 to 5 have ratios of 4.2 to 5.2, of 99,276 points with 1.1 to 3 ratios of 6.0 to 8.9: the ratio grows
 /// with the logarithm of the number of points.
 const MOST_OVER_BONDS: usize = 40;
 
-/// Values of L U over those of the Cholesky factor of the same pattern: both triangles, rows with delayed pivots, and temporary parts of
-/// the fronts. Elastic plates under the law `mbb-pd` in the form `pairwise`, of 1600, 6400 and 14,400 points with horizon factor 3, took
-/// 7.4, 8.2 and 9.0 times as many.
+/// Number of values of L U over the number of the Cholesky factor of the same pattern: both triangles, rows with delayed pivots, and
+/// temporary parts of the fronts. Elastic plates under the law `mbb-pd` in the form `pairwise`, of 1600, 6400 and 14,400 points with
+/// horizon factor 3, took 7.4, 8.2 and 9.0 times as many.
 const UNSYMMETRIC: usize = 10;
 
 /// Bytes of a degree of freedom where equations are solved without a matrix, in the plane and in space: about twenty vectors, the blocks of
@@ -86,7 +86,7 @@ pub fn for_factor(case: &CaseFile, system: &dyn Bonds) -> Option<usize> {
     Some((of_equations as usize).saturating_sub(BOND * system.ends().len()))
 }
 
-/// Number of values of a factor over that of the symmetric factor.
+/// Ratio of the number of values of a factor to the number of the symmetric factor.
 fn times_of_factor(is_unsymmetric: bool) -> usize {
     if is_unsymmetric { UNSYMMETRIC } else { 1 }
 }
@@ -133,7 +133,7 @@ pub(crate) fn foreseen_bonds(setup: &Setup) -> f64 {
     bonds(points, family)
 }
 
-/// Numbers of points and of neighbours of one.
+/// Number of points, and number of neighbours of a point.
 fn families(setup: &Setup) -> (f64, f64) {
     let dimensions = setup.body.dimensions();
     let points = setup.body.n_points() as f64;
@@ -154,7 +154,8 @@ fn families(setup: &Setup) -> (f64, f64) {
     (points, family)
 }
 
-/// Number of bonds of points with so many neighbours: each belongs to two families, and no point has more neighbours than other points exist.
+/// Number of bonds of points with `family` neighbours each: a bond belongs to two families, and no point has more neighbours than other
+/// points exist.
 fn bonds(points: f64, family: f64) -> f64 {
     0.5 * points * family.min(points)
 }

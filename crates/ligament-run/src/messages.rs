@@ -22,7 +22,7 @@ pub fn named(message: Message, body: &dyn Body, setup: &Setup) -> Message {
     Message { advice, ..message }.named(&body)
 }
 
-/// Messages in their order, in which those that tell the same, at whatever step or time, are one with their number.
+/// Messages in their order; messages that differ only in their step or time become one, with their number.
 pub fn counted(messages: impl IntoIterator<Item = Message>) -> Vec<String> {
     let mut all: Vec<(Message, usize)> = Vec::new();
     for message in messages {
@@ -38,7 +38,7 @@ pub fn counted(messages: impl IntoIterator<Item = Message>) -> Vec<String> {
     counted.collect()
 }
 
-/// What lets faces of cracks carry pressure in a setup.
+/// Advice by which faces of cracks carry pressure in a setup.
 fn remedy_of_overlap(setup: &Setup) -> String {
     let turns = setup.law.element() == ElementKind::Beam;
     match &setup.analysis {

@@ -1,4 +1,4 @@
-//! Estimate of the time that a run takes, told before it begins.
+//! Estimate of the time that a run takes, printed before it begins.
 
 use std::time::Duration;
 
@@ -16,13 +16,13 @@ const MULTIPLICATIONS: f64 = 1e10;
 /// Time of preparing a bond, with the correction, on one thread, s: a plate of a million points with 13 million bonds took 17 s.
 const PREPARED_BOND: f64 = 1.3e-6;
 
-/// Shortest time of which a run tells before it begins, s.
+/// Shortest estimated time that a run announces before it begins, s.
 const LONG: f64 = 60.0;
 
-/// Number of time steps from which on a run tells of them, whatever time they take.
+/// Number of time steps from which on a run announces them, even if they take little time.
 const MANY: usize = 1_000_000_000;
 
-/// Words about what a run of a body with so many bonds is about to do, where that takes long.
+/// Announcement of a run of a body with a number of bonds, where it takes long.
 pub(crate) fn words(ahead: Ahead, bonds: usize) -> Option<String> {
     match ahead {
         Ahead::TimeSteps { count, is_implicit } => {
@@ -44,14 +44,14 @@ pub(crate) fn words(ahead: Ahead, bonds: usize) -> Option<String> {
     }
 }
 
-/// Words about the preparation of so many bonds, where that takes long.
+/// Announcement of the preparation of a number of bonds, where it takes long.
 pub(crate) fn of_preparation(bonds: f64) -> Option<String> {
     let seconds = PREPARED_BOND * bonds / current_num_threads() as f64;
     let told = || format!("about {bonds:.1e} bonds to prepare: {}", roughly(seconds));
     (seconds >= LONG).then(told)
 }
 
-/// A time as a guess.
+/// An estimated time as text.
 fn roughly(seconds: f64) -> String {
     let text = match Duration::try_from_secs_f64(seconds) {
         Ok(time) if seconds < 3e9 => duration_text(time),

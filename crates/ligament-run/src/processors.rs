@@ -4,8 +4,8 @@ use std::fs;
 use std::thread;
 use std::time::Duration;
 
-/// Number of looks at the tasks of other programs, a millisecond apart, because some, such as tasks of the system that write files, run for a
-/// moment only.
+/// Number of samples of the tasks of other programs, a millisecond apart, because some tasks, such as tasks of the system that write files,
+/// run for a moment only.
 const LOOKS: usize = 5;
 
 /// Least number of tasks of all programs that run or wait for a processor in some milliseconds, without the calling one; 0 where unknown.

@@ -138,7 +138,7 @@ impl Progress {
 
     /// Starts the load steps; `total` is their largest number, where known.
     ///
-    /// `noun` is what they are called.
+    /// `noun` is the word for them.
     pub fn begin_steps(&mut self, total: Option<u64>, noun: &str) {
         self.total = total;
         self.started = Instant::now();
@@ -159,7 +159,7 @@ impl Progress {
     /// Shows the state at the end of a load step.
     pub fn step(&mut self, line: &StepLine) {
         if let Some(steps) = &self.steps {
-            // Whoever no longer listens does not end the run.
+            // A receiver that is gone does not end the run.
             let _ = steps.send(line.clone());
         }
         self.show(line, true);
@@ -205,7 +205,7 @@ fn write_line(line: &str) {
     let _ = writeln!(io::stderr().lock(), "{}", plain(line));
 }
 
-/// What a record of a run is called.
+/// Noun for a record of a run.
 pub(crate) fn noun(in_time: bool) -> &'static str {
     if in_time { "row" } else { "step" }
 }

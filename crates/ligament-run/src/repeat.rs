@@ -26,11 +26,12 @@ const SUFFIX: &str = ".repeat";
 pub struct Request<'a> {
     /// Result folder of the run.
     pub folder: &'a Path,
-    /// Folder in which the results of the repetition are kept; without one they are written beside those of the run, and removed if equal.
+    /// Folder in which the results of the repetition are kept; without one they are written beside the results of the run, and removed if
+    /// equal.
     pub out: Option<&'a Path>,
     /// Path of the mesh, where it has moved since the run.
     pub mesh: Option<&'a Path>,
-    /// Number of threads, if other than that of the case.
+    /// Number of threads, if other than in the case.
     pub threads: Option<u32>,
     /// Build of the repeating program.
     pub build: Build,
@@ -176,7 +177,7 @@ const WALL_TIME: &str = "wall-time";
 /// Tables that grow with each equilibrium, after which a run can be stopped.
 const TOLD: [&str; 2] = ["iterations.csv", "breaks.csv"];
 
-/// Table whose last row is that of the state in which a run was stopped, written after the stop.
+/// Table whose last row describes the state in which a run was stopped, and is written after the stop.
 const HISTORY: &str = "history.csv";
 
 /// Length of a table before its last row, bytes.

@@ -38,13 +38,13 @@ pub struct Request<'a> {
     pub mesh: Option<&'a Path>,
     /// Changed settings, `key=value` each.
     pub settings: &'a [String],
-    /// Number of threads, if other than that of the case.
+    /// Number of threads, if other than in the case.
     pub threads: Option<u32>,
     /// Build of the resuming program.
     pub build: Build,
     /// Whether the user wants to stop the run again.
     pub is_stopped: IsStopped<'a>,
-    /// Processes of the resumed run; rank 0 writes all results but the pieces of grids of each process.
+    /// Processes of the resumed run; rank 0 writes all results except the pieces of grids, which each process writes.
     pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
@@ -74,7 +74,7 @@ impl Request<'_> {
     /// Opens and locks the folder with the results of a run.
     fn open(&self) -> anyhow::Result<ResultFolder> {
         let folder = ResultFolder::resumed(self.folder);
-        // The error of missing results takes precedence over that of the lock.
+        // The error of missing results takes precedence over the error of the lock.
         let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
         require_results(folder.path())?;
         Ok(folder)
@@ -172,7 +172,7 @@ impl Request<'_> {
     }
 }
 
-/// The line that tells where a run goes on.
+/// The line about the state from which a run continues.
 fn resuming(restored: &Restored, model: &Model) -> String {
     let (reached, broken) = (restored.load_factor(), restored.broken_bonds());
     let reached = match model.setup.analysis.is_motion() {

@@ -94,7 +94,7 @@ pub struct Request<'a> {
     pub keeps_inputs: bool,
     /// Receiver of the state at the end of each load step.
     pub steps: Option<Sender<StepLine>>,
-    /// Processes of the run; rank 0 writes all results but the pieces of grids of each process.
+    /// Processes of the run; rank 0 writes all results except the pieces of grids, which each process writes.
     pub communicator: Arc<dyn MatrixCommunicator>,
 }
 
@@ -150,7 +150,7 @@ impl<'a> Request<'a> {
         }
     }
 
-    /// Runs the case from its start with a larger near field, on the caller's threads. What the run before has written is replaced.
+    /// Runs the case from its start with a larger near field, on the caller's threads. The files of the run before are replaced.
     pub(crate) fn begin_anew(&self, growth: &Growth, mode: ProgressMode) -> anyhow::Result<Report> {
         Progress::on(&*self.communicator, mode).stage(&format!(
             "the stress at {} points of elements reached its share of the strength: bonds take their place, and the run begins anew",

@@ -1,4 +1,4 @@
-//! What the user can do about an intact model that is unstable.
+//! Advice about an intact model that is unstable.
 
 use ligament::Model;
 use ligament::stability::largest_poisson;

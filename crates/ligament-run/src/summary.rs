@@ -41,7 +41,7 @@ pub const DROP: f64 = 0.02;
 /// Largest number of warnings shown at the end of a run; small detached parts can give hundreds.
 const WARNINGS_SHOWN: usize = 10;
 
-/// Largest ratio of a load to that of the first breakage that counts as rounding.
+/// Largest ratio of a load to the load of the first breakage that counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Description of the end of a run, with points by their tags and positions.
@@ -61,7 +61,7 @@ pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
 /// Data of a run for the summary, beside its model and its outcome.
 #[derive(Debug, Clone)]
 pub struct Noted {
-    /// What the summary says about the points of the model.
+    /// Data on the points of the model.
     pub of_points: OfPoints,
     /// Origin of the results.
     pub provenance: Provenance,
@@ -194,7 +194,7 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
 fn has_no_equilibrium_under_load(summary: &Summary) -> bool {
     let event = summary.first_softened_bond.as_ref();
     let event = event.or(summary.first_broken_bond.as_ref());
-    // Stages have no predicted breakage; the first event of their first step replaces it.
+    // A load program has no predicted breakage; the first event of its first step replaces it.
     let in_first_step = event.filter(|it| it.step == 1).map(|it| it.reaction);
     let foreseen = summary.first_break.map(|it| it.reaction).or(in_first_step);
     let foreseen = foreseen.map_or(0.0, f64::abs);

@@ -154,7 +154,7 @@ fn the_sections_are_read() {
     assert_eq!(second.r#box, Some([[0.0, 1.0], [1.0, 2.0]].into()));
     let file = Path::new("/somewhere/a.csv").to_owned();
     assert_eq!(second.file, Some(file));
-    // What a run writes of it is the same case.
+    // The resolved case of a run is the same case.
     let again = parse(&case.resolved_toml().unwrap()).unwrap();
     assert_eq!(again.case, case.case);
 }
@@ -284,8 +284,8 @@ fn faults_say_what_to_do() {
     );
 }
 
-/// Without a load the temperature is the control, of the size of the largest change; the last section that reaches a point
-/// holds there.
+/// Without a load the temperature is the control, of the size of the largest change; for each point the last section that reaches it
+/// counts.
 #[test]
 fn the_last_section_holds() {
     let text = format!(

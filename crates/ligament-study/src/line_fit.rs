@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     /// Anscombe's first set (The American Statistician 27, 1973): y = 3.00 + 0.500 x, standard errors 1.125 and 0.118, R^2 0.667, all
-    /// as printed to three digits; the digits below are those of R's `lm`.
+    /// as printed to three digits; the digits below are from R's `lm`.
     #[test]
     fn a_published_set_has_its_published_line() {
         let x = [10.0, 8.0, 13.0, 9.0, 11.0, 14.0, 6.0, 4.0, 12.0, 7.0, 5.0];
@@ -114,7 +114,7 @@ mod tests {
     fn three_points_have_their_closed_form() {
         for c in [0.0, 1e6] {
             let fit = LineFit::through(&[[c, 0.0], [c + 1.0, 1.0], [c + 2.0, 1.0]]).unwrap();
-            // The means of numbers of size 1e6 have 1e-10 left of their rounding.
+            // Means of numbers of size 1e6 have a rounding error of 1e-10.
             assert!((fit.slope - 0.5).abs() < 1e-9, "{fit:?}");
             assert!((fit.at(c + 1.0) - 2.0 / 3.0).abs() < 1e-9, "{fit:?}");
             let error = (1.0f64 / 12.0).sqrt();

@@ -9,13 +9,13 @@ use ligament_output::folder::refuse_link;
 use ligament_output::summary::{SUMMARY, verdict};
 use ligament_output::{Error, read_json};
 
-/// Lists of a summary of which a table of runs has the lengths only.
+/// Lists of a summary that are in a table of runs only by their lengths.
 const COUNTED: [&str; 1] = ["warnings"];
 
 /// Key of the provenance, which tables of runs do not have.
 const PROVENANCE: &str = "provenance";
 
-/// Key of the stages, of which tables of runs have the total time and the peak memory.
+/// Key of the stages; tables of runs have their total time and peak memory.
 const STAGES: &str = "stages";
 
 /// The single results of a run, in the order of its summary.
@@ -118,7 +118,7 @@ impl Quantities {
         })
     }
 
-    /// Names of numbers to offer for a name that there is not: those of the part that its beginning resembles, otherwise all.
+    /// Names of numbers to suggest for an unknown name: the names in the part that its beginning resembles, otherwise all.
     fn near(&self, name: &str) -> Vec<String> {
         fn part(name: &str) -> &str {
             name.split('.').next().unwrap_or(name)

@@ -38,14 +38,14 @@ pub(super) struct Anisotropy {
 }
 
 impl Anisotropy {
-    /// The errors of a model with a criterion, `strength` for its own, under an `extension` or `shear`.
+    /// The errors of a model with a criterion (`strength` for the model's own), under an `extension` or `shear`.
     pub(super) fn new(model: &Model, criterion: &str, strain: &str) -> anyhow::Result<Self> {
         let strains = match strain {
             "extension" => PrincipalStretches::new(1.0, 0.0),
             "shear" => PrincipalStretches::new(1.0, -1.0),
             other => bail!("no strain `{other}`"),
         };
-        // Of stretch only the limit in tension, so that compression does not limit pure shear.
+        // The criterion of stretch has only its limit in tension, so that compression does not limit pure shear.
         let criterion = match criterion {
             "stretch" => "tension",
             other => other,

@@ -140,8 +140,8 @@ impl Crack {
         }
     }
 
-    /// The part of the crack that starts at a segment: points connected to it by a chain in which each point is in the horizon of the one
-    /// before, and the segment in that of the first.
+    /// The part of the crack that starts at a segment: points connected to it by a chain in which each point lies in the horizon of the
+    /// previous one; the segment lies in the horizon of the first.
     pub(super) fn part_from(&self, segment: Segment) -> Self {
         let is_at = |point: &Place| distance(point.at, segment) <= point.horizon;
         let mut reached: Vec<bool> = self.points.iter().map(is_at).collect();
@@ -198,8 +198,8 @@ impl Crack {
         (!self.points.is_empty()).then(|| [mean(0), mean(1)])
     }
 
-    /// The points of the crack within the smaller one of the distances from the origin that its parts on the two sides of the line through
-    /// the origin across `along` reach; `None` where one part is missing.
+    /// The points of the crack up to the smaller one of two distances from the origin: the distances that its parts on both sides of the
+    /// line through the origin across `along` reach. `None` where one part is missing.
     pub(super) fn common_part(&self, along: [f64; 2]) -> Option<Self> {
         let reach = |sign: f64| {
             let side = self.part(|[x, y]| sign * (x * along[0] + y * along[1]) > 0.0);

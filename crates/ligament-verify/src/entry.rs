@@ -190,7 +190,7 @@ mod tests {
         }
     }
 
-    /// A band may reach further to one side; a missed value has it around what the method gives.
+    /// A band may reach further to one side; for a missed value it is around the value of the method.
     #[test]
     fn a_band_is_about_the_value_it_belongs_to() {
         use Verdict::{Failed, Missed, Within};

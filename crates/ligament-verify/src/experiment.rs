@@ -20,7 +20,7 @@ pub struct Experiment {
     pub source: &'static str,
     /// Description of the computation.
     pub setup: &'static str,
-    /// Paths of the cases that are run, with settings of each entry. An experiment that is a file names its cases there.
+    /// Paths of the cases that are run, with settings of each entry; empty for an experiment file, which names its cases itself.
     pub cases: &'static [&'static str],
     /// Way to the tables.
     pub compute: Compute,

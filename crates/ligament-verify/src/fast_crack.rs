@@ -30,7 +30,7 @@ pub(super) fn breaks(model: &Model, records: &[BreakRecord]) -> Vec<Break> {
 pub(super) struct Branches {
     /// Number of cracks: 2 with branches on both sides of the line of the notch, otherwise 1.
     pub(super) cracks: f64,
-    /// First broken bond of the upper branch; without branches not a number.
+    /// First broken bond of the upper branch; NaN without branches.
     pub(super) first: Break,
     /// Largest speed of the broken bond farthest from the tip, m/s.
     pub(super) speed: f64,
@@ -145,7 +145,7 @@ fn direction(places: &[[f64; 2]]) -> f64 {
     0.5 * (2.0 * moment(0, 1)).atan2(moment(0, 0) - moment(1, 1))
 }
 
-/// Speed of Rayleigh waves over that of shear waves, for Poisson's ratio in plane strain (nu/(1 + nu) stands for it in plane stress): the
+/// Speed of Rayleigh waves over the speed of shear waves, for Poisson's ratio in plane strain (nu/(1 + nu) stands for it in plane stress): the
 /// root x = c^2/c_S^2 of x^3 - 8 x^2 + (24 - 16 k) x - 16 (1 - k) = 0, k = (1 - 2 nu)/(2 - 2 nu) (Rayleigh 1885).
 pub(super) fn rayleigh(poisson: f64) -> f64 {
     let ratio = (1.0 - 2.0 * poisson) / (2.0 - 2.0 * poisson);

@@ -35,7 +35,7 @@ fn failure_stress(number: Number<'_>) -> anyhow::Result<f64> {
     Ok((toughness / (PI * half_length)).sqrt() / (width * secant.sqrt()))
 }
 
-/// Failure stress over that of linear elastic fracture mechanics; the horizon over the half-length must be the label `delta/a`.
+/// Failure stress over the one by linear elastic fracture mechanics; the horizon over the half-length must be the label `delta/a`.
 pub(super) fn relative_strength(solution: &Solution, number: Number<'_>) -> anyhow::Result<f64> {
     let labelled = number("delta/a")?;
     let found = horizon(solution) / number("half_length")?;

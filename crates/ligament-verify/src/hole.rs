@@ -9,8 +9,8 @@ use ligament_model::thermal::ThermalStrain;
 
 use super::trial::displacements;
 
-/// Stress concentration K_t at the rim of the hole of a plate, and the root mean square of what the fit leaves over it, %, from the strain between
-/// neighbours times `young` (Pa), from the virial stress and from the traction; all over the `traction` (Pa) on the ends.
+/// Stress concentration K_t at the rim of the hole of a plate, and the root mean square residual of its fit over K_t, %, from the strain
+/// between neighbours times `young` (Pa), from the virial stress and from the traction; all over the `traction` (Pa) on the ends.
 pub(super) fn concentrations(
     solution: &Solution,
     young: f64,
@@ -55,7 +55,7 @@ pub(super) fn concentrations(
     ])
 }
 
-/// Value a + b of the fit a + b cos(2 theta) to values over theta, and its residual over that, %.
+/// Value a + b of the fit a + b cos(2 theta) to values over theta, and its residual over this value, %.
 fn fit(values: impl Iterator<Item = [f64; 2]>) -> [f64; 2] {
     let values: Vec<[f64; 2]> = values.collect();
     let count = values.len() as f64;

@@ -5,8 +5,8 @@
 //! | `published` | the reader of `published/*.csv`: known values, tolerances, misprints with their reasons |
 //! | [`table`], [`entry`], `printed` | tables, verdicts on entries, numbers with their printed digits |
 //! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
-//! | [`experiment_file`] | experiments that are files beside their tables, and what expressions there can read |
-//! | `fast_crack`, `griffith`, `hole`, `record`, ... | what they read from a run, one subject each |
+//! | [`experiment_file`] | experiments that are files beside their tables, and the quantities that their expressions can read |
+//! | `fast_crack`, `griffith`, `hole`, `record`, ... | quantities of a run, one subject each |
 //! | `readings`, `tension`, `maps`, `yielding` | the other experiments, one module each |
 //! | [`finite_elements`] | classical elasticity, for comparison with the lattices of the papers |
 //! | [`measured`] | measured tests with bands of acceptance, from a table |
@@ -69,7 +69,7 @@ use report::{console, files, markdown, page, scoreboard};
 use table::Extent;
 use tally::Tally;
 
-/// Where an experiment is written.
+/// Place in which an experiment is written.
 enum Written {
     /// In its own module.
     Code(&'static Experiment),
@@ -271,7 +271,7 @@ pub fn all() -> anyhow::Result<Vec<Experiment>> {
     Ok(published.chain(experiments()?).copied().collect())
 }
 
-/// The experiments of these names, in the order of the report; all without names. A name that no experiment has is that of a group: of all
+/// The experiments of these names, in the order of the report; all without names. A name that no experiment has selects a group: all
 /// experiments whose names begin with it and an underscore.
 ///
 /// # Errors

@@ -173,7 +173,7 @@ mod tests {
         selection.table == table && labels.are(&selection.of).unwrap()
     }
 
-    /// Every known value that a paper is the source of is in one line of the page, and every line has values.
+    /// Every known value from a paper is in one line of the page, and every line has values.
     #[test]
     fn every_value_of_a_paper_has_one_line() {
         let items = items().unwrap();

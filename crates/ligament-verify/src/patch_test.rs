@@ -7,7 +7,7 @@ use ligament_mesh::{AnyMesh, gmsh};
 
 use super::trial::Trial;
 
-/// Young's modulus of the body over that of the material, along the axis where it differs more.
+/// Ratio of the Young's moduli of the body and of the material, along the axis where it differs more.
 pub(super) fn young(test: &PatchTest) -> anyhow::Result<f64> {
     let constants = constants(test)?;
     let ratio = |axis: usize| constants.body.young[axis] / constants.material.young[axis];
@@ -19,7 +19,7 @@ pub(super) fn poisson(test: &PatchTest) -> anyhow::Result<f64> {
     Ok(constants(test)?.body.poisson[0][1])
 }
 
-/// Largest root mean square of what the strains of bonds have more than the mean one, over its size.
+/// Largest root mean square deviation of the strains of bonds from the mean strain, over the size of the mean strain.
 pub(super) fn scatter(test: &PatchTest) -> f64 {
     test.scatter.iter().copied().fold(0.0, f64::max)
 }

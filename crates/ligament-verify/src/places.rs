@@ -1,4 +1,4 @@
-//! Places of the cases, the meshes and the measured curves.
+//! Paths of the cases, the meshes and the measured curves.
 
 use std::path::{Path, PathBuf};
 

@@ -8,7 +8,7 @@ use ligament::run::Solution;
 /// Pressures of a contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Pressed {
-    /// Force, N; of the cylinder for each length, N/m.
+    /// Force, N; for the cylinder per length, N/m.
     pub(super) force: f64,
     /// Largest pressure of a side of a cell, and of the fit, Pa.
     pub(super) largest: [f64; 2],
@@ -16,7 +16,8 @@ pub(super) struct Pressed {
     pub(super) reach: f64,
 }
 
-/// Pressures under a rigid body from the sides of cells in contact, over so many directions along the surface and so many integration points of a side.
+/// Pressures under a rigid body from the sides of cells in contact; `along` is the number of directions along the surface, `points` the
+/// number of integration points of a side.
 ///
 /// Hertz's pressure is p = p_0 sqrt(1 - r^2/a^2) at the distance r from the middle (Johnson 1985, sections 4.2 and 4.3), so that p^2 is a straight line over
 /// r^2, whose value at r = 0 is p_0^2. The mean of r^2, weighted by p, is a^2/4 over a strip and 2 a^2/5 over a disk.

@@ -23,7 +23,7 @@ use super::entry::{Entry, Reliability};
 use super::printed::{Allowed, Printed};
 use super::table::{Heading, Known};
 
-/// Columns of every table, after those of its labels.
+/// Columns of every table, after the columns of its labels.
 const COLUMNS: [&str; 6] = [
     "known", "allowed", "subset", "standing", "instead", "reason",
 ];
@@ -52,7 +52,7 @@ pub(super) struct TableError {
     pub(super) fault: String,
 }
 
-/// Parses the known values of a table; `name` is that of its file.
+/// Parses the known values of a table; `name` is the name of its file.
 pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
     let at = |line: usize| {
         move |fault| TableError {

@@ -115,8 +115,8 @@ impl Record {
 /// Number of angular frequencies of a spectrum, and the least number of points per wavelength of the fastest wave in it.
 const SPECTRUM: (usize, f64) = (400, 6.0);
 
-/// Phase speed of waves with so many points per wavelength over `speed` (m/s), between those of the spectra of two records by a straight line; the records
-/// are those of places `gauge` apart on a lattice with a `spacing`, m.
+/// Phase speed over `speed` (m/s) of waves with a number of `points` per wavelength, by linear interpolation in the spectrum of the delays
+/// between two records; the records are from places `gauge` apart on a lattice with a `spacing`, m.
 pub(crate) fn phase_speed(
     [near, far]: [&Record; 2],
     points: f64,

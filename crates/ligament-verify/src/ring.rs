@@ -1,4 +1,4 @@
-//! Displacements of a thick ring under internal pressure, compared with Lame's.
+//! Displacements of a thick ring under internal pressure, compared with Lame's solution.
 
 use ligament::run::Solution;
 
@@ -24,7 +24,7 @@ pub(super) struct RadialDisplacements {
     /// Mean ratio over the points of the inside and of the outside.
     pub(super) inside: f64,
     pub(super) outside: f64,
-    /// L2 norm of the differences over that of Lame's.
+    /// L2 norm of the differences from Lame's displacements over the norm of these.
     pub(super) difference: f64,
 }
 

@@ -68,7 +68,6 @@ pub(super) fn modes(poisson: f64, density: f64) -> anyhow::Result<(Mesh, Vec<Mod
 }
 
 /// The largest |u_x| and |u_y| of all nodes under a body force on the outermost elements, m, with the middle fixed.
-///
 pub(super) fn largest_displacements(load: SquareLoad, poisson: f64) -> anyhow::Result<[f64; 2]> {
     let (_, displacements) = displacements(load, poisson)?;
     let larger =

@@ -39,7 +39,7 @@ fn turned<const D: usize>(principal: [f64; D], axes: [[f64; D]; D]) -> [[f64; D]
     std::array::from_fn(|i| std::array::from_fn(|j| component(i, j)))
 }
 
-/// The loads sigma . n of a stress on the sides of a box, as an array in TOML. A side without traction has none.
+/// The loads sigma . n of a stress on the sides of a box, as an array in TOML. A side without traction has no load.
 fn tractions<const D: usize>(key: &str, stress: &[[f64; D]; D], sides: &[[&str; 2]; D]) -> String {
     let largest = stress
         .iter()
@@ -83,7 +83,7 @@ mod tests {
         assert!((x + 1.0).abs() < 1e-12, "{found}");
     }
 
-    /// A stress that is equal in all directions stays what it is under any turn.
+    /// A hydrostatic stress does not change under any rotation.
     #[test]
     fn a_pressure_loads_each_face_along_its_normal() {
         let found = loads(&[-3.0; 3], 30.0).unwrap();

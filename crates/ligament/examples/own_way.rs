@@ -1,5 +1,6 @@
-//! A way of one's own through a load program: fatigue. The load stays; the bond that is used most breaks after N = 1000/ratio^8 cycles, a law of
-//! Basquin's form with numbers of this example, where the ratio is its measure over its limit. The next row is the equilibrium after it.
+//! A driver of one's own through a load program: fatigue. The load is constant; the bond with the largest ratio breaks after N =
+//! 1000/ratio^8 cycles, a law of Basquin's form with numbers of this example, where the ratio is its measure over its limit. The next row
+//! is the equilibrium after it.
 
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 

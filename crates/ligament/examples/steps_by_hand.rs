@@ -1,5 +1,5 @@
-//! A plate with an edge crack, pulled by hand: each load step is asked for, the next load is chosen by what broke, and the run stops when the
-//! crack has run through half of the plate.
+//! A plate with an edge crack, pulled by hand: the program requests each load step, chooses the next load by the bonds that broke, and
+//! stops the run when the crack has run through half of the plate.
 
 #![allow(clippy::print_stdout, reason = "an example shows what it finds")]
 
@@ -31,7 +31,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
         let last = steps.history().last().ok_or("a step has a record")?;
         let (broken, force) = (last.broken_in_step, last.reaction);
         println!("{load_factor:.4}: {force:.4e} N, {broken} bonds broke");
-        // The next step is long where nothing broke, and short behind a breakage.
+        // The next step is long where nothing broke, and short after a breakage.
         load_factor += if broken == 0 { 0.05 } else { 0.005 };
         if steps.state().broken_bonds() >= 200 {
             break;

@@ -40,7 +40,7 @@ pub(crate) fn plate() -> Result<Setup, Box<dyn std::error::Error>> {
     Ok(setup)
 }
 
-/// What has broken so far.
+/// Bonds that have broken so far.
 #[derive(Default)]
 struct Watch {
     broken: usize,

@@ -9,8 +9,8 @@ use crate::model::Model;
 ///
 /// Only points count whose families are complete, of the one material, and free to break, so that surfaces, interfaces, far fields and parts
 /// without failure do not contribute. `None` for solids, where there is no such point, without criteria, for bonds with strains of their own
-/// (`mbb-pd`), whose criteria dissipate the fracture energy by definition, and where bonds break at once by the stress around them, of which an
-/// opening tells nothing.
+/// (`mbb-pd`), whose criteria dissipate the fracture energy by definition, and where bonds break at once by the stress around them, which
+/// an opening does not determine.
 pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]> {
     let system = model.system.of_dimension::<2>()?;
     let list = &model.criteria.list;

@@ -16,7 +16,7 @@ use crate::setup::Setup;
 /// Lowest and highest corner of a box, m.
 pub(crate) type Corners<const D: usize> = [[f64; D]; 2];
 
-/// A whole body with what its parts have of it.
+/// A whole body with the data that its parts take from it.
 pub(crate) struct Whole<const D: usize> {
     body: Arc<dyn Geometry<D>>,
     /// All points; not yet [completed](Geometry::completed).
@@ -50,7 +50,7 @@ impl<const D: usize> Whole<D> {
     ///
     /// # Errors
     ///
-    /// If its cells are wrong, or a place of a material, a support, a load or a probe is.
+    /// If its cells are wrong, or a place of a material, a support, a load or a probe is wrong.
     pub(crate) fn new(setup: &Setup) -> Result<Self, SetupError> {
         let body = setup.body.geometry::<D>().clone();
         let material_of_cell = material_of_cell(setup)?;
@@ -87,7 +87,7 @@ impl<const D: usize> Whole<D> {
 struct NearCells {
     /// Points that all processes know and the other corners of their cells, ascending.
     points_of_all: Vec<u32>,
-    /// Cells between these points alone, ascending.
+    /// Cells that have only these points as corners, ascending.
     cells_of_all: Vec<u32>,
     /// Other cells near the points of each process, ascending.
     cells: Vec<Vec<u32>>,
@@ -102,8 +102,8 @@ impl NearCells {
         }
     }
 
-    /// Goes over all cells three times, and searches for the boxes of each: a part has the corners of the cells that meet its box, and the cells
-    /// between its points, which meet the box around all these corners.
+    /// Goes over all cells three times, and searches for the boxes that each cell meets: a part has the corners of the cells that meet its
+    /// box, and the cells between its points, which meet the box around all these corners.
     fn new<const D: usize>(
         whole: &Whole<D>,
         meshed: &dyn MeshedBody<D>,
@@ -154,8 +154,8 @@ pub(crate) struct Cutter<const D: usize> {
 }
 
 impl<const D: usize> Cutter<D> {
-    /// The part with the points near a process (ascending), those known to all processes, and all corners of cells that bonds between them may
-    /// cross; `index` is that of the box around the near points.
+    /// The part with the points near a process (ascending), the points known to all processes, and all corners of cells that bonds between
+    /// them may cross; `index` is the index of the box around the near points.
     pub(crate) fn part(&self, index: usize, near: &[u32]) -> Part<D> {
         let (whole, cells) = (&self.whole, &self.cells);
         let mut points = [near, &cells.points_of_all].concat();

@@ -1,5 +1,5 @@
-//! Division of a body between processes: each of them has its part of the body in the end. Of a mesh the first process alone has the cells; it
-//! finds all that follows from them, and sends each other process its part.
+//! Division of a body between processes, each of which keeps its part of the body. Only rank 0 has the cells of a mesh: it evaluates them,
+//! and sends each other rank its part.
 
 use std::sync::Arc;
 
@@ -14,12 +14,12 @@ use crate::error::{Fault, Field, SetupError};
 use crate::local::Discrete;
 use crate::setup::Setup;
 
-/// The points of the part of a body that this process keeps: owned points, those that may have bonds with them, those known to all processes,
-/// and all corners of cells that these bonds may cross. Of a meshed body the cells of rank 0 count, and other ranks need none. Collective.
+/// The points of the part of a body that this process keeps: owned points, points that may have bonds with them, points known to all
+/// processes, and all corners of cells that these bonds may cross. The cells of a meshed body are needed on rank 0 only. Collective.
 ///
 /// # Errors
 ///
-/// If cells are wrong, or a place of a material, a support, a load or a probe is.
+/// If cells are wrong, or a place of a material, a support, a load or a probe is wrong.
 pub(crate) fn divided<const D: usize>(
     setup: Setup,
     communicator: &Arc<dyn Communicator>,
@@ -54,7 +54,8 @@ pub(crate) fn divided<const D: usize>(
     })
 }
 
-/// Divides the points of a body between processes, and returns those that may have bonds with points of this process, and these, ascending.
+/// Divides the points of a body between processes; returns the points of this process and all points that may have bonds with them,
+/// ascending.
 fn near_points<const D: usize>(
     setup: &Setup,
     cloud: &mut PointCloud<D>,
@@ -67,7 +68,7 @@ fn near_points<const D: usize>(
     points.collect()
 }
 
-/// All points of a meshed body, on other processes than the first without volumes and materials, and the part of this process.
+/// All points of a meshed body, on ranks other than 0 without volumes and materials, and the part of this process.
 fn of_first_process<const D: usize>(
     setup: &Setup,
     meshed: &dyn MeshedBody<D>,
@@ -106,7 +107,7 @@ fn of_first_process<const D: usize>(
     Ok((cutter.into_cloud(), part))
 }
 
-/// What the first process found, on the others nothing; an error of the first process ends all. Collective.
+/// The result of rank 0, `None` on other ranks; an error of rank 0 ends all processes. Collective.
 fn agreed<T>(
     communicator: &dyn Communicator,
     found: Option<Result<T, SetupError>>,
@@ -120,7 +121,7 @@ fn agreed<T>(
     }
 }
 
-/// The error of a message of the first process that cannot be read.
+/// The error of a message of rank 0 that cannot be read.
 fn unreadable(error: Damaged) -> SetupError {
     refused(format!("its message cannot be read: {error}"))
 }

@@ -1,8 +1,8 @@
 //! Samples of a body whose strength, fracture energy or both vary at random.
 //!
 //! All samples share the model, the factor of its intact stiffness and its elastic solution; only the limits of the bonds differ. Sample k
-//! depends on the seed of the ensemble and on k alone: it is the run of the setup whose first random property has the seed of
-//! [`Ensemble::seed_of`], to the last bit, whatever the number of threads and of other samples. A second property with a seed of its own has
+//! depends only on the seed of the ensemble and on k: it equals, to the last bit, the run of the setup whose first random property has the
+//! seed of [`Ensemble::seed_of`], whatever the number of threads and of other samples. A second property with a seed of its own has
 //! the same factors in all samples; without one it varies from sample to sample as well, independently of the first.
 
 use std::sync::Arc;
@@ -36,7 +36,7 @@ pub struct Ensemble {
     breaking: Breaking,
 }
 
-/// How the samples break.
+/// Way to follow the samples.
 enum Breaking {
     /// Along the exact path.
     Exact(EventSettings),
@@ -130,12 +130,12 @@ impl Ensemble {
         &self.problem
     }
 
-    /// The seed of the first random property of a sample, for a run of it alone.
+    /// The seed of the first random property of a sample, for a run of this sample alone.
     pub fn seed_of(&self, number: u64) -> u64 {
         scatter::seed_of_sample(self.seed, number)
     }
 
-    /// The random properties of a sample: those of the setup, the first with the seed of the sample.
+    /// The random properties of a sample: the properties of the setup, the first one with the seed of the sample.
     pub fn scatter_of(&self, number: u64) -> Vec<Scatter> {
         let mut scatter = self.model.setup.scatter.clone();
         if let Some(first) = scatter.first_mut() {
@@ -203,7 +203,7 @@ impl Ensemble {
         })
     }
 
-    /// Passes samples to `each`, in the order in which they end. So many `workers` follow them at once, each on a number of threads.
+    /// Passes samples to `each`, in the order in which they end. `workers` samples are followed at once, each on a number of threads.
     ///
     /// # Errors
     ///

@@ -38,7 +38,7 @@ pub enum Error {
 pub struct SetupError {
     /// Path of the field in the setup.
     pub field: Field,
-    /// Fault of the field, with what to do about it.
+    /// Fault of the field, with advice.
     pub fault: Box<Fault>,
 }
 
@@ -354,7 +354,7 @@ pub enum Fault {
         /// The requested analysis.
         wanted: &'static str,
     },
-    /// What the first of several processes, which alone has the cells of a mesh, refuses, in its words.
+    /// A fault found by rank 0, which alone has the cells of a mesh, as text.
     #[error("the first process refuses it: {0}")]
     OfFirstProcess(String),
     /// Settings that contradict each other.

@@ -12,7 +12,7 @@ pub(crate) struct Extent {
 }
 
 impl Extent {
-    /// The box around some positions, m, which reaches beyond them.
+    /// The box around some positions, enlarged on all sides by a distance `beyond`, m.
     pub(crate) fn around(positions: impl Iterator<Item = impl AsRef<[f64]>>, beyond: f64) -> Self {
         let start = [f64::INFINITY, f64::NEG_INFINITY];
         let mut bounds: Vec<[f64; 2]> = Vec::new();
@@ -77,7 +77,7 @@ impl Extent {
         sides.filter(|it| *it > 0.0).product()
     }
 
-    /// Boxes in which those are joined that together are no smaller than the box around them.
+    /// Boxes, joined where the box around two of them is no larger than both together.
     pub(crate) fn joined(mut boxes: Vec<Self>) -> Vec<Self> {
         let mut place = 0;
         while place < boxes.len() {

@@ -36,10 +36,10 @@
 //! ```
 //!
 //! An [`Observer`](ligament_analysis::Observer) in the place of [`NoObserver`](run::NoObserver) receives the load steps of a run;
-//! [`run::begin`] goes on by hand, row by row; [`Model::build`] only builds the model. Nothing is printed and no file is read or written here.
+//! [`run::begin`] advances a run row by row; [`Model::build`] only builds the model. Nothing is printed and no file is read or written
+//! here.
 //!
-//! This crate is the one to depend on: [`analysis`], [`mechanics`] and [`mesh`] are the crates beneath it, for whatever a program needs of
-//! them.
+//! This crate is the one to depend on: [`analysis`], [`mechanics`] and [`mesh`] are the crates beneath it, for programs that need more.
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")

@@ -36,7 +36,7 @@ use crate::warning;
 /// The discrete model: everything before the equations.
 #[derive(Debug)]
 pub struct Model {
-    /// Setup that the model was built from; of several processes, each has its part of the body.
+    /// Setup from which the model was built; each of several processes has its part of the body.
     pub setup: Setup,
     /// The points of the whole body, for their descriptions.
     pub names: Arc<dyn Body>,
@@ -235,7 +235,7 @@ impl Model {
 /// Bonds of a body with their rigidities, before criteria.
 struct Bonded<const D: usize> {
     system: BondSystem<D>,
-    /// Fields of the preparation but for those that name parts of the body.
+    /// Fields of the preparation except for fields that name parts of the body.
     fixed: ConstantFields,
     correction: Correction,
     crossed: Precracked,

@@ -1,7 +1,7 @@
 //! The near field of a body: its cells with bonds, where the others are linear finite elements.
 //!
-//! The near field is a body of its own, whose bonds are found and corrected as of any other body: up to the border its points have volumes
-//! and forces of the near cells alone. Elements of the far cells have the rest.
+//! The near field is a body of its own, whose bonds are found and corrected as in any other body: up to the border its points have only the
+//! volumes and forces of the near cells. Elements of the far cells contribute the rest.
 
 use std::sync::Arc;
 
@@ -88,8 +88,8 @@ impl<const D: usize> NearField<D> {
         body.with_far_field(system, &self.far_cells, material_of_cell)
     }
 
-    /// Fields of the near field at the points of the whole body. Elements pass uniform strains exactly: their points have no residual, and the
-    /// energy of the continuum.
+    /// Fields of the near field at the points of the whole body. Elements represent uniform strains exactly: their points have no residual,
+    /// and the energy of the continuum.
     pub(crate) fn fields(&self, fixed: ConstantFields) -> ConstantFields {
         let at_points = |values: Vec<f64>, elsewhere: f64| match values.is_empty() {
             true => values,

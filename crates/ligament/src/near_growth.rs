@@ -1,4 +1,4 @@
-//! Growth of a near field: where the stress of elements reaches a share of the strength, bonds take their place and the run begins anew.
+//! Growth of a near field: where the stress of elements reaches a share of the strength, bonds replace them and the run begins again.
 
 use ligament_analysis::history::{
     Ahead, BreakRecord, Moment, ObserverError, Onward, StepRecord, View,
@@ -18,8 +18,8 @@ use crate::parts::Parts;
 use crate::setup::{Place, Setup};
 use crate::system::over_dimension;
 
-/// Distance by which a near field grows over its size, the root of its area or the cubic root of its volume: a crack that runs on reaches the
-/// border a few times only.
+/// Distance by which a near field grows over its size, the root of its area or the cubic root of its volume: a growing crack reaches the
+/// border only a few times.
 const GROWTH: f64 = 0.5;
 
 /// Largest stresses of the elements of a far field.
@@ -53,7 +53,7 @@ pub struct Growth {
 }
 
 impl Setup {
-    /// Takes the places of a growth into the near field.
+    /// Adds the places of a growth to the near field.
     pub fn grow(&mut self, growth: Growth) {
         if let Some(far_field) = &mut self.far_field {
             far_field.near.extend(growth.places);

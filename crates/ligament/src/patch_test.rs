@@ -34,8 +34,8 @@ pub(crate) const SIZE: f64 = 1e-6;
 pub struct PatchTest {
     /// Elastic constants; none for a body of several materials, which has no uniform strain under uniform stress.
     pub constants: Option<Constants>,
-    /// Root mean square over the bonds of the deviation from the body's mean strain, over the size of that, for uniform strains along x,
-    /// along y, in shear in xy, and in space along z, in xz and in yz.
+    /// Root mean square over the bonds of the deviation from the body's mean strain, over the size of the mean strain, for uniform strains
+    /// along x, along y, in shear in xy, and in space along z, in xz and in yz.
     pub scatter: Vec<f64>,
     /// Largest deviation of a bond in any uniform strain, over the size of that strain.
     pub largest: f64,
@@ -200,7 +200,7 @@ fn constants<const D: usize>(
         Elasticity::Isotropic(_) | Elasticity::Anisotropic(_) => None,
     };
     let axes: [[f64; D]; D] = axes(angle.unwrap_or_default());
-    // Isotropic constants from plane strain are converted to those of the material.
+    // Isotropic constants from plane strain are converted to the constants of the material.
     let is_strain = elasticity.isotropic().is_some() && setup.space() == Plane::Strain.into();
     let read = |constants| match is_strain {
         true => out_of_plane_strain(constants),

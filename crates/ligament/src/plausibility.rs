@@ -20,7 +20,7 @@ const SOFTEST: f64 = 1e6;
 /// to E/15 (Orowan 1949).
 const LARGEST_STRAIN: f64 = 0.1;
 
-/// Fracture energy over Young's modulus that no material is below, m: half of what two surfaces cost that take E a/20 each, at a distance of
+/// Smallest plausible fracture energy over Young's modulus, m: half of the energy of two surfaces of E a/20 each, with the distance of
 /// atoms a of 0.2 nm (Orowan 1949).
 const LEAST_ENERGY: f64 = 1e-11;
 

@@ -37,7 +37,7 @@ impl Setup {
     ///
     /// If a field of the setup is wrong, or the equations cannot be set up. The outcome has the end of the analysis.
     ///
-    /// Where the near field of the setup grows, the observer meets each run from its start.
+    /// Where the near field of the setup grows, the observer sees each run from its start.
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
         let (threads, communicator) = (self.threads, self.solver.communicator.clone());
         let solve = || {
@@ -99,7 +99,7 @@ pub enum Posed<'a> {
 }
 
 impl<'a> Posed<'a> {
-    /// The problem in motion, if there is one, otherwise that in statics.
+    /// The problem in motion, if there is one, otherwise the problem in statics.
     pub fn new(problem: &'a Problem, motion: Option<&'a MotionProblem>) -> Self {
         motion.map_or(Self::Statics(problem), Self::Motion)
     }
@@ -117,7 +117,7 @@ impl<'a> From<&'a MotionProblem> for Posed<'a> {
     }
 }
 
-/// Begins to solve a problem, or to follow its loading or its motion, by hand: row by row of the history.
+/// Begins to solve a problem, or to follow its loading or its motion; the caller advances the run row by row of the history.
 ///
 /// # Errors
 ///

@@ -12,8 +12,8 @@ use crate::setup::Horizon;
 
 /// Distance over the size of a point below which two points coincide.
 ///
-/// Double nodes of exports in single precision lie up to 1e-7 of the body's size apart, 1e-5 of cells of a hundredth of it. Of two
-/// points nearer than this one bond would be 1e5 times as stiff as all others.
+/// Double nodes of exports in single precision lie up to 1e-7 of the body's size apart, which is 1e-5 of the size of cells a hundredth as
+/// large. Between two nearer points a bond would be 1e5 times as stiff as all others.
 const DISTINCT: f64 = 1e-5;
 
 /// Refuses meshes whose cells overlap.

@@ -14,9 +14,10 @@ const HALVINGS: usize = 6;
 /// Digits of a ratio after the point.
 const DIGITS: f64 = 1e3;
 
-/// The largest Poisson's ratio with which a model is stable, between that of central forces, with which every body is, and the largest of its
-/// materials: by halving, to a 64th of that interval and three digits. Materials with a smaller ratio keep theirs. None where no isotropic
-/// material has a ratio above that of central forces, of an analysis without loads, and of a body that is divided between processes.
+/// The largest Poisson's ratio with which a model is stable, by bisection between the ratio of central forces, with which every body is
+/// stable, and the largest ratio of its materials: to a 64th of this interval and three digits. Materials with a smaller ratio keep theirs.
+/// `None` where no isotropic material has a ratio above the ratio of central forces, for an analysis without loads, and for a body that is
+/// divided between processes.
 ///
 /// # Errors
 ///

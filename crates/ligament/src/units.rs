@@ -35,7 +35,7 @@ impl Units {
 }
 
 impl Setup {
-    /// Units of displacement and force in the history: those of the load of the curve, of the temperature, or of a force
+    /// Units of displacement and force in the history: the units of the load of the curve, of the temperature, or of a force
     /// where a rigid body or an initial velocity moves the body.
     pub fn units(&self) -> Units {
         match self.curve_axis() {

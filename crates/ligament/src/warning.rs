@@ -296,7 +296,7 @@ fn rotation_resisted(setup: &Setup, material: &Isotropic) -> Option<Message> {
 }
 
 fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Message> {
-    // Bonds that begin to soften by the stress around them take a negative shear stiffness for none.
+    // Bonds that begin to soften by the stress around them count a negative shear stiffness as none.
     let by_energy = |it: &&Choice| {
         let measures = it.kind.measures;
         measures.iter().any(|it| it.needs_shear_stiffness())

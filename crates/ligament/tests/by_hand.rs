@@ -1,4 +1,4 @@
-//! Runs that go on by hand from row to row, against runs that follow themselves.
+//! Runs that a caller advances row by row, compared with runs that advance by themselves.
 #![allow(clippy::unwrap_used)]
 
 use ligament::Loading;
@@ -27,7 +27,7 @@ fn plate_under(analysis: Analysis) -> Model {
     Model::build(setup, &mut ()).unwrap()
 }
 
-/// The outcome of a run whose rows are asked for one by one.
+/// The outcome of a run whose rows are requested one by one.
 fn by_hand(posed: Posed<'_>, analysis: &Analysis) -> Outcome {
     let mut observer = NoObserver;
     let mut way = begin(posed, analysis, &mut observer).unwrap();

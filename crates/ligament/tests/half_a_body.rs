@@ -42,8 +42,8 @@ fn peak(outcome: &Outcome) -> f64 {
     reactions.fold(0.0, f64::max)
 }
 
-/// Rollers on the edge of symmetry stand for the other half: stiffness and peak to half a percent, because the bonds across the edge are missing
-/// and what corrects for them is no more than that of a free edge; and the same breaks on the way through the ligament, each once instead of twice.
+/// Rollers on the edge of symmetry replace the other half: stiffness and peak agree to half a percent, because the bonds across the edge
+/// are missing and are corrected only as at a free edge; the same bonds break on the way through the ligament, each once instead of twice.
 #[test]
 fn rollers_stand_for_the_other_half() {
     let mut whole = plate(40, -0.04);

@@ -1,11 +1,11 @@
-//! Bodies that no equation would refuse are refused with the place, the reason and what to do.
+//! Bodies that no equation would refuse are refused with the place, the reason and advice.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
 use ligament_mesh::{Cell, Mesh, SolidCell, SolidMesh};
 
-/// The number of cells a side of a square plate.
+/// The number of cells along a side of a square plate.
 const SIDE: u32 = 6;
 
 /// A plate of cells with these sides, m, with `moved` places of its nodes.
@@ -48,7 +48,7 @@ fn the_plate_itself_is_right() {
     assert!(solution.outcome.history.last().unwrap().displacement > 0.0);
 }
 
-/// Corners of cells that are all but one point: their bond would be a hundred million times as stiff as the others.
+/// Corners of cells that nearly coincide: their bond would be a hundred million times as stiff as the others.
 #[test]
 fn points_that_nearly_coincide_are_named() {
     let found = error(plate([0.01; 2], |places| places[24] = [0.04 - 1e-10, 0.03]));
@@ -127,7 +127,7 @@ fn a_horizon_as_large_as_the_body_is_told() {
     assert!(warned(4.0));
 }
 
-/// Sizes and stiffnesses whose products are no numbers any more.
+/// Sizes and stiffnesses whose products are out of the range of numbers.
 #[test]
 fn what_numbers_cannot_hold_is_refused() {
     let with_young = |young: f64| {

@@ -1,4 +1,4 @@
-//! A setup that is built wrongly names the field and says what to do.
+//! The error of a wrong setup names the field and gives advice.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use ligament::analysis::motion::MotionSettings;
@@ -90,8 +90,9 @@ fn values_out_of_range_say_what_they_must_be() {
     }
 }
 
-/// The range of a number stands once, for a case file and for memory: out of it the field of its key is named, with words of its own where the
-/// range has some. Expected are the words of the messages; a number that is not finite is out of every range.
+/// The range of a number is defined once, for a case file and for memory: a number outside it is refused with the name of the field of its
+/// key, and with the words of the range where it has some. Expected are the words of the messages; a number that is not finite is out of
+/// every range.
 #[test]
 fn numbers_out_of_the_ranges_of_their_keys_are_refused() {
     let motion = |change: fn(&mut MotionSettings)| {
@@ -158,7 +159,7 @@ fn numbers_out_of_the_ranges_of_their_keys_are_refused() {
     }
 }
 
-/// Rules that a case file keeps hold for a setup that is built in memory as well.
+/// Rules for a case file also hold for a setup that is built in memory.
 #[test]
 fn a_setup_is_held_to_the_rules_of_a_case() {
     let with_axes = |poisson: f64| {

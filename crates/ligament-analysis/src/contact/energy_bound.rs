@@ -9,21 +9,21 @@
 //! while a contact goes on along a facet. It would be negative where the point comes to another facet, where facets turn, and in the step in
 //! which a contact ends, because its force acts until the end of that step. So
 //!
-//! 1. a contact may give back what it has taken across the surfaces so far (its credit C >= 0), as in the step in which it began, and one that ends
-//!    also what others of the pair of surfaces took that have ended;
+//! 1. a contact may return the energy that it has taken across the surfaces so far (its credit C >= 0), as in the step in which it began; a
+//!    contact that ends may also return the energy taken by contacts of the pair of surfaces that have ended;
 //! 2. the depth d of the contact is at most the larger root of k d^2 - k d a = 2 (U_n + C) - F_n . s, with the approach a = -n' . s' and the
-//!    parts U_n and F_n along the normal before the step, which is a for a new contact and at least d + a for one that goes on; the elastic
-//!    part of the sliding is bounded in the same way, without credit;
-//! 3. what is still missing is taken by a drag 2 (D + C) s/|s|^2 against the motion, which acts for one step. Where a contact ends, it leaves the
-//!    work of a force that ends when the surfaces part, and is smaller than the force before.
+//!    parts U_n and F_n along the normal before the step; this is a for a new contact and at least d + a for a contact that goes on. The
+//!    elastic part of the sliding is bounded in the same way, without credit;
+//! 3. energy that is still missing is taken by a drag 2 (D + C) s/|s|^2 against the motion, which acts for one step. Where a contact ends, the
+//!    drag leaves the work of a force that ends when the surfaces part, and is smaller than the force before.
 //!
-//! So the contacts of a pair of surfaces together have never given energy.
+//! So the contacts of a pair of surfaces together never release energy.
 
 use ligament_model::surface::{Step, SurfacePair, Touch, Vector};
 use ligament_model::tensor::{dot, norm};
 use serde::{Deserialize, Serialize};
 
-/// Depth over the length of the longest edge of a facet that is rounding of positions.
+/// Depth, relative to the longest edge of a facet, that is only rounding of positions.
 const ROUNDING: f64 = 1e-13;
 
 /// Force on surfaces that were in contact, against their motion.
@@ -40,9 +40,9 @@ pub struct Drag {
 pub struct PairContacts {
     /// Integration points in contact, ascending.
     pub touches: Vec<Touch>,
-    /// Forces on contacts that ended, for a step; none but in explicit steps.
+    /// Forces on contacts that ended, for one step; only in explicit steps.
     pub drags: Vec<Drag>,
-    /// Energy that contacts which have ended took across the surfaces, and that others may give back, J; 0 but in explicit steps.
+    /// Energy that ended contacts took across the surfaces, and that other contacts may return, J; only in explicit steps, otherwise 0.
     pub credit: f64,
 }
 
@@ -54,7 +54,7 @@ impl PairContacts {
         touches.chain(self.drags.iter().map(|it| (&it.touch, it.force)))
     }
 
-    /// Contacts after an explicit step, given what integration points met there, ascending.
+    /// Contacts after an explicit step, from the integration points that were found in contact there, ascending.
     pub(super) fn after(
         &self,
         surfaces: &dyn SurfacePair,
@@ -101,14 +101,15 @@ impl PairContacts {
         after
     }
 
-    /// Ends a contact, whose surfaces moved by a way (m) in the step.
+    /// Ends a contact, whose surfaces moved by `way` (m) in the step.
     fn end(&mut self, before: &Touch, way: Vector) {
         let left = left(before, way);
         self.credit += left.along_normal.min(left.total()).max(0.0);
         self.take(-left.total(), before, way);
     }
 
-    /// Takes an energy (J) that a contact before the step gave, from the credit of others or by a drag against its way (m).
+    /// Removes an energy (J) that a contact released in the step: from the credit of ended contacts, otherwise by a drag against its motion
+    /// `way` (m).
     fn take(&mut self, given: f64, touch: &Touch, way: Vector) {
         let square = dot(way, way);
         if given <= 0.0 || square == 0.0 {
@@ -131,7 +132,7 @@ fn across(touch: &Touch, way: Vector) -> f64 {
     0.5 * touch.stiffness * depth * depth + 0.5 * dot(touch.normal_force(), way)
 }
 
-/// Energy of a contact that its force leaves over a step, with its credit, J.
+/// Energy of a contact, with its credit, less the work of its force in a step, J.
 #[derive(Debug, Clone, Copy, Default)]
 struct Left {
     along_normal: f64,
@@ -144,7 +145,7 @@ impl Left {
     }
 }
 
-/// Energy that a contact before a step leaves with the motion of its surfaces in the step (m).
+/// Energy that a contact before a step has left after the motion of its surfaces in the step (m).
 fn left(before: &Touch, way: Vector) -> Left {
     let Touch {
         stiffness, slip, ..
@@ -158,8 +159,8 @@ fn left(before: &Touch, way: Vector) -> Left {
     }
 }
 
-/// Bounds the depth and the elastic sliding of a contact after a step, with the motion of its surfaces in the step (m) and the energy that is
-/// left of it; overlaps up to `rounding` (m) are none.
+/// Bounds the depth and the elastic sliding of a contact after a step, with the motion of its surfaces in the step (m) and the energy that
+/// it has left; overlaps up to `rounding` (m) count as none.
 fn bound(touch: &mut Touch, way: Vector, left: Left, rounding: f64) {
     let largest = |along: f64, left: f64| {
         0.5 * along + (0.25 * along * along + 2.0 * left.max(0.0) / touch.stiffness).sqrt()
@@ -177,7 +178,7 @@ fn bound(touch: &mut Touch, way: Vector, left: Left, rounding: f64) {
     }
     if deepest < depth - rounding {
         touch.offset = touch.overlap - deepest;
-        // Friction keeps within its share of the pressure.
+        // Friction stays within its share of the pressure.
         factor = factor.min(deepest / depth);
     }
     if factor < 1.0 {

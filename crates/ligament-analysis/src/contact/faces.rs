@@ -29,7 +29,7 @@ impl FacePairs {
         }
     }
 
-    /// Follows bonds that have just broken, by their numbers, to the intact bonds (n_bonds) that are left.
+    /// Updates the pairs for bonds that have just broken, by their numbers; `intact` (n_bonds) marks the remaining bonds.
     pub(crate) fn follow(&mut self, system: &dyn Bonds, intact: &[bool], broken: &[u32]) {
         if !system.faces_close() {
             return;
@@ -70,7 +70,7 @@ impl FacePairs {
     }
 }
 
-/// Adds the forces and energies of closed pairs to those of the bonds.
+/// Adds the forces and energies of closed pairs to the forces and energies of the bonds.
 pub(crate) fn add_to(
     swept: &mut BondSweep,
     closed: &[ClosedPair],
@@ -112,7 +112,7 @@ pub(crate) fn end_forces(
         .chain(along)
 }
 
-/// Sum of a force component that the far ends of closed pairs exert on the near ones, N, given the numbers of crossing bonds and
+/// Sum of a force component that the far ends of closed pairs exert on the near ends, N, given the numbers of crossing bonds and
 /// pairs and whether their first end is near.
 pub(crate) fn force_through(
     closed: &[ClosedPair],
@@ -128,7 +128,7 @@ pub(crate) fn force_through(
     pulls.sum()
 }
 
-/// Adds the virial stress of closed pairs to that of a point, Pa.
+/// Adds the virial stress of closed pairs to the virial stress of a point, Pa.
 pub(crate) fn add_virial(
     system: &dyn Bonds,
     closed: &[ClosedPair],
@@ -143,10 +143,10 @@ pub(crate) fn add_virial(
     }
 }
 
-/// Energies that left by contact from one equilibrium to the next, J.
+/// Energies lost by contact from one equilibrium to the next, J.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct FaceLoss {
-    /// By pairs that opened, closed or came about.
+    /// By pairs that opened, closed or formed.
     pub(crate) closure: f64,
     /// By friction.
     pub(crate) friction: f64,
@@ -170,13 +170,13 @@ impl FaceEnergy {
         }
     }
 
-    /// Moves to the next equilibrium, after bonds broke by their numbers. The energy that left by closing and opening is sum 1/2 k g g' over the
-    /// pairs that opened minus that over the pairs that closed.
+    /// Moves to the next equilibrium, after bonds broke by their numbers. The energy lost by closing and opening is sum 1/2 k g g' over the
+    /// pairs that opened minus the same sum over the pairs that closed.
     ///
     /// This is the energy released by forces that are linear between the two equilibria: after a breakage at fixed load it is
     /// released, and between two loads it is the error of the trapezoidal rule for the work, because there pairs open and close
-    /// without force. Friction takes its work by the same rule, less what is stored in the pairs that stick; a pair that comes about where a bond
-    /// broke takes over a part of its energy.
+    /// without force. The loss by friction is its work by the same rule minus the energy stored in sticking pairs; a pair that forms where
+    /// a bond broke takes over a part of the bond's energy.
     pub(crate) fn follow<'a>(
         &mut self,
         (state, balanced): (&State, &Balanced),
@@ -239,7 +239,7 @@ impl FaceEnergy {
     }
 }
 
-/// Pairs that only the first of two lists contains, and those that only the second contains; both lists are in the order of the
+/// Pairs that only the first of two lists contains, and pairs that only the second contains; both lists are in the order of the
 /// numbers.
 pub(crate) fn changes(
     before: &[ClosedPair],

@@ -1,11 +1,11 @@
 //! Coulomb's friction on the closed faces of cracks, with stick and slip.
 //!
 //! A closed pair resists the motion P w - s of its faces along the crack ([`ContactPair::slip`]) with its stiffness k, up to mu times its pressure: where the force exceeds that, the
-//! anchor s follows. The anchor of a pair that was never open is zero, so that the force along the crack begins from that of its bond; the
+//! anchor s follows. The anchor of a pair that was never open is zero, so that the force along the crack begins from the force of its bond; the
 //! anchor of an open pair follows its faces.
 //!
-//! The friction of each equilibrium, and of each explicit step, follows from that of the last one, which a [`Friction`] keeps: the return
-//! mapping of implicit steps (Wriggers 2006, chapter 10).
+//! The friction of each equilibrium, and of each explicit step, follows from the friction of the one before, which [`Friction`] stores: the
+//! return mapping of implicit steps (Wriggers 2006, chapter 10).
 
 use ligament_model::contact::{ClosedPair, ContactPair, Rubbing};
 use ligament_model::layout::Layout;
@@ -28,7 +28,7 @@ struct Anchored {
 }
 
 impl Anchored {
-    /// Returns the force to Coulomb's limit, N, for a stiffness, N/m; the share of the elastic force that is left.
+    /// Returns the force to Coulomb's limit, N, for a stiffness, N/m; the result is the share of the elastic force that is left.
     fn load(&mut self, stiffness: f64, limit: f64) -> f64 {
         let trial = minus(self.slip, self.anchor).map(|it| stiffness * it);
         let size = norm(trial);
@@ -49,9 +49,9 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// Friction of a pair at a motion along the crack (m) and Coulomb's limit (N), from that of the last equilibrium.
+    /// Friction of a pair at a motion along the crack (m) and Coulomb's limit (N), from its friction in the last equilibrium.
     ///
-    /// Where nothing has moved the force has the bits of before.
+    /// Where nothing has moved the force is the same to the last bit.
     fn at(&self, pair: &ContactPair, slip: Vector, limit: f64) -> (Anchored, f64) {
         let place = self.pairs.binary_search_by_key(&pair.number, |it| it.0);
         let mut now = place.map_or_else(|_| Anchored::default(), |place| self.pairs[place].1);
@@ -80,7 +80,7 @@ impl Friction {
         }
     }
 
-    /// Moves to an equilibrium with these pairs, of which some are closed, both in the order of their numbers.
+    /// Stores the friction of an equilibrium with these pairs and the closed ones among them, both in the order of their numbers.
     pub(crate) fn settle(
         &mut self,
         coefficient: f64,

@@ -1,7 +1,7 @@
 //! Contact: faces of cracks that close, with their friction, and surfaces that meet each other or rigid bodies.
 //!
-//! A `ContactSearch` finds what meets in a state, in equilibria, along the exact path and in the steps of a motion alike, and moves the
-//! friction and the contact of the state on where a step is accepted.
+//! A `ContactSearch` finds the contacts of a state, in equilibria, along the exact path and in the steps of a motion alike, and stores
+//! friction and contact in the state where a step is accepted.
 
 mod energy_bound;
 pub(crate) mod faces;

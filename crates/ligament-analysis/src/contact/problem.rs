@@ -1,4 +1,4 @@
-//! What may come into contact in a problem: surfaces and rigid bodies, the stiffness that contacts can have, and their resultants.
+//! Possible contacts of a problem: surfaces and rigid bodies, the stiffness that contacts can have, and their resultants.
 
 use std::sync::Arc;
 
@@ -30,7 +30,8 @@ pub struct SurfaceContact {
 }
 
 impl SurfaceContact {
-    /// A place that the surfaces missed in a step, with the contacts after it, where points move by some way (m) along an axis at most.
+    /// A place where surfaces passed each other undetected in a step, given the contacts after it and the largest motion of a point along
+    /// an axis (m).
     pub(crate) fn missed(
         &self,
         step: Step<'_>,
@@ -67,7 +68,7 @@ impl ContactProblem {
         dofs
     }
 
-    /// Bound of what the contacts add to the squared frequencies of a body with a layout.
+    /// Bound of the contribution of the contacts to the squared frequencies of a body with a layout.
     pub fn stiffness(&self, layout: Layout) -> ContactStiffness {
         if self.is_empty() {
             return ContactStiffness::default();
@@ -103,7 +104,7 @@ impl ContactProblem {
 /// Resultants of a contact.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ContactReading {
-    /// Pressing force on the first surface, N; against a rigid body that on the surface of the deformable body.
+    /// Pressing force on the first surface, N; against a rigid body, the force on the surface of the deformable body.
     pub normal_force: Vector,
     /// Force of friction on the same surface, N.
     pub friction_force: Vector,
@@ -136,11 +137,11 @@ impl ContactReading {
     }
 }
 
-/// Bound of what contact adds to the squared frequencies of a body.
+/// Bound of the contribution of contacts to the squared frequencies of a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactStiffness {
-    /// Diagonal matrix above the stiffness of all contacts, shape (n_degrees_of_freedom), N/m and N m; empty without contacts. With
-    /// the masses M_i the largest squared frequency of the body grows by max (this over M_i) at most.
+    /// Diagonal matrix that bounds the stiffness of all contacts from above, shape (n_degrees_of_freedom), N/m and N m; empty without
+    /// contacts. With the masses M_i the largest squared frequency of the body grows by at most max (this over M_i).
     pub at_degrees_of_freedom: Vec<f64>,
     /// Bound of the squared frequency of free rigid bodies, 1/s^2.
     pub squared_frequency: f64,

@@ -8,11 +8,11 @@ use ligament_model::surface::Vector;
 use ligament_model::tensor::dot;
 use serde::{Deserialize, Serialize};
 
-/// Least cosine between the ways of two terms that pass for the same in a factor: those of sliding pairs change with every iterate, and
-/// matter little.
+/// Smallest cosine between the directions of two terms that count as equal in a factor: the directions of sliding pairs change with every
+/// iterate, and matter little.
 const NEAR: f64 = 0.99;
 
-/// Least ratio of the stiffnesses of such terms.
+/// Smallest ratio of the stiffnesses of two terms that count as equal in a factor.
 const AS_STIFF: f64 = 0.5;
 
 /// A motion c . u that a contact resists with a stiffness k: the term k c c^T.
@@ -56,7 +56,7 @@ impl Resisting {
         points
     }
 
-    /// Whether a factor with the other term will do.
+    /// Whether the other term in a factor is near enough to this one.
     fn is_near(&self, other: &Self) -> bool {
         if self.key.1 != ACROSS_THE_WAY {
             return self == other;
@@ -66,7 +66,7 @@ impl Resisting {
     }
 }
 
-/// What closed pairs across cracks resist.
+/// Motions that closed pairs across cracks resist.
 pub(crate) fn by_faces(closed: &[ClosedPair], layout: Layout) -> Vec<Resisting> {
     let of_pair = |it: &ClosedPair| {
         let pair = &it.pair;
@@ -92,8 +92,8 @@ pub(crate) fn by_faces(closed: &[ClosedPair], layout: Layout) -> Vec<Resisting> 
     closed.iter().flat_map(of_pair).collect()
 }
 
-/// Terms of a list in a factor that another list lacks, and those that it has beyond them; terms that will do take the place of those in the
-/// other list. Both are in the order of their keys.
+/// Terms to be removed from a factor, and terms to be added to it, so that it has the terms `now`. A term of the factor that is near enough
+/// stays, and replaces its counterpart in `now`. Both lists are in the order of their keys.
 pub(crate) fn changes(
     in_factor: &[Resisting],
     now: &mut [Resisting],
@@ -127,7 +127,8 @@ mod tests {
         }
     }
 
-    /// A term of a sliding pair stays in the factor until its way or stiffness has changed; one of a sticking pair must be the same.
+    /// A term of a sliding pair stays in the factor until its direction or stiffness has changed; a term of a sticking pair must be the
+    /// same.
     #[test]
     fn near_terms_stay_in_the_factor() {
         let old = across_the_way([1.0, 0.0, 0.0], 1.0);

@@ -15,7 +15,7 @@ use crate::load_program::Amplitude;
 pub struct RigidBody {
     /// Name in results.
     pub name: String,
-    /// How it moves.
+    /// Motion of the body.
     pub motion: RigidMotion,
 }
 
@@ -76,7 +76,7 @@ pub struct RigidRates {
 pub(super) type Resultant = [Vector; 2];
 
 impl RigidMotion {
-    /// Displacement since time zero of a body with a prescribed motion, m; zero of a free one.
+    /// Displacement since time zero of a body with a prescribed motion, m; zero for a free body.
     pub(crate) fn displacement(&self, time: f64) -> Vector {
         match self {
             Self::Prescribed {
@@ -90,7 +90,7 @@ impl RigidMotion {
         }
     }
 
-    /// Velocity at a time (s) of a body with a prescribed motion, m/s; of a free one that at time zero.
+    /// Velocity at a time (s) of a body with a prescribed motion, m/s; for a free body its velocity at time zero.
     pub(crate) fn velocity(&self, time: f64) -> Vector {
         match self {
             Self::Prescribed {
@@ -104,7 +104,7 @@ impl RigidMotion {
         }
     }
 
-    /// Place of a body at a time (s), where `free` is the place of a free one.
+    /// Pose of a body at a time (s); `free` is the pose of a free body.
     pub(crate) fn pose(&self, time: f64, free: Option<&Pose>) -> Pose {
         match self {
             Self::Prescribed { .. } => Pose {

@@ -1,4 +1,4 @@
-//! What meets in a state: pairs across cracks with their friction, and contact between surfaces.
+//! Contacts in a state: pairs across cracks with their friction, and contact between surfaces.
 
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub(crate) struct ContactSearch {
     pub(crate) surfaces: SurfaceSearch,
 }
 
-/// What meets in a state.
+/// Contacts in a state.
 pub(crate) struct Contacts {
     /// Gaps of the pairs across cracks, shape (n_pairs), m.
     pub(crate) gaps: Vec<f64>,
@@ -66,12 +66,12 @@ impl ContactSearch {
         }
     }
 
-    /// Whether forces depend on the way to a state or on present positions, so that there is no energy to lower.
+    /// Whether forces depend on the history or on present positions, so that there is no energy to minimise.
     pub(crate) fn depends_on_way(&self) -> bool {
         self.face_friction > 0.0 || !self.surfaces.is_empty()
     }
 
-    /// What meets in a state.
+    /// Finds the contacts in a state.
     pub(crate) fn met(&mut self, state: &State, expansion: ThermalStrain<'_>) -> Contacts {
         let (gaps, closed) = self.closed(state, expansion);
         let touching = match self.surfaces.is_empty() {
@@ -103,13 +103,13 @@ impl ContactSearch {
         (gaps, closed)
     }
 
-    /// Where surfaces touch after an explicit step to a state, with forces that never give energy.
+    /// Contact between surfaces after an explicit step to a state; its forces never release energy.
     pub(crate) fn touching_in_time(&mut self, state: &State) -> Touching {
         let at = (state.load_factor, &*state.rigid);
         (self.surfaces).touching_in_time(step(&*self.system, state), at)
     }
 
-    /// Follows bonds that have just broken, by their numbers, to the intact bonds (n_bonds) that are left.
+    /// Updates the search for bonds that have just broken, by their numbers; `intact` (n_bonds) marks the remaining bonds.
     pub(crate) fn follow(&mut self, intact: &[bool], broken: &[u32]) {
         self.faces.follow(&*self.system, intact, broken);
         self.surfaces.join(broken.iter().copied());
@@ -129,7 +129,7 @@ impl ContactSearch {
         }
     }
 
-    /// What it resists, in the order of the keys.
+    /// Motions that the contacts resist, in the order of the keys.
     pub(crate) fn resisting(&self, closed: &[ClosedPair], touching: &Touching) -> Vec<Resisting> {
         let mut all = resisting::by_faces(closed, self.layout);
         all.extend(touching.resisting(self.surfaces.problem(), self.layout));
@@ -146,7 +146,7 @@ impl ContactSearch {
         missed.map(|it| Unbalanced::missed(surfaces.problem(), it))
     }
 
-    /// Moves friction and contact of a state to it.
+    /// Stores the friction and the contact of an equilibrium in its state.
     pub(crate) fn settle(&self, state: &mut State, balanced: &Balanced) {
         let State {
             friction,

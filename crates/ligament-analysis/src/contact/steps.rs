@@ -12,11 +12,11 @@ use super::surfaces::{LastTouching, Touching};
 pub struct SurfaceWork {
     /// Energy stored at the end of the step.
     pub stored: f64,
-    /// Energy that friction and the begin and end of contacts took.
+    /// Energy dissipated by friction and by the begin and end of contacts.
     pub dissipated: f64,
-    /// Work of what moves rigid bodies: of prescribed motions, and of the accelerations of free bodies.
+    /// Work on rigid bodies: by prescribed motions, and by the accelerations of free bodies.
     pub driving: f64,
-    /// What the trapezoidal rule takes too much for the work, because contacts begin and end without force on the way.
+    /// Excess of the trapezoidal rule over the true work, because contacts begin and end without force within a step.
     pub excess: f64,
 }
 
@@ -29,7 +29,7 @@ pub struct SurfaceEnergy {
 }
 
 impl SurfaceEnergy {
-    /// Energies from a contact on.
+    /// Energies that are counted from a given contact on.
     pub fn new(problem: &ContactProblem, last: LastTouching) -> Self {
         Self {
             degrees_of_freedom: problem.degrees_of_freedom(),
@@ -128,7 +128,7 @@ impl ContactProblem {
 }
 
 /// Sum of 1/2 N (a - d) over the contacts that began, with the pressing force N, the approach a of the surfaces along the normal and the
-/// depth d that it explains, less that of those that ended; for the ways of the degrees of freedom in the step.
+/// depth d that it explains, minus the sum over the contacts that ended; for the motions of the degrees of freedom in the step.
 fn excess(
     problem: &ContactProblem,
     [before, now]: [&Touching; 2],

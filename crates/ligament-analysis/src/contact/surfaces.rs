@@ -1,4 +1,4 @@
-//! Contact between surfaces: where they touch in a state, the forces there, and what they resist.
+//! Contact between surfaces: where they touch in a state, the forces there, and the motions that they resist.
 //!
 //! The law ([`ligament_model::surface`]) is one of steps at the present positions. Friction and the depth of contacts that began with an
 //! overlap follow from the last time step, or from the last equilibrium.
@@ -18,10 +18,11 @@ use super::problem::{ContactProblem, ContactReading, SurfaceContact};
 use super::resisting::{ACROSS, Resisting};
 use super::rigid_body::{Resultant, RigidState, add};
 
-/// Share of the length of a facet by which surfaces move in an iteration at most: deeper overlaps than a facet is long are not seen.
+/// Share of the length of a facet by which surfaces move in an iteration at most: overlaps deeper than the length of a facet are not
+/// detected.
 const FARTHEST: f64 = 0.25;
 
-/// Share of the elastic stiffness that a sliding contact is taken to have across its way.
+/// Share of the elastic stiffness that a sliding contact is assumed to have across its direction of sliding.
 const SLIDING: f64 = 0.5;
 
 /// Rounding by which friction at its limit falls short of it.
@@ -169,8 +170,8 @@ impl Touching {
         pressed.flat_map(of_touch).collect()
     }
 
-    /// What each contact resists where it is closed, its gap (m), and the change of the gap by a rigid body with the load factor (m); open
-    /// ones as well where surfaces list them. In the order of the keys.
+    /// The motion that each contact resists when it is closed, its gap (m), and the change of the gap by a rigid body with the load factor
+    /// (m); for open contacts as well where surfaces list them. In the order of the keys.
     pub(crate) fn gaps(&self, problem: &ContactProblem) -> Vec<(Resisting, f64, f64)> {
         let of_touch = |(number, contact, touch): (u64, &SurfaceContact, &Touch)| {
             let body = contact.rigid_body.map(|it| &problem.rigid_bodies[it]);
@@ -196,7 +197,7 @@ impl Touching {
     }
 }
 
-/// What a contact with a number resists along its normal.
+/// Motion along its normal that a contact with a number resists.
 fn across(number: u64, contact: &SurfaceContact, touch: &Touch) -> Resisting {
     Resisting {
         key: (number, ACROSS),
@@ -206,7 +207,7 @@ fn across(number: u64, contact: &SurfaceContact, touch: &Touch) -> Resisting {
     }
 }
 
-/// What the friction of a contact with a number resists of a motion.
+/// Motion that the friction of a contact with a number resists.
 fn along(number: u64, contact: &SurfaceContact, touch: &Touch, held: HeldMotion) -> Resisting {
     Resisting {
         key: (number, held.number),
@@ -216,7 +217,7 @@ fn along(number: u64, contact: &SurfaceContact, touch: &Touch, held: HeldMotion)
     }
 }
 
-/// Share of the elastic stiffness that friction holds: 1 where the contact sticks.
+/// Share of the elastic stiffness that friction has: 1 where the contact sticks.
 fn share_held(touch: &Touch, friction: f64) -> f64 {
     let limit = friction * touch.depth();
     if norm(touch.slip) < (1.0 - ROUNDING) * limit {
@@ -269,7 +270,7 @@ impl LastTouching {
         }
     }
 
-    /// Whether it can be that of a problem.
+    /// Whether it can belong to a problem.
     pub(crate) fn fits(&self, problem: &ContactProblem) -> bool {
         let Touching { pairs, rigid } = &*self.touching;
         let can_have = |(contact, pair): (&SurfaceContact, &PairContacts)| {
@@ -318,7 +319,7 @@ impl ContactStep<'_> {
     }
 }
 
-/// Finds where surfaces touch. What was found before only saves time.
+/// Search for touching surfaces. Results of earlier searches only save time.
 #[derive(Debug, Clone, Default)]
 pub struct SurfaceSearch {
     problem: ContactProblem,
@@ -378,9 +379,9 @@ impl SurfaceSearch {
         }
     }
 
-    /// Where surfaces touch after a step, at a load factor, which is the time in a motion, and with these places of free rigid bodies.
+    /// Contact between surfaces after a step, at a load factor, which is the time in a motion, and with these poses of free rigid bodies.
     ///
-    /// Where nothing has moved since the last equilibrium, the contact has its bits.
+    /// Where nothing has moved since the last equilibrium, the contact is the same to the last bit.
     pub(crate) fn touching(
         &mut self,
         step: ContactStep<'_>,
@@ -411,7 +412,7 @@ impl SurfaceSearch {
         found
     }
 
-    /// Where surfaces touch after an explicit step to a time (s) and these places of free rigid bodies, with forces that never give energy.
+    /// Contact between surfaces after an explicit step to a time (s) and these poses of free rigid bodies; its forces never release energy.
     pub fn touching_in_time(&mut self, step: ContactStep<'_>, at: (f64, &[Pose])) -> Touching {
         let mut found = self.touching(step, at);
         let before = step.before();

@@ -1,4 +1,4 @@
-//! Accuracy of equilibrium: residuals of states, and the accuracy asked of the solver.
+//! Accuracy of equilibrium: residuals of states, and the accuracy required of the solver.
 
 use ligament_model::Bonds;
 use ligament_model::subdomain::Subdomain;
@@ -53,7 +53,7 @@ pub(super) struct Loaded<'a> {
 }
 
 impl Accuracy {
-    /// Scales of a body before its first equilibrium; `tolerance` is that of an iterative solver.
+    /// Scales of a body before its first equilibrium; `tolerance` is the tolerance of an iterative solver.
     pub(super) fn new(system: &dyn Bonds, loads: &dyn LoadProgram, tolerance: Option<f64>) -> Self {
         let of_bonds = LocalStiffness::new(system);
         let n_dofs = system.layout().n_degrees_of_freedom();
@@ -97,7 +97,7 @@ impl Accuracy {
         self.subdomain.max(largest_displacement(layout, state))
     }
 
-    /// Whether a point has moved farther than so many times the size of the body or the prescribed motions.
+    /// Whether a point has moved farther than `times` times the size of the body or the prescribed motions.
     pub(super) fn moves_beyond(&self, layout: Layout, state: &State, times: f64) -> bool {
         let prescribed = self.subdomain.max(self.largest_prescribed(state));
         let limit = self.size.max(prescribed);

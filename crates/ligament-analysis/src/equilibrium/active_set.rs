@@ -1,12 +1,13 @@
 //! Equilibrium of linear bonds with crack faces that may close: Newton's method on the set of closed pairs, with an exact line
 //! search (semismooth Newton, Hintermueller 2002).
 //!
-//! The energy is piecewise quadratic with a continuous derivative, and convex where that of the bonds is. Each iteration solves
+//! The energy is piecewise quadratic with a continuous derivative, and convex where the energy of the bonds is. Each iteration solves
 //! with the stiffness of the pairs closed at present; where other pairs close along the step, it ends at the minimum of the energy
 //! along it. The energy therefore falls from iteration to iteration and no set of closed pairs recurs.
 //!
-//! With friction the tangent has what sticking pairs resist, but not the change of the friction of sliding ones with their pressure, so that
-//! it stays symmetric: the iteration converges linearly with mu times the coupling of pressure and shear, where that is below one. There
+//! With friction the tangent has the stiffness of sticking pairs, but not the change of the friction of sliding pairs with their pressure,
+//! so that it stays symmetric: the iteration converges linearly with mu times the coupling of pressure and shear, where that is below one.
+//! There
 //! is no energy then; a step ends where the residual forces do no work along it.
 
 use super::equations::{Equations, Iterate};
@@ -37,8 +38,8 @@ pub(super) const FALLS: f64 = 0.1;
 /// Ratio of successive residuals with friction below which the residual counts as falling: it falls by a constant factor.
 const WAY_FALLS: f64 = 0.9;
 
-/// Largest number of trials of the search along a correction with friction. Long corrections leap over ways in which pairs stick and slide in turn,
-/// and end after a few of them; where friction turns round within a small part of each, the residual stays as it is.
+/// Largest number of trials of the search along a correction with friction. Long corrections pass over ranges in which pairs stick and
+/// slide in turn, and end after a few trials; where friction reverses within a small part of each correction, the residual does not fall.
 const TRIES: usize = 5;
 
 /// Number of iterations without a falling residual after which the search goes on to the end.
@@ -48,16 +49,16 @@ const PATIENCE: usize = 10;
 /// force, and residuals relative to a small share of the largest force so far do not fall below the rounding of that force.
 const LARGEST_RESIDUAL: f64 = 1e-8;
 
-/// Halvings of a step in the search for the lowest energy, or for where friction turns round, the number of bits of a double.
+/// Halvings of a step in the search for the lowest energy, or for the place where friction reverses: the number of bits of a double.
 const HALVINGS: usize = 53;
 
 /// Equilibrium at a load factor where faces and surfaces may meet.
 pub(super) struct ActiveSet {
     /// Largest number of iterations.
     limit: usize,
-    /// Ratio of residuals below which one falls; the factor is made anew where successive ones do not.
+    /// Ratio of residuals below which a residual falls; the matrix is factorised anew where successive ones do not fall.
     slowly: f64,
-    /// Relative residual of the iterate before.
+    /// Relative residual of the previous iterate.
     before: f64,
     /// Lowest relative residual, and the iteration that had it.
     lowest: (f64, usize),
@@ -101,7 +102,8 @@ impl ActiveSet {
         }
     }
 
-    /// Records an iterate without forces at added supports, if its residual is at most `largest` and that of the nearest one so far.
+    /// Records an iterate without forces at added supports, if its residual is at most `largest` and the residual of the nearest one so
+    /// far.
     fn keep_nearer(&mut self, iterate: &Iterate, state: &State, largest: f64) {
         let residual = iterate.residual.relative;
         let least = self.nearest.as_ref().map_or(largest, |it| it.residual);
@@ -170,7 +172,7 @@ impl Method for ActiveSet {
 }
 
 /// Moves the state along a correction to the minimum of the energy, or to its end, and measures the state there; with friction to where the
-/// residual forces do little work along the correction, found by so many `tries`.
+/// residual forces do little work along the correction, found by at most `tries` trials.
 fn search(
     equations: &mut Equations,
     state: &mut State,

@@ -2,8 +2,9 @@
 //! same contacts are closed.
 //!
 //! A contact with the gap g, linear in displacements and load factor, presses with k g where g < 0. Along a line a closed contact is a
-//! spring and an open one nothing. A contact without a gap is closed where its gap decreases in the direction of the load: the energy of
-//! the rates is then piecewise quadratic, as that of displacements, and its minimum is found in the same way ([`active_set`]).
+//! spring, and an open one has no stiffness. A contact without a gap is closed where its gap decreases in the direction of the load: the
+//! energy of the rates is then piecewise quadratic, like the energy of displacements, and its minimum is found in the same way
+//! ([`active_set`]).
 
 use super::active_set::{ACCEPTED_SLOPE, FALLS, ITERATION_LIMIT, Moved, REFINED, lowest};
 use super::equations::Equations;
@@ -20,13 +21,13 @@ use ligament_model::contact::ClosedPair;
 pub(crate) struct Heading {
     /// 1 where the load grows, -1 where it falls.
     pub(crate) sign: f64,
-    /// Gap over the sizes of the motions that it consists of, below which it is zero.
+    /// Gap, over the sizes of the motions that it is computed from, below which it is zero.
     pub(crate) tie_tolerance: f64,
 }
 
 /// A contact in a state on a line.
 struct OnLine {
-    /// What it resists where it is closed.
+    /// Motion that the contact resists when it is closed.
     term: Resisting,
     /// Gap, m.
     gap: f64,
@@ -132,7 +133,7 @@ pub(super) fn reach(
     changes.fold(f64::INFINITY, f64::min)
 }
 
-/// All contacts in a state, in the order of the keys of what they resist, with the loads at load factor 1.
+/// All contacts in a state, in the order of the keys of the resisted motions, with the loads at load factor 1.
 fn on_line(
     equations: &mut Equations,
     state: &State,
@@ -180,7 +181,7 @@ fn rates_of(contacts: &[OnLine], line: &State) -> Vec<f64> {
         .collect()
 }
 
-/// Forces of a line with those of its closed contacts, given the rates of the gaps.
+/// Forces of a line, including its closed contacts, given the rates of the gaps.
 fn measured(
     equations: &Equations,
     line: &State,

@@ -116,7 +116,7 @@ mod tests {
         STIFFNESS.iter().map(|row| dot(row, u)).collect()
     }
 
-    /// On a quadratic energy with exact searches the method is that of conjugate gradients: it ends after as many steps as there are
+    /// On a quadratic energy with exact searches the method equals conjugate gradients: it ends after as many steps as there are
     /// unknowns, here three, whatever positive definite stiffness is solved with. 1e-12: rounding of forces of size 1.
     #[test]
     fn a_linear_body_takes_as_many_steps_as_unknowns() {

@@ -37,7 +37,7 @@ use crate::softening::Softening;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
-/// Largest deviation of the dissipated energy from its value, relative to its step.
+/// Largest deviation of the dissipated energy from its prescribed value, relative to its step.
 const MISSED: f64 = 1e-2;
 
 /// Number of equilibria after which the last one is accepted: where bonds fail at once, the energy jumps over its value.

@@ -33,7 +33,7 @@ struct Precedent {
     displacement: Vec<f64>,
 }
 
-/// Places of the owned unknowns among those of the body, in the order of the degrees of freedom.
+/// Places of the owned unknowns among the unknowns of the body, in the order of the degrees of freedom.
 struct OwnUnknowns {
     places: Vec<usize>,
     n_all: usize,
@@ -64,7 +64,7 @@ impl OwnUnknowns {
 }
 
 impl EarlierEquilibria {
-    /// Restores earlier from bytes of [`EarlierEquilibria::write_all`].
+    /// Restores the earlier equilibria from bytes of [`EarlierEquilibria::write_all`].
     ///
     /// # Errors
     ///
@@ -106,7 +106,7 @@ impl EarlierEquilibria {
         }
     }
 
-    /// Appends the earlier at the unknowns and points of all processes, valid on rank 0 alone; collective.
+    /// Appends the earlier equilibria at the unknowns and points of all processes, valid only on rank 0; collective.
     pub(super) fn write_all(&self, numbers: &BondNumbers, unknowns: &Unknowns, out: &mut dyn Sink) {
         let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
         let values = |values: &[f64], out: &mut dyn Sink| {

@@ -398,7 +398,7 @@ impl Equations {
         }
     }
 
-    /// Forces of the bonds of a state at a thermal strain, without those of its closed faces.
+    /// Forces of the bonds of a state at a thermal strain, without the forces of its closed faces.
     pub(super) fn swept(&self, state: &State, expansion: ThermalStrain<'_>) -> BondSweep {
         let system = &self.problem.system;
         let deformations = system.deformations(&state.intact, &state.displacement, expansion);
@@ -451,7 +451,7 @@ impl Equations {
         now.max(self.accuracy.largest_extents.unloaded_force())
     }
 
-    /// Updates the largest forces so far by those of an equilibrium.
+    /// Updates the largest forces so far by the forces of an equilibrium.
     pub(super) fn remember(&mut self, extents: Extents) {
         let largest = &mut self.accuracy.largest_extents;
         *largest = largest.or(extents);

@@ -62,14 +62,14 @@ impl Iteration<'_> {
         self.equations.accuracy.sought(self.breakage)
     }
 
-    /// Whether the residual of an iterate is within the tolerance; before the first solution it must be zero, as it is without loads.
+    /// Whether the residual of an iterate is within the tolerance; before the first solution it must be zero, as without loads.
     pub(super) fn is_small(&self, iterate: &Iterate, tolerance: f64) -> bool {
         let costs = &self.equations.costs;
         let is_guess = costs.solves == 0 && costs.changes == 0;
         iterate.residual.relative <= if is_guess { 0.0 } else { tolerance }
     }
 
-    /// Whether the energy of an iterate equals that of the previous one to the tolerance (NHPD eq. 21), and its residual is at most
+    /// Whether the energy of an iterate equals the energy of the previous one to the tolerance (NHPD eq. 21), and its residual is at most
     /// `largest_residual`.
     pub(super) fn energy_settled(&self, iterate: &Iterate, largest_residual: f64) -> bool {
         let energy = iterate.stored_energy;
@@ -78,7 +78,7 @@ impl Iteration<'_> {
     }
 }
 
-/// Brings a state into equilibrium after a breakage in some way.
+/// Brings a state into equilibrium after a breakage by a method.
 ///
 /// # Errors
 ///

@@ -24,7 +24,7 @@ pub(super) struct Forces {
 /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom), for the bonds of a state under loads at load
 /// factor 1.
 ///
-/// The solution of an iterative solver is judged as that of a state, by the forces at each point. The norm of the force is no
+/// The solution of an iterative solver is judged like the solution of a state, by the forces at each point. The norm of the force is no
 /// measure where a stiff platen moves the body: the force of the platen on a fixed body is many times the force that deforms it.
 ///
 /// # Errors

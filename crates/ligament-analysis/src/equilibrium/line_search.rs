@@ -1,6 +1,6 @@
 //! Line search for the part of a correction along which the residual force does positive work.
 
-/// Work along a correction, relative to that at its beginning, at which the search ends.
+/// Work along a correction, relative to the work at its beginning, at which the search ends.
 const NEAR: f64 = 0.5;
 
 /// Largest ratio of a part to the one tried before.
@@ -12,7 +12,7 @@ const INSIDE: f64 = 0.1;
 /// Part of a correction du at which the work r . du of the residual force is near zero, the first minimum of the potential energy
 /// along the correction (Nocedal and Wright 2006, section 3.5).
 ///
-/// `work` is the work at part zero, `now` that at part one with what was measured there, and `at` computes both at other parts, found
+/// `work` is the work at part zero, `now` the work at part one with the state measured there, and `at` computes both at other parts, found
 /// by the secant method; the last of at most `tries` is returned. Without positive work at the beginning (equations that are not
 /// definite) the whole correction is taken.
 pub(super) fn part<T>(
@@ -45,7 +45,7 @@ pub(super) fn part<T>(
     (part, now.1)
 }
 
-/// Next part where the work is still positive, `share` of that at the beginning.
+/// Next part where the work is still positive, `share` of the work at the beginning.
 fn further(part: f64, share: f64) -> f64 {
     let falls = share < 1.0;
     let zero = if falls { 1.0 / (1.0 - share) } else { GROWTH };
@@ -72,8 +72,8 @@ mod tests {
         (part, tried)
     }
 
-    /// A straight line is met at the second try, wherever it is zero within the growth, and not searched where the whole correction is
-    /// near enough.
+    /// The zero of a straight line is found at the second try, wherever it is within the growth, and not searched where the whole
+    /// correction is near enough.
     #[test]
     fn a_straight_line_is_met_at_once() {
         assert_eq!(found(5, |part| 2.0 * (1.2 - part)), (1.0, vec![1.0]));
@@ -89,8 +89,8 @@ mod tests {
         assert!(tried.len() <= 5);
     }
 
-    /// Friction that turns round within a hundred thousandth of the correction: the work leaps from one value to its opposite, and halves of the
-    /// interval are all that the secant method finds.
+    /// Friction that reverses within a hundred thousandth of the correction: the work jumps from one value to its opposite, and halving the
+    /// interval is all that the secant method can do.
     #[test]
     fn a_leap_is_enclosed_where_there_are_tries() {
         let leap = |part: f64| (1e5 * (1e-3 - part)).clamp(-1.0, 1.0);

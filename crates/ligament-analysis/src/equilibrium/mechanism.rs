@@ -82,9 +82,9 @@ impl Measure<'_> {
         (size != 0.0).then_some((dof as usize, moved))
     }
 
-    /// Degree of freedom (of the body) that moves farthest in a body with broken or softened bonds whose largest displacement exceeds
-    /// both its size and the prescribed displacements: the stiffness left is next to nothing, or supports that were added for a motion
-    /// without stiffness are where it is small. None where only added supports are that far.
+    /// Degree of freedom (of the body) that moves farthest in a body with broken or softened bonds whose largest displacement exceeds both
+    /// its size and the prescribed displacements: nearly no stiffness is left, or supports that were added for a motion without stiffness
+    /// are where it is small. None where only added supports are that far.
     pub(super) fn beyond_size(self, state: &State) -> Option<usize> {
         let accuracy = self.accuracy;
         let largest = accuracy.largest_displacement(self.unknowns.layout(), state);

@@ -10,7 +10,7 @@ use crate::unbalanced::Unbalanced;
 /// indefinite bodies magnify the rounding that accumulates from breakage to breakage.
 const REFINEMENT_TOLERANCE: f64 = 1e-12;
 
-/// Largest residual of an equilibrium accepted by the energy rule, and that at the value of a motion.
+/// Largest residual of an equilibrium accepted by the energy rule, and of an equilibrium at the value of a motion.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 const LARGEST_AT_TARGET: f64 = 1e-8;
 

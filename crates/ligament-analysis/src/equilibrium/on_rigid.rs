@@ -1,4 +1,4 @@
-//! Forces on rigid bodies with a mass in a state: of the springs and loads of a step, and of contacts.
+//! Forces on rigid bodies with a mass in a state: by the springs and loads of a step, and by contacts.
 
 use ligament_model::surface::Vector;
 use ligament_model::tensor::{minus, norm};
@@ -8,7 +8,7 @@ use crate::contact::{ContactProblem, Touching};
 use crate::load_program::RigidLoad;
 use crate::state::State;
 
-/// Residual forces on the bodies of some loads in a state, N.
+/// Residual force on each rigid body of some loads in a state, N.
 pub(super) fn out_of_balance(
     loads: &[RigidLoad],
     problem: &ContactProblem,
@@ -28,7 +28,7 @@ pub(super) fn out_of_balance(
     loads.iter().map(of_load).collect()
 }
 
-/// Largest residual force on the bodies of some loads, over the forces that it is the sum of and the force that the rounding of gaps between
+/// Largest residual force on the bodies of some loads, over the forces in its sum and the force that the rounding of gaps between
 /// coordinates of a size (m) causes.
 pub(super) fn relative(
     (loads, problem): (&[RigidLoad], &ContactProblem),

@@ -43,9 +43,9 @@ pub(super) struct LocalStiffness {
 /// Largest of some forces, and largest ratio of these forces to the stiffness of their points.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
 struct Extent {
-    /// N, of moments N m.
+    /// Force, N; for moments N m.
     force: f64,
-    /// m.
+    /// Deformation, m.
     deformation: f64,
 }
 
@@ -257,7 +257,7 @@ impl<'a> Scales<'a> {
         }
     }
 
-    /// Largest residual over all processes, by degree of freedom of the body, from that at owned points; the first of equal ones.
+    /// Largest residual over all processes, by degree of freedom of the body, from the residual at owned points; the first of equal ones.
     pub(super) fn residual_of_all(self, here: Residual, subdomain: &Subdomain) -> Residual {
         if subdomain.is_whole() {
             return here;

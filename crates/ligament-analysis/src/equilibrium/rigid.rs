@@ -1,4 +1,4 @@
-//! Rigid bodies with a mass in the step of a motion: their displacements are unknowns beside those of the points.
+//! Rigid bodies with a mass in the step of a motion: their displacements are unknowns in addition to the displacements of the points.
 //!
 //! A contact with the stiffness k resists the motion c . u - d . q along d of a place of the body against a rigid body with the displacement q.
 //! With the springs kappa and the forces of a step ([`on_rigid`](super::on_rigid)), and the residual forces r on the points and s on the
@@ -6,8 +6,8 @@
 //!
 //! K du - B dq = r,  D dq - B^T du = s,  B = sum k c d^T,  D = kappa I + sum k d d^T,
 //!
-//! with the tangent stiffness K against rigid bodies at rest: dq from the Schur complement D - B^T K^-1 B, which has the displacements of the
-//! rigid bodies alone, and du from K^-1 (r + B dq).
+//! with the tangent stiffness K against rigid bodies at rest: dq from the Schur complement D - B^T K^-1 B, whose unknowns are only the
+//! displacements of the rigid bodies, and du from K^-1 (r + B dq).
 
 use ligament_model::surface::{Pose, Vector};
 use ligament_model::tensor::dot;
@@ -118,11 +118,11 @@ pub(super) fn correction(
     })
 }
 
-/// What contacts resist between points and rigid bodies with a mass.
+/// Coupling by contacts of points and rigid bodies with a mass.
 struct Coupling {
     /// Columns of B at the unknowns, one for each axis of each body.
     columns: Vec<Vec<f64>>,
-    /// D.
+    /// The matrix D.
     own: DMatrix<f64>,
 }
 

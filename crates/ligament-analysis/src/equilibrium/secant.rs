@@ -46,8 +46,8 @@ const CARRIED_AFTER: usize = 60;
 /// drop in which bonds alternate, and damage that only grows terminates.
 const ONE_WAY_AFTER: usize = 150;
 
-/// Number of iterations from which a state may count as diverging, and how many times farther than the body is large, or its supports move
-/// it, some point has then moved. Before that a part that hangs by nothing may have moved as far, and is held.
+/// Number of iterations from which a state may count as diverging, and the factor on the size of the body, or on its prescribed motions,
+/// that the displacement of some point then exceeds. Before that a detached part may have moved as far, and is then supported.
 const DIVERGING: (usize, f64) = (20, 1e6);
 
 /// Equilibrium of softening bonds at a load factor, or at the value of a motion with the load factor as an unknown: the same iteration
@@ -60,7 +60,7 @@ const DIVERGING: (usize, f64) = (20, 1e6);
 /// earlier equilibria, and a line search ([`line_search`]). Both lower the energy and end in a stable equilibrium. The factor may
 /// differ from the secants, because both need only an approximate stiffness.
 ///
-/// A load step begins at the extrapolation of the last one if that has the smaller residual. Where faces close, nothing is taken
+/// A load step begins at the extrapolation of the last one if that has the smaller residual. Where faces close, nothing is used
 /// from earlier equilibria, and after a breakage no curvature. Otherwise the first correction takes the bonds of the last
 /// equilibrium, because bonds next to prescribed motions deform too much until their surroundings follow. The iteration ends by
 /// NHPD's energy rule (eq. 21) with a residual below 1e-8, or with a residual below 1e-10. Extremes of iterates do not count unless
@@ -193,7 +193,7 @@ impl<'a> Secant<'a> {
         (self.target).is_none_or(|it| it.is_met(&state.displacement))
     }
 
-    /// Forgets what earlier corrections say of the stiffness.
+    /// Discards the stiffness recorded by earlier corrections.
     fn forget(&mut self) {
         self.earlier.curvature.discard();
         self.growth = None;
@@ -293,7 +293,7 @@ impl<'a> Secant<'a> {
             (dot_of_all(&subdomain, &left, &step), (iterate, left))
         };
         let whole = along(1.0);
-        // Beyond the end of a shortened correction surfaces would not see each other.
+        // Surfaces would not detect each other beyond the end of a shortened correction.
         let is_searched = has_value && !(is_short && whole.0 >= 0.0);
         let tries = if is_searched { most } else { 1 };
         let (part, (iterate, left)) = line_search::part(work, whole, tries, along);

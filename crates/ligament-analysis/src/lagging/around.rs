@@ -1,11 +1,12 @@
 //! Ratios of criteria of stress where parts of the body are delayed.
 //!
-//! The stress around a bond depends on all bonds of its ends, and those may be of several parts. Each bond has the motion of the last
-//! substitution of its part, and every ratio of the body is the one that follows from these motions. The true ratio is larger by at most
+//! The stress around a bond depends on all bonds of its ends, which may belong to several parts. Every ratio is computed from the motions
+//! of the bonds at the last substitution of their parts. The true ratio is larger by at most
 //!
 //! kappa sqrt(sum of |d|^2 over the delayed parts that have bonds of its ends),
 //!
-//! with the motion d that a part lacks, whose norm the motions of the border bound ([`super::bound`]), and with kappa of the bonds that are left.
+//! with the motion d that a part lacks, whose norm is bounded by the motions of the border ([`super::bound`]), and with kappa of the
+//! remaining bonds.
 //! A ratio is known where no delayed part has bonds of the ends.
 
 use ligament_model::element::BondDeformation;
@@ -34,7 +35,7 @@ pub(super) struct Around<'a> {
     deformations: Vec<BondDeformation>,
     /// Ratio of measure to limit of each bond by the stored motions, shape (n_bonds); 0 where it is broken.
     ratios: Vec<f64>,
-    /// At least the largest ratio of the bonds of each point, shape (n_points).
+    /// Upper bound of the ratios of the bonds of each point, shape (n_points).
     at_points: Vec<f64>,
     /// Whether the strain of each point is known, because all parts with bonds of it are up to date, shape (n_points).
     is_known: Vec<bool>,
@@ -55,11 +56,11 @@ pub(super) struct Around<'a> {
 /// Bonds and parts that a substitution changed.
 #[derive(Default)]
 pub(super) struct Changed {
-    /// Bonds whose ratios are known now and were not before, with these.
+    /// Bonds whose ratios have become known, with their ratios.
     pub(super) known: Vec<(u32, f64)>,
-    /// Delayed parts with bonds whose ratios changed, with the largest of these.
+    /// Delayed parts with bonds whose ratios changed, with the largest changed ratio.
     pub(super) raised: Vec<(usize, f64)>,
-    /// Delayed parts, of which the parent is not delayed, that have bonds of points whose strains changed.
+    /// Delayed parts, whose parent is not delayed, that have bonds of points whose strains changed.
     pub(super) beside: Vec<usize>,
 }
 
@@ -133,7 +134,7 @@ impl<'a> Around<'a> {
         (0..near.len()).filter(|&part| near[part]).collect()
     }
 
-    /// Takes in parts that were substituted, and points whose bonds broke.
+    /// Updates the ratios for parts that were substituted, and for points whose bonds broke.
     pub(super) fn take_in(
         &mut self,
         parts: &[usize],
@@ -169,7 +170,7 @@ impl<'a> Around<'a> {
         self.changed(&bonds, &points)
     }
 
-    /// Different points, in the order in which they come first.
+    /// The points without repetition, in their order.
     fn distinct(&mut self, points: impl Iterator<Item = u32>) -> Vec<u32> {
         let marks = &mut self.marks;
         let is_new = |point: &u32| !std::mem::replace(&mut marks[*point as usize], true);
@@ -180,7 +181,7 @@ impl<'a> Around<'a> {
         distinct
     }
 
-    /// Different bonds of different points.
+    /// The bonds of different points, without repetition.
     fn bonds_of(&mut self, points: &[u32]) -> Vec<u32> {
         for &point in points {
             self.marks[point as usize] = true;
@@ -201,7 +202,7 @@ impl<'a> Around<'a> {
         bonds
     }
 
-    /// Raises the largest ratios of points to those of some bonds.
+    /// Raises the largest ratios of points to the ratios of some bonds.
     fn raise_points(&mut self, bonds: &[u32]) {
         let ends = self.problem.system.ends();
         for &bond in bonds {
@@ -213,7 +214,7 @@ impl<'a> Around<'a> {
         }
     }
 
-    /// What changed with the ratios of bonds and the strains of points.
+    /// Bonds and parts that depend on changed ratios of bonds and changed strains of points.
     fn changed(&mut self, bonds: &[u32], points: &[u32]) -> Changed {
         let mut beside = vec![false; self.is_current.len()];
         for &point in points {
@@ -250,12 +251,12 @@ impl<'a> Around<'a> {
         changed
     }
 
-    /// Sets the norm of the motion that a delayed part lacks, from that of the motion since its last substitution.
+    /// Sets the norm of the motion that a delayed part lacks, from the norm of the motion since its last substitution.
     pub(super) fn delay(&mut self, part: usize, since: f64) {
         self.lacking[part] = self.lacked[part] + since;
     }
 
-    /// Sets the norm that a substituted part lacks, from those of its children.
+    /// Sets the norm of the motion that a substituted part lacks, from the norms of its children.
     pub(super) fn combine(&mut self, part: usize) {
         let below = self.division.below[part].iter();
         let squares: f64 = below.map(|&it| self.lacking[it].powi(2)).sum();
@@ -264,7 +265,8 @@ impl<'a> Around<'a> {
     }
 
     /// Present bound of the ratios of all bonds that depend on a delayed part, from the largest one that is stored in it and its
-    /// descendants, and which of the delayed parts on which they depend lacks most; None where the part is not delayed.
+    /// descendants, and the delayed part with the largest lacking motion among the parts on which they depend; None where the part is not
+    /// delayed.
     pub(super) fn present(&self, part: usize, largest: f64) -> Option<(f64, usize)> {
         if self.is_current[part] {
             return None;
@@ -289,7 +291,7 @@ impl<'a> Around<'a> {
         Some((largest + self.per_norm[part] * squares.sqrt(), most))
     }
 
-    /// The delayed part, of which the parent is not delayed, that contains a part; None where that is not delayed.
+    /// The delayed part, whose parent is not delayed, that contains a part; None where the part is not delayed.
     fn delayed_above(&self, part: usize) -> Option<usize> {
         let chain = self.division.with_ancestors(part);
         chain.take_while(|&it| !self.is_current[it]).last()
@@ -312,7 +314,7 @@ impl<'a> Around<'a> {
         verdict.map_or(0.0, |it| it.ratio())
     }
 
-    /// Kappa of a bond with the bonds that are left; 0 where it is broken.
+    /// Kappa of a bond with the remaining bonds; 0 where it is broken.
     fn kappa(&self, bond: u32, state: &State) -> f64 {
         if !state.intact[bond as usize] {
             return 0.0;

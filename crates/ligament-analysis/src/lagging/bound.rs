@@ -1,12 +1,12 @@
 //! Bound of the energy of the motion of a part, and of the growth of the ratios of measure to limit in it, from the motions of its border.
 //!
-//! A delayed part has no loads, so that of all motions with those of its border its own has the least energy. The bonds share that
-//! energy, and no bond has more than the sum: with |d|^2 twice the energy of a motion d,
+//! A delayed part has no loads, so that its motion has the least energy of all motions with the same motion of its border. The bonds share
+//! this energy, and no bond has more than the sum: with |d|^2 twice the energy of a motion d,
 //!
 //! |d| <= |a| + |r|,  ratio(s + s_d) <= ratio(s) + kappa |d|,
 //!
-//! for any motion a of uniform strain, and the rest r = d - a of the border's motion with none inside. The strain a is the
-//! least-squares fit of the border's motion; the energy of r is that of the bonds from inside the part, point by point; and kappa
+//! for any motion a of uniform strain, and the rest r = d - a of the border's motion, with no motion inside. The strain a is the
+//! least-squares fit of the border's motion; the energy of r is the energy of the bonds from inside the part, point by point; and kappa
 //! is the largest ratio of a bond of the part that has an energy of 1/2 J. All measures are sublinear, so that ratios of sums are
 //! no larger than sums of ratios.
 
@@ -20,7 +20,7 @@ pub(super) const NOT_THERE: u32 = u32::MAX;
 /// any strain.
 const RIDGE: f64 = 1e-10;
 
-/// Motions of a body as a whole, each of shape (n_degrees_of_freedom): rigid ones, without energy, and those of uniform strain.
+/// Motions of a body as a whole, each of shape (n_degrees_of_freedom): rigid motions, without energy, and motions of uniform strain.
 pub(super) struct Modes {
     pub(super) rigid: Vec<Vec<f64>>,
     pub(super) strain: Vec<Vec<f64>>,

@@ -1,6 +1,6 @@
 //! Backward substitution of parts from the root of the elimination tree downwards, with siblings in parallel.
 //!
-//! A part needs the motions of its ancestors alone, so that the results equal those of a sequential substitution.
+//! A part needs only the motions of its ancestors, so that the results equal a sequential substitution.
 
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
@@ -34,7 +34,7 @@ impl WorkVectors {
 pub(crate) struct ForwardSubstituted<'a> {
     pub(crate) factor: &'a dyn Factorisation,
     pub(crate) by_row: &'a [f64],
-    /// Ratio of the load factor of the displacements to that of the correction.
+    /// Ratio of the load factor of the displacements to the load factor of the correction.
     pub(crate) scale: f64,
 }
 
@@ -102,7 +102,7 @@ impl Descent<'_> {
         all
     }
 
-    /// Changes of one part from those of its ancestors, which the displacements do not include yet.
+    /// Changes of one part from the changes of its ancestors, which the displacements do not include yet.
     fn part(self, part: usize, above: Option<&Above<'_>>) -> Vec<f64> {
         let Self {
             division,

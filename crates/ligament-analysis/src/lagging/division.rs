@@ -177,7 +177,7 @@ fn parts_of_points(layout: Layout, parts: &[Part], degree_of_freedom: &[u32]) ->
     Some(part_of_point)
 }
 
-/// The lower of two parts that are equal or of which one is an ancestor of the other; None for other parts.
+/// The lower of two parts that are equal, or one of them an ancestor of the other; None for other parts.
 fn lower(parts: &[Part], one: u32, other: u32) -> Option<u32> {
     // An ancestor has a smaller number.
     let (higher, lower) = (one.min(other), one.max(other));

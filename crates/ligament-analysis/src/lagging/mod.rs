@@ -85,7 +85,7 @@ impl Body {
     }
 }
 
-/// Displacements of a body at a fixed load factor, with those of some parts delayed.
+/// Displacements of a body at a fixed load factor, with the displacements of some parts delayed.
 pub(crate) struct Lagging<'a> {
     division: &'a Division,
     bounds: &'a Bounds,
@@ -172,7 +172,7 @@ impl<'a> Lagging<'a> {
             .map(|(broken_in, wanted)| *broken_in || *wanted)
             .collect();
         if let Some(around) = &mut self.around {
-            // Where bonds broke stresses are largest, and a large ratio that is known lets more parts wait.
+            // Stresses are largest where bonds broke, and a large ratio that is known lets more parts wait.
             for part in around.begin(points, state) {
                 is_asked_for[part] = true;
             }
@@ -268,8 +268,8 @@ impl<'a> Lagging<'a> {
         self.store_border_motions(part);
     }
 
-    /// The delayed parts that are substituted next: those with the largest bound, for criteria of stress several, because each one changes
-    /// ratios around it too. Empty where no bond that depends on one can be tied with the leading ones.
+    /// The delayed parts that are substituted next: the parts with the largest bound, for criteria of stress several, because each one
+    /// changes ratios around it too. Empty where no bond that depends on one can be tied with the leading ones.
     fn next(&self, waiting: &mut BinaryHeap<Waiting>, lowest_tied: f64) -> Vec<usize> {
         let (mut next, mut later) = (Vec::new(), Vec::new());
         while next.len() < TOGETHER
@@ -338,7 +338,7 @@ impl<'a> Lagging<'a> {
         self.bounds.norm(part, &self.displacement, then)
     }
 
-    /// Stores the present motions of the border of a part as those at its last substitution.
+    /// Stores the present motions of the border of a part as the motions at its last substitution.
     fn store_border_motions(&mut self, part: usize) {
         let Division {
             parts,

@@ -28,8 +28,8 @@ pub(super) fn of_parts(division: &Division, of_bond: impl Fn(u32) -> f64 + Sync)
 /// largest strains `around` it in such a motion.
 ///
 /// A measure of stretch, shear and rotation is at most the sum of the measures of each alone, |s| m_s + ..., and that sum at most
-/// the root of (m_s^2/k_s + ...) for k_s s^2 + ... = 1 (Cauchy and Schwarz). A measure of stress is at most the sum of that of the
-/// stretch alone and that of the strains around the bond alone.
+/// the root of (m_s^2/k_s + ...) for k_s s^2 + ... = 1 (Cauchy and Schwarz). A measure of stress is at most its value for the stretch
+/// alone plus its value for the strains around the bond alone.
 pub(super) fn of_bond(
     problem: &Problem,
     whole: &[bool],

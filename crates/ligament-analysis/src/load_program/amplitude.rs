@@ -143,7 +143,7 @@ impl Amplitude {
         Self(Course::Table(knots))
     }
 
-    /// A shape from its start until a duration has passed, s; zero before, and after the end as the shape says.
+    /// A shape from its start until a duration has passed, s; zero before, and after the end the end value of the shape.
     pub fn pulse(shape: Shape, start: f64, duration: f64) -> Self {
         let span = [start, duration];
         Self(Course::Pulse { shape, span })
@@ -168,7 +168,7 @@ impl Amplitude {
         self.at(time).first
     }
 
-    /// Second integral from time zero to a time, s^2: that of the integral.
+    /// Second integral from time zero to a time, s^2: the integral of the integral.
     pub fn second_integral(&self, time: f64) -> f64 {
         self.at(time).second
     }

@@ -41,8 +41,8 @@ impl LoadInTime {
 
 /// Loads in time: the pseudo-time is the time t, s, and each load has a factor f(t) of its own.
 ///
-/// Forces are those at factor 1 times f, and displacements of prescribed motions likewise; of a prescribed velocity f is the integral of the
-/// amplitude, of a prescribed acceleration its second integral, from rest at time zero.
+/// Forces and prescribed displacements are their values at factor 1 times f; for a prescribed velocity f is the integral of the
+/// amplitude, for a prescribed acceleration its second integral, from rest at time zero.
 #[derive(Debug, Clone)]
 pub struct LoadsInTime {
     loads: Separate,
@@ -106,7 +106,7 @@ impl LoadedRows {
 
 impl LoadsInTime {
     /// Combines loads (one or more), each by itself at factor 1 with all supports and all groups of the history, with their courses in time
-    /// (n_loads), and that of the control load. Without loads, `loads` has the supports alone, and `courses` is empty.
+    /// (n_loads), and the course of the control load. Without loads, `loads` has the supports alone, and `courses` is empty.
     pub fn new(
         loads: Arc<[ProportionalLoading]>,
         courses: Arc<[LoadInTime]>,

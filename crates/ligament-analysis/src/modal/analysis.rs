@@ -434,7 +434,7 @@ fn messages_after(
     messages
 }
 
-/// Bound just below the highest of sorted eigenvalues and those within rounding of it; none where that is rigid.
+/// Bound just below the highest of sorted eigenvalues and the eigenvalues within rounding of it; none where this bound is rigid.
 fn below_last_cluster(values: &[f64], rigid_below: f64) -> Option<f64> {
     let mut lowest = *values.last().filter(|value| **value > rigid_below)?;
     for &value in values.iter().rev() {

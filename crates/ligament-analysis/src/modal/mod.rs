@@ -5,7 +5,7 @@
 //!
 //! Bonds with a negative shear stiffness (Poisson's ratio above 1/3 in plane stress, 1/4 in plane strain) make the energy a maximum
 //! in the rotations, and rotational inertia would give each of them a negative omega^2. With such bonds the rotations follow the
-//! displacements without inertia: their equations are those of equilibrium, as in static condensation.
+//! displacements without inertia: their equations are equations of equilibrium, as in static condensation.
 
 mod analysis;
 mod masses;

@@ -281,11 +281,11 @@ pub enum MotionError {
 }
 
 impl Damping {
-    /// Refuses time steps (s) in which the trapezoidal rule turns velocities round: it keeps (1 - a)/(1 + a) of them with a = alpha dt/2, where
-    /// exp(-2 a) is right.
+    /// Refuses time steps (s) in which the trapezoidal rule reverses velocities: it multiplies them by (1 - a)/(1 + a) with a = alpha dt/2,
+    /// where exp(-2 a) is right.
     pub(crate) fn check(self, step: f64) -> Result<(), MotionError> {
         let alpha = self.mass;
-        // A product that is 2 but for rounding would leave no velocity to go on from.
+        // A product that is 2 but for rounding would leave no velocity.
         match alpha * step < 2.0 * (1.0 - 1e-9) {
             true => Ok(()),
             false => Err(MotionError::DampingTooFast { step, alpha }),

@@ -93,7 +93,7 @@ struct Product<'a> {
     motions: Vec<f64>,
     /// Forces K u, shape (n_degrees_of_freedom).
     forces: Vec<f64>,
-    /// Diagonal matrix above the stiffness of contacts, shape (n_degrees_of_freedom); empty without contacts.
+    /// Diagonal matrix that bounds the stiffness of contacts from above, shape (n_degrees_of_freedom); empty without contacts.
     of_contact: Vec<f64>,
 }
 

@@ -1,7 +1,7 @@
 //! Restraints, which resist the motion of a body without fixing it, such as springs, inclined rollers and rigid platens.
 //!
 //! A restraint is a symmetric stiffness S between some degrees of freedom and the ground. It exerts -S u on the body, an external
-//! force like that of a support: its energy is not part of the bond energies, and its work is work of the supports. Where the far
+//! force like a support: its energy is not part of the bond energies, and its work is work of the supports. Where the far
 //! end of a spring is moved, a loading adds S g to its given forces.
 
 mod supports_to_add;
@@ -31,8 +31,8 @@ pub struct Restraints {
     at_points: BTreeMap<u32, Vec<usize>>,
     /// Degrees of freedom of all restraints, ascending.
     degrees_of_freedom: Vec<u32>,
-    /// Stiffness between each degree of freedom and the ground, beside the list, shape (n_degrees_of_freedom), N/m and N m/rad; empty
-    /// without any.
+    /// Stiffness between each degree of freedom and the ground, in addition to the list, shape (n_degrees_of_freedom), N/m and N m/rad;
+    /// empty without any.
     ground: Vec<f64>,
 }
 
@@ -81,8 +81,8 @@ impl Restraints {
         }
     }
 
-    /// Restraints with a stiffness between each degree of freedom and the ground (n_degrees_of_freedom), as that of the inertia in an implicit
-    /// step of time, beside their own.
+    /// Restraints with a stiffness between each degree of freedom and the ground (n_degrees_of_freedom), such as the inertia in an implicit
+    /// time step, in addition to their own.
     pub fn with_ground(self, ground: Vec<f64>) -> Self {
         Self { ground, ..self }
     }

@@ -62,7 +62,7 @@ impl DirectSolver {
         }
     }
 
-    /// A solver with the same factor, which changes by itself from then on.
+    /// An independent copy with the same factor.
     fn copy(&self) -> Self {
         Self {
             stiffness: self.stiffness.clone(),
@@ -101,7 +101,7 @@ impl DirectSolver {
         self.presses
     }
 
-    /// Adds the points of contacts to the pattern that it does not couple. The factor is then due anew.
+    /// Adds to the pattern the points of contacts that it does not couple. The factor must then be recomputed.
     fn couple(&mut self, come: &[Resisting]) {
         let layout = self.stiffness.unknowns().layout();
         for it in come.iter().filter(|it| it.is_of_surfaces()) {

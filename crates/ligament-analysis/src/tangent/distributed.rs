@@ -1,7 +1,7 @@
 //! Solution by several ranks with distributed rows: conjugate gradients with a multigrid preconditioner, or a factor.
 //!
 //! A rank has the rows of its owned points and the correction there; where each rank has all bonds of the body it receives the
-//! whole correction. The matrix is always that of the present bonds. The preconditioner is rebuilt where a part became detached,
+//! whole correction. The matrix always belongs to the present bonds. The preconditioner is rebuilt where a part became detached,
 //! and where the iterations in excess of its initial rate have cost as much as a rebuild. A factor is computed anew after every
 //! breakage.
 
@@ -39,7 +39,7 @@ use crate::vectors::dot_of_chunks;
 /// Number of iterations that cost as much as a new preconditioner.
 const RENEWAL: f64 = 40.0;
 
-/// First bytes of the checkpoint of this solver, unlike those of any other solver.
+/// First bytes of the checkpoint of this solver, which differ from any other solver's.
 const MARK: u64 = 0x736b_6e61_7220_669c;
 
 /// A solver for symmetric stiffnesses that runs on several ranks.

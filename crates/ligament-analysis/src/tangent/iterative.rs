@@ -1,6 +1,6 @@
 //! Iterative solution without a matrix: conjugate gradients with block Jacobi and the rigid motions of aggregates.
 //!
-//! The stiffness is always that of the present bonds; only the preconditioner is stored. The blocks of points are recomputed where
+//! The stiffness is always computed from the present bonds; only the preconditioner is stored. The blocks of points are recomputed where
 //! bonds broke, and the share of these bonds is subtracted from the coarse stiffness. The coarse space is rebuilt where a part
 //! became detached, and where the iterations in excess of its initial rate have cost as much as a rebuild. Its equations have a factor, and in
 //! large bodies in space an iteration with a coarser space, a third level.
@@ -53,7 +53,7 @@ const MOST_IN_PLACE: usize = 100;
 /// Number of iterations that cost as much as a new coarse space.
 const RENEWAL: f64 = 40.0;
 
-/// First bytes of the checkpoint of this solver, unlike those of any other solver.
+/// First bytes of the checkpoint of this solver, which differ from any other solver's.
 pub(super) const MARK: u64 = 0x6576_6974_6172_6574;
 
 /// An iterative solver for symmetric, definite stiffnesses of linear bonds.

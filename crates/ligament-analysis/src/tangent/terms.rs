@@ -46,7 +46,7 @@ impl Coupled<'_> {
         terms
     }
 
-    /// Terms of the bonds in `due`; sets their remaining stiffness in the factor (n_bonds) to that of the state.
+    /// Terms of the bonds in `due`; sets their remaining stiffness in the factor (n_bonds) to its value in the state.
     pub(super) fn of_softening(
         self,
         due: &[usize],
@@ -78,7 +78,7 @@ impl Coupled<'_> {
         holds.collect()
     }
 
-    /// Terms of what faces in contact resist, multiplied by `sign`.
+    /// Terms of the motions that contacts resist, multiplied by `sign`.
     pub(super) fn of_contact(self, resisting: &[Resisting], sign: f64) -> Vec<RankOne> {
         let terms = resisting.iter().map(Resisting::term);
         terms
@@ -114,7 +114,7 @@ impl Coupled<'_> {
     }
 }
 
-/// Intact bonds whose secants differ too much from those in a factor (n_bonds), ascending.
+/// Intact bonds whose secants differ too much from the secants in a factor (n_bonds), ascending.
 ///
 /// Other bonds are not updated: the residual is computed from the present bonds, and the iteration converges with a slightly
 /// outdated factor.

@@ -140,7 +140,7 @@ impl LineArgs {
 }
 
 impl CalibrateArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         if line::is_table(&self.subject) {
             return match self.runs.given() {

@@ -1,4 +1,4 @@
-//! What several commands take: a case with changes to it.
+//! Arguments of several commands: a case with changes to it.
 
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ pub struct CaseArgs {
 }
 
 impl CaseArgs {
-    /// Reads the case, with the threads of the command line before its own.
+    /// Reads the case; the threads of the command line take precedence over its own.
     pub(super) fn load(&self) -> Result<CaseFile, CaseError> {
         let taken_away = self.unset.iter().map(|key| unset(key));
         let overrides: Vec<String> = taken_away.chain(self.overrides.iter().cloned()).collect();

@@ -46,7 +46,7 @@ pub struct CheckArgs {
 }
 
 impl CheckArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         if let Some(folder) = &self.out {
             check_file(&folder.join(FIELDS), self.force)?;

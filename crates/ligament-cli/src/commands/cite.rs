@@ -24,7 +24,7 @@ pub struct CiteArgs {
 }
 
 impl CiteArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let mut out = terminal::stdout();
         write!(out, "{}", program())?;

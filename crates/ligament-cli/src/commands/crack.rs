@@ -62,7 +62,7 @@ pub struct CrackArgs {
 }
 
 impl CrackArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         if let Some(level) = self.iso {
             return self.isosurface(level);
@@ -111,7 +111,7 @@ impl CrackArgs {
     }
 }
 
-/// The step, or of a motion the time, in words.
+/// The step, or the time of a motion, in words.
 fn when(folder: &Path, step: usize) -> anyhow::Result<String> {
     let time = time_of(folder, step)?;
     Ok(match time {
@@ -120,7 +120,7 @@ fn when(folder: &Path, step: usize) -> anyhow::Result<String> {
     })
 }
 
-/// Reads the share of a force from those that `softening.csv` has.
+/// Parser of the share of a force, one of the shares in `softening.csv`.
 fn cracked_below() -> impl TypedValueParser<Value = CrackedBelow> {
     let names = PossibleValuesParser::new(["0.5", "0.25", "0.1"]);
     names.map(|name| match name.as_str() {
@@ -130,11 +130,11 @@ fn cracked_below() -> impl TypedValueParser<Value = CrackedBelow> {
     })
 }
 
-/// Parts of a surface that are listed one by one.
+/// Number of parts of a surface that are listed one by one.
 const TOLD: usize = 10;
 
 impl CrackArgs {
-    /// The crack of a solid.
+    /// Writes the crack of a solid.
     fn surface(self) -> anyhow::Result<()> {
         let cracks = SolidCracks::open_below(&self.results, self.force_left)?;
         let mut out = terminal::stdout();
@@ -168,7 +168,7 @@ impl CrackArgs {
 }
 
 impl CrackArgs {
-    /// The surface in a solid on which a field has a value.
+    /// Writes the surface in a solid on which a field equals a level.
     fn isosurface(self, level: f64) -> anyhow::Result<()> {
         let written = write_isosurfaces(&IsosurfaceRequest {
             folder: self.results,

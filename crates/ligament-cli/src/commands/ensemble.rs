@@ -77,7 +77,7 @@ pub struct EnsembleArgs {
 }
 
 impl EnsembleArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         let case = self.case.load()?;
         let stop = StopSignal::awaited()?;

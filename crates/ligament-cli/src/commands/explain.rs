@@ -57,7 +57,7 @@ pub struct SubjectArgs {
 }
 
 impl ExplainArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let subject = match (
             self.subject.point,

@@ -25,7 +25,7 @@ pub struct InspectArgs {
 }
 
 impl InspectArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let mesh = read_any_mesh(&self.mesh)?;
         Ok(write_summary(&mut terminal::stdout(), &self.mesh, &mesh)?)

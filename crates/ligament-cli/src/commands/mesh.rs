@@ -65,7 +65,7 @@ pub struct MeshArgs {
 }
 
 impl MeshArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         match (self.via_meshio.clone(), self.geometry.clone()) {
             (Some(source), _) => self.convert(source),

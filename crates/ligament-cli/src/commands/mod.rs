@@ -1,4 +1,4 @@
-//! The command line: a file for each command, with its options, its help and what it calls.
+//! The command line: a file for each command, with its options, its help and its execution.
 
 mod calibrate;
 mod case_args;
@@ -218,11 +218,11 @@ pub enum Command {
 }
 
 impl Cli {
-    /// Does what the command line asks for, and gives the exit code; `program` is the command that calls this program.
+    /// Executes the command, and returns the exit code; `program` is the command that calls this program.
     ///
     /// # Errors
     ///
-    /// Whatever keeps the command from doing it, in words for the user.
+    /// Any error of the command, in words for the user.
     pub fn execute(self, program: &[OsString]) -> anyhow::Result<ExitCode> {
         let done = match self.command {
             Command::Run(args) => return args.execute(),

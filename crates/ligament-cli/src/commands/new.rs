@@ -51,7 +51,7 @@ pub struct NewArgs {
 }
 
 impl NewArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let out = &self.out;
         check_file(out, self.force)?;

@@ -11,7 +11,7 @@ pub(super) fn positive(text: &str) -> Option<f64> {
     number(text).filter(|it| *it > 0.0)
 }
 
-/// So many finite numbers between commas.
+/// COUNT finite numbers between commas.
 pub(super) fn numbers<const COUNT: usize>(text: &str) -> Option<[f64; COUNT]> {
     let numbers: Option<Vec<f64>> = text.split(',').map(number).collect();
     numbers?.try_into().ok()

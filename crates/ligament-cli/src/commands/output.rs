@@ -1,13 +1,13 @@
-//! Places that a command writes to, as the command line has them.
+//! Output paths on the command line.
 
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PathBufValueParser, TypedValueParser};
 
-/// What stands for standard output, as with many programs.
+/// Path that stands for standard output, as in many programs.
 const STANDARD_OUTPUT: &str = "-";
 
-/// A file to write.
+/// Parser of the path of a file to write.
 pub(super) fn file() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().map(|path| match path == Path::new(STANDARD_OUTPUT) {
         true => PathBuf::from("/dev/stdout"),
@@ -15,7 +15,7 @@ pub(super) fn file() -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-/// A folder to write.
+/// Parser of the path of a folder to write.
 pub fn folder() -> impl TypedValueParser<Value = PathBuf> {
     PathBufValueParser::new().try_map(|path| match path == Path::new(STANDARD_OUTPUT) {
         true => Err("the results are a folder, which standard output cannot take: name one"),

@@ -129,7 +129,7 @@ pub struct PlotArgs {
 }
 
 impl PlotArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let target = Target {
             out: self.out,
@@ -220,7 +220,7 @@ fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
     }
 }
 
-/// How cracks are drawn, by words.
+/// Parser of the words for ways to draw cracks.
 fn crack_drawings() -> impl TypedValueParser<Value = CrackDrawing> {
     PossibleValuesParser::new(["bonds", "lines"]).map(|word| match word.as_str() {
         "lines" => CrackDrawing::Lines,
@@ -228,7 +228,7 @@ fn crack_drawings() -> impl TypedValueParser<Value = CrackDrawing> {
     })
 }
 
-/// Kinds of pictures by their endings.
+/// Parser of kinds of pictures by their endings.
 fn formats() -> impl TypedValueParser<Value = Format> {
     PossibleValuesParser::new(Format::ALL.map(Format::word)).try_map(|name| {
         let mut all = Format::ALL.into_iter();
@@ -237,7 +237,7 @@ fn formats() -> impl TypedValueParser<Value = Format> {
     })
 }
 
-/// Colour maps by their names.
+/// Parser of colour maps by their names.
 fn maps() -> impl TypedValueParser<Value = ColourMap> {
     let possible = ColourMap::ALL.map(ColourMap::words);
     let possible = possible.map(|[name, help]| PossibleValue::new(name).help(help));

@@ -50,7 +50,7 @@ pub struct ProfileArgs {
 }
 
 impl ProfileArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         anyhow::ensure!(
             self.from != self.to,

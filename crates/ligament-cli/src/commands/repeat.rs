@@ -22,7 +22,7 @@ Examples:
 The folder names the case and the mesh. If these have changed since, nothing is run and the message names the change. The exit
 code is 0 if all tables, fields and the summary are the same to the last bit, and 5 if not.";
 
-/// Exit code of a repetition whose results are others.
+/// Exit code of a repetition whose results differ.
 const DIFFERENT: u8 = 5;
 
 /// `ligament repeat`.
@@ -46,7 +46,7 @@ pub struct RepeatArgs {
 }
 
 impl RepeatArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         let stop = StopSignal::awaited()?;
         let request = Request {

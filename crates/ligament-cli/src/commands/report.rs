@@ -54,7 +54,7 @@ pub struct ReportArgs {
 }
 
 impl ReportArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let written = write_report(&Request {
             folders: self.results,

@@ -45,7 +45,7 @@ pub struct ResumeArgs {
 }
 
 impl ResumeArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         let stop = StopSignal::awaited()?;
         let request = Request {

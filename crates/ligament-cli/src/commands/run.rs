@@ -63,7 +63,7 @@ pub struct RunArgs {
 }
 
 impl RunArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         if let Some(lock) = &self.leash {
             bind_to_parent(lock)?;
@@ -93,7 +93,7 @@ impl RunArgs {
     }
 }
 
-/// Shows what a run found, and where its results are, with pictures of them if these are wanted or its case asks for them.
+/// Prints the report of a run and the path of its results; draws pictures if the options or the case ask for them.
 pub(super) fn print_report(
     report: &Report,
     folder: &Path,

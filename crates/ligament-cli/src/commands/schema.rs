@@ -29,7 +29,7 @@ pub struct SchemaArgs {
 }
 
 impl SchemaArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let text = serde_json::to_string_pretty(&schema())? + "\n";
         match self.out {

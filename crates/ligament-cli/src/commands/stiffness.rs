@@ -33,7 +33,7 @@ pub struct StiffnessArgs {
 }
 
 impl StiffnessArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let case = Box::new(self.case.load()?);
         let default_out = || Path::new("results").join(format!("{}-stiffness", case.name()));

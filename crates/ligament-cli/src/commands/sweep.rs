@@ -77,7 +77,7 @@ pub struct SweepArgs {
 }
 
 impl SweepArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self, program: &[OsString]) -> anyhow::Result<()> {
         let task = if self.list {
             Task::List

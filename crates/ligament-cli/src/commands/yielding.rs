@@ -89,7 +89,7 @@ fn calibrations() -> impl TypedValueParser<Value = Calibration> {
 }
 
 impl YieldArgs {
-    /// Does it.
+    /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         let (of, default_out) = match self.case {
             None => (Families::Lattices(self.m), PathBuf::from("results/yield")),

@@ -1,4 +1,4 @@
-//! Strains of the points around bonds, from the stored motions and the bonds that the points had left.
+//! Strains of the points around bonds, from the stored motions and the remaining bonds of the points.
 
 use std::array::from_fn;
 use std::collections::BTreeMap;
@@ -10,10 +10,10 @@ use ligament_output::results::stored::{Motions, StoredRun};
 
 use super::strains::breakages;
 
-/// The families of the ends of some bonds, and when their bonds broke.
+/// The families of the ends of some bonds, with the steps in which their bonds broke.
 pub(super) struct Around<'a> {
     run: &'a StoredRun,
-    /// Bonds of the points that are asked for.
+    /// Bonds of the requested points.
     families: BTreeMap<u32, Vec<usize>>,
     /// Step in which each bond broke, shape (n_bonds).
     broke_in: Vec<Option<usize>>,
@@ -72,7 +72,7 @@ impl<'a> Around<'a> {
         Some(StrainAround::new(&mean_strain(of_ends)?, n))
     }
 
-    /// Strain of a point without what the temperature gives it.
+    /// Strain of a point without its thermal strain.
     fn of_point<const D: usize>(
         &self,
         point: u32,

@@ -250,7 +250,7 @@ impl BondHistory {
         let criterion = (*criterion)?;
         let limit = &self.limits[criterion];
         Some(Nearest {
-            // The stress around a bond when it breaks stands in the table of broken bonds alone.
+            // The stress around a bond at its breakage is stored only in the table of broken bonds.
             utilisation: match limit.measure.takes_stress() {
                 true => broke.utilisation * limit.after.end(0),
                 false => (limit.measure(&broke.deformation, None) / limit.limit).max(0.0),

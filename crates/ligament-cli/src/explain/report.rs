@@ -183,7 +183,7 @@ fn load_header(lives: &BondHistories) -> Vec<String> {
     names.map(str::to_owned).to_vec()
 }
 
-/// Cells of the load of a moment; what is nothing beside the largest of all moments is zero.
+/// Cells of the load of a moment; values negligible beside the largest of all moments are zero.
 fn load(moment: &StoredStep, lives: &BondHistories) -> Vec<String> {
     let shown = |of: fn(&StoredStep) -> f64, unit: &str| {
         let sizes = lives.moments.iter().map(|it| of(it).abs());

@@ -165,7 +165,7 @@ pub(super) fn bond_description(
     lines
 }
 
-/// The stress on the plane across a bond that a criterion of stresses broke, and the surface that it came to.
+/// The stress on the plane across a bond that a criterion of stress broke, and the failure surface that it reached.
 fn plane_words(life: &BondHistory, limit: &Limit, utilisation: f64) -> Option<String> {
     let of_limit = |share: f64, modulus: f64| quantity(share * limit.limit * modulus, "Pa");
     let normal = words_of_normal(life);

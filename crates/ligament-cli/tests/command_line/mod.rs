@@ -1,4 +1,4 @@
-//! The program as it is called.
+//! Calls of the program.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -146,8 +146,8 @@ fn a_wrong_setting_of_the_solver_exits_with_1() {
     assert_eq!(output.status.code(), Some(2));
 }
 
-/// L L^T for a stiffness that is not positive definite (nu = 0.38): an outcome that tells what to choose, and a run with
-/// what was advised.
+/// L L^T for a stiffness that is not positive definite (nu = 0.38): an outcome with advice, and a run that follows
+/// the advice.
 #[test]
 fn llt_of_an_indefinite_stiffness_says_what_to_choose() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! What is told of bonds, against closed forms and the other files of a run.
+//! Explanations of bonds, compared with closed forms and the other files of a run.
 
 use ligament_output::quantity::quantity;
 
@@ -59,7 +59,7 @@ fn a_uniform_strain_gives_the_closed_form() {
     }
 }
 
-/// The stored largest utilisation is that of the steps in which a bond was intact, not of the gap that it left.
+/// The stored largest utilisation is from the steps in which a bond was intact, not from the gap that it left.
 #[test]
 fn a_broken_bond_has_the_largest_utilisation_from_before() {
     let folder = tempfile::tempdir().unwrap();
@@ -84,7 +84,7 @@ fn a_broken_bond_has_the_largest_utilisation_from_before() {
     assert_eq!(largest.step[pair], i64::from(breaks_in - 1));
 }
 
-/// What `explain` says of the order of breaking is what `breaks.csv` says.
+/// The order of breaking in `explain` equals the order in `breaks.csv`.
 #[test]
 fn breakages_are_those_of_the_table() {
     let folder = tempfile::tempdir().unwrap();
@@ -155,7 +155,7 @@ fn it_says_why_there_is_no_bond_or_no_breakage() {
     assert!(slanted.contains(&largest), "{slanted}");
 }
 
-/// A hole takes the middle column but its ends: no cell there has a bond across, and the tags count what is left.
+/// A hole removes the middle column except its ends: no cell there has a bond across, and the tags count the remaining cells.
 #[test]
 fn a_hole_parts_its_sides() {
     let folder = tempfile::tempdir().unwrap();
@@ -187,7 +187,7 @@ fn on_the_exact_path_bonds_break_at_their_limit() {
         let found = bonds(&results, &["--bond", row[6], row[7]]);
         let path = found[0]["path"].as_array().unwrap();
         let utilisation = |step: usize| number(&path[step]["utilisation"][0]);
-        // The fields hold the displacements to the last bit: rounding of their differences over a bond is left.
+        // The fields hold the displacements to the last bit: only the rounding of their differences over a bond remains.
         assert!((utilisation(step) - 1.0).abs() < 1e-9, "{row:?}");
         assert_eq!(path[step]["intact"], true);
         assert_eq!(path[step + 1]["intact"], false);
@@ -224,7 +224,7 @@ fn on_the_exact_path_bonds_break_at_their_limit() {
     }
 }
 
-/// The largest utilisation is that of all events, also of those without fields, and the last is not the worst for all bonds.
+/// The largest utilisation covers all events, also events without fields, and the last event is not the worst for all bonds.
 #[test]
 fn the_largest_utilisation_is_of_all_events() {
     let folder = tempfile::tempdir().unwrap();
@@ -255,8 +255,8 @@ fn the_largest_utilisation_is_of_all_events() {
     assert!(before_the_end > 3, "{before_the_end}");
 }
 
-/// Bonds with strains of their own, whose rectangles lose corners as bonds break: the strains of the fields in the event in which a
-/// bond breaks are those that the run recorded, and are at its limit.
+/// Bonds with strains of their own, whose rectangles lose corners as bonds break: the strains from the fields in the event in which a
+/// bond breaks equal the strains that the run recorded, and are at its limit.
 #[test]
 fn strains_of_fields_are_those_of_the_breakages() {
     const CRACKED: &str = r#"
@@ -296,8 +296,8 @@ output = { fields_every = 1 }
     }
 }
 
-/// Points that are all held keep the stretch -alpha dT of their cooling, the mean of the two ends; what the bonds are deformed
-/// by is told without the expansion, along the path and at the breakage.
+/// Points that are all fixed keep the stretch -alpha dT of their cooling, the mean of the two ends; the deformation of the bond is
+/// shown without the expansion, along the path and at the breakage.
 #[test]
 fn deformations_are_told_beyond_the_expansion() {
     let (case, _) = BAR.split_once("[[precrack]]").unwrap();

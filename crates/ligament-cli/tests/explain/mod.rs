@@ -1,4 +1,4 @@
-//! `ligament explain` as it is called, against closed forms and against what other files of a run say.
+//! Calls of `ligament explain`, compared with closed forms and with other files of a run.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 

@@ -1,4 +1,4 @@
-//! What a result folder has and lacks, and what is told of that.
+//! Contents and gaps of a result folder, and what `explain` reports about them.
 
 use super::*;
 
@@ -69,7 +69,7 @@ fn what_is_not_there_is_named() {
     ] {
         assert_eq!(call(&results, &wrong).status.code(), Some(2), "{wrong:?}");
     }
-    // What an earlier version, or a case without it, leaves out.
+    // Files that an earlier version, or a case without them, leaves out.
     let without = run(folder.path(), BAR, &["output.model=false"]);
     assert!(!without.join("model.vtu").exists());
     let message = refusal(&without, &["--point", "1"]);
@@ -102,7 +102,7 @@ fn a_damaged_result_is_named() {
     assert!(said.contains("10 of 11 steps have fields"), "{said}");
 }
 
-/// A run that found no equilibrium at all: there is a model, and no path.
+/// A run that found no equilibrium at all: it has a model, and no path.
 #[test]
 fn a_run_without_an_end_is_told_as_such() {
     let folder = tempfile::tempdir().unwrap();
@@ -129,7 +129,7 @@ modal = { modes = 4 }
     assert!(message.contains("it has natural modes"), "{message}");
 }
 
-/// An elastic solution has no limits; its deformations are told all the same.
+/// An elastic solution has no limits; its deformations are shown nevertheless.
 #[test]
 fn an_elastic_solution_is_told_without_limits() {
     let folder = tempfile::tempdir().unwrap();
@@ -144,7 +144,7 @@ fn an_elastic_solution_is_told_without_limits() {
     assert!((number(&found["path"][1]["stretch"]) - 1e-3).abs() < 1e-15);
 }
 
-/// A table has a row a bond and step, with the numbers of the text.
+/// A table has a row for each bond and step, with the numbers of the text.
 #[test]
 fn the_table_has_a_row_a_bond_and_step() {
     let folder = tempfile::tempdir().unwrap();

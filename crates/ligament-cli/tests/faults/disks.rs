@@ -1,12 +1,12 @@
 //! Disks that are full, or that cannot be written to: small ones in memory, in a namespace of their own where the system allows
-//! it. Nothing of what was there is lost, the program says which file it is and what to do, and the work goes on later.
+//! it. Existing files are kept, the program names the file and gives advice, and the work can be continued later.
 
 use super::*;
 use std::process::Stdio;
 
 use ligament_output::checkpoint::Checkpoint;
 
-/// Tables and fields that two runs of a case have in common to the last byte.
+/// Tables and fields that are equal to the last byte in two runs of a case.
 const SAME: [&str; 5] = [
     "breaks.csv",
     "criteria.csv",
@@ -19,8 +19,8 @@ const SAME: [&str; 5] = [
 const LARGE: &str = "--set lattice.cells=[40,20] --set fracture.steps=30 --set load.0.displacement.x=2e-3 \
     --set fracture.stop={bonds=60} --set fracture.bonds_per_iteration=4";
 
-/// Does something in a shell with a disk of so many bytes at `disk`, which is gone afterwards. `$run` is the program with the large
-/// case, `$L` the program alone; `grow` gives the disk more room. False where the system does not let this be tried.
+/// Runs a script in a shell with a disk of a number of bytes at `disk`, which is removed afterwards. `$run` is the program with the large
+/// case, `$L` the program alone; `grow` gives the disk more room. False where the system does not permit this.
 fn with_disk(place: &Place, bytes: usize, script: &str) -> bool {
     let mount = format!("mkdir disk && mount -t tmpfs -o size={bytes} none disk");
     let in_namespace = |script: String| {
@@ -44,7 +44,7 @@ fn with_disk(place: &Place, bytes: usize, script: &str) -> bool {
     true
 }
 
-/// What a command said that a script ran with `2>NAME; echo $? >NAME.code || true`, and its exit code.
+/// Messages of a command that a script ran with `2>NAME; echo $? >NAME.code || true`, and its exit code.
 fn said(place: &Place, name: &str) -> (String, String) {
     let text = |name: &str| fs::read_to_string(place.path(name)).unwrap();
     let code = text(&format!("{name}.code")).trim().to_owned();
@@ -86,7 +86,7 @@ fn run_whole(place: &Place, more: &str) {
     assert_success(&output);
 }
 
-/// Bytes of the files of a folder that a name begins with, in pages of the disk.
+/// Bytes of the files of a folder whose names satisfy a condition, in pages of the disk.
 fn size(place: &Place, folder: &str, is_meant: impl Fn(&str) -> bool) -> usize {
     let files = place.contents(folder).into_iter();
     let sizes = files
@@ -245,7 +245,7 @@ fn a_disk_that_is_full_of_a_sweep() {
     }
 }
 
-/// The administrator may write to any folder, but not to a disk that is mounted for reading.
+/// The administrator may write to any folder, but not to a disk that is mounted read-only.
 #[test]
 fn a_disk_that_cannot_be_written_to() {
     let place = Place::new();

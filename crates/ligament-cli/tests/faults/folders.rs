@@ -56,7 +56,7 @@ fn a_killed_replacement_leaves_the_earlier_results() {
             .unwrap();
         thread::sleep(Duration::from_micros(micros));
         kill(child);
-        // A kill between the two renames is mended by whoever comes next.
+        // A kill between the two renames is repaired by the next command.
         place.ligament(["run", "case.toml", "--out", "out"]);
         let steps = |files: &[(String, Vec<u8>)]| {
             files
@@ -79,7 +79,7 @@ fn a_killed_replacement_leaves_the_earlier_results() {
     assert_eq!(left, ["case.toml", "out"], "nothing is left beside");
 }
 
-/// The second of two runs into one folder is refused and told which process is there; a killed one is no hindrance.
+/// The second of two runs into one folder is refused with the number of the other process; a killed run is no obstacle.
 #[test]
 fn two_runs_into_one_folder_are_refused() {
     for earlier in [false, true] {
@@ -102,7 +102,7 @@ fn two_runs_into_one_folder_are_refused() {
     }
 }
 
-/// What `--force` removes are files of the program alone, and a link to a folder stays one.
+/// `--force` removes only files of the program, and a link to a folder remains one.
 #[test]
 fn files_of_others_and_links_stay() {
     let place = Place::new();
@@ -145,7 +145,7 @@ fn files_of_others_and_links_stay() {
     assert!(!place.path("link.new").exists() && !place.path("elsewhere.new").exists());
 }
 
-/// A disk that takes no more than some blocks of a file: the run ends with the reason, and earlier results are whole.
+/// A disk that accepts only some blocks of a file: the run ends with the reason, and earlier results are whole.
 #[test]
 fn a_full_disk_leaves_the_earlier_results() {
     let place = Place::new();
@@ -175,7 +175,7 @@ fn a_full_disk_leaves_the_earlier_results() {
     assert!(!place.path("new/summary.json").exists());
 }
 
-/// Not even the administrator makes folders in /proc.
+/// Not even the administrator can make folders in /proc.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_folder_that_cannot_be_made_is_told() {
@@ -186,7 +186,7 @@ fn a_folder_that_cannot_be_made_is_told() {
     assert_refused(&output, &["case.toml/results"]);
 }
 
-/// A case in a folder whose name is no text: its resolved form cannot name the mesh, and nothing is made.
+/// A case in a folder whose name is not UTF-8: its resolved form cannot name the mesh, and nothing is made.
 #[test]
 fn a_path_that_is_no_text_makes_no_folder() {
     use std::os::unix::ffi::OsStrExt;
@@ -209,7 +209,7 @@ fn a_path_that_is_no_text_makes_no_folder() {
         .current_dir(&folder)
         .output()
         .unwrap();
-    // Whether it is refused or done, no half of it is there.
+    // Whether it is refused or done, no partial result remains.
     assert_eq!(
         output.status.success(),
         place.path("out").exists(),

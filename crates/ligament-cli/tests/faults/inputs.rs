@@ -1,4 +1,4 @@
-//! Input that is made to hurt.
+//! Malicious input.
 
 use super::*;
 use std::collections::BTreeMap;
@@ -12,7 +12,7 @@ fn square(extra: &str) -> String {
     )
 }
 
-/// A million of load steps has a row each; more are a slip of a finger.
+/// A million load steps have a row each; more are probably a typing error.
 #[test]
 fn more_load_steps_than_make_sense_are_refused() {
     let place = Place::new();
@@ -25,7 +25,7 @@ fn more_load_steps_than_make_sense_are_refused() {
     }
 }
 
-/// 25 million points are foreseen to take more than there is, before any of them is made; a case may say otherwise.
+/// 25 million points are estimated to take more memory than there is, before any of them is made; a case may say otherwise.
 #[test]
 fn memory_is_foreseen() {
     let place = Place::new();
@@ -42,8 +42,8 @@ fn memory_is_foreseen() {
     assert_success(&place.ligament(["run", "case.toml", "--set", "solver.memory=1"]));
 }
 
-/// A mesh is read, or it is refused with a word on memory, whatever there is: nothing in between ends the program. Limits go up from where
-/// the file itself does not fit, in steps of less than the checks of cells take.
+/// A mesh is read, or refused with a message about memory, for any limit: the program never ends in another way. Limits start where
+/// the file itself does not fit, and rise in steps smaller than the memory of the checks of cells.
 #[test]
 fn memory_of_meshes_is_foreseen() {
     let place = Place::new();
@@ -63,7 +63,7 @@ fn memory_of_meshes_is_foreseen() {
                 assert!(matches!(code, Some(0 | 1)), "{megabytes} MB: {output:?}");
                 codes.push(code);
             }
-            // With more memory still it goes on as it did.
+            // With even more memory it works as before.
             if codes.ends_with(&[Some(0); 4]) {
                 break;
             }
@@ -93,7 +93,7 @@ fn mesh_of(nodes: &[[usize; 3]], code: u8, cells: &[Vec<usize>]) -> String {
     text + "$EndElements\n"
 }
 
-/// A square of so many by so many quadrangles.
+/// A square of `side` by `side` quadrangles.
 fn quadrangles(side: usize) -> String {
     let n = side + 1;
     let nodes: Vec<[usize; 3]> = (0..n * n).map(|it| [it % n, it / n, 0]).collect();
@@ -103,7 +103,7 @@ fn quadrangles(side: usize) -> String {
     mesh_of(&nodes, 3, &cells)
 }
 
-/// A cube of so many hexahedra along each side.
+/// A cube of `side` hexahedra along each side.
 fn boxes(side: usize) -> String {
     let n = side + 1;
     let place = |it: usize, n: usize| [it % n, it / n % n, it / (n * n)];
@@ -118,8 +118,8 @@ fn boxes(side: usize) -> String {
     mesh_of(&nodes, 5, &cells)
 }
 
-/// A body in the plane whose factor does not fit into the memory is solved without a matrix, and that is told; by both drivers, with the
-/// bonds that break with a factor.
+/// A body in the plane whose factor does not fit into the memory is solved without a matrix, with a message; by both drivers, and the same
+/// bonds break as with a factor.
 #[test]
 fn a_factor_that_does_not_fit_is_not_made() {
     let place = Place::new();
@@ -157,7 +157,7 @@ fn a_factor_that_does_not_fit_is_not_made() {
     assert!(stdout(&told).contains("the factor does not fit into memory"));
 }
 
-/// `check` tells what fields and bonds will take on the disk: not less than they take, and not twice as much.
+/// `check` estimates the disk space of fields and bonds: at least as much as they take, and at most twice as much.
 #[test]
 fn room_on_the_disk_is_foreseen() {
     let place = Place::new();
@@ -223,7 +223,7 @@ fn empty_sections_of_a_mesh_take_no_memory() {
     assert_success(&place.limited("ulimit -v 1500000", "inspect many.msh"));
 }
 
-/// A mesh that does not fit into the memory that there is is an error with its size, and not the end of the program by a signal.
+/// A mesh that does not fit into the available memory is an error with its size, and does not end the program by a signal.
 ///
 /// The limits lie between the memory of the program itself (30 MB) and that of a mesh of 400,000 cells (140 MB).
 #[test]
@@ -255,7 +255,7 @@ fn a_mesh_without_memory_is_refused() {
     }
 }
 
-/// A name has any length, a column has not.
+/// A name may have any length, a column may not.
 #[test]
 fn a_name_may_be_longer_than_a_column() {
     let place = Place::new();
@@ -283,7 +283,7 @@ fn constants_without_a_stiffness_are_refused() {
     }
 }
 
-/// Pipes and devices are refused at once wherever a file is to be read.
+/// Pipes and devices are refused at once as input files.
 #[test]
 fn pipes_and_devices_are_refused() {
     let place = Place::new();
@@ -310,7 +310,7 @@ fn pipes_and_devices_are_refused() {
     assert_eq!(output.status.code(), Some(1));
 }
 
-/// Titles and names come from others: what they hold is shown, not sent to the terminal.
+/// Titles and names come from others: their control characters are shown, not sent to the terminal.
 #[test]
 fn escape_sequences_are_not_sent() {
     let place = Place::new();
@@ -345,7 +345,7 @@ fn a_name_is_no_option() {
     assert_success(&place.ligament(["sweep", "study.toml", "--out", "./-out"]));
 }
 
-/// Python takes its packages from where it has them, not from files that happen to lie in the current folder.
+/// Python imports its packages from its own folders, not from files in the current folder.
 #[test]
 fn files_of_the_current_folder_are_no_packages() {
     let place = Place::new();

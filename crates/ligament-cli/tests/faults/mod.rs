@@ -1,5 +1,5 @@
-//! What goes wrong around a run: kills, full disks, folders of others, input that is made to hurt. Nothing is lost, nothing hangs,
-//! and the program says why.
+//! Faults around a run: kills, full disks, folders of others, malicious input. Nothing is lost, nothing hangs,
+//! and the program gives the reason.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 #![allow(clippy::print_stderr, reason = "a test that is not run says so")]

@@ -1,4 +1,4 @@
-//! Single files that commands write: what is there already, and what is no file.
+//! Single files that commands write: existing files, and paths that are no files.
 
 use std::fs;
 use std::io::Read;
@@ -9,7 +9,7 @@ use std::thread;
 use super::{Place, assert_refused, stderr, stdout};
 use crate::support::assert_success;
 
-/// A program in the place of Gmsh, which has the mesh ready.
+/// A program in place of Gmsh, which copies a ready mesh.
 const GMSH: &str = "#!/bin/sh\ncp square.msh \"$4\"\n";
 
 /// The square of one cell.
@@ -31,7 +31,7 @@ const WRITERS: [&str; 11] = [
     "mesh plate.geo --gmsh ./gmsh --out",
 ];
 
-/// A folder with results and what the commands need.
+/// A folder with results and the input files of the commands.
 fn prepared() -> Place {
     let place = Place::new();
     place.run();
@@ -58,7 +58,7 @@ fn name_for(writer: &str) -> &'static str {
     }
 }
 
-/// A file that is there stays without `--force`, and a link stays with it, too.
+/// An existing file is kept without `--force`; a link is kept even with it.
 #[test]
 fn files_that_are_there_are_replaced_only_if_asked() {
     let place = prepared();
@@ -85,7 +85,7 @@ fn files_that_are_there_are_replaced_only_if_asked() {
     }
 }
 
-/// What is written to a pipe comes out at its other end, and the pipe is still there.
+/// Data written to a pipe arrive at its other end, and the pipe still exists.
 #[test]
 fn pipes_are_written_to() {
     let place = prepared();
@@ -117,12 +117,12 @@ fn pipes_are_written_to() {
     }
 }
 
-/// Standard output has the file and nothing else, whatever it leads to; devices stay devices.
+/// Standard output receives the file and nothing else, wherever it leads; devices remain devices.
 #[test]
 fn standard_output_and_devices_are_written_to() {
     let place = prepared();
     for writer in WRITERS {
-        // What explains says so on standard output, too, if it is not the table's.
+        // `explain` says so on standard output as well, unless the table is written there.
         let output = place.ligament(words(writer, "/dev/stdout"));
         assert_success(&output);
         assert!(output.stdout.len() > 100, "{writer}");
@@ -131,7 +131,7 @@ fn standard_output_and_devices_are_written_to() {
         let kind = fs::symlink_metadata("/dev/null").unwrap().file_type();
         assert!(kind.is_char_device(), "{writer}");
     }
-    // A shell opens a file for it, which is there then.
+    // A shell opens a file for it, which then exists.
     let output = place.limited("exec > page.html", "report out --out /dev/stdout");
     assert_success(&output);
     let page = fs::read_to_string(place.path("page.html")).unwrap();
@@ -141,7 +141,7 @@ fn standard_output_and_devices_are_written_to() {
     assert_refused(&output, &["/dev/full", "No space left on device"]);
 }
 
-/// `-` is standard output for a file, and no name for a folder; of a case that nobody keeps nothing is advised.
+/// `-` is standard output for a file, and no name for a folder; for a case that is not stored there is no advice.
 #[test]
 fn a_dash_is_standard_output() {
     let place = prepared();
@@ -167,13 +167,13 @@ fn a_dash_is_standard_output() {
     assert!(stdout(&new("-")).contains("[lattice]"));
 }
 
-/// Whether the words for people stand behind what was written.
+/// Whether the messages follow the written file.
 fn stdout_has_words(written: &[u8]) -> bool {
     let end = &written[written.len().saturating_sub(200)..];
     String::from_utf8_lossy(end).contains("/dev/stdout")
 }
 
-/// Files of the program's own in a folder of results are made anew without being asked for, but not through links.
+/// The program's own files in a folder of results are replaced without `--force`, but not through links.
 #[test]
 fn files_of_the_programs_own_are_made_anew() {
     let place = prepared();
@@ -192,14 +192,14 @@ fn files_of_the_programs_own_are_made_anew() {
         assert_eq!(fs::read(place.path("elsewhere")).unwrap(), before);
         fs::remove_file(place.path(name)).unwrap();
     }
-    // That of several results lies in no such folder.
+    // The file for several results is in no result folder.
     let both = ["plot", "--curve", "out", "out"];
     assert_success(&place.ligament(both));
     assert_refused(&place.ligament(both), &["picture-curves.png", "--force"]);
     assert!(stdout(&place.ligament(["plot", "--curve", "out"])).contains("picture-curve.png"));
 }
 
-/// What a killed run had not finished goes with the next one.
+/// Unfinished files of a killed run are removed by the next one.
 #[test]
 fn unfinished_files_of_killed_runs_go() {
     let place = Place::new();

@@ -1,4 +1,4 @@
-//! Names and links that would lead out of a folder of results, and files that are none of what they are given for.
+//! Names and links that would lead out of a folder of results, and files that are not of the expected kind.
 
 use super::*;
 use std::io::Read;
@@ -63,7 +63,7 @@ fn links_in_results_lead_nowhere() {
             assert_victim_whole(&place, name);
         }
     }
-    // An empty folder, and one beside, of somebody else.
+    // An empty folder, and another one beside it, of somebody else.
     let place = stopped();
     fs::create_dir(place.path("empty")).unwrap();
     link_to_victim(&place, "empty/.lock");
@@ -164,7 +164,7 @@ fn newest(folder: &Path) -> (Checkpoint, Vec<u8>) {
     (checkpoint, solution)
 }
 
-/// A checkpoint and a collection that name files elsewhere: the first is refused, the second is not asked.
+/// A checkpoint and a collection that name files elsewhere: the first is refused, the second is not read.
 #[test]
 fn names_in_results_lead_nowhere() {
     let place = stopped();
@@ -351,7 +351,7 @@ fn escape_sequences_in_results_are_not_sent() {
     shown(&place, &["plot", "out", "--curve", "--out", "p.svg"]);
 }
 
-/// Other programs are called without a shell: a path is one argument, whatever stands in it, and no option.
+/// Other programs are called without a shell: a path is one argument, whatever its characters, and no option.
 #[test]
 fn paths_are_one_argument_of_other_programs() {
     let place = Place::new();

@@ -312,7 +312,7 @@ fn modes_are_drawn_with_their_frequencies() {
     assert!(refusal(&[path, "--mode", "9"]).contains("no output of mode 9; there are 1, 2, 3, 4"));
 }
 
-/// What a run leaves that was killed: no summary, and a history that ends early.
+/// Files of a run that was killed: no summary, and a history that ends early.
 #[test]
 fn a_run_that_was_cut_short_is_drawn() {
     let folder = tempfile::tempdir().unwrap();

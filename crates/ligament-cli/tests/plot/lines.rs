@@ -64,7 +64,7 @@ fn the_crack_path_is_drawn_with_its_length_tips_and_axes() {
     assert_eq!(other.status.code(), Some(2));
 }
 
-/// Rows of the history whose bonds were still failing are marked by crosses, the others joined.
+/// Rows of the history whose bonds were still failing are marked by crosses, the others are connected.
 #[test]
 fn curves_mark_the_first_breakage_and_what_is_not_at_rest() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! `ligament plot` as it is called: what the pictures show, what they say, and what is refused.
+//! Calls of `ligament plot`: contents and texts of the pictures, and refusals.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -15,7 +15,7 @@ use roxmltree::Document;
 
 use crate::support::{ligament, text};
 
-/// A plate of 12 x 8 cells with a pre-crack, pulled apart until it is in two; every step has fields.
+/// A plate of 12 x 8 cells with a pre-crack, pulled until it separates; every step has fields.
 const LATTICE: &str = r#"
 title = "Plate"
 [lattice]
@@ -63,7 +63,7 @@ fn call(words: &[&str]) -> Output {
     ligament(["plot"].iter().chain(words))
 }
 
-/// Calls it, in the place of earlier pictures, and returns the file that it names.
+/// Calls the command, replacing earlier pictures, and returns the file that it names.
 fn plot(words: &[&str]) -> Vec<u8> {
     let output = call(&[words, &["--force"]].concat());
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));

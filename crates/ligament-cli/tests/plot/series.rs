@@ -1,4 +1,4 @@
-//! Steps by what happened in them, and a picture of each.
+//! Steps selected by events, and a picture of each.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! A case that runs are stopped and killed in, and what their folders hold.
+//! A case whose runs are stopped and killed, and the contents of their folders.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -47,7 +47,7 @@ pub(super) struct Bench {
 }
 
 impl Bench {
-    /// A case with a way of breaking bonds, and so many seconds between two checkpoints.
+    /// A case with a way of breaking bonds, and a number of seconds between two checkpoints.
     pub(super) fn new(fracture: &str, every: &str) -> Self {
         let folder = TempDir::new().unwrap();
         let case = format!("{CASE}{}\n", fracture.replace("EVERY", every));
@@ -82,7 +82,7 @@ fn done(mut command: Command) -> Output {
     command.output().unwrap()
 }
 
-/// Does it, which must end well; gives what it wrote to standard error.
+/// Runs a command, which must succeed; returns its standard error.
 pub(super) fn succeeded(command: Command) -> String {
     let output = done(command);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -90,7 +90,7 @@ pub(super) fn succeeded(command: Command) -> String {
     said
 }
 
-/// Does it, which must fail; gives the reasons in one line.
+/// Runs a command, which must fail; returns the reasons in one line.
 pub(super) fn refused(command: Command) -> String {
     let output = done(command);
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
@@ -119,7 +119,7 @@ pub(super) fn rows(folder: &Path) -> usize {
     table.unwrap_or_default().lines().count()
 }
 
-/// Waits until the history has more rows than so many.
+/// Waits until the history has more than `before` rows.
 pub(super) fn wait_for_rows(folder: &Path, before: usize, child: &mut Child) {
     let start = Instant::now();
     while rows(folder) <= before {
@@ -129,7 +129,7 @@ pub(super) fn wait_for_rows(folder: &Path, before: usize, child: &mut Child) {
     }
 }
 
-/// Keys of a summary that times, memory, threads and the build stand in.
+/// Whether a key of a summary contains times, memory, threads or the build.
 fn is_passing(key: &str) -> bool {
     ["stages", "threads", "provenance"].contains(&key) || key.ends_with("seconds")
 }
@@ -178,7 +178,7 @@ pub(super) fn assert_same(one: &Path, other: &Path) {
     assert_eq!(differs.map(|(name, _)| name), None);
 }
 
-/// How a run ended, by its summary.
+/// Short name of the end of a run, from its summary.
 pub(super) fn termination(folder: &Path) -> String {
     let text = fs::read_to_string(folder.join("summary.json")).unwrap();
     let summary: Value = serde_json::from_str(&text).unwrap();

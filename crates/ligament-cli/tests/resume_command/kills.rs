@@ -7,8 +7,8 @@ use std::time::Instant;
 
 use super::bench::{Bench, EVENT, EXPLICIT, IMPLICIT, SOFTENING, STEPPED, assert_same, succeeded};
 
-/// Kills a run, and what goes on with it, again and again at moments of a fixed sequence; what is finished at last is as if nothing
-/// had happened. Gives the number of kills.
+/// Kills a run, and its resumptions, again and again at moments of a fixed sequence; the final results are as if nothing
+/// had happened. Returns the number of kills.
 fn kill_and_resume(fracture: &str, n_kills: usize, seed: u64) -> usize {
     let bench = Bench::new(fracture, "1e-6");
     let start = Instant::now();
@@ -40,11 +40,11 @@ fn kill_and_resume(fracture: &str, n_kills: usize, seed: u64) -> usize {
                 break;
             }
             killed += 1;
-            // Killed behind its last file, it is complete.
+            // Killed after its last file, the run is complete.
             if is_complete(&bench.out("killed")) {
                 break;
             }
-            // Killed before its first file, it starts anew.
+            // Killed before its first file, the run starts again.
             let has_begun = bench.out("killed").join("case.resolved.toml").is_file();
             command = if has_begun {
                 bench.resume("killed", &["--quiet"])
@@ -57,7 +57,7 @@ fn kill_and_resume(fracture: &str, n_kills: usize, seed: u64) -> usize {
     killed
 }
 
-/// Whether a run wrote its summary and has no checkpoint to go on from.
+/// Whether a run wrote its summary and has no checkpoint from which it could continue.
 fn is_complete(folder: &Path) -> bool {
     let has_checkpoint = || {
         let mut files = fs::read_dir(folder).unwrap();

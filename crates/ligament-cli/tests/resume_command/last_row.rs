@@ -1,4 +1,4 @@
-//! Runs of all kinds that are stopped at one of their states, up to the last one, and go on.
+//! Runs of all kinds that are stopped at one of their states, up to the last one, and continued.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -23,8 +23,8 @@ support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
 output = { fields_every = 2, bonds = true, checkpoint_every = 1e-6 }
 "#;
 
-/// Load steps, also with bonds that soften, and stages; the exact path; explicit steps with contact and both kinds of damping, implicit ones, and
-/// those that are equilibria where the body is at rest.
+/// Load steps, also with bonds that soften, and stages; the exact path; explicit steps with contact and both kinds of damping, implicit
+/// steps, and motions with equilibria where the body is at rest.
 const KINDS: [(&str, &str); 7] = [
     (
         "steps",
@@ -87,7 +87,7 @@ impl Place {
         self.0.path().join(name)
     }
 
-    /// Runs the case until the program has asked so many times whether it is to stop; gives the number of times that it asked.
+    /// Runs the case until the program has checked `asks` times whether it is to stop; returns the number of checks.
     fn run(&self, name: &str, asks: usize, settings: &[&str]) -> usize {
         let settings: Vec<String> = settings.iter().map(|it| (*it).to_owned()).collect();
         let case = CaseFile::load(&self.out("case.toml"), &settings).unwrap();

@@ -1,4 +1,4 @@
-//! `ligament resume`: runs that are stopped, killed or damaged, against one that was never disturbed.
+//! `ligament resume`: runs that are stopped, killed or damaged, compared with an undisturbed run.
 #![cfg(unix)]
 #![allow(
     clippy::unwrap_used,
@@ -62,7 +62,7 @@ fn without_a_good_checkpoint_the_results_stay() {
     assert_eq!(results(&out), before);
 }
 
-/// The case, and a file that it reads, must be those that the run was begun with; a table must be as long as it was.
+/// The case, and its input files, must be the same as at the start of the run; a table must have its length.
 #[test]
 fn a_checkpoint_of_other_inputs_is_refused() {
     let bench = Bench::new(EVENT, "1e-6");
@@ -83,7 +83,7 @@ fn a_checkpoint_of_other_inputs_is_refused() {
     succeeded(bench.resume("out", &["--quiet"]));
 }
 
-/// What was written so far must be as it was, to the last bit: a digit of a table, the end of a field.
+/// Results written so far must be unchanged to the last bit: a digit of a table, the end of a field.
 #[test]
 fn results_that_were_changed_are_named() {
     let bench = Bench::new(EVENT, "1e-6");
@@ -128,8 +128,8 @@ fn results_that_were_changed_are_named() {
     succeeded(bench.resume("out", &["--quiet"]));
 }
 
-/// The model, which follows from case and mesh, is written anew by a run that goes on: one that was cut is whole again, also where that run is
-/// killed before its end.
+/// The model, which follows from case and mesh, is written again by a resumed run: a truncated one is whole again, also where the resumed
+/// run is killed before its end.
 #[test]
 fn a_model_that_was_cut_is_whole_again() {
     let bench = Bench::new(EVENT, "1e-6");
@@ -164,7 +164,7 @@ fn only_settings_that_change_nothing_so_far_are_taken() {
     }
 }
 
-/// Another stop rule takes a run that ended further, to the results of a run that had it from the start.
+/// Another stop rule continues a run that ended, to the results of a run that had this rule from the start.
 #[test]
 fn a_run_that_ended_by_a_rule_is_prolonged() {
     for fracture in [STEPPED, EVENT] {
@@ -216,7 +216,7 @@ fn a_run_without_a_checkpoint_starts_anew() {
     assert_same(&bench.out("whole"), &bench.out("out"));
 }
 
-/// A run that replaces earlier results leaves them whole while it is stopped, and takes their place when it is complete.
+/// A run that replaces earlier results leaves them whole while it is stopped, and replaces them when it is complete.
 #[test]
 fn a_run_that_replaces_others_goes_on() {
     let bench = Bench::new(EVENT, "0");

@@ -1,4 +1,4 @@
-//! Results that moved, or whose case was edited, and go on.
+//! Results that were moved, or whose case was edited, and are resumed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -56,7 +56,7 @@ fn renamed(from: &Path, to: PathBuf) -> PathBuf {
     to
 }
 
-/// A project that moves as a whole goes on, as one that stayed; a mesh that is elsewhere is found by `--mesh`, and another one refused.
+/// A project that is moved as a whole is resumed like one that was not; a mesh elsewhere is found by `--mesh`, and another one refused.
 #[test]
 fn results_that_moved_go_on() {
     let place = TempDir::new().unwrap();
@@ -80,7 +80,7 @@ fn results_that_moved_go_on() {
     let text = fs::read_to_string(&mesh).unwrap();
     let other = place.path().join("other.msh");
     fs::write(&other, text.replacen("0.0", "0.1", 1)).unwrap();
-    // Another mesh where that of the run was relative to the results is none either.
+    // Another mesh in the place of the original relative to the results is refused as well.
     fs::copy(&other, moved.join("meshes/disk.msh")).unwrap();
     let said = refused(resume(&moved, &[]));
     assert!(said.contains("give its new place with --mesh"), "{said}");
@@ -101,7 +101,7 @@ fn results_that_moved_go_on() {
     succeeded(command);
 }
 
-/// A case that was edited since is told, because the run goes on without the change; one that is as it was, or gone, is not.
+/// An edit of the case since the run is reported, because the resumed run ignores it; an unchanged or missing case is not.
 #[test]
 fn an_edited_case_is_told() {
     let place = TempDir::new().unwrap();

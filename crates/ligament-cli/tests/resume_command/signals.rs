@@ -9,7 +9,7 @@ use super::bench::{
     wait_for_rows,
 };
 
-/// Each signal stops a run, which tells so by its exit code and a summary, and the run goes on to the results of one that was
+/// Each signal stops a run, with an exit code and a summary that report it, and the resumed run has the results of one that was
 /// never stopped: with load steps, along the exact path and with bonds that soften.
 #[test]
 fn a_signal_stops_a_run_that_goes_on_later() {
@@ -37,7 +37,7 @@ fn a_signal_stops_a_run_that_goes_on_later() {
     }
 }
 
-/// A signal that comes before the first solution stops the run as a later one does, and leaves no folder.
+/// A signal before the first solution stops the run as a later one does, and leaves no folder.
 #[test]
 fn a_signal_stops_what_has_not_begun() {
     let bench = Bench::new(EVENT, "0");
@@ -59,7 +59,7 @@ fn a_signal_stops_what_has_not_begun() {
     assert_eq!(bench.out("out").exists(), has_begun, "{words}");
 }
 
-/// The second signal ends the program, as if it knew none.
+/// The second signal ends the program as if it had no handlers.
 #[test]
 fn a_second_signal_ends_it_at_once() {
     let bench = Bench::new(EVENT, "0");

@@ -1,11 +1,11 @@
-//! A block of tetrahedra as a Gmsh file, with what can be wrong of one.
+//! A block of tetrahedra as a Gmsh file, with possible errors.
 
 use std::fmt::Write;
 
 /// Cells of the block along x, y and z.
 const CELLS: [usize; 3] = [6, 3, 3];
 
-/// A mesh of the block 2 by 1 by 1 (times the scale), of which a text is made.
+/// A mesh of the block 2 by 1 by 1 (times the scale), to be written as text.
 #[derive(Debug, Clone)]
 pub(crate) struct Block {
     pub(crate) nodes: Vec<[f64; 3]>,
@@ -100,7 +100,7 @@ impl Block {
     }
 }
 
-/// A case that pulls the block, with the text of its support, its load and what else stands in it.
+/// A case that pulls the block, with the texts of its head, its support, its load and other settings.
 pub(crate) fn case([head, support, load, more]: [&str; 4]) -> String {
     format!(
         "{head}\n[material]\nyoung = 30e9\npoisson = 0.2\ntensile_strength = 3e6\n[model]\nlaw = \"nhpd\"\nhorizon_factor = 2.0\n\

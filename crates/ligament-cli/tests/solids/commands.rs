@@ -1,4 +1,4 @@
-//! Every command on a solid: it works, or says that it does not know solids.
+//! Every command on a solid: it works, or refuses solids.
 
 use std::fs;
 
@@ -79,7 +79,7 @@ fn studies_take_solids() {
     assert_success(&output);
 }
 
-/// What computes or shows bodies in the plane alone says so.
+/// Commands for bodies in the plane refuse solids.
 #[test]
 fn what_is_of_the_plane_alone_says_so() {
     let folder = folder_with(&Block::new(1.0));

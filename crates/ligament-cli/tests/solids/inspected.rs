@@ -13,7 +13,7 @@ fn inspected(block: &Block) -> String {
     stdout(&output)
 }
 
-/// Sizes are those of the block 2 x 1 x 1; the radius ratio of a sixth of a box 1/3 along all axes by hand: with edges a, a, a,
+/// Sizes match the block 2 x 1 x 1; the radius ratio of a sixth of a box 1/3 along all axes by hand: with edges a, a, a,
 /// sqrt(2) a, sqrt(2) a and sqrt(3) a it is sqrt(2) - 1 over sqrt(3)/3 ... = 3 r/R with r = a/(2 + 2 sqrt(2)), R = sqrt(3) a/2.
 #[test]
 fn sizes_groups_and_quality_are_told() {
@@ -57,7 +57,7 @@ fn units_and_missing_volume_groups_are_told() {
     );
 }
 
-/// Slivers are counted, with the place of the worst; surfaces with cells on both sides are told from the outline.
+/// Slivers are counted, with the place of the worst; surfaces with cells on both sides are distinguished from the outline.
 #[test]
 fn slivers_and_inner_surfaces_are_told() {
     let mut block = Block::new(1.0);

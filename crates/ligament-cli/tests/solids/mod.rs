@@ -1,4 +1,4 @@
-//! Solids from the command line: what `inspect`, `new` and the other commands say of them, and inputs that are wrong.
+//! Solids on the command line: the output of `inspect`, `new` and the other commands, and wrong inputs.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -25,7 +25,7 @@ fn folder_with(block: &Block) -> tempfile::TempDir {
     folder
 }
 
-/// What the program says, and whether it ended well, in a folder with a case.
+/// Messages of the program, and whether it succeeded, in a folder with a case.
 fn with_case(folder: &Path, case: &str, arguments: &[&str]) -> (bool, String) {
     fs::write(folder.join("case.toml"), case).unwrap();
     let output = ligament_in(folder, arguments);

@@ -23,7 +23,7 @@ fn checked(case: &CaseFile) -> String {
     String::from_utf8(report).unwrap()
 }
 
-/// The text with all settings that stand as comments taken.
+/// The text with all commented settings active.
 fn with_all_settings(text: &str) -> String {
     let lines = text.lines().map(|line| match line.strip_prefix('#') {
         Some(setting) if setting.starts_with(|it: char| it.is_alphabetic() || it == '[') => setting,

@@ -1,9 +1,9 @@
-//! Inputs of solids that are wrong: each gives an error at its place that tells what to do, or a warning where it can go on.
+//! Wrong inputs of solids: each gives an error at its place with advice, or a warning where the command can continue.
 
 use super::block::{Block, SOLID, case};
 use super::{folder_with, with_case};
 
-/// What `check` says of a case on a mesh, which must be refused without a panic.
+/// Refusal by `check` of a case on a mesh, without a panic.
 fn refused(block: &Block, case: &str) -> String {
     let folder = folder_with(block);
     let (is_good, said) = with_case(folder.path(), case, &["check", "--model-only", "case.toml"]);
@@ -72,7 +72,7 @@ fn plane_cells_beside_solid_ones_are_refused() {
     );
 }
 
-/// Cells that are inside out are turned round; one that is turned over by a node moved through its face overlaps others.
+/// Inverted cells are reoriented; a cell that is inverted by a node moved through its face overlaps others.
 #[test]
 fn inverted_tetrahedra_are_turned_or_refused() {
     let mut block = Block::new(1.0);
@@ -144,7 +144,7 @@ fn millimetres_are_warned_of() {
     );
 }
 
-/// A path that leads nowhere, or to no mesh, is named before anything that is right for a solid.
+/// A path that leads nowhere, or to no mesh, is reported before any setting that is right for a solid.
 #[test]
 fn a_mesh_that_cannot_be_read_is_named_first() {
     let block = Block::new(1.0);
@@ -162,7 +162,7 @@ fn a_mesh_that_cannot_be_read_is_named_first() {
         &refused(&block, &itself),
         &["mesh.file: cannot use the mesh", "not a Gmsh mesh file"],
     );
-    // What is wrong whatever the mesh is comes first.
+    // Errors that do not depend on the mesh come first.
     let misspelt = nowhere.replace("young", "yong");
     assert_contains(&refused(&block, &misspelt), &["did you mean `young`"]);
 }

@@ -1,4 +1,4 @@
-//! What the tests of the commands share: the program, what it says, and a small case.
+//! Common parts of the tests of the commands: the program, its messages, and a small case.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::ffi::OsStr;
@@ -39,7 +39,7 @@ pub(crate) fn stderr(output: &Output) -> String {
     text(&output.stderr)
 }
 
-/// Fails with what the program said unless it ended well.
+/// Fails with the messages of the program unless it succeeded.
 pub(crate) fn assert_success(output: &Output) {
     assert_eq!(output.status.code(), Some(0), "{}", stderr(output));
 }

@@ -1,4 +1,4 @@
-//! Studies that are wrong: told before anything is run or written.
+//! Wrong studies: refused before anything is run or written.
 
 use super::*;
 
@@ -102,7 +102,7 @@ fn faults_of_the_study_have_their_place_and_the_nearest_key() {
     );
 }
 
-/// A fault that a value makes in the case is told with the line of the value, the run, and what the case says.
+/// A fault that a value causes in the case is reported with the line of the value, the run, and the message of the case.
 #[test]
 fn faults_of_the_case_have_the_line_of_the_study() {
     assert_told(
@@ -158,7 +158,7 @@ fn a_file_that_no_run_could_read_is_told_first() {
     assert!(!place.path("out").exists());
 }
 
-/// A folder that is no study's is left as it is.
+/// A folder that belongs to no study is left unchanged.
 #[test]
 fn foreign_folders_are_refused() {
     for file in ["thesis.tex", "case.resolved.toml", "study.toml"] {

@@ -1,4 +1,4 @@
-//! `ligament sweep` as it is called.
+//! Calls of `ligament sweep`.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -113,7 +113,7 @@ impl Table {
         cells.iter().map(|cell| cell.parse().unwrap()).collect()
     }
 
-    /// The table without what differs from one time to the next: times, memory, and where it lies.
+    /// The table without values that differ between repetitions: times, memory, and its path.
     fn lasting(&self) -> Vec<Vec<&str>> {
         let lasts = |name: &&String| {
             !["seconds", "peak_bytes", "folder", "solver.threads"].contains(&name.as_str())

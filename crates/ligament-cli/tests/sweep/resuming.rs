@@ -1,4 +1,4 @@
-//! Sweeps that are stopped and go on.
+//! Sweeps that are stopped and continued.
 
 use super::*;
 use std::io::Read;
@@ -79,7 +79,7 @@ fn a_killed_sweep_goes_on() {
     );
 }
 
-/// A sweep that does all anew keeps the earlier results of a run until it has new ones; after a kill the same study goes on.
+/// A sweep that repeats all runs keeps the earlier results of a run until it has new ones; after a kill the same study continues.
 #[test]
 fn a_killed_sweep_that_does_all_anew_loses_nothing() {
     let place = Place::with(LONG);
@@ -175,7 +175,7 @@ fn two_sweeps_at_once_are_refused() {
     assert_eq!(place.table().column("status"), ["done"; 3]);
 }
 
-/// Changed inputs are computed anew and told, the others are not; new values add runs and keep the earlier ones.
+/// Runs with changed inputs are repeated with a message, the others are not; new values add runs and keep the earlier ones.
 #[test]
 fn changed_inputs_are_computed_anew() {
     let study = GRID.replace("bar/case.toml", "bar/hot.toml");

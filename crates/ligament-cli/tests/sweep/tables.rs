@@ -1,4 +1,4 @@
-//! What comes out: order, names, columns, fits and plots.
+//! Results of sweeps: order, names, columns, fits and plots.
 
 use super::*;
 use std::collections::BTreeSet;

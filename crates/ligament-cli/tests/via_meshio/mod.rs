@@ -1,4 +1,4 @@
-//! `ligament mesh --via-meshio`: meshes of other programs with their groups, and what is said where there is none.
+//! `ligament mesh --via-meshio`: meshes of other programs with their groups, and the message where there is none.
 
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
@@ -63,7 +63,7 @@ fn sorted_cells(mesh: &Mesh) -> Vec<Vec<u32>> {
     cells
 }
 
-/// What stands in the groups of a mesh: name, dimension, nodes, sorted edges and corners of cells.
+/// Content of the groups of a mesh: name, dimension, nodes, sorted edges and corners of cells.
 type Content = (String, u8, Vec<u32>, Vec<[u32; 2]>, Vec<Vec<u32>>);
 
 fn content(mesh: &Mesh, name: &str, dimension: u8) -> Content {
@@ -298,7 +298,7 @@ fn a_case_gives_the_same_numbers_on_a_converted_mesh() {
     assert!(run("original", &[]) == converted);
 }
 
-/// Where there is no planar mesh in a file, or the file cannot be read, it is said, and an earlier mesh stays.
+/// A file without a planar mesh, or one that cannot be read, is refused, and an earlier mesh is kept.
 #[test]
 #[ignore = "needs LIGAMENT_PYTHON; run by tools/test"]
 fn what_is_no_planar_mesh_is_refused() {

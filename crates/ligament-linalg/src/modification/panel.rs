@@ -1,7 +1,7 @@
 //! Update of the panel of one supernode by terms.
 //!
 //! Large panels are divided into tiles of columns. Rows below the square of a tile are independent: once the square is updated and its
-//! rotations are known, they are tasks, the first of which goes on to the next square. Tiles and tasks begin at multiples of the widths of
+//! rotations are known, they are tasks; the first task continues with the next square. Tiles and tasks begin at multiples of the widths of
 //! vectors and of blocks of columns, so that a row undergoes the same instructions as in an undivided panel: the bits are the same.
 
 use std::ops::Range;
@@ -231,7 +231,7 @@ mod tests {
     }
 
     impl Case {
-        /// A factor with small entries below its diagonal: terms stay as large as they are. Every fifth pivot of L D L^T is negative.
+        /// A factor whose small entries below the diagonal leave the size of the terms unchanged. Every fifth pivot of L D L^T is negative.
         fn new(kind: FactorKind, n_terms: usize) -> Self {
             let number = |k: usize| ((k * 7_919 % 10_007) as f64 / 5_003.5 - 1.0) / 30.0;
             let mut values: Vec<f64> = (0..N_COLUMNS * HEIGHT).map(number).collect();
@@ -261,7 +261,7 @@ mod tests {
         }
     }
 
-    /// Changes a panel in tiles, and another one like it as a whole.
+    /// Changes a panel in tiles, and a copy of it as a whole.
     fn both(kind: FactorKind, start: &Case) -> [(Case, Result<isize, usize>); 2] {
         let diagonal = [DiagonalEntry::new(1.0); N_COLUMNS];
         let (mut divided, mut whole) = (start.clone(), start.clone());
@@ -276,7 +276,7 @@ mod tests {
             matches!(n_tasks[..], [Some(2..), Some(1..), None]),
             "{n_tasks:?}"
         );
-        // One thread would not divide it.
+        // A pool of one thread would not divide the panel.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
         let of_divided = pool.expect("two threads").install(|| panel.change());
         let of_whole = whole.panel(kind, &diagonal).whole();
@@ -296,7 +296,7 @@ mod tests {
         }
     }
 
-    /// A term takes a pivot away where no other is: in the first tile, in the one that follows along with others, and in what is left.
+    /// A single term makes a pivot vanish: in the first tile, in the next ones, and in the last column.
     #[test]
     fn a_pivot_that_vanishes_has_the_same_column() {
         for kind in [FactorKind::Llt, FactorKind::Ldlt] {

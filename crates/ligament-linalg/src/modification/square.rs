@@ -18,7 +18,7 @@ pub(super) struct Rows<'a> {
     pub(super) right_hand_side: Option<&'a mut [f64]>,
 }
 
-/// Columns from the row of their first pivot down to that of their last one or further.
+/// Columns from the row of their first pivot down to the row of their last pivot or further.
 pub(super) struct Square<'a, 'b> {
     pub(super) kind: FactorKind,
     /// Diagonal entries of the matrix by row.

@@ -5,7 +5,7 @@ use ligament_linalg::{Elimination, FactorKind, Factorisation, Inertia, RankOne};
 use super::EPSILON;
 use super::systems::*;
 
-/// Pivots, inertia and solution of a changed factor are those of a new one.
+/// An updated factor has the pivots, the inertia and the solution of a new one.
 fn assert_like_new(
     changed: &mut dyn Factorisation,
     anew: &mut dyn Factorisation,
@@ -26,7 +26,7 @@ fn assert_like_new(
     assert!(error <= bound, "{what}: solution wrong by {error}");
 }
 
-/// Some weights of terms changed: pairs lose a part or all of what they have, or gain.
+/// Random changes of the weights of terms: pairs lose a part or all of their weight, or gain.
 pub(crate) fn random_terms(system: &mut System, count: usize, random: &mut Random) -> Vec<RankOne> {
     let pairs = system.terms_of_pairs();
     (0..count)
@@ -49,7 +49,7 @@ pub(crate) fn random_terms(system: &mut System, count: usize, random: &mut Rando
         .collect()
 }
 
-/// Rank-one terms on one, two, four and six unknowns, up to 70 at once (32 go through together). The matrix stays positive
+/// Rank-one terms on one, two, four and six unknowns, up to 70 at once (32 are applied together). The matrix stays positive
 /// definite, each term makes a backward error of some eps, and so does a column of the factor; the condition multiplies.
 #[test]
 fn random_changes_give_the_factor_of_the_changed_matrix() {
@@ -91,7 +91,7 @@ fn random_changes_give_the_factor_of_the_changed_matrix() {
     }
 }
 
-/// The right-hand side of a change may lie where no term does.
+/// The right-hand side of a change may be nonzero where no term is.
 #[test]
 fn a_right_hand_side_away_from_the_terms_is_solved_for() {
     let mut random = Random(12);

@@ -45,7 +45,7 @@ fn assert_recovers(
     }
 }
 
-/// L L^T of what would be indefinite: an error, whatever the unknown and whichever term of many it is.
+/// L L^T of a matrix that would become indefinite is an error, for any unknown and any of many terms.
 #[test]
 fn llt_refuses_to_become_indefinite() {
     let mut random = Random(21);
@@ -80,7 +80,7 @@ fn llt_refuses_to_become_indefinite() {
     }
 }
 
-/// A chain of springs whose only support leaves: the pivot that is left is nothing but rounding, and is found to be, in any
+/// A chain of springs loses its only support: the remaining pivot is only rounding, and is detected as such, in any
 /// order of elimination.
 #[test]
 fn a_matrix_that_becomes_singular_is_refused() {
@@ -103,7 +103,7 @@ fn a_matrix_that_becomes_singular_is_refused() {
             let symbolic = system.symbolic(Elimination::Given(random.permutation(n)));
             for kind in KINDS {
                 let mut factor = system.factor(kind, &symbolic);
-                // At once, or in parts that do not add up to the bit.
+                // All at once, or in parts that do not add up to the bit.
                 let error = factor.change(std::slice::from_ref(&all), &[]).unwrap_err();
                 assert!(is_refused(kind, &error), "{kind:?} {error}");
                 assert_recovers(factor.as_mut(), kind, &system, &symbolic, &mut random);
@@ -123,7 +123,7 @@ fn a_matrix_that_becomes_singular_is_refused() {
     }
 }
 
-/// The terms that take from a point all that there is, what is on its own diagonal last.
+/// The terms that remove all stiffness of a point, its own diagonal last.
 fn cut_loose(system: &System, point: usize) -> Vec<RankOne> {
     let of_point = |unknown: usize| unknown / system.components == point;
     let terms = system.terms.iter();
@@ -154,7 +154,7 @@ fn a_point_cut_loose_is_refused() {
                         .find_map(|(at, terms)| Some((at, factor.change(terms, &[]).err()?)))
                         .unwrap();
                     assert!(is_refused(kind, &error), "{kind:?} {error}");
-                    // With the bonds gone, the first of the three terms on the diagonal is the last straw.
+                    // Without the bonds, the first of the three terms on the diagonal makes a pivot vanish.
                     assert_eq!(at, (terms.len() - 3) / at_once, "{kind:?} {at_once}");
                     if point % 7 == 0 {
                         assert_recovers(factor.as_mut(), kind, &system, &symbolic, &mut random);
@@ -165,8 +165,8 @@ fn a_point_cut_loose_is_refused() {
     }
 }
 
-/// A point that is held before its bonds leave: the rest is solved as if the point had never been, and the point itself
-/// stays where it is. The hold is of the size of the diagonal, so nothing is lost to rounding but some eps.
+/// A point that is fixed before its bonds are removed: the rest is solved as if the point had never existed, and the point itself
+/// does not move. The fixing term is of the size of the diagonal, so that rounding loses only some eps.
 #[test]
 fn a_point_that_is_held_first_may_be_cut_loose() {
     let mut random = Random(24);
@@ -204,7 +204,7 @@ fn a_point_that_is_held_first_may_be_cut_loose() {
     }
 }
 
-/// Terms go in one after the other: a hold that comes too late does not bring back what was lost in between.
+/// Terms are applied one after the other: a fixing term that comes too late does not restore a lost pivot.
 #[test]
 fn a_hold_that_comes_last_is_too_late() {
     let mut random = Random(25);
@@ -226,7 +226,7 @@ fn a_hold_that_comes_last_is_too_late() {
     }
 }
 
-/// What is no number, or infinite, is an error and leaves nothing behind.
+/// Terms that are NaN or infinite are errors and leave the factor unchanged.
 #[test]
 fn terms_that_are_no_numbers_are_refused() {
     let mut random = Random(26);

@@ -122,7 +122,7 @@ fn larger_systems_leave_no_residual() {
     }
 }
 
-/// A right-hand side that is zero in most places takes its own way to the root only; the other panels have nothing to say.
+/// A right-hand side that is zero in most places needs only its own path to the root; the other panels have nothing to add.
 #[test]
 fn a_sparse_right_hand_side_gives_the_whole_solution() {
     let mut random = Random(4);

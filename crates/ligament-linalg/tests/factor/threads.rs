@@ -1,4 +1,4 @@
-//! Factors of awkward trees, made, changed and solved with: their bits on any number of threads are those of one, and those of faer.
+//! Factors of awkward trees, computed, updated and solved with: their bits on any number of threads equal the bits on one, and faer's.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::Perm;
@@ -17,10 +17,10 @@ use super::systems::*;
 /// Numbers of threads that are compared with one.
 const THREADS: [usize; 3] = [2, 3, 7];
 
-/// Values of a factor from which on it is cut into tasks for certain.
+/// Number of values from which on a factor is certain to be cut into tasks.
 const CUT: usize = 200_000;
 
-/// Graphs with their unknowns a point, and orders of their points.
+/// Graphs with their number of unknowns per point, and orders of their points.
 fn awkward(random: &mut Random) -> Vec<(&'static str, Graph, usize, Vec<usize>)> {
     let in_turn = |graph: &Graph| (0..graph.n_points).collect::<Vec<_>>();
     let chain = Graph::chain(25_000);
@@ -194,7 +194,7 @@ fn follow(
     found
 }
 
-/// Subtrees, blocks of columns and rows below them are tasks; what a thread adds to what another does keeps its order.
+/// Subtrees, blocks of columns and rows below them are tasks; contributions of different threads are added in a fixed order.
 #[test]
 fn awkward_trees_have_the_same_bits_on_any_number_of_threads() {
     let mut random = Random(18);
@@ -225,7 +225,7 @@ fn awkward_trees_have_the_same_bits_on_any_number_of_threads() {
     }
 }
 
-/// The error names the first row without a pivot, whichever task meets one first.
+/// The error names the first row without a pivot, whichever task finds one first.
 #[test]
 fn the_first_pivot_that_is_missing_is_told() {
     let mut random = Random(19);

@@ -20,14 +20,14 @@ pub struct Element<'a> {
     pub group: Option<&'a str>,
 }
 
-/// The mesh of nodes, given by their tags and positions (m), and elements: a solid mesh if an element is solid. The checks are those of a
+/// The mesh of nodes, given by their tags and positions (m), and elements: a solid mesh if an element is solid. It is checked like a
 /// mesh file.
 ///
 /// # Errors
-/// Returns an error if an element has another number of corners, or the elements form no mesh; positions in it are element numbers, as
-/// lines.
+/// Returns an error if an element has another number of corners, or the elements form no mesh; as its position it names the number of an
+/// element as a line.
 pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<AnyMesh, GmshError> {
-    // An element is found by its line, as in a file.
+    // One line for each element: errors give the number of an element as a line.
     let lines = "\n".repeat(elements.len());
     let cursor = Cursor::new(lines.as_bytes());
     let mut records = Records {

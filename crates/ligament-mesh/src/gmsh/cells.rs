@@ -44,7 +44,7 @@ impl<C> Cells<C> {
         higher.count()
     }
 
-    /// Elements of cells.
+    /// Element records from which cells were made.
     pub(super) fn elements_of<'a, const N: usize>(
         &self,
         records: &'a Records,
@@ -134,7 +134,7 @@ fn first_alike<const D: usize, C: MeshCell<D>>(
     n_nodes: usize,
 ) -> Result<Vec<u32>, GmshError> {
     let n_cells = u32::try_from(all.cells.len()).map_err(|_| GmshError::TooLarge)?;
-    // Where cells are repeated, duplicates are only those of one owner.
+    // In a file that repeats a cell for each of its groups, equal cells are duplicates only within one group.
     let owner = |cell: u32| match records.repeats_cells {
         true => all.elements_of(records, [cell])[0].owner,
         false => 0,

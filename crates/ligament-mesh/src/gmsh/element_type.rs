@@ -35,7 +35,7 @@ impl Shape {
         }
     }
 
-    /// Shape and number of nodes of a type number (`elm-type` in the manual, `MSH_*` in its sources), of which the corners come first;
+    /// Shape and number of nodes of a type number (`elm-type` in the manual, `MSH_*` in its sources); the corners come first.
     /// `None` for unknown types, or if the nodes do not include the corners.
     pub(super) fn from_code(code: i32) -> Option<(Self, usize)> {
         Some(match code {

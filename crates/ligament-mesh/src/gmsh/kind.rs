@@ -6,8 +6,8 @@ use super::records::Records;
 use super::sections::{Version, read_format};
 use super::{v2, v4};
 
-/// Whether a Gmsh mesh file that begins with these bytes has a solid mesh: whether it has volumes, in files of 4.1 by their entities. `None`
-/// where the bytes end before, or cannot be read.
+/// Whether a Gmsh mesh file that begins with these bytes contains volumes, i.e. a solid mesh; files of 4.1 are judged by their entities.
+/// `None` where the bytes end before this is known, or cannot be read.
 pub fn holds_solid(bytes: &[u8]) -> Option<bool> {
     of_sections(&mut Cursor::new(bytes)).ok().flatten()
 }

@@ -2,11 +2,11 @@
 //!
 //! - A file with tetrahedra, hexahedra, prisms or pyramids gives a solid mesh; triangles and quadrangles alone give a planar one. Only the
 //!   corners of cells of higher order are read. Elements of lower dimension serve the groups.
-//! - A physical group has the nodes of its elements. In 4.1 the groups of an element are those of its entity in `$Entities`; elements
-//!   without a group (`Mesh.SaveAll`) are part of the mesh as well. With `Mesh.SaveAll`, Gmsh drops the groups from files of 2.2: save 4.1
+//! - A physical group has the nodes of its elements. In 4.1 an element has the groups of its entity in `$Entities`; elements without a
+//!   group (`Mesh.SaveAll`) are part of the mesh as well. With `Mesh.SaveAll`, Gmsh drops the groups from files of 2.2: save 4.1
 //!   then.
 //! - Nodes that no cell uses are dropped, also from the groups.
-//! - `$NodeData` gives the fields of the mesh, of which scalars are stored.
+//! - `$NodeData` gives the fields of the mesh; only scalars are stored.
 //! - In a planar mesh the z coordinate must be constant and is dropped.
 //! - Clockwise or inverted cells are reoriented. In a solid mesh a surface element in a group must be a face of a cell.
 //!

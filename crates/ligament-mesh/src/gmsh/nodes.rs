@@ -35,8 +35,8 @@ pub(super) fn check_plane(cursor: &Cursor<'_>, nodes: &[Node], size: f64) -> Res
     }
 }
 
-/// Two coincident nodes, if any, in the order of the file: finds all nearer than half the tolerance along each axis of a mesh of a given
-/// dimension, and none farther apart than the whole tolerance.
+/// Two coincident nodes, if any, in the order of the file. Nodes of a mesh of a given dimension that are nearer than half the tolerance
+/// along each axis are always found, nodes farther apart than the tolerance never.
 pub(super) fn coincident(nodes: &[Node], size: f64, dimension: usize) -> Option<[&Node; 2]> {
     let width = COINCIDENCE * size;
     let lowest = |axis: usize| {
@@ -45,8 +45,8 @@ pub(super) fn coincident(nodes: &[Node], size: f64, dimension: usize) -> Option<
     };
     let lowest = [lowest(0), lowest(1)];
     let across = dimension - 1;
-    // Near nodes fall into one strip of one of two sets of strips, shifted by half a width, in space into one column of one of four sets;
-    // there they are adjacent along the last axis.
+    // Two sets of strips are shifted by half a width (in space, four sets of columns): near nodes share a strip of one set, in which they
+    // are adjacent along the last axis.
     (0..1 << across).find_map(|shifted: usize| {
         let place = |node: &Node, axis: usize| {
             let shift = if (shifted >> axis) & 1 == 1 { 0.5 } else { 0.0 };

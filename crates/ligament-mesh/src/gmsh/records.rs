@@ -174,9 +174,9 @@ impl Records {
 
     /// Fails if the system does not have the memory to make a mesh of these records.
     ///
-    /// The mesh is allocated in many parts, each of which would abort the program if it failed. Measured bytes beside the records were 172 a
-    /// node with its quadrangle (a million of them), 121 a triangle with its half of a node, 95 a tetrahedron with its sixth and 186 a node
-    /// with its hexahedron; the allocator sets more address space aside, for growing lists and for each thread.
+    /// The mesh is allocated in many parts, each of which would abort the program if it failed. Measured bytes besides the records were 172
+    /// per node with its quadrangle (a million of them), 121 per triangle with its half of a node, 95 per tetrahedron with its sixth of a
+    /// node and 186 per node with its hexahedron; the allocator reserves more address space, for growing lists and for each thread.
     pub(super) fn require_memory(&self) -> Result<(), GmshError> {
         // Threads that search for overlapping cells may start later.
         let threads = available_parallelism().map_or(1, NonZero::get);

@@ -54,7 +54,7 @@ fn text_of(source: &Source<'_>) -> String {
 /// Numbers of the groups of an element.
 type Memberships = BTreeSet<i32>;
 
-/// An element, given by its nodes, and the index of its entity among those of its dimension.
+/// An element, given by its nodes, and the index of its entity among the entities of its dimension.
 struct Element {
     nodes: Vec<u32>,
     entity: usize,

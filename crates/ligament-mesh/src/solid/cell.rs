@@ -133,7 +133,7 @@ impl SolidCell {
 
     /// Volume of the cell with the nodes at `positions`, m³; negative for an inverted cell.
     ///
-    /// A quadrangular face that is not plane is the bilinear surface through its corners: the volume is that of the trilinear cell, the mean
+    /// A quadrangular face that is not plane is the bilinear surface through its corners: the volume belongs to the trilinear cell, the mean
     /// of the volumes of the two polyhedra in which each face is split along one diagonal and along the other.
     ///
     /// # Panics
@@ -212,8 +212,8 @@ impl MeshCell<3> for SolidCell {
         self.volume(positions)
     }
 
-    /// Equal parts of the volume, except for pyramids, whose apex has a quarter and whose other corners have 3/16 each. The parts do not
-    /// depend on the numbers of the nodes, unlike those of the tetrahedra of a split.
+    /// Equal parts of the volume, except for pyramids, whose apex has a quarter and whose other corners have 3/16 each. Unlike the parts of
+    /// a split into tetrahedra, they do not depend on the numbers of the nodes.
     fn shares(&self, positions: &[[f64; 3]]) -> impl Iterator<Item = (u32, f64)> {
         let parts: &[f64] = match self {
             SolidCell::Tetrahedron(_) => &[0.25; 4],
@@ -287,7 +287,7 @@ mod tests {
         }
     }
 
-    /// The faces of a closed surface go along every edge once in each direction, and away from the middle.
+    /// The faces of a closed surface run along every edge once in each direction, and their normals point away from the middle.
     #[test]
     fn faces_are_closed_and_look_outwards() {
         for (cell, _) in CELLS {
@@ -317,7 +317,7 @@ mod tests {
         }
     }
 
-    /// Whichever node is the lowest, the parts fill the cell.
+    /// Whichever node is the lowest, the tetrahedra fill the cell.
     #[test]
     fn tetrahedra_fill_the_cell_for_any_numbering() {
         for (cell, expected) in CELLS {

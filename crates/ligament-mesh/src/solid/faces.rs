@@ -54,8 +54,8 @@ impl<'a> Faces<'a> {
         }
     }
 
-    /// Sides of cells at a face, with any order of its corners around it, by the number of their cells: none, one on the outline, two
-    /// inside.
+    /// Sides of cells at a face, ascending by cell: none, one on the outline, or two inside. The corners of the face may begin anywhere and
+    /// run either way around it.
     pub fn sides_at(&self, face: &Cell) -> Vec<Side> {
         let wanted = around(face) >> ORIENTATION;
         let sides = self.sides_of(lowest(face));
@@ -99,7 +99,7 @@ impl<'a> Faces<'a> {
         })
     }
 
-    /// Calls a function with the sides at each lowest node, in order, and the keys of the sides of one face.
+    /// Calls a function for each face, in the order of the lowest nodes, with the keys of its sides and all sides at its lowest node.
     fn for_each(&self, mut call: impl FnMut(&[u128], &[Side])) {
         let (mut sides, mut keys) = (Vec::new(), Vec::new());
         for lowest in 0..self.offsets.len() as u32 - 1 {
@@ -123,7 +123,7 @@ impl<'a> Faces<'a> {
 /// Number of bits of a key for the orientation of a face.
 const ORIENTATION: u32 = 1;
 
-/// Number of bits of a key for the index of a side among those at a node: no mesh has nodes with more cells.
+/// Number of bits of a key for the index of a side among the sides at a node: no mesh has nodes with more cells.
 const PLACE: u32 = 31;
 
 fn place(key: u128) -> usize {
@@ -137,8 +137,8 @@ fn lowest(face: &Cell) -> u32 {
     }
 }
 
-/// Key of a face among those of one lowest node: its other corners, beginning with the neighbour of the lowest one that has the smaller
-/// number, 32 bits each, with zero for the middle one of a triangle; and a bit for the direction of this order around the face.
+/// Key of a face among the faces with the same lowest node: its other corners, beginning with the neighbour of the lowest one that has the
+/// smaller number, 32 bits each, with zero for the middle one of a triangle; and a bit for the direction of this order around the face.
 fn around(face: &Cell) -> u128 {
     let ordered = |first: u32, middle: u32, last: u32| {
         let (low, high) = (first.min(last), first.max(last));

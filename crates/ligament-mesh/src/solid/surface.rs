@@ -95,7 +95,7 @@ fn once(faces: &[Cell]) -> Vec<Cell> {
     faces
 }
 
-/// Triangles of a face, for a quadrangle those of both splits, and the fraction of each that belongs to one of its corners.
+/// Triangles of a face, for a quadrangle of both splits, and the fraction of each triangle that belongs to one of its corners.
 fn thirds(face: &Cell) -> Vec<([u32; 3], f64)> {
     match *face {
         Cell::Triangle(corners) => vec![(corners, 1.0 / 3.0)],

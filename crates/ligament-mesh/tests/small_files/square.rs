@@ -50,7 +50,7 @@ $Elements
 $EndElements
 ";
 
-/// What the square says with `old` replaced by `new`.
+/// The refusal of the square with `old` replaced by `new`.
 pub(crate) fn refusal_of(square: &str, old: &str, new: &str) -> GmshError {
     assert_eq!(
         square.matches(old).count(),

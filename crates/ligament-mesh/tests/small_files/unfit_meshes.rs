@@ -227,8 +227,8 @@ fn overlapping_cells_are_refused() {
     assert_eq!(parse(overlapping.as_bytes()), Err(expected));
 }
 
-/// Eight triangles on three by three nodes, and two large ones on the corners of all: no edge in common. A node that the second one has
-/// in its middle, or the middle of a small one in it, tells of them; without the large ones nothing is amiss.
+/// Eight triangles on three by three nodes, and two large ones on the corners of all: no edge in common. The overlap shows by a node that
+/// lies in the second large triangle, or by the middle of a small one in it; without the large ones nothing is refused.
 #[test]
 fn coarse_cells_over_fine_ones_are_refused() {
     let file = |coarse: &[&str]| {

@@ -1,4 +1,4 @@
-//! Files written by Gmsh and meshio, against what Gmsh says of them (`tests/solid_data/README.md`).
+//! Files written by Gmsh and meshio, compared with the reports of Gmsh on them (`tests/solid_data/README.md`).
 
 use std::fs;
 use std::path::Path;
@@ -107,7 +107,7 @@ fn every_file_holds_what_gmsh_says() {
     }
 }
 
-/// Every cell is right side out, its tetrahedra fill it, and neighbours share whole faces: the outer faces close the body.
+/// Every cell has a positive volume, its tetrahedra fill it, and neighbours share whole faces: the outer faces close the body.
 #[test]
 fn cells_fill_the_body() {
     for name in [

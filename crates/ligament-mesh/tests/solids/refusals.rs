@@ -55,7 +55,7 @@ fn cells_that_are_not_convex_are_refused() {
         element,
         shape,
     };
-    // The upper corner pushed through the cell, and the top turned round by half a turn.
+    // The upper corner pushed through the cell, and the top rotated by half a turn.
     assert_eq!(
         refusal("7 1 1 1\n", "7 0.2 0.2 0.2\n"),
         expected(22, 5, "hexahedron")
@@ -156,7 +156,7 @@ fn nodes_at_one_place_are_refused() {
     assert_eq!(parse_any(near.as_bytes()), Err(expected));
 }
 
-/// A shell in a group beside the solid, or a surface whose faces are those of another mesh.
+/// A shell in a group beside the solid, or a surface whose faces belong to another mesh.
 #[test]
 fn faces_of_no_cell_are_refused() {
     let shell = changed("$Nodes\n9", "$Nodes\n11\n20 7 7 7\n21 8 7 7")

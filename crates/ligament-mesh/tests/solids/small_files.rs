@@ -103,7 +103,7 @@ fn cells_inside_out_are_turned_round() {
     }
 }
 
-/// In format 2.2 a cell or face stands in the file once for each of its groups.
+/// In format 2.2 a cell or face occurs in the file once for each of its groups.
 #[test]
 fn what_stands_twice_in_other_groups_is_one() {
     let twice = "6 7 2 6 1 5 6 7 8 9\n7 7 2 5 1 6 7 8 5 9\n8 3 2 3 1 3 4 1 2\n";
@@ -137,7 +137,7 @@ fn nodes_of_no_cell_are_dropped_from_the_groups_too() {
     );
 }
 
-/// A surface that is in no group only stands there: nothing refers to it.
+/// A surface without a group is allowed: nothing refers to it.
 #[test]
 fn a_loose_face_without_a_group_does_no_harm() {
     let mesh = solid(&changed("3 3 2 3 1 1 2 3 4", "3 3 2 0 1 1 3 5 7"));

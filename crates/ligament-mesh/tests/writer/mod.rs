@@ -1,4 +1,4 @@
-//! A writer of Gmsh files: what the reader should get back.
+//! A writer of Gmsh files, with the mesh that the reader should return.
 
 /// Format of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -17,7 +17,7 @@ pub struct Sheet {
 }
 
 impl Sheet {
-    /// Reads a table. A last row without its line feed is one that a run was just writing, and is left out.
+    /// Reads a table. A last row without a line feed, which a run is just writing, is left out.
     ///
     /// # Errors
     ///
@@ -27,7 +27,7 @@ impl Sheet {
         Self::parse(&path, &read_text(&path)?)
     }
 
-    /// The table of a text, which is that of the file `path`, or would be.
+    /// Parses the text of a table; `path` is the path of its file, for messages.
     ///
     /// # Errors
     ///
@@ -72,7 +72,7 @@ impl Sheet {
         Some(self.rows.iter().map(move |row| &row[place]))
     }
 
-    /// What a function makes of each row.
+    /// The results of a function for each row.
     ///
     /// # Errors
     ///
@@ -145,7 +145,7 @@ impl Row<'_> {
         text.parse().map_err(|_| self.no_value(column, text))
     }
 
-    /// The number in a column, which is neither infinite nor not a number.
+    /// The number in a column, which is finite.
     ///
     /// # Errors
     ///
@@ -167,13 +167,13 @@ impl Row<'_> {
     }
 }
 
-/// The records of a text that end in a line feed; values in quotes may hold commas, quotes (doubled) and line feeds.
+/// The records of a text, up to the last line feed; values in quotes may hold commas, quotes (doubled) and line feeds.
 pub fn records(text: &str) -> Vec<StringRecord> {
     let finished = text.rfind('\n').map_or("", |end| &text[..=end]);
     let mut format = ReaderBuilder::new();
     let format = format.has_headers(false).flexible(true);
     let reader = format.from_reader(finished.as_bytes());
-    // Bytes in memory that are text, in records of any length, have nothing that could fail.
+    // Text in memory, in records of any length, is read without errors.
     let mut records: Vec<StringRecord> = reader.into_records().map_while(Result::ok).collect();
     let is_cut_in_quotes = finished.matches('"').count() % 2 == 1;
     if is_cut_in_quotes {

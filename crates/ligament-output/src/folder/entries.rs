@@ -56,7 +56,7 @@ pub(super) fn resolved(path: &Path) -> PathBuf {
 ///
 /// # Errors
 ///
-/// If the path is such, with the path.
+/// If the path is a link, or neither file nor folder; the error names the path.
 pub fn refuse_link(path: &Path) -> Result<(), Error> {
     match fs::symlink_metadata(path) {
         Ok(found) if found.is_symlink() => Err(Error::Link(path.to_path_buf())),

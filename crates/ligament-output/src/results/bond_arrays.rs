@@ -65,7 +65,7 @@ impl BondArrays {
     }
 }
 
-/// The step in which each bond broke, by the table of broken bonds.
+/// The step in which each bond broke, from the table of broken bonds.
 fn steps_of_breaking(folder: &Path, model: &VtuFile, ends: &[[u32; 2]]) -> Result<Vec<i64>, Error> {
     let (_, tags) = model.tags(FieldLocation::Point)?;
     let sheet = Sheet::read(folder.join("breaks.csv"))?;
@@ -80,7 +80,7 @@ fn steps_of_breaking(folder: &Path, model: &VtuFile, ends: &[[u32; 2]]) -> Resul
     Ok(ends.iter().map(step).collect())
 }
 
-/// Positions of the points by a file of fields, shape (n_points), m: of cells around points their middles.
+/// Positions of the points from a file of fields, shape (n_points), m; for cells around points, the middles of the cells.
 ///
 /// # Errors
 ///

@@ -19,7 +19,7 @@ pub struct Column {
     pub name: &'static str,
     /// SI unit; `-` for a number without a unit, empty for a count or a word.
     pub unit: &'static str,
-    /// Whether the tables of a body in the plane, and those of a solid, have the column.
+    /// Whether the tables of a body in the plane have the column, and whether the tables of a solid have it.
     spaces: [bool; 2],
     /// Meaning, as on the page of columns.
     pub meaning: &'static str,
@@ -390,13 +390,13 @@ pub fn is_count(table: &str, column: &str) -> bool {
 /// Name of the column of the time of a motion.
 pub const TIME: &str = MOTION[0].0.name;
 
-/// Whether a history with these columns is that of a motion in time.
+/// Whether a history with these columns belongs to a motion in time.
 pub fn is_in_time(columns: &[String]) -> bool {
     let mut own = MOTION.iter();
     own.all(|it| columns.iter().any(|column| column == it.0.name))
 }
 
-/// SI unit of a column of a table of cracks, by the name of its file; none of another.
+/// SI unit of a column of a table of cracks, by the name of its file; `None` for other tables.
 pub fn unit_of_crack(file: &str, column: &str) -> Option<&'static str> {
     let all: [&[Column]; 2] = match file {
         "crack_growth.csv" => [CRACK_GROWTH, GROWTH_RATE],

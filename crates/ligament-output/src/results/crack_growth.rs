@@ -16,7 +16,7 @@ pub(super) struct CrackSize<'a> {
     pub(super) area: f64,
     /// Values of the columns between force and area, which differ between lines in the plane and surfaces in a solid.
     pub(super) counts: Vec<Value<'static>>,
-    /// Length of all lines, m; of a solid none.
+    /// Length of all lines, m; none for a solid.
     pub(super) length: Option<f64>,
 }
 

@@ -5,7 +5,7 @@
 //! | `crack.csv`, `crack.vtu` | the lines of a step |
 //! | `opened.vtu` | the cells of a mesh, opened along the lines, with the displacement and the damage of the step |
 //! | `crack_tips.csv` | the tips in every record of the history in which cracks grew; in a motion their speeds |
-//! | `crack_growth.csv` | length and area of all cracks there, and energies over the new area |
+//! | `crack_growth.csv` | length and area of all cracks in these records, and energies over the new area |
 
 use std::path::Path;
 
@@ -98,7 +98,7 @@ fn write_lines(path: &Path, step: usize, lines: &[CrackLine]) -> Result<(), Erro
     Ok(())
 }
 
-/// Writes the lines as line cells between their vertices; without lines, which readers would refuse, no file.
+/// Writes the lines as line cells between their vertices; no file without lines, since readers refuse empty grids.
 fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     if lines.is_empty() {
         return remove_file(path);

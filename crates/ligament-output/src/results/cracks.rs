@@ -33,7 +33,7 @@ pub struct StoredCracks {
     /// Faces that opened, with the moment of opening.
     opened: Vec<(usize, Moment)>,
     records: Vec<CrackRecord>,
-    /// Whether the run is a motion, of which the load factor is the time.
+    /// Whether the run is a motion, whose load factor is the time.
     pub(super) in_time: bool,
 }
 
@@ -143,7 +143,7 @@ impl StoredCracks {
         sides_of_cells(&self.cells, self.is_parted(step))
     }
 
-    /// The cells between the points of the body, in the order of the files; none of a lattice.
+    /// The cells between the points of the body, in the order of the files; empty for a lattice.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }
@@ -158,7 +158,7 @@ impl StoredCracks {
         }
     }
 
-    /// State of the faces (n_faces) in that of a record; before the first load without one.
+    /// State of each face in a record, shape (n_faces); without a record, before the first load.
     fn parts(&self, record: Option<&CrackRecord>) -> Vec<Part> {
         let mut parts = vec![Part::Whole; self.faces.len()];
         for &face in &self.cut {
@@ -172,7 +172,7 @@ impl StoredCracks {
         parts
     }
 
-    /// The records with newly opened faces; of very many an even selection with the last.
+    /// The records in which faces opened; if there are very many, an even selection with the last.
     pub fn grown_records(&self) -> Vec<&CrackRecord> {
         let open = |record: &CrackRecord| {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));
@@ -192,7 +192,7 @@ impl StoredCracks {
     }
 }
 
-/// The records with a larger number of open faces or pairs than before; of more than `most` an even selection with the last.
+/// The records with more open faces or pairs than before; if there are more than `most`, an even selection with the last.
 pub(super) fn grown(
     records: &[CrackRecord],
     open: impl Fn(&CrackRecord) -> usize,
@@ -271,7 +271,7 @@ pub(super) fn tag_pair(row: Row<'_>, [a, b]: &[String; 2]) -> Result<[i64; 2], E
     Ok([row.value(a)?, row.value(b)?])
 }
 
-/// Names of the columns with the tags of the ends of bonds, by those that a table has.
+/// Names of the columns with the tags of the ends of bonds in a table.
 pub fn columns_of_ends(sheet: &Sheet) -> [String; 2] {
     let has = |tagged: &&str| {
         sheet

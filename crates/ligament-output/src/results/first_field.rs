@@ -14,10 +14,10 @@ use crate::Error;
 use crate::csv::read::Sheet;
 use crate::vtu::read::VtuFile;
 
-/// What happened to the bonds of a run.
+/// Fate of the bonds of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Happened {
-    /// Nothing: all bonds are as they were.
+    /// No bond broke or softened.
     Nothing,
     /// Bonds broke, and none softened.
     Broke,
@@ -30,7 +30,8 @@ const OF_SOFTENING: [&ResultField; 3] = [&DAMAGE_TENSION, &DAMAGE_SLIDING, &DAMA
 
 /// The field that shows best what happened in a run; `largest` is the largest value of a field at the end, 0 without the field.
 ///
-/// Where bonds soften, few of them break before the crack is open: the damage by the way in which they soften most shows the crack as it forms.
+/// Where bonds soften, few of them break before the crack is open: the damage of their main mode of softening shows the crack from its
+/// beginning.
 pub fn first_field(happened: Happened, largest: impl Fn(&str) -> f64) -> &'static ResultField {
     let by_way = || {
         let sizes = OF_SOFTENING.map(|it| (it, largest(it.name)));

@@ -33,14 +33,14 @@ pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Resul
 /// Bonds as lines between the points of a body, in the order of the file.
 pub(super) struct Lines {
     cells: Vec<vtu::Cell>,
-    /// First end of each bond, whose owner owns the bond.
+    /// First end of each bond; the owner of this point owns the bond.
     first_ends: Vec<u32>,
     /// Order of the bonds in the file; none where it is the present one.
     order: Option<Vec<u32>>,
 }
 
 impl Lines {
-    /// The lines of bonds, given by their ends (n_bonds), then those of absent bonds.
+    /// The lines of bonds, given by their ends (n_bonds), then the lines of absent bonds.
     pub(super) fn new(body: &BodyGrid, bonds: &[[u32; 2]], absent: &[[u32; 2]]) -> Self {
         let numbering = &body.numbering;
         let n_bonds = bonds.len() as u32;
@@ -100,8 +100,8 @@ impl Lines {
     }
 }
 
-/// Writes fields of the points of a body, and field data; in pieces where the body is divided between processes. Readers warp by the first
-/// vector, the displacement.
+/// Writes fields of the points of a body, and field data; in pieces where the body is divided between processes. Readers warp the grid by
+/// its first vector, the displacement.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,

@@ -1,8 +1,8 @@
-//! File of the surface in a solid on which a field has a value.
+//! File of the surface in a solid on which a field equals a level.
 //!
-//! `iso.vtu` (`iso_NNNN.vtu` and `iso.pvd` of all stored steps) has its triangles, counter-clockwise seen from where the field is larger,
-//! in the body without load. Its places lie on edges of tetrahedra between the points, and all fields of the points that are no
-//! integers are there as they are along these edges: linear.
+//! `iso.vtu` (`iso_NNNN.vtu` and `iso.pvd` of all stored steps) holds its triangles, counter-clockwise seen from where the field is larger,
+//! in the undeformed body. Its vertices lie on edges of tetrahedra between the points; all fields of the points except integers are
+//! interpolated linearly along these edges.
 
 use std::path::Path;
 
@@ -24,7 +24,7 @@ struct Interpolated {
 }
 
 /// Writes the surface on which values of the points (n_points) equal a level, with the fields of a result file; returns its area (m^2) and
-/// number of triangles. Without triangles, which readers would refuse, there is no file.
+/// number of triangles. There is no file without triangles, since readers refuse empty grids.
 ///
 /// # Errors
 ///

@@ -32,7 +32,7 @@ use crate::vtu::{self, Field};
 /// Name of the field of the energies that bonds dissipated, J.
 pub(super) const DISSIPATED_ENERGY: &str = "dissipated_energy";
 
-/// What the names of the fields of supported and loaded points begin with.
+/// Prefix of the names of the fields of supported and loaded points.
 pub(super) const GROUP: &str = "group.";
 
 /// Stem of the model file's name.
@@ -44,7 +44,7 @@ pub(super) fn model_file(folder: &Path) -> Option<PathBuf> {
     names.into_iter().find(|path| path.is_file())
 }
 
-/// Names of the fields that hold the coefficients of a measure, in their order; most measures have none or one, those of stress the
+/// Names of the fields that hold the coefficients of a measure, in their order. Most measures have none or one; measures of stress have the
 /// stress around the bond (none in the sound body) and moduli.
 pub(super) const COEFFICIENTS: [&str; 9] = [
     "coefficient",
@@ -131,7 +131,7 @@ fn groups(problem: &Problem) -> Vec<(String, Vec<i64>)> {
     problem.loads.groups().iter().map(field).collect()
 }
 
-/// Values of the bonds, with no number for each absent one.
+/// Values of the bonds, followed by NaN for each absent bond.
 fn with_absent(values: &[f64], n_absent: usize) -> Vec<f64> {
     let nothing = std::iter::repeat_n(f64::NAN, n_absent);
     values.iter().copied().chain(nothing).collect()

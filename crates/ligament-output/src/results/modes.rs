@@ -3,7 +3,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `modes.csv` | one row per mode |
-//! | `mode_NNNN.vtu`, `modes.pvd` | shapes on the cells of the mesh or the lattice; the time is the number of the mode, beside it the frequency as field data |
+//! | `mode_NNNN.vtu`, `modes.pvd` | shapes on cells of the mesh or lattice; the time is the number of the mode, the frequency is field data |
 
 use ligament_analysis::Bonds;
 use ligament_analysis::modal::ModalOutcome;

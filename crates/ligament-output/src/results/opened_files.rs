@@ -19,7 +19,7 @@ pub(super) const OPENED: &str = "opened.vtu";
 /// Fields of the points in the file, beside the displacement.
 const FIELDS: [&ResultField; 2] = [&DAMAGE, &STRAIN_ENERGY_DENSITY];
 
-/// Whether the body has cells between points, which can be opened; the box of a lattice moves with its point.
+/// Whether the body has cells between points, which can be opened; each cell of a lattice belongs to one point and moves with it.
 pub(super) fn has_cells(cracks: &SolidCracks) -> bool {
     matches!(cracks.body.grid.canvas, Canvas::Solid(_))
 }

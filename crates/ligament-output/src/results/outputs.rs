@@ -141,7 +141,7 @@ pub fn bonded_pairs(folder: &Path) -> Result<Option<Vec<[i64; 2]>>, Error> {
     Ok(Some(tagged.collect()))
 }
 
-/// Removes the field files of a run that starts anew in its folder.
+/// Removes the field files of a run that starts again in its folder.
 ///
 /// # Errors
 ///

@@ -86,7 +86,7 @@ pub(super) fn vtu_field<'a>(
     }
 }
 
-/// Ghosts at the corners of the cells that this process writes, the cells whose first corner it owns.
+/// Ghost points at the corners of the cells that this process writes: the cells whose first corner it owns.
 fn corners(grid: &BodyGrid, subdomain: &Subdomain) -> Ghosts {
     if subdomain.is_whole() {
         return Ghosts::new(subdomain, std::iter::empty());

@@ -26,8 +26,8 @@ pub struct WriteRule {
     pub traction: bool,
 }
 
-/// Time of a state in the collections: that of a motion (s), otherwise the number of its row in the history, because loads and
-/// displacements may stay or go back.
+/// Time of a state in the collections: in a motion its time (s), otherwise the number of its row in the history, because loads and
+/// displacements may stay constant or decrease.
 pub(super) fn time(record: &StepRecord) -> f64 {
     match record.motion {
         Some(_) => record.load_factor,
@@ -35,8 +35,8 @@ pub(super) fn time(record: &StepRecord) -> f64 {
     }
 }
 
-/// Field data of the files of a state: its time, then `load_factor`, `displacement` and `reaction` of its row in the history. The names are
-/// none of fields, because readers look for a name in both.
+/// Field data of the files of a state: its time, then `load_factor`, `displacement` and `reaction` of its row in the history. No field has
+/// one of these names, because readers look for a name in both.
 pub(super) fn field_data(record: &StepRecord) -> [(&'static str, f64); 4] {
     [
         (TIME_VALUE, time(record)),
@@ -47,7 +47,7 @@ pub(super) fn field_data(record: &StepRecord) -> [(&'static str, f64); 4] {
 }
 
 impl WriteRule {
-    /// Whether a field with a reading is written.
+    /// Whether the rule includes a field, given by its reading.
     pub(super) fn has(&self, reading: &FieldReading) -> bool {
         match reading {
             FieldReading::MaterialStress(MaterialStress::Carried, ..) => self.material_stress,

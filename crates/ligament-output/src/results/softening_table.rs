@@ -1,4 +1,4 @@
-//! `softening.csv`: one row when a bond begins to soften, and one when its force has fallen below each of three shares of that at the limit.
+//! `softening.csv`: one row when a bond begins to soften, and one when its force has fallen below each of three shares of its limit.
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{StepRecord, View};
@@ -35,7 +35,7 @@ impl CrackedBelow {
     /// All shares, in the order of their events.
     pub const ALL: [Self; 3] = [Self::Half, Self::Quarter, Self::Tenth];
 
-    /// The share.
+    /// Share of the force at the limit, dimensionless.
     pub fn share(self) -> f64 {
         match self {
             Self::Half => 0.5,
@@ -90,7 +90,7 @@ pub(super) struct SofteningProgress {
 }
 
 impl SofteningProgress {
-    /// Whether it can be that of a run with so many bonds.
+    /// Whether the state can belong to a run with `n_bonds` bonds.
     pub(super) fn fits(&self, n_bonds: usize) -> bool {
         let mut events = self.of_bonds.iter();
         self.of_bonds.len() == n_bonds && events.all(|it| usize::from(*it) <= EVENTS.len())
@@ -142,7 +142,7 @@ impl SofteningTable {
         })
     }
 
-    /// Adds the events since the last step, those of the bonds farthest beyond their limits first.
+    /// Adds the events since the last step, first the events of the bonds farthest beyond their limits.
     pub(super) fn step(
         &mut self,
         record: &StepRecord,
@@ -176,7 +176,7 @@ impl SoftenedBonds {
         }
     }
 
-    /// Bonds with new events in a state, those farthest beyond their limits first; the events then count as reported.
+    /// Bonds with new events in a state, first the bonds farthest beyond their limits; the events then count as reported.
     pub(super) fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
         let changed = self.changed(view);
         let told = |(bond, criterion, now)| SoftenedBond {

@@ -24,13 +24,13 @@ pub struct SolidCracks {
     pub body: SolidBody,
     /// Tetrahedra that are cut at some time.
     pub(super) tetrahedra: Tetrahedra,
-    /// Links of points before the first load that are not bonds.
+    /// Connections of the pairs of points that are not bonded before the first load.
     at_first: Links,
     /// Separated pairs, with the moment and the step of separation, in their order.
     opened: Vec<([u32; 2], Moment, usize)>,
     /// Rows of the history.
     pub(super) records: Vec<CrackRecord>,
-    /// Whether the run is a motion, of which the load factor is the time.
+    /// Whether the run is a motion, whose load factor is the time.
     pub(super) in_time: bool,
     /// Mean horizon of the points, m.
     mean_horizon: f64,
@@ -130,8 +130,8 @@ impl SolidCracks {
         &self.tetrahedra
     }
 
-    /// Opening and sliding at each vertex of a surface for displacements of the points (n_points, m), shape (n_places), m: jumps along the
-    /// normal of the surface and in it, averaged over the pairs separated there; positive openings separate.
+    /// Opening and sliding at each vertex of a surface for displacements of the points (n_points, m), shape (n_places), m: jumps normal and
+    /// tangential to the surface, averaged over the pairs separated there; positive openings separate.
     pub fn jumps(&self, surface: &CrackSurface, displacement: &[[f64; 3]]) -> Vec<[f64; 2]> {
         let positions = &self.body.grid.positions;
         let places = surface.parted.iter().zip(surface.normals());
@@ -159,7 +159,7 @@ impl SolidCracks {
         opened.map(|(pair, _, step)| (*pair, *step)).collect()
     }
 
-    /// The records with newly separated pairs; of very many an even selection with the last.
+    /// The records with newly separated pairs; if there are very many, an even selection with the last.
     pub fn grown_records(&self) -> Vec<&CrackRecord> {
         let open = |record: &CrackRecord| {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));

@@ -21,7 +21,7 @@ pub enum StepName {
     Last,
     /// The step with this number.
     Number(usize),
-    /// The step so many before the end: 1 is the last, 2 the one before.
+    /// The step at this place from the end: 1 is the last, 2 the one before.
     FromEnd(usize),
     /// The stored step nearest to this time of a motion, s.
     At(f64),
@@ -61,7 +61,7 @@ pub enum StepError {
         /// Requested name.
         name: StepName,
     },
-    /// A time of a run in statics.
+    /// A time was given for a run in statics.
     #[error("{path} has no times: it is no motion; choose steps by number, first, peak or last")]
     NoTimes {
         /// The folder.
@@ -81,7 +81,7 @@ pub enum StepError {
         /// Requested name.
         name: StepName,
     },
-    /// A step counted from the end, of fewer steps.
+    /// A step counted from the end, where fewer steps are stored.
     #[error("{path} has no step -{back}: there is output of {n_stored} steps")]
     TooFewSteps {
         /// The folder.
@@ -312,7 +312,7 @@ mod tests {
         choice.steps(folder(HISTORY).path(), stored).unwrap()
     }
 
-    /// Step 2 softened first and is the largest at rest: step 4 has a larger reaction, and bonds were still breaking there.
+    /// At the peak, step 2, the first bond softens; step 4 has a larger reaction, but its bonds were still breaking.
     #[test]
     fn names_lead_to_the_steps_in_which_something_happened() {
         let steps = |word| {

@@ -53,7 +53,7 @@ pub struct StoredModel {
     pub horizon: Vec<f64>,
     /// Whether the bonds of a point never fail, shape (n_points).
     pub no_fail: Vec<bool>,
-    /// Supported and loaded points by the name of their group in the history; none of runs of earlier versions.
+    /// Supported and loaded points by the name of their group in the history; empty for runs of earlier versions.
     pub groups: BTreeMap<String, Vec<u32>>,
     /// Bonds and absent bonds.
     pub bonds: StoredBonds,

@@ -7,7 +7,7 @@
 //! | `crack_growth.csv` | parts and area of the surface in every record of the history in which it grew, and energies over the new area |
 //! | `crack_NNNN.vtu`, `crack.pvd`, `opened_NNNN.vtu`, `opened.pvd` | surfaces and opened cells of all stored steps |
 //!
-//! Fields on the vertices of the surface: `opening` and `sliding`, jumps of the displacement along the normal of the surface and in it (m,
+//! Fields on the vertices of the surface: `opening` and `sliding`, jumps of the displacement normal and tangential to the surface (m,
 //! averaged over the pairs separated there; positive openings separate), the `step` in which the last of these pairs separated (-1 before
 //! the first load) and its `load_factor`. On the triangles: the connected `part`, from 1, the largest first, and `precrack`.
 
@@ -85,8 +85,8 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
     Ok(outputs.files.len())
 }
 
-/// Opening and sliding (m) at each vertex of a surface of a step, by the stored displacements of the step or of the last one before it;
-/// not a number where there are none.
+/// Opening and sliding (m) at each vertex of the surface of a step, from the stored displacements of this step or of the last stored step
+/// before it; NaN where there are none.
 ///
 /// # Errors
 ///
@@ -118,7 +118,7 @@ pub(super) fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>
     path.map(|(_, path)| VtuFile::open(path)).transpose()
 }
 
-/// Writes the surface with its fields; without triangles, which readers would refuse, no file.
+/// Writes the surface with its fields; no file without triangles, since readers refuse empty grids.
 fn write_grid(
     path: &Path,
     cracks: &SolidCracks,
@@ -171,7 +171,7 @@ fn write_grid(
     vtu::write_vtu(path, &grid)
 }
 
-/// The surface as binary STL: 80 bytes of text, the number of triangles, and of each its normal and corners in single precision.
+/// The surface as binary STL: 80 bytes of text, the number of triangles, and for each triangle its normal and corners in single precision.
 fn stl_of(surface: &CrackSurface) -> Vec<u8> {
     let mut bytes = vec![0; 80];
     let words = b"crack surface, m";

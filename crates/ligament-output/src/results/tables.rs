@@ -102,7 +102,7 @@ pub(super) fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
     told(system.strain_names())
 }
 
-/// The names of the strains in results, from those of an element.
+/// Names of the stored components of a bond's deformation: all names but a last `rotation`.
 pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
     match names {
         [told @ .., "rotation"] => told,
@@ -110,7 +110,7 @@ pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
     }
 }
 
-/// Names of columns for a contact or a rigid body of a name.
+/// Names of the columns of a contact or a rigid body with a given name.
 fn named<R>(columns: &'static [Reading<R>], name: &str, in_space: bool) -> Vec<String> {
     let of_it = |column: &Reading<R>| match column.0.name.split_once('.') {
         Some((_, quantity)) => format!("{name}.{quantity}"),

@@ -1,4 +1,4 @@
-//! What a run in statics can be trusted for: its energies, what its cracks spent, its largest residual, and its ties.
+//! Certificate of a run in statics: its energies, what its cracks dissipated, its largest residual, and its ties.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};

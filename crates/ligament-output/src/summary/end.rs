@@ -1,4 +1,4 @@
-//! What the end of a run says of its results, by the table of ends.
+//! Verdict on the results of a run by its end, from the table of ends.
 
 use ligament_analysis::termination::{ENDS, End, Verdict};
 
@@ -8,7 +8,7 @@ use super::Summary;
 pub const UP_TO_THERE: &str =
     "no equilibrium was found at the load where the run ended; the results reach up to there";
 
-/// What an end says of the results, by its short name; that of a complete run for a name of another version.
+/// The verdict on the results by the short name of an end; for a name of another version, the verdict on a complete run.
 pub fn verdict(termination: &str) -> Verdict {
     let row = ENDS.iter().find(|it| it.name == termination);
     row.map_or(Verdict::Complete, |it| it.verdict)

@@ -79,7 +79,7 @@ pub struct Held<'a> {
     pub cells: Option<&'a [u32]>,
 }
 
-/// Some of the indices.
+/// The indices at some places.
 fn at(indices: &[u32], places: &[u32]) -> Vec<i64> {
     let chosen = places.iter().map(|&place| indices[place as usize]);
     chosen.map(i64::from).collect()

@@ -1,8 +1,8 @@
 //! Reads back the VTU files of this program, array by array.
 //!
-//! Only what [`write_vtu`](super::write_vtu) writes is read: one piece, arrays in blocks compressed by zlib; and grids in pieces as
-//! [`write_shared`](super::write_shared) writes them, which read as one process would have written them. The text is searched once for
-//! the places of the arrays, and an array is decoded when it is asked for: a file of fields has some twenty.
+//! Only files of [`write_vtu`](super::write_vtu) are read: one piece, arrays in blocks compressed by zlib; and grids in pieces of
+//! [`write_shared`](super::write_shared), which are read as if one process had written them. The text is searched once for the arrays, and
+//! an array is decoded when it is asked for: a file of fields has some twenty.
 
 mod text;
 
@@ -13,13 +13,13 @@ use super::{Cell, TIME_VALUE};
 use crate::{Error, FieldLocation};
 use text::{Entry, Section, Text, sources, strange};
 
-/// What the points of a model are called, whose tags a file has: nodes of a mesh, cells of a lattice, points of a table.
+/// Nouns for the points of a model whose tags a file has: nodes of a mesh, cells of a lattice, points of a table.
 pub const TAGGED: [&str; 3] = ["node", "cell", "point"];
 
-/// Size that no number of a result has: squares and quotients of smaller ones are numbers.
+/// Size that no result reaches: squares and quotients of smaller numbers are finite.
 const BEYOND: f64 = 1e100;
 
-/// A VTU file, or one of a grid in pieces, with the places of the arrays.
+/// A VTU file or a grid in pieces, with the positions of its arrays.
 #[derive(Debug)]
 pub struct VtuFile {
     path: PathBuf,
@@ -28,7 +28,7 @@ pub struct VtuFile {
     n_cells: usize,
 }
 
-/// A piece of a grid, and where its points and cells stand in the whole one.
+/// A piece of a grid, with the places of its points and cells in the whole grid.
 #[derive(Debug)]
 struct Piece {
     text: Text,
@@ -36,12 +36,12 @@ struct Piece {
     cells: Places,
 }
 
-/// Places of the rows of a piece among those of the grid.
+/// Places of the rows of a piece among the rows of the grid.
 #[derive(Debug)]
 enum Places {
-    /// One after the other from a first one on.
+    /// Consecutive places from this one on.
     From(usize),
-    /// Each by its number.
+    /// The place of each row.
     Numbers(Vec<u32>),
 }
 
@@ -50,7 +50,7 @@ impl VtuFile {
     ///
     /// # Errors
     ///
-    /// If a file cannot be read, or is none as this program writes them.
+    /// If a file cannot be read, or is not as this program writes it.
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
         if path.extension().is_none_or(|it| it != "pvtu") {
@@ -74,7 +74,7 @@ impl VtuFile {
         let mut pieces = Vec::new();
         let mut before = [0, 0];
         for source in sources(&path)? {
-            // A piece lies beside the file that names it: nothing leads elsewhere.
+            // A piece lies beside the file that names it: a path in its name is ignored.
             let name = Path::new(&source).file_name().unwrap_or_default();
             let text = Text::open(&path.with_file_name(name))?;
             let points = Places::read(&text, FieldLocation::Point, before[0])?;
@@ -144,8 +144,8 @@ impl VtuFile {
         Some((entry.n_components, &entry.components))
     }
 
-    /// Names of the components of a field by which its values can be asked for one by one: those of the file, `x`, `y` and `z` of a vector;
-    /// empty of a field of one number, or where there is no such field.
+    /// Names of the components of a field for requests of single components: the names in the file, otherwise `x`, `y` and `z` for a vector
+    /// and numbers for other fields; empty for a scalar, or where there is no such field.
     pub fn component_names(&self, location: FieldLocation, name: &str) -> Vec<String> {
         match self.components(location, name) {
             None | Some((1, _)) => Vec::new(),
@@ -183,7 +183,7 @@ impl VtuFile {
         values.ok_or_else(|| self.missing(location, name))
     }
 
-    /// The numbers of a field that the file must have, all of which are of a size that results have.
+    /// The numbers of a field that the file must have, all finite and of a size that results can have.
     ///
     /// # Errors
     ///
@@ -206,7 +206,7 @@ impl VtuFile {
         values.ok_or_else(|| self.missing(location, name))
     }
 
-    /// The tags of what the points of a model are: the noun of [`TAGGED`], and the tags.
+    /// The tags of the points of a model, with the noun of [`TAGGED`] for these points.
     ///
     /// # Errors
     ///
@@ -264,7 +264,7 @@ impl VtuFile {
             .ok_or_else(|| self.strange("its cells are of a kind that this program does not write"))
     }
 
-    /// The cells of a piece, whose points are points of the whole; None where one is of another kind.
+    /// The cells of a piece, with the numbers of their points in the whole grid; `None` for a cell of another kind.
     fn cells_of(&self, piece: &Piece) -> Result<Vec<Option<Cell>>, Error> {
         let text = &piece.text;
         let array = |name| {
@@ -307,7 +307,7 @@ impl VtuFile {
         lines.ok_or_else(|| self.strange("its cells are no pairs of its points"))
     }
 
-    /// The error of something in the file that is not as it should be.
+    /// The error for a file with an invalid part, given the reason.
     pub(crate) fn strange(&self, reason: impl Into<String>) -> Error {
         strange(&self.path, reason)
     }
@@ -377,7 +377,7 @@ impl VtuFile {
 }
 
 impl Places {
-    /// The places of a piece, behind so many of the pieces before it if it does not tell them.
+    /// Places of the rows of a piece: by their stored numbers, otherwise following the `before` rows of the pieces before it.
     fn read(text: &Text, location: FieldLocation, before: usize) -> Result<Self, Error> {
         let name = match location {
             FieldLocation::Point => POINT_NUMBER,

@@ -20,7 +20,7 @@ const GRID_WIDTH: f64 = 0.06;
 const FEWEST: f64 = 2.0;
 const MOST: f64 = 7.0;
 
-/// How axes are drawn.
+/// Names and style of the axes of a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Axes<'a> {
     /// Names of the quantities along x and y.

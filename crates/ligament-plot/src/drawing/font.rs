@@ -1,4 +1,4 @@
-//! The font of all text in pictures ([its origin](https://dejavu-fonts.github.io) and licence lie beside it).
+//! The font of all text in pictures ([its origin](https://dejavu-fonts.github.io) and licence are in the same folder).
 
 use std::sync::LazyLock;
 
@@ -53,7 +53,7 @@ impl Font {
         self.letters.map(letter).unwrap_or(GlyphId::NOTDEF)
     }
 
-    /// How far a letter moves the next one, over the size of the letters.
+    /// Advance width of a glyph, relative to the size of the letters.
     pub(super) fn advance(&self, glyph: GlyphId) -> f64 {
         let units = self.advances.advance_width(glyph).unwrap_or_default();
         f64::from(units) / f64::from(self.metrics.units_per_em)

@@ -1,4 +1,4 @@
-//! Where a part of a plane lies in a drawing.
+//! Part of a plane that is shown in a rectangle of a drawing.
 
 use super::PathData;
 
@@ -11,12 +11,12 @@ pub(crate) struct Frame {
     pub(crate) high: [f64; 2],
     /// Upper left corner of the rectangle, pixels.
     pub(crate) at: [f64; 2],
-    /// Pixels to the unit of each quantity.
+    /// Pixels per unit of each quantity.
     pub(crate) scale: [f64; 2],
 }
 
 impl Frame {
-    /// The part between two corners in a rectangle by its upper left corner and its size, pixels.
+    /// The part between two corners, in a rectangle given by its upper left corner and its size, pixels.
     pub(crate) fn new([low, high]: [[f64; 2]; 2], [at, size]: [[f64; 2]; 2]) -> Self {
         Self {
             low,

@@ -1,4 +1,4 @@
-//! Pictures one after the other as a GIF, with one palette for all of them, so that no colour changes where the drawing does not.
+//! Animated GIF of pictures, with one palette for all of them, so that unchanged areas keep their colours.
 
 use std::collections::HashMap;
 
@@ -6,13 +6,13 @@ use gif::{DisposalMethod, Encoder, Frame, Repeat};
 
 use super::png::{Pixels, PngError};
 
-/// Colours of a palette.
+/// Largest number of colours of a palette.
 const MOST_COLOURS: usize = 256;
 
-/// Hundredths of a second of the last picture at least, so that it can be looked at before all begins again.
+/// Shortest duration of the last picture, hundredths of a second, before the animation begins again.
 const LAST: u16 = 200;
 
-/// An animation that cannot be made.
+/// Reason why an animation cannot be made.
 #[derive(Debug, thiserror::Error)]
 pub enum GifError {
     /// A picture cannot be drawn.
@@ -31,7 +31,7 @@ pub enum GifError {
     Empty,
 }
 
-/// Pictures of one size, each shown for so many hundredths of a second, as a GIF that begins again at its end.
+/// A GIF of pictures of one size, each shown for a number of hundredths of a second, that begins again at its end.
 pub(crate) fn to_gif(pictures: &[Pixels], hundredths: u16) -> Result<Vec<u8>, GifError> {
     let [width, height] = pictures.first().ok_or(GifError::Empty)?.size;
     let [Ok(across), Ok(down)] = [width, height].map(u16::try_from) else {
@@ -73,7 +73,7 @@ pub(crate) fn to_gif(pictures: &[Pixels], hundredths: u16) -> Result<Vec<u8>, Gi
     Ok(bytes)
 }
 
-/// The box (left, top, columns, rows) of the dots that differ from the picture before: one dot where none does.
+/// The box (left, top, columns, rows) of the dots that differ from the picture before; a single dot where none differs.
 fn changed(before: Option<&[u8]>, dots: &[u8], width: usize) -> [usize; 4] {
     let Some(before) = before else {
         return [0, 0, width, dots.len() / width];
@@ -95,8 +95,8 @@ struct Palette {
 }
 
 impl Palette {
-    /// The colours that most dots of all pictures have; of colours with as many dots the darker first. Areas keep their colours to
-    /// the bit, and what is missing lies between two of them, at their rims.
+    /// The most frequent colours of all pictures, of equally frequent colours the darker ones first. Areas keep their exact colours; the
+    /// colours that are left out are blends at their rims.
     fn common_to(pictures: &[Pixels]) -> Self {
         let mut dots: HashMap<[u8; 3], usize> = HashMap::new();
         for colour in pictures.iter().flat_map(|picture| &picture.colours) {
@@ -110,7 +110,7 @@ impl Palette {
         }
     }
 
-    /// The place of the nearest colour, the first of several.
+    /// Index of the nearest colour, the first of several.
     fn place(&self, colour: [u8; 3], known: &mut HashMap<[u8; 3], u8>) -> u8 {
         let away = |other: &[u8; 3]| {
             let parts = (0..3).map(|it| i32::from(other[it]) - i32::from(colour[it]));
@@ -141,7 +141,7 @@ mod tests {
         }
     }
 
-    /// The pictures of an animation with their delays, whole.
+    /// The complete pictures of an animation with their delays.
     fn decoded(bytes: &[u8]) -> Vec<(u16, Vec<[u8; 3]>)> {
         let mut options = gif::DecodeOptions::new();
         options.set_color_output(gif::ColorOutput::Indexed);
@@ -185,7 +185,7 @@ mod tests {
         assert_eq!(to_gif(&pictures, 10).unwrap(), bytes);
     }
 
-    /// Of 300 greys the 256 of the most dots stay, and each other one becomes the nearest.
+    /// Of 300 greys the 256 most frequent stay, and each other one is replaced by the nearest.
     #[test]
     fn the_most_frequent_colours_stay() {
         let greys: Vec<[u8; 3]> = (0..300)

@@ -1,8 +1,8 @@
 //! A drawing: filled and stroked paths, circles and lines of text, from the bottom to the top layer.
 //!
-//! Coordinates are pixels, 96 to the inch, from the upper left corner; the size of a file is in mm, as a paper wants it. One drawing
-//! becomes SVG (`svg`), PNG (`png`) or PDF (`pdf`), and several become an animation ([`gif`]). All text is set in the font of the
-//! program (`font`), so that a file is the same on every machine.
+//! Coordinates are pixels, 96 to the inch, from the upper left corner; the size of a file is in mm, as in print. A drawing is written as
+//! SVG (`svg`), PNG (`png`) or PDF (`pdf`), several drawings as an animation ([`gif`]). All text is set in the font of the program
+//! (`font`), so that a file is the same on every machine.
 
 pub(crate) mod axes;
 mod font;
@@ -21,10 +21,10 @@ pub(crate) use font::text_width;
 pub(crate) use frame::Frame;
 pub(crate) use path::PathData;
 
-/// Pixels to the inch.
+/// Pixels per inch.
 pub(crate) const PIXELS_PER_INCH: f64 = 96.0;
 
-/// Pixels to the millimetre.
+/// Pixels per millimetre.
 pub(crate) const PIXELS_PER_MM: f64 = PIXELS_PER_INCH / 25.4;
 
 /// A colour by its red, green and blue.
@@ -38,7 +38,7 @@ pub(crate) const TEXT: Rgb = [0x1e; 3];
 /// Colour of outlines, axes and frames.
 pub(crate) const OUTLINE: Rgb = [0x40; 3];
 
-/// A drawing of a size, on white.
+/// A drawing of fixed size, on white.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Drawing {
     /// Width and height, pixels.
@@ -55,9 +55,9 @@ enum Item {
     Circle([f64; 2], f64, Paint),
     /// A line of text.
     Text(TextLine),
-    /// From here on nothing outside of a rectangle (upper left corner and size) is seen, to the end of the window.
+    /// Begin of a window: until its end only the inside of a rectangle (upper left corner and size) is drawn.
     Window([[f64; 2]; 2]),
-    /// The end of the window.
+    /// End of a window.
     WindowEnd,
 }
 
@@ -75,7 +75,7 @@ struct TextLine {
     is_upright: bool,
 }
 
-/// The part of a line of text that lies at its place.
+/// The part of a line of text that lies at the given place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) enum Anchor {
     Start,
@@ -83,14 +83,14 @@ pub(crate) enum Anchor {
     End,
 }
 
-/// How a path is painted: first its inside, then its line.
+/// Paint of a path: first its inside, then its line.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub(crate) struct Paint {
     /// Colour of the inside.
     pub(crate) fill: Option<Rgb>,
     /// Colour and width (pixels) of the line.
     pub(crate) stroke: Option<(Rgb, f64)>,
-    /// Lengths of dashes and of the gaps between them, pixels; None: a whole line.
+    /// Lengths of dashes and of the gaps between them, pixels; `None` for a solid line.
     pub(crate) dashes: Option<[f64; 2]>,
 }
 
@@ -103,7 +103,7 @@ impl Paint {
         }
     }
 
-    /// A line of a width, pixels.
+    /// A line with a width in pixels.
     pub(crate) fn stroke(colour: Rgb, width: f64) -> Self {
         Self {
             stroke: Some((colour, width)),
@@ -123,7 +123,7 @@ impl Drawing {
         drawing
     }
 
-    /// A rectangle from its upper left corner.
+    /// Adds a rectangle by its upper left corner.
     pub(crate) fn rectangle(&mut self, [x, y]: [f64; 2], [width, height]: [f64; 2], paint: Paint) {
         let mut path = PathData::default();
         path.outline([
@@ -135,12 +135,12 @@ impl Drawing {
         self.path(path, paint);
     }
 
-    /// A line between two places.
+    /// Adds a line between two places.
     pub(crate) fn line(&mut self, ends: [[f64; 2]; 2], stroke: Rgb, width: f64) {
         self.lines([ends], stroke, width);
     }
 
-    /// Lines between two places each; those without length are left out.
+    /// Adds lines, each between two places; lines without length are left out.
     pub(crate) fn lines(
         &mut self,
         all: impl IntoIterator<Item = [[f64; 2]; 2]>,
@@ -152,17 +152,17 @@ impl Drawing {
         self.path(path, Paint::stroke(stroke, width));
     }
 
-    /// A circle.
+    /// Adds a circle.
     pub(crate) fn circle(&mut self, centre: [f64; 2], radius: f64, paint: Paint) {
         self.items.push(Item::Circle(centre, radius, paint));
     }
 
-    /// A line of text with its base line at a place.
+    /// Adds a line of text with its base line at a place.
     pub(crate) fn text(&mut self, at: [f64; 2], anchor: Anchor, size: f64, text: &str) {
         self.line_of_text(at, anchor, size, text, false);
     }
 
-    /// A line of text that runs upwards, its middle at a place.
+    /// Adds a line of text that runs upwards, its middle at a place.
     pub(crate) fn upright_text(&mut self, at: [f64; 2], size: f64, text: &str) {
         self.line_of_text(at, Anchor::Middle, size, text, true);
     }
@@ -185,7 +185,7 @@ impl Drawing {
         }));
     }
 
-    /// Begins a window, to the next [`end_window`](Self::end_window): nothing outside of a rectangle is seen.
+    /// Begins a window: until the next [`end_window`](Self::end_window) only the inside of a rectangle is drawn.
     pub(crate) fn begin_window(&mut self, at: [f64; 2], size: [f64; 2]) {
         self.items.push(Item::Window([at, size]));
     }
@@ -195,7 +195,7 @@ impl Drawing {
         self.items.push(Item::WindowEnd);
     }
 
-    /// A painted path; an empty one is left out.
+    /// Adds a painted path; an empty one is left out.
     pub(crate) fn path(&mut self, path: PathData, paint: Paint) {
         if !path.is_empty() {
             self.items.push(Item::Path(path, paint));
@@ -204,7 +204,7 @@ impl Drawing {
 }
 
 impl TextLine {
-    /// How far the line begins before its anchor, pixels.
+    /// Distance from the start of the line to its anchor, pixels.
     fn offset(&self) -> f64 {
         match self.anchor {
             Anchor::Start => 0.0,
@@ -213,7 +213,7 @@ impl TextLine {
         }
     }
 
-    /// From pixels along and above the base line, from the start of the line, to pixels of the drawing.
+    /// Transform from pixels along and above the base line, from the start of the line, to pixels of the drawing.
     fn placement(&self) -> Transform {
         let [x, y] = self.at.map(|it| it as f32);
         let placed = match self.is_upright {

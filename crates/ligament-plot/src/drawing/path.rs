@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use tiny_skia::{Path, PathBuilder, Transform};
 
-/// Whole numbers in the data of paths to the pixel: 2.6 micrometres on paper.
+/// Units of coordinates per pixel: a unit is 2.6 micrometres on paper.
 pub(super) const UNITS_PER_PIXEL: f64 = 100.0;
 
 /// Pieces of a path.
@@ -11,7 +11,7 @@ pub(super) const UNITS_PER_PIXEL: f64 = 100.0;
 pub(crate) struct PathData {
     /// Corners of all pieces, hundredths of a pixel.
     points: Vec<[i32; 2]>,
-    /// Numbers of corners at the ends of the pieces, and whether each is a closed outline.
+    /// Number of corners up to the end of each piece, and whether it is a closed outline.
     ends: Vec<(usize, bool)>,
 }
 
@@ -35,13 +35,13 @@ impl PathData {
         self.finish(start, 2, false);
     }
 
-    /// Adds a line between two points, which may be one.
+    /// Adds a line between two points, which may coincide.
     pub(crate) fn segment(&mut self, ends: [[f64; 2]; 2]) {
         self.points.extend(ends.map(units));
         self.ends.push((self.points.len(), false));
     }
 
-    /// Adds corners of a piece, of equal ones the first, and gives the number of the first of them.
+    /// Adds the corners of a piece, without repeated ones, and returns the number of the first.
     fn push(&mut self, points: impl IntoIterator<Item = [f64; 2]>) -> usize {
         let start = self.points.len();
         for point in points.into_iter().map(units) {

@@ -14,7 +14,7 @@ use super::font::{FILE, FONT};
 use super::png::circle;
 use super::{Drawing, Item, PIXELS_PER_INCH, Paint, Rgb, TEXT, TextLine};
 
-/// Points, the unit of a page, to the pixel.
+/// PDF points, the unit of a page, per pixel.
 const POINTS_PER_PIXEL: f32 = (72.0 / PIXELS_PER_INCH) as f32;
 
 /// Effort of compression, 0 to 10.
@@ -24,7 +24,7 @@ const COMPRESSION: u8 = 8;
 const FONT_NAME: Name<'_> = Name(b"F");
 const BASE_FONT: Name<'_> = Name(b"LIGAME+DejaVuSans");
 
-/// The objects of the file.
+/// Numbers of the objects of the file.
 const CATALOGUE: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
@@ -167,12 +167,12 @@ fn number(letter: char) -> u16 {
     FONT.glyph(letter).to_u32() as u16
 }
 
-/// A colour in parts of one.
+/// Red, green and blue of a colour as fractions of one.
 fn shares(colour: Rgb) -> [f32; 3] {
     colour.map(|part| f32::from(part) / 255.0)
 }
 
-/// Adds the font, with the characters that its letters in the lines stand for, so that text can be found and copied.
+/// Embeds the font with the characters of its glyphs in the lines, so that text can be found and copied.
 fn embed<'a>(pdf: &mut Pdf, lines: impl Iterator<Item = &'a str>) {
     let letters = lines.flat_map(str::chars);
     let used: BTreeMap<u16, char> = letters.map(|it| (number(it), it)).collect();
@@ -200,7 +200,7 @@ fn embed<'a>(pdf: &mut Pdf, lines: impl Iterator<Item = &'a str>) {
     }
     widths.finish();
     cid.finish();
-    // The font's own units to a thousandth of its size.
+    // Factor from the font's own units to thousandths of its size.
     let metrics = &FONT.metrics;
     let thousandths = |units: f32| 1000.0 * units / f32::from(metrics.units_per_em);
     let bounds = metrics.bounds.unwrap_or_default();

@@ -8,10 +8,10 @@ use tiny_skia::{
 use super::font::FONT;
 use super::{Drawing, Item, PIXELS_PER_INCH, Paint, Rgb};
 
-/// Most dots of a picture along each side.
+/// Largest number of dots of a picture along each side.
 const MOST_PIXELS: f64 = 20_000.0;
 
-/// A drawing that cannot become a PNG.
+/// Reason why a drawing cannot become a PNG.
 #[derive(Debug, thiserror::Error)]
 pub enum PngError {
     /// Too many dots, or none.
@@ -29,7 +29,7 @@ pub enum PngError {
     Encoding(#[from] png::EncodingError),
 }
 
-/// A picture as its dots.
+/// A picture as dots.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Pixels {
     /// Dots along x and y.
@@ -39,7 +39,7 @@ pub(crate) struct Pixels {
 }
 
 impl Drawing {
-    /// The drawing as PNG with so many dots per inch of its size.
+    /// The drawing as PNG with a resolution in dots per inch.
     ///
     /// # Errors
     ///
@@ -48,7 +48,7 @@ impl Drawing {
         encode(&self.pixels(dpi)?, dpi)
     }
 
-    /// The dots of the drawing, so many to the inch of its size.
+    /// The dots of the drawing with a resolution in dots per inch.
     pub(crate) fn pixels(&self, dpi: f64) -> Result<Pixels, PngError> {
         let [width, height] = self.size.map(|it| (it * dpi / PIXELS_PER_INCH).round());
         let fits = |it: f64| (1.0..=MOST_PIXELS).contains(&it);
@@ -73,12 +73,12 @@ impl Drawing {
     }
 }
 
-/// What a drawing is painted on.
+/// Canvas of dots on which a drawing is painted.
 struct Canvas {
     dots: Pixmap,
-    /// From pixels of the drawing to dots.
+    /// Transform from pixels of the drawing to dots.
     scale: Transform,
-    /// The part that is seen; None: all.
+    /// The window that is painted; `None` for the whole canvas.
     window: Option<Mask>,
 }
 
@@ -107,7 +107,7 @@ impl Canvas {
         }
     }
 
-    /// Paints a path, which the transform takes to dots.
+    /// Paints a path, whose transform leads to dots.
     fn paint(&mut self, path: Option<Path>, paint: &Paint, transform: Transform) {
         let Some(path) = path else {
             return;

@@ -47,7 +47,7 @@ impl Drawing {
     }
 }
 
-/// The attributes of a paint, whose lengths in pixels have so many units.
+/// The attributes of a paint, with `units` per pixel of its lengths.
 fn attributes(paint: &Paint, units: f64) -> String {
     let mut attributes = format!(" fill=\"{}\"", paint.fill.map_or("none".to_owned(), hex));
     if let Some((colour, width)) = paint.stroke {
@@ -90,7 +90,7 @@ fn text_element(line: &TextLine) -> String {
     format!("<text {place} font-size=\"{size}\"{anchor}>{text}</text>")
 }
 
-/// The text as content of an element; what XML cannot hold is left out.
+/// The text as content of an element; characters that XML does not allow are left out.
 fn escaped(text: &str) -> String {
     let text = text.replace(char::is_control, "").replace('&', "&amp;");
     text.replace('<', "&lt;").replace('>', "&gt;")
@@ -108,7 +108,7 @@ fn data(path: &PathData) -> String {
                 _ => {}
             }
             let [x, y] = [point[0] - at[0], point[1] - at[1]];
-            // A sign parts numbers as a space does.
+            // A minus sign separates numbers like a space.
             let before = if place > 1 && x >= 0 { " " } else { "" };
             let between = if y >= 0 { " " } else { "" };
             let _ = write!(data, "{before}{x}{between}{y}");

@@ -2,7 +2,7 @@
 
 use crate::picture::units::with_decimals_of;
 
-/// What an axis shows: all finite values and a twentieth more at each end; `None` without values.
+/// Range of an axis: all finite values and a twentieth more at each end; `None` without values.
 pub(crate) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     let finite = values.filter(|value| value.is_finite());
     let [low, high] = finite.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
@@ -23,8 +23,8 @@ pub(crate) fn rounded_up(least: f64, factors: &[f64]) -> f64 {
     steps.find(reaches).unwrap_or(10.0 * power)
 }
 
-/// Multiples of 1, 2 or 5 times a power of ten between two numbers, each with its text, in so many intervals at most; none between
-/// numbers that are no range.
+/// Multiples of 1, 2 or 5 times a power of ten between two numbers, each with its text, in at most `most` intervals; none if the numbers
+/// are no range.
 pub(crate) fn ticks([low, high]: [f64; 2], most: f64) -> Vec<(f64, String)> {
     let least = (high - low) / most;
     if !(least > 0.0 && least.is_finite()) {

@@ -1,4 +1,4 @@
-//! The body of an output, and where it lies once its displacement is drawn larger.
+//! The body of an output, with its displacement magnified.
 
 use std::collections::HashMap;
 
@@ -11,10 +11,10 @@ use ligament_output::{Error, FieldLocation};
 
 use crate::drawing::frame::bounds;
 
-/// Share of the body's size that the largest displacement has where the scale is chosen by the program.
+/// Share of the body's size at which the largest displacement is drawn, where the program chooses the scale.
 const DRAWN_SHARE: f64 = 0.05;
 
-/// Share of the body's size that the largest displacement of a mode is drawn with.
+/// Share of the body's size at which the largest displacement of a mode is drawn.
 pub(super) const MODE_SHARE: f64 = 0.1;
 
 /// Cells with the positions and displacements of their corners.
@@ -22,18 +22,18 @@ pub(super) const MODE_SHARE: f64 = 0.1;
 pub(super) struct Body {
     /// Positions without load, shape (n), m.
     pub(super) reference: Vec<[f64; 2]>,
-    /// Displacements, shape (n), m; in a mode of any size.
+    /// Displacements, shape (n), m; for a mode with an arbitrary amplitude.
     pub(super) displacement: Vec<[f64; 2]>,
     /// Triangles and quadrangles.
     pub(super) cells: Vec<Cell>,
-    /// What points of the model are: nodes, or cells of a lattice.
+    /// Kind of the model's points: nodes, or cells of a lattice.
     tagged: FieldLocation,
     /// Indices of the points by their tags.
     places: HashMap<i64, usize>,
 }
 
 impl Body {
-    /// Cells with corners at these positions (m) and their displacements (m), and what points of the model are, which have no tags.
+    /// Cells with corners at these positions (m) and their displacements (m), and the kind of the model's points, which have no tags.
     pub(super) fn new(
         reference: Vec<[f64; 2]>,
         displacement: Vec<[f64; 2]>,
@@ -49,7 +49,7 @@ impl Body {
         }
     }
 
-    /// Reads it from an output.
+    /// Reads the body from an output.
     pub(super) fn read(file: &VtuFile) -> Result<Self, Error> {
         let moved = file.finite_numbers(FieldLocation::Point, DISPLACEMENT.name)?;
         let tagged = location(file);
@@ -64,7 +64,7 @@ impl Body {
     }
 
     /// Cuts the cells of a mesh along the cracks in the state of a step, so that they open with the displacement, and gives the new
-    /// corners the means of `values` (n_points); other bodies stay as they are.
+    /// corners the means of `values` (n_points); other bodies are unchanged.
     pub(super) fn open(
         &mut self,
         cracks: &StoredCracks,
@@ -101,7 +101,7 @@ impl Body {
             .collect()
     }
 
-    /// Larger side of the box around it without load, m.
+    /// Larger side of the box around the unloaded body, m.
     pub(super) fn size(&self) -> f64 {
         bounds(&self.reference).map_or(0.0, |[low, high]| (high[0] - low[0]).max(high[1] - low[1]))
     }
@@ -122,13 +122,13 @@ impl Body {
         }
     }
 
-    /// The largest scale that the body is drawn with where the program chooses it; None where nothing moved.
+    /// The largest scale that the program chooses for the body; `None` where nothing moved.
     pub(super) fn drawn_scale(&self) -> Option<f64> {
         let has_moved = self.largest_displacement() > 0.0;
         has_moved.then(|| self.scale_for_share(DRAWN_SHARE))
     }
 
-    /// Where the point of a tag lies among deformed positions, shape (n); None where there is no such tag.
+    /// Position of the point with a tag among deformed positions, shape (n); `None` where there is no such tag.
     pub(super) fn place(&self, tag: i64, positions: &[[f64; 2]]) -> Option<[f64; 2]> {
         let place = *self.places.get(&tag)?;
         match self.tagged {

@@ -24,7 +24,7 @@ pub(super) struct ColourBar<'a> {
 }
 
 impl<'a> ColourBar<'a> {
-    /// The bar of a quantity whose values go from `range[0]` to `range[1]`; ends beyond which there are values say so.
+    /// The bar of a quantity whose values go from `range[0]` to `range[1]`; an end beyond which there are values is marked.
     pub(super) fn new(scale: &'a Scale, quantity: &str, unit: &str, range: [f64; 2]) -> Self {
         let levels = &scale.levels;
         let [low, high] = levels.range();
@@ -73,7 +73,7 @@ impl<'a> ColourBar<'a> {
         let n_bands = colours.len() as f64;
         let up = |level: f64| y + height * (1.0 - level / n_bands);
         for (band, &colour) in colours.iter().enumerate() {
-            // Up to the top, under the bands that follow: no seam is left between two.
+            // Each band reaches to the top, under the bands that follow: no seam is left between two.
             let size = [WIDTH, up(band as f64) - y];
             drawing.rectangle([x, y], size, Paint::fill(colour));
         }

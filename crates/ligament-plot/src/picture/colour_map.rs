@@ -51,7 +51,7 @@ impl ColourMap {
         let Color { r, g, b } = match self {
             Self::Viridis => VIRIDIS.eval_continuous(share),
             Self::Cividis => CIVIDIS.eval_continuous(share),
-            // White would be taken for what is outside the body.
+            // White would be mistaken for the outside of the body.
             Self::Grey => GREYS.eval_continuous(0.1 + 0.9 * share),
             Self::Orange => ORANGE_RED.eval_continuous(share),
             Self::Diverging => RED_BLUE.eval_continuous(1.0 - share),
@@ -59,7 +59,7 @@ impl ColourMap {
         [r, g, b]
     }
 
-    /// Colours of so many bands, from one end of the map to the other.
+    /// Colours of `count` bands, from one end of the map to the other.
     pub(super) fn bands(self, count: usize) -> Vec<Rgb> {
         let share = |band: usize| match count {
             1 => 0.5,

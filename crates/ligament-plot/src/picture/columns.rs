@@ -10,11 +10,11 @@ use super::PictureError;
 use crate::stored_loading::{StoredLoading, stored_loading};
 use ligament::suggestion::hint;
 
-/// Words for all energies and for all probes, where no column is called so.
+/// Names that select all energies and all probes, unless a column has this name.
 const ENERGIES: &str = "energies";
 const PROBES: &str = "probes";
 
-/// Share of the largest energy below which none is seen beside it.
+/// Share of the largest energy below which another energy cannot be seen beside it.
 const SEEN: f64 = 1e-3;
 
 /// Columns of [`ENERGIES`], in the order of the ledger.
@@ -30,7 +30,7 @@ const OF_ENERGIES: [&str; 9] = [
     "dissipated_energy",
 ];
 
-/// Files with columns over the records of a run, the first of which is always there.
+/// Files with columns over the records of a run; only the first always exists.
 const TABLES: [&str; 3] = ["history.csv", "crack_growth.csv", "crack_tips.csv"];
 
 /// The tables of a run whose columns are drawn.
@@ -46,11 +46,11 @@ pub(super) struct Curve {
     pub(super) name: String,
     pub(super) points: Vec<[f64; 2]>,
     pub(super) units: [String; 2],
-    /// Whether each point is an answer to its load; bonds were still failing in the others.
+    /// Whether each point is in equilibrium with its load; in the others bonds were still failing.
     pub(super) at_rest: Vec<bool>,
-    /// Whether the points are no line, such as the tips of several cracks.
+    /// Whether the points do not form a line, such as the tips of several cracks.
     pub(super) is_scattered: bool,
-    /// Where the first bond broke or softened, and which of them.
+    /// Description and point of the first breakage or softening.
     pub(super) first: Option<(&'static str, [f64; 2])>,
 }
 
@@ -58,7 +58,7 @@ impl<'a> Tables<'a> {
     /// The tables in a folder.
     pub(super) fn open(folder: &'a Path) -> Result<Self, PictureError> {
         let history = Sheet::read(folder.join(TABLES[0]))?;
-        // Of a table that is none of a run nothing is told.
+        // A table that is not the history of a run is refused.
         history.values::<usize>("step")?;
         let loading = stored_loading(folder).ok();
         Ok(Self {
@@ -76,7 +76,7 @@ impl<'a> Tables<'a> {
         }
     }
 
-    /// The columns that names mean: those of these names, all energies that can be seen beside the largest, or all probes.
+    /// The columns that names select: single ones, all energies that can be seen beside the largest, or all probes.
     pub(super) fn meant(&self, names: &[String]) -> Result<Vec<String>, PictureError> {
         let has = |name: &str| self.history.columns().iter().any(|it| it == name);
         let mut meant = Vec::new();
@@ -127,7 +127,7 @@ impl<'a> Tables<'a> {
         let numbers = |name: &str| {
             if sheet.columns().iter().any(|it| it == name) {
                 let texts = sheet.texts(name).into_iter().flatten();
-                // What is not known in a row is empty.
+                // An unknown value of a row is empty.
                 let known = texts.map(|it| {
                     if it.is_empty() {
                         Ok(f64::NAN)
@@ -160,7 +160,7 @@ impl<'a> Tables<'a> {
             Some(loading) => loading.unit_of(column),
             None => unit_of(column),
         };
-        // Those of the load follow from the case.
+        // The units of the load follow from the case.
         let of_load = ["displacement", "reaction"].contains(&column);
         of_crack.filter(|_| !of_load).unwrap_or_else(of_history)
     }
@@ -183,12 +183,12 @@ impl<'a> Tables<'a> {
     }
 }
 
-/// A column in words.
+/// Name of a column in words.
 pub(super) fn in_words(column: &str) -> String {
     column.replace('_', " ")
 }
 
-/// Words for what several columns of a unit have in common.
+/// Common name of several columns with one unit.
 pub(super) fn in_common(unit: &str) -> &'static str {
     match unit {
         "J" => "energy",
@@ -201,7 +201,7 @@ pub(super) fn in_common(unit: &str) -> &'static str {
     }
 }
 
-/// Whether each of so many rows is an answer to its load; earlier versions did not tell, and other tables do not.
+/// Whether each of the rows is in equilibrium with its load; in tables without this column, of earlier versions or of other kinds, all are.
 fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
     if !sheet.columns().iter().any(|name| name == "at_rest") {
         return Ok(vec![true; n_rows]);
@@ -210,7 +210,7 @@ fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
     Ok(flags.into_iter().map(|flag| flag != 0).collect())
 }
 
-/// The point of the first breakage or softening, with what it is.
+/// Description and point of the first breakage or softening.
 fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'static str, [f64; 2])> {
     let choice = StepChoice::One(StepName::First);
     let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;

@@ -2,20 +2,20 @@
 //!
 //! An edge that two triangles share bounds nothing, so that an outline consists of edges of the body's boundary and of one
 //! straight piece in every triangle that the level crosses. Ends of pieces are named by the node or the edge that they lie on: they
-//! meet exactly, whatever rounding does. Regions of rising levels painted over each other leave no seams between the bands.
+//! meet exactly in spite of rounding. Regions of rising levels painted over each other leave no seams between the bands.
 
 use std::collections::HashMap;
 
-/// Triangles with their corners counter-clockwise, and what bounds them.
+/// Triangles with their corners counter-clockwise, and the edges that bound them.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Surface {
     /// The triangles whose corners all have a value.
     triangles: Vec<[u32; 3]>,
-    /// Edges of one triangle alone, the body at their left.
+    /// Edges that belong to only one triangle, with the body at their left.
     boundary: Vec<[u32; 2]>,
 }
 
-/// Where a piece of an outline ends: at a node (twice the same), or on an edge between two, the smaller number first.
+/// End of a piece of an outline: at a node (twice the same), or on an edge between two, the smaller number first.
 type Place = [u32; 2];
 
 impl Surface {
@@ -32,7 +32,7 @@ impl Surface {
 
     /// Triangles whose corners are counter-clockwise already.
     pub(super) fn of_oriented(triangles: Vec<[u32; 3]>) -> Self {
-        // How often an edge is run along from its smaller to its larger node, less the other way.
+        // For each edge, the number of triangles that run along it from its smaller to its larger node minus the number of others.
         let mut edges: Vec<(Place, i32)> = triangles
             .iter()
             .flat_map(edges_of)
@@ -60,7 +60,7 @@ impl Surface {
         joined(pieces.collect(), |[a, _]| positions[a as usize])
     }
 
-    /// The outlines of the region in which the field (a value a node) is at least `level`; the region at their left.
+    /// The outlines of the region in which the field (one value per node) is at least `level`; the region at their left.
     pub(super) fn region(
         &self,
         positions: &[[f64; 2]],
@@ -122,7 +122,7 @@ fn doubled_area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
 }
 
-/// Closed outlines of directed pieces, of which as many end at every place as begin there; in the order of the pieces.
+/// Closed outlines from directed pieces, in the order of the pieces; as many pieces end at every place as begin there.
 fn joined(pieces: Vec<[Place; 2]>, position: impl Fn(Place) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let mut from: HashMap<Place, Vec<usize>> = HashMap::with_capacity(pieces.len());
     for (piece, [start, _]) in pieces.iter().enumerate().rev() {
@@ -154,7 +154,7 @@ fn joined(pieces: Vec<[Place; 2]>, position: impl Fn(Place) -> [f64; 2]) -> Vec<
 mod tests {
     use super::*;
 
-    /// A unit square of n x n cells, each two triangles, of which every other is given clockwise.
+    /// A unit square of n x n cells, each two triangles; every other triangle is given clockwise.
     fn square(n: u32, keep: impl Fn(u32, u32) -> bool) -> (Vec<[f64; 2]>, Vec<[u32; 3]>) {
         let positions = (0..=n)
             .flat_map(|j| (0..=n).map(move |i| [i, j].map(|it| f64::from(it) / f64::from(n))))
@@ -244,7 +244,7 @@ mod tests {
         assert!((area(&ring) - expected).abs() < 0.01, "{}", area(&ring));
     }
 
-    /// Two regions that touch at one node: its pieces are joined to closed outlines all the same.
+    /// Two regions that touch at one node: their pieces still form closed outlines.
     #[test]
     fn regions_may_touch_at_a_node() {
         let (positions, triangles) = square(2, |i, j| i == j);

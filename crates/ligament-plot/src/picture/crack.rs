@@ -11,10 +11,10 @@ use super::PictureError;
 use crate::drawing::Rgb;
 use crate::plots::Colour;
 
-/// Colour of what a pre-crack cut.
+/// Colour of bonds cut by a pre-crack.
 const CUT: Rgb = [0x8c; 3];
 
-/// Colour of bonds broken by the one criterion there is, over a field.
+/// Colour over a field of broken bonds, where there is only one criterion.
 const OVER_FIELD: Rgb = [0; 3];
 
 /// Bonds that broke by one criterion, or that a pre-crack cut.
@@ -28,17 +28,17 @@ pub(super) struct Broken {
     bonds: Vec<([i64; 2], usize)>,
 }
 
-/// All that a run broke.
+/// All bonds that were broken or cut in a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Crack {
-    /// By criterion, what a pre-crack cut first.
+    /// Bonds cut by a pre-crack, then broken bonds by criterion.
     pub(super) kinds: Vec<Broken>,
     /// Whether the output of a step shows the bonds that break in it still whole.
     breaks_after_output: bool,
 }
 
 impl Crack {
-    /// Reads what a pre-crack cut in a run, and what broke.
+    /// Reads the bonds that a pre-crack cut in a run, and the bonds that broke.
     pub(super) fn read(folder: &Path, follows_path: bool) -> Result<Self, PictureError> {
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut = (!cut.is_empty()).then(|| Broken {
@@ -63,7 +63,7 @@ impl Crack {
 }
 
 impl Broken {
-    /// Whether a pre-crack cut these.
+    /// Whether a pre-crack cut these bonds.
     pub(super) fn is_cut(&self) -> bool {
         self.colour == CUT
     }

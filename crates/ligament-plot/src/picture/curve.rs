@@ -11,7 +11,7 @@ use super::units::Shown;
 use super::{PictureError, Target, labels_of};
 use crate::plots::{Colour, Mark, Plot, Series};
 
-/// Rows up to which each of them is marked by a dot.
+/// Number of rows up to which each of them is marked by a dot.
 const DOTTED: usize = 100;
 
 /// Width without and with a legend, mm.
@@ -26,7 +26,7 @@ pub struct CurveRequest {
     pub labels: Vec<String>,
     /// Column along x; None: the time of a motion, else the displacement.
     pub x: Option<String>,
-    /// Columns along y: of the history, or of the growth and the tips of cracks; `energies` and `probes` are all of these.
+    /// Columns along y: of the history, or of the growth and the tips of cracks; `energies` and `probes` select all of these.
     pub y: Vec<String>,
     /// Size and file.
     pub target: Target,
@@ -48,7 +48,7 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
         _ => PathBuf::from("picture-curves.png"),
     })?;
     if request.folders.len() > 1 {
-        // It lies in no folder of results, so that it may be anybody's.
+        // The file is outside of all result folders, so it may belong to the user.
         target.out = Some(file.clone());
     }
     target.check(&file)?;
@@ -65,10 +65,10 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
 struct Axes {
     /// The curves with their labels.
     curves: Vec<(String, Curve)>,
-    /// Words for what is along x and y, and its units.
+    /// Names of the quantities along x and y, with their units.
     names: [String; 2],
     shown: [Shown; 2],
-    /// The load before its first fall, of each result, on curves of force over displacement.
+    /// First peak of the load of each result, on curves of force over displacement.
     first_peaks: Vec<Option<[f64; 2]>>,
 }
 
@@ -178,7 +178,7 @@ impl Axes {
     }
 }
 
-/// Curves up to which each has a colour of its own.
+/// Number of curves up to which each has a colour of its own.
 const N_COLOURS: usize = Colour::CYCLE.len() + 1;
 
 fn colour(curve: usize) -> Colour {
@@ -199,13 +199,13 @@ fn require_history(folder: &Path) -> Result<(), PictureError> {
     Ok(())
 }
 
-/// The load before its first fall, from the summary; a run that was cut short has none.
+/// First peak of the load, from the summary; none for a run that was cut short.
 fn first_peak(folder: &Path) -> Option<[f64; 2]> {
     let peak = summary::read::<Summary>(folder).ok()??.first_peak?;
     Some([peak.displacement, peak.reaction])
 }
 
-/// The unit to show an axis in.
+/// The unit in which an axis is shown.
 fn shown(curves: &[(String, Curve)], axis: usize, name: &str) -> Result<Shown, PictureError> {
     let unit = &curves[0].1.units[axis];
     let mut units = curves.iter().map(|it| &it.1.units[axis]);

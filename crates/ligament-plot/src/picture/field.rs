@@ -1,4 +1,4 @@
-//! A field of an output by its name, one number a point or cell.
+//! A field of an output by its name, with one number per point or cell.
 
 use ligament_output::FieldLocation;
 use ligament_output::results::fields::unit_of;
@@ -7,16 +7,16 @@ use ligament_output::vtu::read::VtuFile;
 use super::PictureError;
 use ligament::suggestion::nearest;
 
-/// The field of the names of an output that draws no field.
+/// Name of a field for a picture without a field.
 pub(super) const NONE: &str = "none";
 
 /// Name of the norm of a vector among its components.
 const NORM: &str = "magnitude";
 
-/// Quantile of a mode's field that is drawn as its largest value: the corners of a clamp outshine all else.
+/// Quantile of a mode's field that is drawn as its largest value, because values at the corners of a clamp are far larger than all others.
 const MODE_QUANTILE: f64 = 0.995;
 
-/// A field as it is drawn.
+/// A field to be drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field {
     /// Name of the field with its component.
@@ -31,7 +31,7 @@ pub(super) struct Field {
 
 impl Field {
     /// Reads a field: `damage`, `displacement` (its norm), `displacement.x`, `stress_virial.xx`. On a lattice, where fields belong
-    /// to the cells, those of the cells go first.
+    /// to the cells, fields of the cells take precedence.
     pub(super) fn read(file: &VtuFile, name: &str) -> Result<Self, PictureError> {
         let whole = |name: &str| {
             let has = |location: &FieldLocation| file.components(*location, name).is_some();
@@ -111,7 +111,7 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
     }
 }
 
-/// The quantile of the absolute values becomes 1: a mode has no size of its own.
+/// Scales the values so that the quantile of their absolute values becomes 1: the amplitude of a mode is arbitrary.
 pub(super) fn relate_to_largest(field: &mut Field) {
     let mut sizes: Vec<f64> = field
         .values

@@ -24,7 +24,7 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     request.target.write(file, &drawing, &title)
 }
 
-/// The picture with its title, of which no file is written.
+/// The picture with its title; no file is written.
 ///
 /// # Errors
 ///

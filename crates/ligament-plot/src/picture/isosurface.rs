@@ -1,4 +1,4 @@
-//! Surfaces in solids on which a field has a value, as files beside the results.
+//! Surfaces in solids on which a field equals a level, as files beside the results.
 
 use std::path::PathBuf;
 
@@ -13,16 +13,16 @@ use ligament_output::vtu::read::VtuFile;
 use super::PictureError;
 use super::field::Field;
 
-/// A surface that is asked for.
+/// Request for surfaces of a field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct IsosurfaceRequest {
     /// The folder of the results.
     pub folder: PathBuf,
-    /// Field with its component, as pictures know it.
+    /// Field with its component, named as in pictures.
     pub field: String,
     /// Value of the field on the surface, SI units.
     pub level: f64,
-    /// The steps, or modes: of one `iso.vtu` is written, of all `iso_NNNN.vtu` and `iso.pvd`.
+    /// The steps, or modes: one is written as `iso.vtu`, all as `iso_NNNN.vtu` and `iso.pvd`.
     pub step: StepChoice,
 }
 
@@ -33,7 +33,7 @@ pub struct Isosurface {
     pub step: usize,
     /// Area in the body without load, m^2.
     pub area: f64,
-    /// Triangles; without any there is no file.
+    /// Number of triangles; without any there is no file.
     pub triangles: usize,
     /// The file.
     pub path: PathBuf,
@@ -43,7 +43,7 @@ pub struct Isosurface {
 ///
 /// # Errors
 ///
-/// If there is no such step or field, the body is none in space, or a file cannot be used.
+/// If there is no such step or field, the body is not a solid, or a file cannot be used.
 pub fn write_isosurfaces(request: &IsosurfaceRequest) -> Result<Vec<Isosurface>, PictureError> {
     let folder = &request.folder;
     let outputs = Outputs::list(folder)?;

@@ -1,8 +1,8 @@
-//! The cells of a lattice as one surface where it is whole.
+//! The cells of a lattice as one surface where the lattice is whole.
 //!
-//! Each cell moves with its point, so that cells that are stretched part or overlap by a little, everywhere. Drawn larger that is
-//! a net of hairlines. Corners that lie at one place without load, and still lie near each other, are drawn at their mean; where
-//! a crack opens they stay apart.
+//! Each cell moves with its point, so that neighbouring cells of a stretched body separate or overlap by a little, everywhere; magnified,
+//! this is a net of hairlines. Corners that coincide without load, and are still near each other, are drawn at their mean; where a crack
+//! opens they stay apart.
 
 use std::collections::HashMap;
 
@@ -10,10 +10,10 @@ use ligament_output::vtu::Cell;
 
 use crate::drawing::frame::bounds;
 
-/// Share of the shorter side of a cell beyond which corners are apart.
+/// Distance, as a share of the shorter side of a cell, beyond which corners are apart.
 const NEAR: f64 = 0.25;
 
-/// Corners drawn as one, and where.
+/// Merged corners and their places.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Joined {
     /// The number of the place of each corner, shape (n_corners).

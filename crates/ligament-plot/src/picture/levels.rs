@@ -2,21 +2,21 @@
 
 use crate::drawing::ticks::rounded_up;
 
-/// Bands that a scale of its own has at most, ...
+/// Largest number of bands of a scale that the program chooses.
 const MOST_BANDS: f64 = 20.0;
 
-/// ... and labels on the colour bar.
+/// Largest number of labels on the colour bar.
 const MOST_LABELS: usize = 8;
 
 /// Spread of a field, relative to its size, below which it counts as constant: rounding has no contours.
 const CONSTANT: f64 = 1e-9;
 
-/// How a scale is chosen.
+/// Rule by which a scale is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct Rule {
-    /// Number of bands; None: steps of round numbers.
+    /// Number of bands; `None` for steps of round numbers.
     pub(super) bands: Option<usize>,
-    /// First and last level; None: those of the field.
+    /// First and last level; `None` for the levels of the field.
     pub(super) range: Option<[f64; 2]>,
     /// Whether zero is in the middle.
     pub(super) centred: bool,
@@ -44,7 +44,7 @@ impl Levels {
         let is_multiple = |it: f64| (it / step - (it / step).round()).abs() < 1e-6;
         let [first, last] = match rule.range {
             None => [(low / step).floor(), (high / step).ceil()],
-            // A range that ends at a multiple but for rounding ends there.
+            // A range whose ends are multiples up to rounding is kept.
             Some(_) if is_multiple(low) && is_multiple(high) => {
                 [low, high].map(|it| (it / step).round())
             }
@@ -82,14 +82,14 @@ impl Levels {
         [self.bounds[0], self.bounds[self.n_bands()]]
     }
 
-    /// The band of a value; what lies beyond the levels is in the first or the last one.
+    /// The band of a value; values beyond the levels are in the first or the last one.
     pub(super) fn band(&self, value: f64) -> usize {
         let inner = &self.bounds[1..self.n_bands()];
         inner.partition_point(|level| *level <= value)
     }
 }
 
-/// Whether a field has values of both signs that matter.
+/// Whether a field has values of both signs that are not negligible.
 pub(super) fn has_both_signs([least, largest]: [f64; 2]) -> bool {
     let small = 0.02 * least.abs().max(largest.abs());
     least < -small && largest > small

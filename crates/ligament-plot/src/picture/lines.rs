@@ -25,7 +25,7 @@ const TIP: f64 = 2.2;
 pub(super) struct Lines {
     /// Words of the legend.
     pub(super) name: String,
-    /// More words, of one state.
+    /// Additional words of the legend for a single state.
     pub(super) detail: String,
     /// Colour.
     pub(super) colour: Rgb,
@@ -64,7 +64,7 @@ impl Lines {
         })
     }
 
-    /// The lines of a table `x,y` (m) without quotes, which empty lines part; a first row of words is its header.
+    /// The lines of a table `x,y` (m) without quotes, separated by empty lines; a first row of words is its header.
     pub(super) fn of_table(path: &Path, place: usize) -> Result<Self, PictureError> {
         let text = read_text(path)?;
         let name = path.file_stem().unwrap_or_default();
@@ -79,7 +79,7 @@ impl Lines {
         })
     }
 
-    /// Draws them by a function from places to pixels.
+    /// Draws the lines, with a function from places to pixels.
     pub(super) fn draw(&self, drawing: &mut Drawing, to_pixels: impl Fn([f64; 2]) -> [f64; 2]) {
         let mut path = PathData::default();
         for line in &self.polylines {

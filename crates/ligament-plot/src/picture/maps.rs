@@ -1,4 +1,4 @@
-//! Maps of one quantity on bodies that are in memory, side by side with the same colours: what two methods make of a problem.
+//! Maps of one quantity on bodies in memory, side by side with the same colours, to compare results of several methods.
 
 use ligament_output::FieldLocation;
 use ligament_output::vtu::Cell;
@@ -37,7 +37,8 @@ pub struct Maps {
     pub bodies: Vec<MappedBody>,
     /// Bodies in a row.
     pub columns: usize,
-    /// Whether the bodies are natural modes, which have no size: each is drawn as large, and its values are over its largest.
+    /// Whether the bodies are natural modes, whose amplitude is arbitrary: all have the same largest displacement, and values relative to
+    /// their largest.
     pub are_modes: bool,
 }
 

@@ -50,7 +50,7 @@ use crate::drawing::gif::GifError;
 use crate::drawing::png::PngError;
 use crate::plots::PlotError;
 
-/// Why there is no picture.
+/// Reason why there is no picture.
 #[derive(Debug, Error)]
 pub enum PictureError {
     /// Results cannot be read, or the picture cannot be written.
@@ -70,7 +70,7 @@ pub enum PictureError {
         /// All names.
         known: Vec<String>,
     },
-    /// A field of several numbers without the one to draw.
+    /// A field with several components was requested without a component.
     #[error("`{field}` has several components; name one of {}", choices.join(", "))]
     NoComponent {
         /// The field.
@@ -78,7 +78,7 @@ pub enum PictureError {
         /// Names that can be drawn.
         choices: Vec<String>,
     },
-    /// A step that was asked for is not there.
+    /// A requested step does not exist.
     #[error(transparent)]
     Step(#[from] StepError),
     /// There is no mode of this number.
@@ -88,7 +88,7 @@ pub enum PictureError {
         path: PathBuf,
         /// The number.
         number: usize,
-        /// Numbers that there are.
+        /// Numbers of the existing modes.
         known: Vec<usize>,
     },
     /// Lines are drawn on the body without its displacement.
@@ -96,12 +96,12 @@ pub enum PictureError {
         "{0} times the displacement moves the body away from its lines, which are drawn where it is without load"
     )]
     MovedLines(f64, #[source] Remedy),
-    /// A picture for each step is one of each result alone.
+    /// A picture for each step was requested for several results.
     #[error("{option} draws one result at a time, and there are {n_results}; name one of them")]
     SeveralResults {
-        /// The option that asked for it.
+        /// The option that requests it.
         option: &'static str,
-        /// Results given.
+        /// Number of given results.
         n_results: usize,
     },
     /// A solid in a kind of picture that shows bodies in the plane.
@@ -128,9 +128,9 @@ pub enum PictureError {
     Modes {
         /// The folder.
         path: PathBuf,
-        /// What was asked for.
+        /// The requested drawing.
         what: &'static str,
-        /// The request without it.
+        /// Advice: the request without it.
         #[source]
         remedy: Remedy,
     },
@@ -139,9 +139,9 @@ pub enum PictureError {
         "{n_labels} labels for {n_results} results; give one label for each result, in the same order"
     )]
     Labels {
-        /// Labels given.
+        /// Number of given labels.
         n_labels: usize,
-        /// Results given.
+        /// Number of given results.
         n_results: usize,
     },
     /// The field has no value to draw.
@@ -169,17 +169,17 @@ pub enum PictureError {
         /// Unit of another.
         other: String,
     },
-    /// The file is none of the kinds that pictures are written as.
+    /// The file name has no ending of a format of pictures.
     #[error(
         "{0}: a picture ends in .png, .svg or .pdf, and an animation, which --animate makes, in .gif"
     )]
     Ending(PathBuf),
-    /// The file is of another kind than the one asked for.
+    /// The file name ends like another format than the requested one.
     #[error("{path} does not end in .{format}; leave out --format, or name another file")]
     OtherEnding {
         /// The file.
         path: PathBuf,
-        /// Ending of the kind asked for.
+        /// Ending of the requested format.
         format: &'static str,
     },
     /// A plot cannot be drawn.

@@ -18,8 +18,8 @@ pub fn asks_for_pictures(folder: &Path) -> bool {
     case.and_then(asked).unwrap_or(false)
 }
 
-/// Draws the last state of a run, or its first modes, and of a run that breaks bonds the curve of force over displacement, of a motion over time, as PNG into
-/// its folder; returns where they are.
+/// Draws the last state of a run, or its first modes, as PNG into its folder; if the run breaks bonds, also the curve of force over
+/// displacement, in a motion over time. Returns the paths of the pictures.
 ///
 /// # Errors
 ///

@@ -13,7 +13,7 @@ use super::lines::Lines;
 use super::solid::{Scene, View};
 use crate::drawing::{Drawing, Frame, OUTLINE, Paint, PathData, Rgb};
 
-/// Colour of a body without a field, and of what has no value.
+/// Colour of a body without a field, and of cells without a value.
 const BARE: Rgb = [0xdc; 3];
 
 /// Colour of a body without a field below lines.
@@ -25,7 +25,7 @@ const OUTLINE_WIDTH: f64 = 0.5;
 /// ... and broken bonds.
 const BOND_WIDTH: f64 = 0.4;
 
-/// A body with what is drawn of it.
+/// A body with everything that is drawn of it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panel {
     /// Words of its title, long and short.
@@ -40,16 +40,16 @@ pub(super) struct Panel {
     pub(super) broken: Vec<(Rgb, Vec<[[f64; 2]; 2]>)>,
     /// Lines over the body.
     pub(super) lines: Vec<Lines>,
-    /// What is drawn of a solid in place of the body's cells.
+    /// The scene that is drawn of a solid, in place of the body's cells.
     pub(super) solid: Option<Seen>,
 }
 
-/// A solid as it is seen.
+/// A scene of a solid with the side from which it is seen.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Seen {
-    /// What is drawn.
+    /// The scene.
     pub(super) scene: Scene,
-    /// The side that it is seen from.
+    /// The side from which the scene is seen.
     pub(super) view: View,
     /// Factor on the displacements.
     pub(super) factor: f64,
@@ -65,8 +65,8 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Colours for values in `range`, between the levels that are asked for, in so many bands of a map; what is not asked for
-    /// follows from the values.
+    /// Colours for values in `range`, by the requested levels, number of bands and map; settings that are not requested follow from
+    /// the values.
     pub(super) fn new(
         range: [f64; 2],
         asked: Option<[f64; 2]>,
@@ -91,7 +91,7 @@ impl Scale {
 }
 
 impl Panel {
-    /// Draws it into a frame of a drawing.
+    /// Draws the panel into a frame of a drawing.
     pub(super) fn draw(&self, drawing: &mut Drawing, frame: Frame, scale: Option<&Scale>) {
         let field = self.field.as_ref().zip(scale);
         if let Some(solid) = &self.solid {
@@ -117,7 +117,7 @@ impl Panel {
         }
     }
 
-    /// Colour of what has no value.
+    /// Colour of cells without a value.
     fn bare(&self) -> Rgb {
         match self.field.is_none() && !self.lines.is_empty() {
             true => LIGHT,
@@ -147,7 +147,7 @@ impl Panel {
         drawing.path(outline, Paint::stroke(OUTLINE, OUTLINE_WIDTH));
     }
 
-    /// Cells with a colour each: those of a band and of all above it over those of the band below.
+    /// Cells with a colour each, painted band by band: a band and all bands above it are painted over the band below.
     fn draw_cells(&self, drawing: &mut Drawing, frame: Frame, field: Option<(&Field, &Scale)>) {
         let (body, cells) = (&self.body, &self.body.cells);
         let joined = Joined::new(cells, &body.reference, &self.positions);
@@ -156,7 +156,7 @@ impl Panel {
             let value = field.values[cell];
             value.is_finite().then(|| scale.levels.band(value))
         };
-        // What has no value lies below all bands.
+        // Cells without a value lie below all bands.
         let bands: Vec<Option<usize>> = (0..cells.len()).map(band_of).collect();
         let mut draw = |from: Option<usize>, paint: Paint| {
             let chosen = cells.iter().zip(&bands).filter(|(_, band)| **band >= from);

@@ -12,18 +12,18 @@ use ligament_output::vtu::read::VtuFile;
 use super::PictureError;
 use super::field::Field;
 
-/// Columns of the table before those of the fields.
+/// Columns of the table before the columns of the fields.
 pub const PROFILE_COLUMNS: [&str; 4] = ["step", "along", "x", "y"];
 
-/// How far a place may lie outside of a cell and count as in it, over the size of the cell: places on the outline.
+/// Distance outside of a cell, over the size of the cell, up to which a place counts as in it: places on the outline.
 const SLACK: f64 = 1e-9;
 
-/// A profile that is asked for.
+/// Request for a profile.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProfileRequest {
     /// The folder of the results.
     pub folder: PathBuf,
-    /// Fields by their names, as pictures know them: one column each.
+    /// Fields, named as in pictures, each a column.
     pub fields: Vec<String>,
     /// The steps.
     pub step: StepChoice,
@@ -33,7 +33,7 @@ pub struct ProfileRequest {
     pub samples: usize,
 }
 
-/// The table of fields along a line: a row a step and place, empty where the place lies outside of the body.
+/// The table of fields along a line: one row for each step and place, empty where the place lies outside of the body.
 ///
 /// Between the nodes of a mesh values are linear in a triangle, or in each half of a quadrangle; the cell of a lattice has one
 /// value.
@@ -136,7 +136,7 @@ impl Triangle {
         others.windows(2).map(of_pair).collect()
     }
 
-    /// Shares of the corners in a place; None where the place lies outside.
+    /// Barycentric coordinates of a place; `None` where the place lies outside.
     fn weights(&self, place: [f64; 2]) -> Option<[f64; 3]> {
         let [a, b, c] = self.places;
         let twice = |p: [f64; 2], q: [f64; 2], r: [f64; 2]| {
@@ -160,7 +160,7 @@ impl Triangle {
 mod tests {
     use super::*;
 
-    /// A linear field is met exactly in both halves of a quadrangle, and on its rim.
+    /// A linear field is interpolated exactly in both halves of a quadrangle, and on its rim.
     #[test]
     fn values_are_linear_in_a_cell_and_none_outside() {
         let positions = [[0.0, 0.0], [2.0, 0.0], [3.0, 1.0], [0.0, 1.0]];

@@ -1,4 +1,4 @@
-//! What a picture of bodies is to show.
+//! Request for a picture of bodies.
 
 use std::path::PathBuf;
 
@@ -10,16 +10,16 @@ use super::solid::{Section, View};
 /// Width of a column and of a page of a paper, mm.
 pub(super) const WIDTHS: [f64; 2] = [90.0, 180.0];
 
-/// How much larger displacements are drawn.
+/// Factor by which displacements are drawn larger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Magnification {
-    /// So that the largest is about a twentieth of the body; of a mode a tenth.
+    /// The largest displacement is about a twentieth of the body, in a mode a tenth.
     Auto,
     /// By this factor.
     Times(f64),
 }
 
-/// How cracks are drawn.
+/// Style of cracks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CrackDrawing {
     /// The broken bonds, coloured by criterion.
@@ -55,14 +55,14 @@ impl FieldRequest {
     }
 }
 
-/// What is drawn of solids, and from where.
+/// Parts of solids that are drawn, and the side from which they are seen.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SolidRequest {
-    /// The side from which they are seen; None: obliquely, a section from its normal, across y from in front.
+    /// The side from which solids are seen; `None`: obliquely, for a section along its normal, or from the front if it is across y.
     pub view: Option<View>,
-    /// A plane, of which the section is drawn.
+    /// Plane of the section that is drawn.
     pub section: Option<Section>,
-    /// A value of the field; where it has it is drawn.
+    /// Level of the field whose surface is drawn.
     pub level: Option<f64>,
 }
 
@@ -78,7 +78,7 @@ impl SolidRequest {
         self.view.or_else(of_section).unwrap_or(View::OBLIQUE)
     }
 
-    /// The option by which something is asked for that only solids have, if any.
+    /// Name of a given option that applies to solids only, if any.
     pub(super) fn asked(&self) -> Option<&'static str> {
         let options = [
             ("view", self.view.is_some()),
@@ -97,16 +97,16 @@ pub struct FieldRequest {
     pub folders: Vec<PathBuf>,
     /// Labels of the results; where empty, the names of their folders.
     pub labels: Vec<String>,
-    /// Field with its component, or `none`; None: damage where bonds broke, else the displacement; of modes the strain energy
+    /// Field with its component, or `none`. `None`: damage where bonds broke, else the displacement; for modes the strain energy
     /// density.
     pub field: Option<String>,
     /// Outputs of each folder.
     pub choice: Choice,
     /// Factor on the displacement.
     pub magnification: Magnification,
-    /// How cracks are drawn; None: not at all, but for pre-cracks in a mesh.
+    /// Style of cracks; `None`: only pre-cracks in a mesh.
     pub crack: Option<CrackDrawing>,
-    /// Tables `x,y` (m) of lines to draw over the body, which empty rows part.
+    /// Tables `x,y` (m) of lines to draw over the body, separated by empty rows.
     pub lines: Vec<PathBuf>,
     /// Part of the plane, lower left and upper right corner, m.
     pub window: Option<[[f64; 2]; 2]>,
@@ -114,11 +114,11 @@ pub struct FieldRequest {
     pub bands: Option<usize>,
     /// First and last level, SI units.
     pub range: Option<[f64; 2]>,
-    /// Colours; None: as the signs of the field ask for.
+    /// Colours; `None`: chosen by the signs of the field.
     pub map: Option<ColourMap>,
     /// Bodies in a row.
     pub columns: Option<usize>,
-    /// What is drawn of solids.
+    /// Settings of solids.
     pub solid: SolidRequest,
     /// Size and file.
     pub target: Target,

@@ -16,11 +16,11 @@ const FIRST_MODES: usize = 6;
 /// A choice of outputs to draw.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Choice {
-    /// The last one; of modes the first six.
+    /// The last one; for modes the first six.
     Default,
     /// Outputs with these names.
     Steps(Vec<StepChoice>),
-    /// So many, evenly spread over all.
+    /// This number of outputs, evenly spread over all.
     Strip(usize),
     /// Outputs nearest to these displacements of the load.
     Displacements(Vec<f64>),
@@ -29,7 +29,7 @@ pub enum Choice {
 /// The row of the history of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Moment {
-    /// Load factor, of a motion the time, s.
+    /// Load factor; in a motion the time, s.
     pub(super) load_factor: f64,
     /// Displacement of the first load.
     pub(super) displacement: f64,
@@ -49,7 +49,7 @@ pub(super) fn moments(folder: &Path) -> Result<BTreeMap<usize, Moment>, PictureE
         let displacement = row.value("displacement")?;
         let reaction = row.value("reaction")?;
         let moment = Moment {
-            // Of a motion alone.
+            // A history without load factors has NaN.
             load_factor: row.number("load_factor").unwrap_or(f64::NAN),
             displacement,
             reaction,
@@ -67,7 +67,7 @@ pub(super) struct Chosen {
     pub(super) number: usize,
     /// File of the output.
     pub(super) path: PathBuf,
-    /// Words for what happened in the step, long and short, if it was asked for by that.
+    /// Long and short description of the event by which the step was chosen, if any.
     pub(super) happened: Option<[String; 2]>,
 }
 

@@ -1,4 +1,4 @@
-//! Series of pictures: one for each output, in which colours, scale of the displacement and place of the body stay.
+//! Series of pictures: one for each output, with the same colours, scale of the displacement and place of the body.
 
 use std::path::{Path, PathBuf};
 
@@ -16,7 +16,7 @@ use crate::drawing::Drawing;
 use crate::drawing::frame::bounds;
 use crate::drawing::gif::to_gif;
 
-/// Most pictures of an animation whose steps nobody chose.
+/// Largest number of pictures of an animation for which no steps are chosen.
 const MOST_FRAMES: usize = 120;
 
 /// Dots per inch of an animation.
@@ -91,7 +91,7 @@ pub fn animate(
     Ok(file.to_path_buf())
 }
 
-/// The subject of a series, which are the results in one folder.
+/// The results in the one folder of a series.
 fn one_subject(request: &FieldRequest, option: &'static str) -> Result<Subject, PictureError> {
     match request.folders.as_slice() {
         [_] => Subject::open(request),
@@ -102,7 +102,7 @@ fn one_subject(request: &FieldRequest, option: &'static str) -> Result<Subject, 
     }
 }
 
-/// The file with a number before its ending, as wide as those of the outputs.
+/// The file with a number before its ending, with as many digits as in the names of outputs.
 fn numbered(file: &Path, number: usize) -> PathBuf {
     let part =
         |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();

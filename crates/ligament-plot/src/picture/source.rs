@@ -27,7 +27,7 @@ use super::units::Shown;
 use super::{PictureError, labels_of, solid};
 use crate::stored_loading::stored_loading;
 
-/// What titles and legends call a step in which bonds were still failing.
+/// Words in titles and legends for a step in which bonds were still failing.
 const NOT_CONVERGED: &str = "not converged";
 
 /// The results in a folder.
@@ -35,9 +35,9 @@ pub(super) struct Source {
     pub(super) outputs: Outputs,
     pub(super) label: String,
     moments: BTreeMap<usize, Moment>,
-    /// Units to show displacement and force in.
+    /// Units in which displacement and force are shown.
     shown: Option<[Shown; 2]>,
-    /// Unit to show the time of a motion in; none in statics.
+    /// Unit in which the time of a motion is shown; none in statics.
     time: Option<Shown>,
     pub(super) crack: Option<Crack>,
     /// Lines that are drawn over the body in all steps.
@@ -46,9 +46,9 @@ pub(super) struct Source {
     cracks: Option<StoredCracks>,
     /// Cracks of a solid that are drawn.
     solid_cracks: Option<SolidCracks>,
-    /// How cracks are drawn.
+    /// Style of cracks.
     drawing: Option<CrackDrawing>,
-    /// What is drawn of solids.
+    /// Settings of solids.
     solid: SolidRequest,
     /// Frequencies of modes by number, Hz.
     frequencies: BTreeMap<usize, f64>,
@@ -122,7 +122,7 @@ impl Subject {
         })
     }
 
-    /// The file of a picture that has no other name. Runs write no file of such a name.
+    /// The default file of a picture. Runs write no file with this name.
     pub(super) fn default_file(&self, request: &FieldRequest) -> PathBuf {
         let name = match self.field.as_str() {
             _ if self.has_modes => "picture-modes.png".to_owned(),
@@ -265,7 +265,7 @@ impl Output<'_> {
         words
     }
 
-    /// The entry of the legend for steps that are no answer to their load, where there are such.
+    /// The entry of the legend for steps that are not in equilibrium with their load; none without such steps.
     pub(super) fn warning(outputs: &[Self]) -> Option<Entry> {
         let unsettled = |it: &Self| it.moment().is_some_and(|moment| !moment.at_rest);
         let words = match outputs {

@@ -22,13 +22,13 @@ const FRAME_WIDTH: f64 = 0.6;
 /// Room at the rim and between bodies, pixels.
 const MARGIN: f64 = 6.0;
 
-/// What is seen around a body where lines that lead out of it are cut off, pixels.
+/// Width of the rim around a body in which lines that lead out of it are still drawn, pixels.
 const RIM: f64 = 0.5;
 
 /// Largest height over width of a picture.
 const TALLEST: f64 = 1.25;
 
-/// Bodies wider than so many heights are put below each other.
+/// Ratio of width to height from which on bodies are put below each other.
 const WIDE: f64 = 2.2;
 
 /// A line of the legend.
@@ -43,19 +43,19 @@ pub(super) struct Entry {
 /// Room for the sample of a line in the legend, pixels.
 const SAMPLE: f64 = 18.0;
 
-/// Most of a colour bar's height, pixels.
+/// Largest height of a colour bar, pixels.
 const LONGEST_BAR: f64 = 420.0;
 
-/// The room that is left in each picture of a series for what any of them shows, so that nothing moves from one to the next.
+/// Room in each picture of a series for the contents of all its pictures, so that nothing moves from one to the next.
 #[derive(Debug)]
 pub(super) struct Room {
-    /// Lower left and upper right corner of what the bodies reach in any picture, m.
+    /// Lower left and upper right corner of all bodies in all pictures, m.
     pub(super) extent: Option<[[f64; 2]; 2]>,
     /// Titles of all pictures.
     pub(super) titles: Vec<Vec<[String; 2]>>,
 }
 
-/// What a picture consists of.
+/// Parts of a picture.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
     /// The bodies; one or more.
@@ -64,9 +64,9 @@ pub(super) struct Strip<'a> {
     pub(super) scale: Option<&'a Scale>,
     /// The bar of the field.
     pub(super) bar: Option<ColourBar<'a>>,
-    /// What is below the bodies.
+    /// Legend below the bodies.
     pub(super) legend: Vec<Entry>,
-    /// Part of the plane to draw, lower left and upper right corner, m; None: all.
+    /// Part of the plane to draw, lower left and upper right corner, m; `None`: all.
     pub(super) window: Option<[[f64; 2]; 2]>,
     /// Bodies in a row.
     pub(super) columns: Option<usize>,
@@ -76,19 +76,19 @@ pub(super) struct Strip<'a> {
     pub(super) room: Option<&'a Room>,
 }
 
-/// Where everything lies, in pixels.
+/// Positions and sizes of the parts of a picture, pixels.
 #[derive(Debug)]
 struct Layout {
     /// Bodies in a row.
     columns: usize,
-    /// Pixels to the metre.
+    /// Pixels per metre.
     scale: f64,
     /// Room for a body.
     cell: [f64; 2],
     /// Lines of the titles.
     titles: Vec<Vec<String>>,
     title_height: f64,
-    /// Upper left corner of the first title, and what all bodies take from there.
+    /// Upper left corner of the first title, and the size of all bodies from there.
     start: [f64; 2],
     bodies: [f64; 2],
     /// Height without margins and legend.
@@ -96,7 +96,7 @@ struct Layout {
 }
 
 impl Strip<'_> {
-    /// The picture, so many pixels wide.
+    /// The picture, with a width in pixels.
     pub(super) fn draw(&self, width: f64) -> Drawing {
         let legend = self.legend_lines(width - 2.0 * MARGIN);
         let below = LINE * legend.len() as f64 + if legend.is_empty() { 0.0 } else { 4.0 };
@@ -129,7 +129,7 @@ impl Strip<'_> {
         drawing
     }
 
-    /// Lower left and upper right corner of what is seen of a body, m.
+    /// Lower left and upper right corner of the part of a body that is drawn, m.
     fn extent(&self, panel: &Panel) -> Option<[[f64; 2]; 2]> {
         let of_series = self.room.and_then(|room| room.extent);
         (self.window.or(of_series)).or_else(|| bounds(&panel.positions))
@@ -286,7 +286,7 @@ fn widest(titles: &[Vec<String>]) -> f64 {
     lines.map(|line| text_width(line, SIZE)).fold(0.0, f64::max)
 }
 
-/// Words in lines of a width: together where they fit, in their short form where one alone does not.
+/// Words in lines of a width: several in one line where they fit, in their short form where one alone does not.
 fn wrapped(words: &[[String; 2]], width: f64) -> Vec<String> {
     let fits = |text: &str| text_width(text, SIZE) <= width;
     let mut lines: Vec<String> = Vec::new();

@@ -1,4 +1,4 @@
-//! What the bodies of one picture have in common: factor on the displacement, colours, legend.
+//! Style that all bodies of a picture share: factor on the displacement, colours, legend.
 
 use ligament_output::results::fields::STRESS_VIRIAL;
 
@@ -14,10 +14,10 @@ use super::source::{Source, Subject};
 use super::strip::{Entry, Room, Strip};
 use crate::drawing::{Drawing, PIXELS_PER_MM};
 
-/// What all bodies of a picture, or of a series of pictures, have in common.
+/// Style of all bodies of a picture, or of a series of pictures.
 pub(super) struct Style<'a> {
     request: &'a FieldRequest,
-    /// Factor on the displacement; None: that of a mode.
+    /// Factor on the displacement; `None`: the factor of a mode.
     pub(super) magnification: Option<f64>,
     /// Colours of the field, and the range of its values; None where no field is drawn.
     colours: Option<(Scale, [f64; 2])>,
@@ -65,7 +65,7 @@ impl<'a> Style<'a> {
         })
     }
 
-    /// The picture of bodies with a legend, beside each other; `width` (mm) is its width where none is asked for.
+    /// The picture of bodies with a legend, beside each other; `width` (mm) is its default width.
     pub(super) fn drawing(
         &self,
         panels: &[Panel],
@@ -94,8 +94,8 @@ impl<'a> Style<'a> {
     }
 }
 
-/// The name of a field under its colours; with virial stresses, which are not those of the continuum at single points of a mesh, what they
-/// are good for.
+/// The name of a field under its colours. Virial stresses at single points of a mesh are not the stresses of the continuum: the name says
+/// that only means are right.
 fn caption(quantity: &str) -> String {
     match quantity.starts_with(STRESS_VIRIAL.name) {
         true => format!("{quantity}, right in the mean"),
@@ -111,8 +111,8 @@ pub(super) fn magnification_words(magnification: Option<f64>) -> String {
     }
 }
 
-/// The criteria by which bonds of any panel broke and the lines over the bodies, each once, with numbers of bonds and lengths if
-/// these are wanted.
+/// Entries for the criteria by which bonds of any panel broke and for the lines over the bodies, each once, with numbers of bonds and
+/// lengths if requested.
 pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bool) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     let kinds = sources

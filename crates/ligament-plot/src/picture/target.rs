@@ -10,22 +10,22 @@ use crate::drawing::Drawing;
 /// Size and file of a picture.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Target {
-    /// File to write; None: one beside the results.
+    /// File to write; `None`: a file beside the results.
     pub out: Option<PathBuf>,
-    /// Whether it may replace a file that is there; a picture of the program's own in a folder of results always does.
+    /// Whether an existing file may be replaced; the program's own picture in a folder of results always is.
     pub force: bool,
-    /// Kind of the file; None: the one that the file ends in, PNG where no file is given.
+    /// Kind of the file; `None`: by the ending of the file, PNG where no file is given.
     pub format: Option<Format>,
-    /// Width, mm; None: that of a column or of a page.
+    /// Width, mm; `None`: the width of a column or of a page.
     pub width: Option<f64>,
-    /// Dots per inch of a PNG or an animation; None: 300 of a picture, 150 of an animation.
+    /// Dots per inch of a PNG or an animation; `None`: 300 for a picture, 150 for an animation.
     pub dpi: Option<f64>,
 }
 
 /// The kinds of files that pictures are written as.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Dots, for all that shows pictures.
+    /// Dots, for all programs that show pictures.
     Png,
     /// Paths and text, which can be edited.
     Svg,
@@ -49,7 +49,7 @@ impl Format {
         }
     }
 
-    /// The kind that a file ends in.
+    /// The kind of a file by its ending.
     fn named_by(path: &Path) -> Result<Self, PictureError> {
         let extension = path.extension().and_then(|it| it.to_str());
         let extension = extension.map(str::to_lowercase);
@@ -76,7 +76,7 @@ impl Target {
         }
     }
 
-    /// The kind of a file: that which its name ends in, and of a name without ending, as those of pipes, the one that was asked for.
+    /// The kind of a file by the ending of its name; for a name without ending, such as a pipe, the requested kind.
     fn format_of(&self, path: &Path) -> Result<Format, PictureError> {
         match self.format {
             Some(format) if path.extension().is_none() => Ok(format),
@@ -84,7 +84,7 @@ impl Target {
         }
     }
 
-    /// Whether a file that is there may be replaced.
+    /// Whether an existing file may be replaced.
     fn may_replace(&self) -> bool {
         self.force || self.out.is_none()
     }

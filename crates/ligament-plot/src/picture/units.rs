@@ -2,12 +2,12 @@
 
 use ligament_output::quantity::{self, four_digits};
 
-/// A unit to show values of a quantity in.
+/// A unit in which values of a quantity are shown.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shown {
-    /// What a value in SI units is multiplied by.
+    /// Factor on a value in SI units.
     pub factor: f64,
-    /// The unit with its prefix or power of ten; empty for a number of no unit.
+    /// The unit with its prefix or power of ten; empty for a number without unit.
     pub unit: String,
 }
 
@@ -27,7 +27,7 @@ impl Shown {
         }
     }
 
-    /// A quantity with this unit, as labels have it.
+    /// A quantity with this unit, for labels.
     pub fn label(&self, quantity: &str) -> String {
         if self.unit.is_empty() {
             quantity.to_owned()

@@ -9,7 +9,7 @@ use crate::drawing::{Drawing, Frame};
 pub struct EqualScales {
     /// The curves, which need not lie in the window.
     pub plot: Plot,
-    /// Lower left and upper right corner of what is shown, at least.
+    /// Lower left and upper right corner of the part that is shown at least.
     pub window: [[f64; 2]; 2],
 }
 
@@ -26,7 +26,7 @@ impl EqualScales {
         }
         let sheet = Sheet::screen(600.0, &self.plot.series);
         let frame = self.plot.frame(sheet, self.window);
-        // As much more of one quantity is shown as the room has pixels for at the scale of the other.
+        // The window is enlarged along one axis until it fills the room at the common scale.
         let (size, scale) = (frame.size(), frame.scale[0].min(frame.scale[1]));
         let corner = |side: f64| {
             [0, 1].map(|axis| {

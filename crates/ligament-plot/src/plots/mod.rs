@@ -16,7 +16,7 @@ use series::LETTERS;
 pub use series::{Colour, Mark, Series};
 use sheet::Sheet;
 
-/// Size of the title, and room around what is drawn, pixels of a screen.
+/// Size of the title, and room around the plot, pixels of a screen.
 const TITLE: f64 = 19.0;
 const MARGIN: f64 = 14.0;
 
@@ -100,7 +100,7 @@ impl Plot {
         let title = if self.title.is_empty() { 0.0 } else { TITLE };
         let top = sheet.pen * (MARGIN + title);
         let height = sheet.height() - sheet.pen * (MARGIN + below) - top;
-        // Room for numbers along y, which their range and the height give.
+        // The room for numbers along y follows from their range and the height.
         let all = Frame::new(corners, [[0.0; 2], [1.0, height]]);
         let left = sheet.pen * MARGIN + self.axes(sheet).room_at_left(all);
         let right = sheet.plane - sheet.pen * (MARGIN + 0.5 * LETTERS);

@@ -12,7 +12,7 @@ use crate::picture::units::with_decimals_of;
 const HEIGHT: f64 = 600.0;
 const ABOVE: f64 = 30.0;
 
-/// Radius of the outermost circle over what the plane shows.
+/// Radius of the outermost circle over half of the width that is shown.
 const FILLED: f64 = 0.83;
 
 /// Colour of circles and spokes, and size of their numbers, pixels.

@@ -20,20 +20,20 @@ pub struct Series {
     points: Vec<[f64; 2]>,
 }
 
-/// How a curve is drawn.
+/// Style of a curve.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mark {
-    /// A line with dots: what the program computes.
+    /// A line with dots, for computed values.
     Line,
-    /// A line alone: the same at many points.
+    /// A line without dots, for computed values at many points.
     Curve,
-    /// Open circles: what is printed.
+    /// Open circles, for printed values.
     Circles,
-    /// Crosses: what is no answer.
+    /// Crosses, for states that are not in equilibrium.
     Crosses,
-    /// Triangles: where something begins.
+    /// Triangles, for the beginning of an event.
     Triangles,
-    /// A dashed line: another theory.
+    /// A dashed line, for another theory.
     Dashes,
 }
 
@@ -117,7 +117,7 @@ impl Series {
         }
     }
 
-    /// Draws the curve into a frame, with so many pixels of the drawing to one of a screen.
+    /// Draws the curve into a frame; `pen` is the number of pixels of the drawing per pixel of a screen.
     pub(super) fn draw(&self, drawing: &mut Drawing, frame: Frame, pen: f64) {
         if let Some(paint) = self.stroke(pen) {
             let mut path = PathData::default();
@@ -143,7 +143,7 @@ impl Series {
         drawing.text(at, Anchor::Start, size, &self.label);
     }
 
-    /// How the line between the points is painted, if there is one.
+    /// Paint of the line between the points, if there is one.
     fn stroke(&self, pen: f64) -> Option<Paint> {
         let line = Paint::stroke(self.colour.rgb(), pen * WIDTH);
         match self.mark {
@@ -156,7 +156,7 @@ impl Series {
         }
     }
 
-    /// Draws what stands at a point of the curve.
+    /// Draws the symbol of a point of the curve.
     fn draw_symbol(&self, drawing: &mut Drawing, [x, y]: [f64; 2], pen: f64) {
         let colour = self.colour.rgb();
         let (line, dot) = (Paint::stroke(colour, pen * WIDTH), Paint::fill(colour));

@@ -1,9 +1,9 @@
-//! What a plot is drawn on: its size, the room for the legend, and how fine the pen is.
+//! Sheet of a plot: its size, the room for the legend, and the scale of its lines and letters.
 
 use super::series::{LETTERS, Series};
 use crate::drawing::{Drawing, PIXELS_PER_MM, text_width};
 
-/// Pixels of a screen that a millimetre of paper takes: text of 15 pixels has a height of 7 points in print.
+/// Pixels of a screen per millimetre of paper: text of 15 pixels has a height of 7 points in print.
 const SCREEN_PIXELS_PER_MM: f64 = 6.0;
 
 /// Height over the width of the room for the curves on paper.
@@ -26,7 +26,7 @@ const BESIDE_LABEL: f64 = 58.0;
 /// The sheet for a plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sheet {
-    /// Pixels of the drawing to a pixel of a screen.
+    /// Pixels of the drawing per pixel of a screen.
     pub(super) pen: f64,
     /// Width and height, pixels.
     size: [f64; 2],

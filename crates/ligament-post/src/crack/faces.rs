@@ -34,7 +34,7 @@ pub enum Part {
     Open,
 }
 
-/// Distance over the side of a square within which corners of squares are one corner.
+/// Distance, relative to the side of a square, within which corners of squares are merged.
 const ONE_CORNER: f64 = 0.01;
 
 impl Faces {
@@ -189,7 +189,7 @@ fn mean(places: impl ExactSizeIterator<Item = [f64; 2]>) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// Two triangles on the unit square: five edges, of which one lies inside.
+    /// Two triangles on the unit square: five edges, one of them inside.
     #[test]
     fn cells_of_nodes_meet_along_the_edges_of_the_mesh() {
         let positions = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];

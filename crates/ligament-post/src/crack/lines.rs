@@ -144,7 +144,7 @@ impl Tracer<'_> {
         self.graph.way_to(&from_end, start).reversed()
     }
 
-    /// End corner of a line near a corner: at a pre-crack within the horizon, of several the one on the shortest path from the `other` end;
+    /// End corner of a line near a corner: at a pre-crack within the horizon, if there are several on the shortest path from the `other` end;
     /// or else at the outline, nearest to the corner; or else the corner itself. Corners within a horizon of the other end are left out.
     fn drawn(&self, corner: u32, other: u32, from_other: &ShortestPaths) -> u32 {
         let reach = self.corner(corner).horizon;

@@ -8,7 +8,7 @@
 //! 1. The longest of all shortest paths of every connected part, which crosses a band of detached cells as straight as they allow. An end of
 //!    it within a horizon of a pre-crack, or else of the outline, is moved there.
 //! 2. Branches: paths to corners farther than a horizon from all lines so far, the farthest first. Two lines nearer than a horizon are one
-//!    crack, because bonds reach from one beyond the other.
+//!    crack, because bonds reach across both.
 //! 3. A part shorter than a horizon is no crack, unless it starts at a pre-crack.
 //! 4. Lines follow cells and are jagged on their scale: each position of a line becomes the mean of the line within a horizon on both sides
 //!    of it, less near its ends, which are fixed.
@@ -16,7 +16,7 @@
 //! Open faces also put the corners of cells on sides of the crack ([`sides_of_cells`]), and cut the cells into pieces that move apart
 //! ([`opened_cells`]).
 //!
-//! The error of a tip is one cell, that of the length of a line some per cent (`tests/crack_lines.rs`).
+//! A tip has an error of one cell, the length of a line of some per cent (`tests/crack_lines.rs`).
 
 mod bridges;
 mod faces;

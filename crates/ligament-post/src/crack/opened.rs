@@ -56,9 +56,9 @@ pub fn opened_cells(
     opened
 }
 
-/// Sides of the crack on which the corners of the cells (n_cells) of a mesh lie where pairs of points are parted, numbered from that of the
-/// first corner: two or more parted edges of a cell separate the corners between them. All are 0 in a cell that alone has such edges, where
-/// no crack goes on; the fourth of a triangle is always 0.
+/// Sides of the crack on which the corners of the cells (n_cells) of a mesh lie where pairs of points are parted, numbered from the side of
+/// the first corner: two or more parted edges of a cell separate the corners between them. All are 0 in a cell that shares no parted edge
+/// with another such cell, because no crack continues there; the fourth of a triangle is always 0.
 pub fn sides_of_cells(cells: &[Cell], is_parted: impl Fn([u32; 2]) -> bool) -> Vec<[u8; 4]> {
     let parted_edges = |cell: &Cell| -> Vec<usize> {
         let edges = (0..cell.corners().len()).filter(|&place| is_parted(edge(cell, place)));
@@ -127,7 +127,7 @@ mod tests {
         opened
     }
 
-    /// Squares that are parted along a row fall into halves, and the triangles, of which one edge is parted at most, stay whole. The pieces fill
+    /// Squares that are parted along a row fall into halves, and the triangles, with at most one parted edge, stay whole. The pieces fill
     /// the cells, and their corners follow the points of their side.
     #[test]
     fn a_row_falls_into_halves() {
@@ -149,7 +149,7 @@ mod tests {
         assert_eq!(count(&opened(&[[0, 3], [3, 4], [3, 6], [4, 6]])), 6);
     }
 
-    /// Sides are numbered around the cell from that of its first corner.
+    /// Sides are numbered around the cell from the side of its first corner.
     #[test]
     fn corners_between_parted_edges_are_on_one_side() {
         let sides = |parted: &[[u32; 2]]| sides_of_cells(&CELLS, |pair| parted.contains(&pair));

@@ -7,7 +7,7 @@ use super::faces::{Faces, Part, distance};
 
 /// Open faces as edges between their corners.
 pub(super) struct Graph {
-    /// Corners, in the order of those of the faces.
+    /// Corners, in the order of the corners of the faces.
     pub(super) corners: Vec<Corner>,
     ways: Vec<OpenFace>,
 }
@@ -171,7 +171,7 @@ impl Graph {
             .sum()
     }
 
-    /// Shortest paths from some corners; of paths of equal length that through the corner with the lower number.
+    /// Shortest paths from some corners; among paths of equal length, the one through the corner with the lower number.
     pub(super) fn ways_from(&self, starts: &[u32]) -> ShortestPaths {
         let mut ways = ShortestPaths {
             length: vec![f64::INFINITY; self.corners.len()],

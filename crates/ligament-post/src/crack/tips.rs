@@ -8,7 +8,7 @@ impl CrackLine {
     ///
     /// A tip comes from the earlier tip that is nearest along the line, among those at most `reach` (m) away from it. From a tip before the
     /// junction of a branch, the way goes straight to the junction, if that is not farther than `reach` or the branch is long. `None`
-    /// for a tip that comes from no other: that of a new crack.
+    /// for a tip of a new crack, which comes from no earlier tip.
     pub fn ways_of_tips(&self, earlier: &[[f64; 2]], reach: f64) -> Vec<Option<f64>> {
         let backwards = || self.places.iter().rev().copied().collect();
         let from_tips: [&dyn Fn() -> Vec<[f64; 2]>; 2] = [&|| self.places.clone(), &backwards];

@@ -24,7 +24,7 @@ pub enum NoFit {
 /// Weibull's distribution F(x) = 1 - exp(-(x/x_0)^m) (Weibull 1951) with the largest likelihood for some strengths.
 ///
 /// The logarithms of modulus and scale have the covariances of the estimate for many samples, as the information of Fisher gives them (Thoman
-/// 1969): for few samples the modulus is too large in the mean, by 1.4/n of it.
+/// 1969): for few samples the modulus is too large in the mean, by a share of 1.4/n.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WeibullFit {
     /// Modulus m.
@@ -105,7 +105,7 @@ fn variances() -> [f64; 3] {
     [1.0 + rest * rest / sixth, 1.0 / sixth, -rest / sixth]
 }
 
-/// The root m of sum x^m ln x / sum x^m - 1/m - mean(ln x) = 0, which rises with m, by halvings; for logarithms up to 0, shape (n).
+/// The root m of sum x^m ln x / sum x^m - 1/m - mean(ln x) = 0, which rises with m, by bisection; for logarithms up to 0, shape (n).
 fn modulus(logarithms: &[f64]) -> f64 {
     let mean = logarithms.iter().sum::<f64>() / logarithms.len() as f64;
     let excess = |m: f64| {
@@ -144,8 +144,8 @@ pub fn plotting_position(rank: usize, n: usize) -> f64 {
 mod tests {
     use super::*;
 
-    /// Strengths at equally probable quantiles of a known distribution: the fit of 4,000 comes within what the tails of the sums miss, of
-    /// the order ln(n)/n.
+    /// Strengths at equally probable quantiles of a known distribution: the error of a fit of 4,000 comes from the tails that the sums
+    /// miss, of the order ln(n)/n.
     #[test]
     fn quantiles_of_a_distribution_give_it_back() {
         let known = WeibullFit {

@@ -10,7 +10,7 @@ use super::surface::CrackSurface;
 use super::tetrahedra::{EDGES, Tetrahedra};
 use super::{Link, measures};
 
-/// Number of no node, which fills the key of a place behind its nodes.
+/// Number of no node, which fills the unused end of the key of a place.
 const NONE: u32 = u32::MAX;
 
 /// State of the search for the surface.

@@ -11,9 +11,9 @@ use super::tetrahedra::{EDGES, Tetrahedra};
 #[derive(Debug, Default)]
 struct Side {
     points: Vec<u32>,
-    /// Number of them that were detached and already assigned to a side.
+    /// Number of these neighbours that were detached and are already assigned to a side.
     counted: usize,
-    /// Distance of the nearest one, m.
+    /// Distance of the nearest of these neighbours, m.
     nearest: f64,
 }
 
@@ -27,8 +27,8 @@ pub fn sides_of_tetrahedra(tetrahedra: &Tetrahedra, links: &Links) -> Vec<[u8; 4
 
 /// The links after every detached point, whose edges are all cut, is assigned to one of its sides, where it has one.
 ///
-/// Points are processed in the order of their numbers, each followed by its detached neighbours. The side is the one with most points assigned
-/// before, then the one with the nearest point, then the one with the lowest point.
+/// Points are processed in the order of their numbers, each followed by its detached neighbours. The chosen side has the most points
+/// assigned before; among equal sides the nearest point, then the lowest point decides.
 pub(super) fn with_detached_points_assigned(tetrahedra: &Tetrahedra, links: &Links) -> Links {
     let mut links = links.clone();
     let mut loose = detached_points(tetrahedra, &links);

@@ -130,7 +130,7 @@ mod tests {
 
     use super::*;
 
-    /// The tetrahedra of a block with a box missing in its corner fill all but the missing part, and those of a whole block fill it.
+    /// The tetrahedra of a block with a box missing in its corner fill all but the missing part, and the tetrahedra of a whole block fill it.
     #[test]
     fn tetrahedra_fill_the_boxes() {
         let boxes: Vec<[[f64; 3]; 2]> = (0..24)

@@ -72,7 +72,7 @@ mod tests {
 
     use super::*;
 
-    /// Triangles of every case look at the larger values.
+    /// The triangles of every case face the larger values.
     #[test]
     fn triangles_are_turned_to_the_larger_values() {
         let nodes = [

@@ -11,8 +11,8 @@
 //! 2. An edge longer than both horizons has no bond. It connects points that no bonds of its tetrahedron connected before the first load,
 //!    and no others.
 //! 3. A point whose edges are all cut lies in the crack: a crack on a layer of points would otherwise be two surfaces with the layer between
-//!    them. Such a point is assigned to one side: that of its neighbours in the crack that were assigned before it, else that of its nearest
-//!    neighbour.
+//!    them. Such a point is assigned to one side: the side of its neighbours in the crack that were assigned before it, else the side of its
+//!    nearest neighbour.
 //! 4. Middles of edges follow the cells and are jagged on their scale: each place is moved along the normal of the surface towards the mean
 //!    of its neighbours ([`CrackSurface::smoothed`]).
 //!

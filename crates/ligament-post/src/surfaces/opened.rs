@@ -9,7 +9,7 @@ use super::tetrahedra::Tetrahedra;
 use crate::opened::{Found, OpenedCells};
 
 /// The cells of a mesh, cut where the crack passes through their tetrahedra: each piece belongs to one side, and its corners on the crack
-/// follow the points of that side. `tetrahedra` are those with a cut edge, of all cells.
+/// follow the points of that side. `tetrahedra` are the tetrahedra of all cells that have a cut edge.
 pub fn opened_cells(
     (positions, cells): (&[[f64; 3]], &[SolidCell]),
     tetrahedra: &Tetrahedra,

@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(sides_with(&around_two), [0, 0, 1, 0]);
         let all: Vec<_> = EDGES.map(|[a, b]| ([a as u32, b as u32], Open)).to_vec();
         assert_eq!(sides_with(&all), [0, 1, 2, 3]);
-        // Without a bond of 2 and 3: it connects nothing that bonds connected, and 3 to 2 where nothing else ever did.
+        // The edge between 2 and 3 has no bond: it reconnects no corners that bonds connected, but connects 3 to 2 where bonds never did.
         assert_eq!(
             sides_with(&[([0, 2], Open), ([1, 2], Open), ([2, 3], Unbonded)]),
             [0, 0, 1, 0]

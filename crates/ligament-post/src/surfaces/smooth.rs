@@ -15,7 +15,7 @@ const SHARE: f64 = 0.5;
 
 /// Edges of a surface.
 struct Edges {
-    /// Neighbours of each place, for places on the rim those along the rim, ascending.
+    /// Neighbours of each place, ascending; for a place on the rim only its neighbours along the rim.
     neighbours: Vec<Vec<u32>>,
     /// Places on edges with one triangle.
     rim: BTreeSet<u32>,
@@ -24,10 +24,10 @@ struct Edges {
 impl CrackSurface {
     /// The surface with each place moved half way to the mean of its neighbours, twenty times.
     ///
-    /// On the rim, where an edge has one triangle, the neighbours are those along the rim, and places move along the normal alone: the rim
-    /// does not shrink, and stays on a face of the body orthogonal to the crack. Area and shape of a surface that is smooth on the scale of
-    /// a few cells are those of the crack to 2 % (`tests/crack_surfaces.rs`); before, the area is up to 1.7 times as large. A closed surface
-    /// of radius R loses some two squared cells of R^2.
+    /// On the rim, where an edge has one triangle, only neighbours along the rim count, and places move along the normal alone: the rim
+    /// does not shrink, and stays on a face of the body orthogonal to the crack. If a surface is smooth on the scale of a few cells, its
+    /// area and shape agree with the crack to 2 % (`tests/crack_surfaces.rs`); before, the area is up to 1.7 times as large. A closed
+    /// surface of radius R shrinks: R^2 decreases by about two squared cell sizes.
     pub fn smoothed(mut self) -> Self {
         let edges = self.edges();
         let triangles_of = self.triangles_of();

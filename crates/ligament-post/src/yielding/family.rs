@@ -15,7 +15,7 @@ const FIRST_ORIENTATIONS: usize = 90;
 /// Accuracy of the smallest utilisation, relative to the theoretical utilisation.
 const LEAST_UTILISATION_TOLERANCE: f64 = 1e-9;
 
-/// Largest number of orientations in the search, which only families come near in which a single bond decides over a wide range.
+/// Largest number of orientations in the search; only families in which a single bond decides over a wide range come near it.
 const MOST_ORIENTATIONS: usize = 1_000_000;
 
 /// Utilisation over the theoretical one below which a bond counts as unused: the rounding in a bond across the strain.
@@ -46,7 +46,7 @@ pub struct Worst {
 }
 
 impl<'a> Family<'a> {
-    /// The family of bonds at the angles `directions` to the x axis (n_bonds, rad), whose limits are those of the bonds 0, 1, ... of the
+    /// The family of bonds at the angles `directions` to the x axis (n_bonds, rad), with the limits of the bonds 0, 1, ... of the
     /// criteria.
     pub fn of_directions(directions: &[f64], criteria: &'a Criteria) -> Self {
         let bond = |(number, direction): (usize, &f64)| Bond {
@@ -129,8 +129,8 @@ impl<'a> Family<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// Error e = U_th/U - 1 at an orientation (rad): infinite where no bond yields however large the strain is, `None` where that is so in
-    /// theory as well.
+    /// Error e = U_th/U - 1 at an orientation (rad): infinite where no bond yields however large the strain is, `None` where no bond yields
+    /// in theory either.
     pub fn error(&self, strains: PrincipalStretches, orientation: f64) -> Option<f64> {
         let theory = self.theoretical_utilisation(strains);
         (theory > 0.0).then(|| error_of(theory, self.utilisation(strains, orientation)))
@@ -153,7 +153,7 @@ impl<'a> Family<'a> {
 
     /// The worst of all orientations.
     ///
-    /// The slope of U is bounded by that of its steepest criterion, which bounds U from below between two orientations; an interval is
+    /// The slope of U is bounded by the slope of its steepest criterion, which bounds U from below between two orientations; an interval is
     /// bisected where the bound is not above the smallest U so far. The result is the smallest U to 1e-9 U_th.
     pub fn worst(&self, strains: PrincipalStretches) -> Option<Worst> {
         let theory = self.theoretical_utilisation(strains);
@@ -282,7 +282,7 @@ mod tests {
         }
     }
 
-    /// What is met first decides: MPPD Table 7 has both limits, here (0, 1) and (-3, 0) with s_0c = -3 s_0t; per
+    /// The criterion that is met first decides: MPPD Table 7 has both limits, here (0, 1) and (-3, 0) with s_0c = -3 s_0t; per
     /// cent, printed to 2 decimals, at the 101 orientations of the paper.
     #[test]
     fn limits_in_tension_and_in_compression() {
@@ -303,7 +303,7 @@ mod tests {
     }
 
     /// An irregular family with limits of its own for each bond, against 200,000 orientations: their distance of
-    /// 1.6e-5 rad times the slope, 2 s_d/limit < 9, is what they may miss the least utilisation by.
+    /// 1.6e-5 rad times the slope, 2 s_d/limit < 9, bounds their error of the least utilisation.
     #[test]
     fn the_worst_orientation_of_an_irregular_family() {
         let directions = [0.03, 0.31, 0.42, 0.97, 1.5, 1.52, 2.2, 2.41, 2.9];

@@ -11,7 +11,7 @@ use super::{Family, PrincipalStretches, Worst};
 pub struct FamilyYield {
     /// Worst orientation of the strain, with its error.
     pub worst: Worst,
-    /// Load factor of the strain at first yield in theory, 1/U_th, which is that of the orientation that yields first.
+    /// Load factor of the strain at first yield in theory, 1/U_th: the load factor in the orientation that yields first.
     pub least_load: f64,
 }
 

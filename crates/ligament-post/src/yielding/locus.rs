@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::{Family, PrincipalStretches};
 
-/// Distance from zero, over that of the nearest point, beyond which a locus counts as open; parallel lines give larger values in spite of
+/// Distance from zero, relative to the nearest point, beyond which a locus counts as open; parallel lines give larger values in spite of
 /// rounding.
 const OPEN: f64 = 1e6;
 
@@ -139,7 +139,7 @@ mod tests {
         }
     }
 
-    /// Sliding: the effective strip is 1/cos 2phi as wide whatever the path is (m = 2: phi = 22.5 degrees), the limit
+    /// Sliding: the effective strip is 1/cos 2phi as wide for any path (m = 2: phi = 22.5 degrees), the limit
     /// in the plane of stretch and sliding likewise. To the tolerance of the search.
     #[test]
     fn effective_loci_are_the_theoretical_ones_times_the_error() {

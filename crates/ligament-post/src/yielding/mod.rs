@@ -2,8 +2,8 @@
 //!
 //! The bond whose direction is worst for a criterion fails first. The family has bonds in some directions only, so that the load at first
 //! yield depends on the orientation of the strain to them (MPPD section 4). With U(Theta) the largest utilisation of the bonds under a
-//! strain whose first principal axis is rotated by Theta, the load factor at first yield is 1/U(Theta); with U_th that of a family that has
-//! its weakest bonds in every direction, the error is
+//! strain whose first principal axis is rotated by Theta, the load factor at first yield is 1/U(Theta); with U_th the largest utilisation
+//! of a family that has its weakest bonds in every direction, the error is
 //!
 //! e(Theta) = U_th/U(Theta) - 1.
 //!
@@ -16,7 +16,7 @@
 //! | [`locus`] | loci of first yield over all strains, theoretical and effective |
 //! | [`field`] | anisotropy of every family of a body |
 //!
-//! All points rotate with the body here: the sliding of a bond is that of the strain.
+//! All points rotate with the body: the sliding of a bond follows from the strain alone.
 
 pub mod family;
 pub mod field;
@@ -29,7 +29,7 @@ pub use family::{Family, Worst};
 
 use ligament_model::element::BondDeformation;
 
-/// A uniform strain by its principal stretches; the axis of the second is a quarter turn ahead of that of the first.
+/// A uniform strain by its principal stretches; the second axis is a quarter turn ahead of the first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrincipalStretches {
     /// Principal stretch s_1.

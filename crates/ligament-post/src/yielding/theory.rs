@@ -6,8 +6,8 @@ use ligament_model::failure::hooke::StressAcross;
 
 use super::PrincipalStretches;
 
-/// Deformation of the bond with the largest measure, for a coefficient q, among bonds in all directions: that in the worst of the
-/// [directions](Measure::worst_directions). Of the two signs of the sliding the positive one.
+/// Deformation of the bond with the largest measure, for a coefficient q, among bonds in all directions: the deformation in the worst of
+/// the [directions](Measure::worst_directions), with positive sliding.
 ///
 /// # Panics
 ///

@@ -50,7 +50,7 @@ const FIRST: [&str; 5] = [
 ];
 
 impl Comparison {
-    /// Compares the results in two folders, `then` and `now`, without files of others and values that may differ between equal runs.
+    /// Compares the results in two folders, `then` and `now`. Files of others and values that may differ between equal runs are left out.
     ///
     /// # Errors
     ///

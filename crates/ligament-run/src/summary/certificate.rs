@@ -17,7 +17,7 @@ use ligament_output::summary::CertificateSummary;
 /// Largest number of points of a body whose cracks are traced at the end of a run, which takes a second.
 const MOST_POINTS: usize = 100_000;
 
-/// Certificate of the last state at rest of a run whose tables are complete in a folder; none of a motion, and of a run without a result.
+/// Certificate of the last state at rest of a run whose tables are complete in a folder; none for a motion, and for a run without a result.
 ///
 /// # Errors
 ///
@@ -101,7 +101,7 @@ fn tie_tolerance(model: &Model, outcome: &Outcome) -> f64 {
     outcome.solver.tie_tolerance(asked)
 }
 
-/// Number of breakages in the round of the one before with the same utilisation, to a relative tolerance.
+/// Number of breakages whose utilisation equals the utilisation of the breakage before them in the same round, to a relative tolerance.
 fn ties(path: &Path, tolerance: f64) -> Result<usize, ligament_output::Error> {
     let rows = Sheet::read(path)?.numbers(["step", "round", "utilisation"])?;
     let is_tied = |pair: &&[[f64; 3]]| {
@@ -153,7 +153,7 @@ mod tests {
         (folder, path)
     }
 
-    /// The last iteration of a round counts, not those on the way to it.
+    /// The last iteration of a round counts, not the earlier ones.
     #[test]
     fn the_largest_residual_is_that_of_a_state_found() {
         let rows = "step,round,iteration,residual\n1,1,1,0.5\n1,1,2,1e-9\n1,2,1,1e-8\n2,1,1,3e-9\n";
@@ -166,7 +166,7 @@ mod tests {
         assert_eq!(largest_residual(&path, all).unwrap(), None);
     }
 
-    /// Equal utilisations are ties within a round alone.
+    /// Equal utilisations are ties only within a round.
     #[test]
     fn ties_are_counted_in_their_round() {
         let rows = "step,round,utilisation\n1,1,1.5\n1,1,1.5\n1,1,1.2\n1,2,1.2\n2,2,1.2\n2,2,1.200000000001\n";

@@ -21,7 +21,7 @@ pub fn heading(title: &str) -> &str {
     }
 }
 
-/// What the summary says about the points of a model.
+/// Data on the points of a model for the summary.
 #[derive(Debug, Clone)]
 pub struct OfPoints {
     no_fail_points: usize,
@@ -107,7 +107,7 @@ fn scatter_of(
     }
 }
 
-/// Words about what is computed, in which space.
+/// Description of the computed quantity and the space.
 pub fn analysis_words(setup: &Setup) -> String {
     let breaks = !setup.criteria.is_empty();
     let what = match &setup.analysis {

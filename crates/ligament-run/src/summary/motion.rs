@@ -10,7 +10,7 @@ use ligament_output::summary::{EnergiesSummary, MotionSummary};
 
 use super::solver::limited_by;
 
-/// Summary of the motion of an analysis; none of an analysis in statics.
+/// Summary of the motion of an analysis; none for an analysis in statics.
 pub(super) fn motion_summary(analysis: &Analysis, outcome: &Outcome) -> Option<MotionSummary> {
     let Analysis::Motion(settings) = analysis else {
         return None;

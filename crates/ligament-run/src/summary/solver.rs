@@ -35,7 +35,7 @@ pub(super) fn limited_by(critical: &CriticalStep) -> &'static str {
     }
 }
 
-/// What limits the time step of an explicit motion.
+/// Description of the limit of the time step of an explicit motion.
 fn limit(ExplicitChoice { critical, .. }: &ExplicitChoice) -> String {
     let (step, by) = (critical.step, limited_by(critical));
     format!("the critical step is {step:.4e} s, limited by {by}")

@@ -14,7 +14,7 @@ pub struct Request {
     pub case: PathBuf,
     /// Overrides of the case in all runs, `key=value` each.
     pub overrides: Vec<String>,
-    /// Number of threads, if other than that of the case.
+    /// Number of threads, if other than in the case.
     #[serde(skip)]
     pub threads: Option<u32>,
     /// The key whose value is sought.

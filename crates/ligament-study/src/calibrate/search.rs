@@ -110,7 +110,7 @@ impl Search {
             .clamp(self.limits[0], self.limits[1])
     }
 
-    /// Neighbouring trials on both sides of the target, lower key first; of several such pairs the nearest one.
+    /// Neighbouring trials on both sides of the target, lower key first; the nearest pair if there are several.
     fn bracket(&self, trials: &[Trial]) -> Option<[Trial; 2]> {
         let mut sorted = trials.to_vec();
         sorted.sort_by(|a, b| a.key.total_cmp(&b.key));

@@ -26,7 +26,8 @@ pub(super) struct Collected {
 }
 
 impl Collected {
-    /// The samples of parts. A part whose samples are all in others is left out: a copy, or a shard of what another folder has.
+    /// The samples of parts. A part whose samples are all in other parts is left out: it is a copy, or a shard of the samples of another
+    /// folder.
     ///
     /// # Errors
     ///
@@ -79,7 +80,7 @@ pub(super) struct Strengths {
     pub(super) words: &'static str,
     /// Loads in the order of the samples that have one.
     pub(super) loads: Vec<f64>,
-    /// Fitted distribution; none where there is none.
+    /// Fitted distribution; none where the loads have none.
     pub(super) fit: Option<WeibullFit>,
 }
 

@@ -18,7 +18,7 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// A grid of n displacements up to one that is given, or beyond those of the body without random factors.
+    /// A grid of n displacements up to a given one, or beyond the displacements of the body without random factors.
     pub(super) fn new(n: usize, given: Option<f64>, sound: &Outcome) -> Self {
         let largest = sound.envelope().last().map_or(0.0, |it| it.displacement);
         let end = match sound.termination {
@@ -37,8 +37,8 @@ impl Grid {
             .collect()
     }
 
-    /// Loads of a path at the displacements, shape (n), with straight lines between its points; 0 beyond the end of a path on which
-    /// the body failed, and nothing beyond the end of another.
+    /// Loads of a path at the displacements, shape (n), with straight lines between its points. Beyond the end of the path the load is 0 if
+    /// the body failed, otherwise unknown.
     pub(super) fn loads(self, outcome: &Outcome) -> Vec<Option<f64>> {
         let curve = outcome.envelope();
         let beyond = has_failed(&outcome.termination).then_some(0.0);
@@ -71,7 +71,7 @@ fn load_at(curve: &[LoadPoint], displacement: f64) -> Option<f64> {
 
 /// A number rounded to two digits.
 fn two_digits(value: f64) -> f64 {
-    // A number is read as it was written.
+    // A parsed number equals the written one.
     format!("{value:.1e}").parse().unwrap_or(value)
 }
 

@@ -1,4 +1,4 @@
-//! What the samples of a folder are of.
+//! Identity of an ensemble: the inputs that all samples of a folder share.
 
 use ligament::ensemble::Ensemble;
 use ligament_case::case::CaseFile;
@@ -13,7 +13,7 @@ use crate::run_table::folder::StudyFolder;
 /// File that marks the folder of an ensemble.
 pub(super) const MARKER: &str = "ensemble.json";
 
-/// What the samples of a folder are of, with the path of the body without random factors.
+/// Identity of an ensemble, with the path of the body without random factors.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct Identity {
     title: String,
@@ -27,7 +27,7 @@ pub(super) struct Identity {
     pub(super) sound_peak: Option<f64>,
     /// Loads of the body without random factors at the displacements of the grid.
     pub(super) sound: Vec<Option<f64>>,
-    /// Inputs of the case but the seed of its first random property.
+    /// Inputs of the case except the seed of its first random property.
     inputs: String,
 }
 
@@ -102,7 +102,7 @@ impl Identity {
     }
 }
 
-/// Inputs of a case but those that change no sample: the seed of its first random property and its output.
+/// Inputs of a case except those that change no sample: the seed of its first random property and its output.
 fn inputs(case: &CaseFile) -> anyhow::Result<String> {
     let mut plain = case.clone();
     let fracture = plain.case.fracture.as_mut();

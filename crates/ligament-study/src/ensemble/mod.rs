@@ -2,8 +2,8 @@
 //!
 //! All samples share the body, its corrections and its intact factor ([`ligament::ensemble`]). A folder has an identity (`identity`): the case,
 //! the seed and the displacements at which curves are compared (`grid`). Samples are stored in parts (`part`), one of each shard, as rows (`row`)
-//! and counts at the points of the body, whose size does not grow with the samples; locks, shards and progress are those of every
-//! [table of runs](crate::run_table). What all parts have together (`collected`) becomes tables, fields and plots (`report`).
+//! and counts at the points of the body, whose size does not grow with the samples; locks, shards and progress work as in every
+//! [table of runs](crate::run_table). The samples of all parts (`collected`) become tables, fields and plots (`report`).
 
 mod collected;
 mod grid;
@@ -57,7 +57,7 @@ pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<En
     }
 }
 
-/// Computes the samples that are missing, and writes the tables and plots unless the samples are those of a shard.
+/// Computes the samples that are missing, and writes the tables and plots unless the samples are only a shard.
 fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<End> {
     let threads = request.case.threads();
     let ensemble = on_threads(threads, || prepared(request))??;
@@ -145,7 +145,7 @@ fn compute(
         }
     });
     progress.finish();
-    // What was computed before a fault is kept.
+    // Samples computed before a fault are kept.
     part.store()?;
     match added {
         Ok(()) => Ok(End::Done),

@@ -1,7 +1,7 @@
 //! Stored samples: rows that grow, and counts at the points of the body that replace earlier ones.
 //!
-//! A part is written by one process at a time. Its rows count up to the length that stands beside the counts, so that both are of the same
-//! samples however the process ended. The size of the counts is that of the body, whatever the number of samples.
+//! A part is written by one process at a time. Its rows are valid up to the length stored with the counts, so that both describe the same
+//! samples however the process ended. The size of the counts depends on the body, not on the number of samples.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -34,7 +34,7 @@ pub(super) struct Counts {
 }
 
 impl Counts {
-    /// Counts of no sample.
+    /// Counts without samples.
     fn none(n_points: usize) -> Self {
         Self {
             first_break: vec![0; n_points],
@@ -73,7 +73,7 @@ impl Counts {
     }
 }
 
-/// What is stored beside the rows.
+/// Data that are stored beside the rows.
 #[derive(Debug, Serialize, Deserialize)]
 struct Committed {
     /// Length of the rows, bytes.
@@ -139,7 +139,7 @@ impl<'a> Part<'a> {
         Ok(())
     }
 
-    /// Stores what was added.
+    /// Stores the added samples.
     pub(super) fn store(&mut self) -> anyhow::Result<()> {
         let committed = Committed {
             length: self.table.synced()?.length,
@@ -189,7 +189,7 @@ fn of_file(beside: &Path, grid: Grid) -> anyhow::Result<Stored> {
     Ok(Stored { path, rows, counts })
 }
 
-/// Columns of the rows of a part: those of a sample, and the loads at the displacements of the grid.
+/// Columns of the rows of a part: the columns of a sample, and the loads at the displacements of the grid.
 fn columns(grid: Grid) -> Vec<String> {
     let loads = (0..grid.n).map(|it| format!("load_{it}"));
     COLUMNS

@@ -20,7 +20,7 @@ pub struct Request<'a> {
     pub seed: u64,
     /// Number of displacements at which curves are compared.
     pub points: usize,
-    /// Largest of these displacements; by default 1.25 times that of the body without random factors.
+    /// Largest of these displacements; by default 1.25 times the largest one of the body without random factors.
     pub displacement: Option<f64>,
     /// Folder of the ensemble.
     pub out: &'a Path,
@@ -53,7 +53,7 @@ pub struct Settings {
 }
 
 impl Request<'_> {
-    /// Number of threads of all samples together: those of the case, or as many as there are processors.
+    /// Number of threads of all samples together: as in the case, or as many as there are processors.
     pub(super) fn threads(&self) -> usize {
         let all = thread::available_parallelism().map_or(1, NonZero::get);
         self.case.threads().unwrap_or(all)

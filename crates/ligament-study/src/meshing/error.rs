@@ -108,7 +108,7 @@ pub enum MeshingError {
     UnusableSource {
         /// The mesh that was to be converted.
         mesh: PathBuf,
-        /// The reader's reason; its lines are those of the Gmsh file that would have been written.
+        /// The reader's reason; its lines refer to the Gmsh file that would have been written.
         source: GmshError,
     },
     /// A file could not be read or written.

@@ -344,7 +344,7 @@ mod tests {
         assert_eq!(mesh.groups[0].cells, [0]);
         assert_eq!(mesh.groups[1].faces, [Cell::Triangle([0, 1, 4])]);
         assert_eq!(mesh.groups[2].edges, [[0, 4]]);
-        // The pyramid hangs from its base: the reader turns it round.
+        // The pyramid hangs from its base: the reader reorients it.
         let Ok(AnyMesh::Solid(read)) = gmsh::parse_any(gmsh::write(&mesh).as_bytes()) else {
             panic!("a solid mesh");
         };
@@ -352,7 +352,7 @@ mod tests {
         assert_eq!(read.groups[1].faces.len(), 1);
     }
 
-    /// A text that ends early, or has nodes and cells that are not there, is none.
+    /// A text that ends early, or refers to missing nodes or cells, is refused.
     #[test]
     fn anything_else_is_refused() {
         for text in [HANDED, SOLID] {

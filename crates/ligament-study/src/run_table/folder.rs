@@ -111,7 +111,7 @@ impl StudyFolder {
         paths.iter().map(marked).collect()
     }
 
-    /// Creates the folder with the text of its marker, or opens an earlier one, with subfolders and that of the locks.
+    /// Creates the folder with the text of its marker, or opens an earlier one, with the given subfolders and the subfolder of the locks.
     ///
     /// # Errors
     ///
@@ -144,7 +144,7 @@ impl StudyFolder {
         self.path.join(self.marker).is_file()
     }
 
-    /// Whether the folder has no files but those of a shard that is marking it.
+    /// Whether the folder has no files except files of a shard that is marking it.
     fn is_fresh(&self) -> bool {
         let marker = self.marker;
         let hidden = format!(".{marker}.");

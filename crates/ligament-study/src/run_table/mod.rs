@@ -1,6 +1,6 @@
-//! The table of the runs of a study, under sweeps and ensembles: its [`folder`] with marker, locks and shards, the display of its `progress`, and
-//! the files of its results. What the rows are, which come next and what is evaluated from them is said by the kind of study. A calibration,
-//! whose runs depend on each other, has one process and so neither shards nor parts.
+//! The table of the runs of a study, under sweeps and ensembles: its [`folder`] with marker, locks and shards, the display of its
+//! `progress`, and the files of its results. The kind of study determines its rows, which run comes next, and the evaluation. A
+//! calibration, whose runs depend on each other, has one process and so neither shards nor parts.
 
 pub mod folder;
 pub(crate) mod progress;

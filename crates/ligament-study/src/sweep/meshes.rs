@@ -45,7 +45,7 @@ impl MeshPlan {
     }
 }
 
-/// Makes the missing meshes of plans by the program `gmsh`, and reports each to `print`. Returns the reasons of those that could not be made,
+/// Makes the missing meshes of plans by the program `gmsh`, and reports each to `print`. Returns the reasons for meshes that could not be made,
 /// by their files.
 ///
 /// # Errors

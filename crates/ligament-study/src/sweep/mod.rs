@@ -109,7 +109,7 @@ pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     }
 }
 
-/// Creates the folder of a sweep, or opens that of an earlier one.
+/// Creates the folder of a sweep, or opens the folder of an earlier one.
 ///
 /// # Errors
 ///

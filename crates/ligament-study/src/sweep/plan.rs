@@ -75,7 +75,7 @@ fn parts_of<'a>(
     cells.map(move |(key, cell)| (key.as_str(), label(cell)))
 }
 
-/// Lists the runs of a study, with the last axis varying fastest, and checks the case of each; `folder` is that of the study.
+/// Lists the runs of a study, with the last axis varying fastest, and checks the case of each; `folder` is the folder of the study.
 ///
 /// # Errors
 ///
@@ -119,7 +119,7 @@ fn place(axes: &[Axis], number: usize) -> Vec<usize> {
     place
 }
 
-/// What the runs of a study have in common.
+/// Common data of the runs of a study.
 struct Planning<'a> {
     study: &'a Study,
     /// Text of the base case.
@@ -388,7 +388,7 @@ mod tests {
                 .iter()
                 .all(|name| name.is_ascii() && !name.contains('/'))
         );
-        // Without its neighbours a label keeps its name, unless it was told apart from one of them.
+        // Without its neighbours a label keeps its name, unless a digest distinguished it from one of them.
         assert_eq!(super::names(&[axis("a", &["r"])])[0], ["a=r"]);
     }
 }

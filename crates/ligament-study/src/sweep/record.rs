@@ -86,7 +86,7 @@ impl Status {
     }
 }
 
-/// A run in the folder of its study: its results and, while these are to be replaced, its new ones, with their records.
+/// A run in the folder of its study: its results and, while these are to be replaced, its new results, with their records.
 pub(super) struct RecordedRun<'a> {
     run: &'a Run,
     present: Results,
@@ -107,7 +107,7 @@ impl<'a> RecordedRun<'a> {
         &self.present.folder
     }
 
-    /// The results of the next computation: apart from results that the run has.
+    /// Place for the results of the next computation: a separate folder if the run has results.
     fn next(&self) -> &Results {
         match self.present.are_complete() {
             true => &self.new,
@@ -154,7 +154,8 @@ impl<'a> RecordedRun<'a> {
         Ok(replace_file(&self.next().record, text.as_bytes())?)
     }
 
-    /// Writes the record of the inputs; returns the folder for the results: the own one, or a separate one while this has earlier results.
+    /// Writes the record of the inputs; returns the folder for the results: the run's own, or a separate one while this has earlier
+    /// results.
     pub(super) fn begin(&self) -> anyhow::Result<PathBuf> {
         // A link or a foreign file at the path must not be removed.
         refuse_link(self.folder())?;
@@ -174,7 +175,7 @@ impl<'a> RecordedRun<'a> {
         Ok(recover(&present.folder, Kind::RUN)?)
     }
 
-    /// Replaces earlier results and their record by completed new ones, if these were written apart.
+    /// Replaces earlier results and their record by completed new ones, if these were written to a separate folder.
     pub(super) fn complete(&self, written: &Path) -> anyhow::Result<()> {
         let Self { present, new, .. } = self;
         if written == present.folder {

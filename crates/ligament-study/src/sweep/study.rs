@@ -20,7 +20,7 @@ use ligament_case::input_file;
 /// A study: its cases, derived results and plots.
 #[derive(Debug, Clone)]
 pub struct Study {
-    /// The study file, as it was given.
+    /// Parsed text of the study, with its file.
     pub source: Source,
     /// Title of the study.
     pub title: String,
@@ -63,9 +63,9 @@ pub struct StudyPlot {
     pub x: String,
     /// The column along y: a key of an axis, a derived column or a result.
     pub y: String,
-    /// A key of an axis, each value of which has a curve.
+    /// A key of an axis; each of its values has a curve.
     pub by: Option<String>,
-    /// Title; by default that of the study.
+    /// Title; by default the title of the study.
     pub title: Option<String>,
     /// Label along x, with the unit; by default the name of the column.
     pub x_label: Option<String>,
@@ -186,7 +186,7 @@ impl Study {
         })
     }
 
-    /// The study's own name: that of its folder if the file is called `study.toml`, else the file's own without its extension.
+    /// The study's name: the name of its folder if the file is called `study.toml`, else the name of the file without its extension.
     pub fn name(&self) -> String {
         self.source.name(&["study"])
     }

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
     use ligament_case::case::document::Origin;
 
-    /// What goes to `--set` reads back there as it stood in the study.
+    /// Values passed to `--set` are read back as they were in the study.
     #[test]
     fn values_read_back() {
         for text in [

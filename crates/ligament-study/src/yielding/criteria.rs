@@ -37,14 +37,14 @@ const FIGURES: [&str; 5] = [
     "frictional+stretch",
 ];
 
-/// Combination of criteria, of which the first that is met decides: `sliding+stretch`.
+/// Combination of criteria, such as `sliding+stretch`; the first one that is met decides.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Combination {
     name: String,
     parts: Vec<Part>,
 }
 
-/// Strengths from which limits follow: those of a bar with strain limit s_0t in tension and a multiple of it in compression.
+/// Strengths from which limits follow: the strengths of a bar with strain limit s_0t in tension and a multiple of it in compression.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Strengths {
     /// Poisson's ratio in the plane.

@@ -22,7 +22,7 @@ pub(super) struct Comparison {
     pub(super) subjects: Vec<Subject>,
 }
 
-/// Load paths in the tables, s_1 to s_2: those of the paper at F_c = 3 F_t.
+/// Load paths in the tables, s_1 to s_2, as in the paper at F_c = 3 F_t.
 pub(super) const PATHS: [PrincipalStretches; 12] = [
     PrincipalStretches::new(1.0, 1.0),
     PrincipalStretches::new(0.5, 1.0),

@@ -60,7 +60,7 @@ pub enum YieldError {
         /// Word of the law.
         law: &'static str,
     },
-    /// A criterion that looks at more of a body than the strain of a bond.
+    /// A criterion that depends on more of a body than the strain of a bond.
     #[error(
         "the criterion \"{criterion}\" looks at the stress of the body, which is the same for all families: it yields at the strength, and no \
          diagram is drawn of it; take others with --criterion"

@@ -121,7 +121,7 @@ fn layers(
 const COLUMNS: &str = "criterion,strain,points,count,mean,percentile_5,percentile_95,worst\
                        ,worst_point,worst_orientation_deg,lattice_m,lattice";
 
-/// Writes the errors of the interior points and of all points into a table, and prints those of the interior points.
+/// Writes the errors of the interior points and of all points into a table, and prints the errors of the interior points.
 fn write_summary(
     folder: &ResultFolder,
     screen: &mut dyn Write,

@@ -19,7 +19,7 @@ pub(super) fn model(case: &CaseFile) -> anyhow::Result<Model> {
     build_model_in_plane(case, &mut Stages::default(), &progress)
 }
 
-/// The criteria with their names: those of the request, or each criterion of the case and, of several, their combination.
+/// The criteria with their names: the criteria of the request, or each criterion of the case and, if there are several, their combination.
 pub(super) fn criteria(
     request: &Request,
     model: &Model,

@@ -1,4 +1,4 @@
-//! The family of one point of a case, compared with that of a lattice.
+//! The family of one point of a case, compared with the family of a lattice.
 
 use std::io::Write;
 

@@ -17,9 +17,9 @@ pub(super) const SUMMARY: &str = "yield.csv";
 pub struct Request {
     /// Families to be studied.
     pub of: Families,
-    /// Criteria with the same limits for all bonds; where empty, those of the figures, or of the case.
+    /// Criteria with the same limits for all bonds; if empty, the criteria of the figures, or of the case.
     pub combinations: Vec<Combination>,
-    /// Poisson's ratio in the plane; by default 0, or that of the case.
+    /// Poisson's ratio in the plane; by default 0, or the ratio of the case.
     pub poisson: Option<f64>,
     /// Compressive over tensile strength.
     pub ratio: f64,
@@ -51,7 +51,7 @@ pub enum Place {
     Tag(u64),
 }
 
-/// Files of a folder of yield diagrams, except those with a criterion in their name.
+/// Files of a folder of yield diagrams, except files with a criterion in their name.
 const FILES: [&str; 4] = [
     "distribution.svg",
     "locus.csv",

@@ -70,7 +70,7 @@ impl Subject {
         })
     }
 
-    /// The family of a point of a body; the criteria are those of the body's bonds.
+    /// The family of a point of a body, with the criteria of the body's bonds.
     pub fn of_point(name: String, system: &BondSystem, criteria: &Criteria, point: u32) -> Self {
         let bonds = system.bonds.incidence.at(point);
         let angle = |&bond: &u32| {

@@ -1,11 +1,11 @@
-//! The file of an experiment as it is written.
+//! Structure of the file of an experiment.
 
 use std::collections::BTreeMap;
 
 use anyhow::Context;
 use serde::Deserialize;
 
-/// An experiment as its file has it.
+/// An experiment as written in its file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExperimentFile {
@@ -17,7 +17,8 @@ pub struct ExperimentFile {
     pub source: String,
     /// Description of the computation.
     pub setup: String,
-    /// Numbers by name: a number, an expression, or one of these by labels; quantities of the run stand in those alone that no setting needs.
+    /// Numbers by name: a number, an expression, or one of these by labels. Only numbers that no setting needs may contain quantities of
+    /// the run.
     #[serde(default)]
     pub(super) numbers: BTreeMap<String, Choice>,
     /// Values of other runs by name.
@@ -31,7 +32,7 @@ pub struct ExperimentFile {
     pub(super) plot: Vec<Figure>,
 }
 
-/// What runs.
+/// The case of a run with its settings.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Run {
@@ -61,7 +62,7 @@ pub(super) struct UniformStress {
     pub(super) angle: String,
 }
 
-/// A setting whose value is a list of so many items, in which `item` counts from 0.
+/// A setting whose value is a list; `item` counts its items from 0.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SettingsList {
@@ -78,7 +79,7 @@ pub(super) struct Reference {
     pub(super) value: Option<Choice>,
     /// Name of the table, with labels in braces.
     pub(super) known: Option<String>,
-    /// What runs, as in a table; without it what the entry runs.
+    /// The run, as in a table; by default the run of the entry.
     pub(super) run: Option<Run>,
     #[serde(default)]
     pub(super) labels: BTreeMap<String, String>,
@@ -92,7 +93,7 @@ pub(super) struct SettingsByLabels {
     pub(super) settings: BTreeMap<String, Vec<String>>,
 }
 
-/// A table of known values, and what is compared with them.
+/// A table of known values, and the value that is compared with them.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TableOfFile {
@@ -100,7 +101,7 @@ pub(super) struct TableOfFile {
     pub(super) file: String,
     /// Expression of the computed value.
     pub(super) value: Choice,
-    /// What runs, where it differs from the other tables; settings are added to theirs.
+    /// The run, where it differs from the run of all tables; its settings are added.
     #[serde(default)]
     pub(super) run: Run,
     /// Labels that stand for several runs each. The first key is the outermost.
@@ -108,7 +109,7 @@ pub(super) struct TableOfFile {
     pub(super) over: Vec<Over>,
 }
 
-/// A label that stands for several.
+/// A label that stands for several labels.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Over {
@@ -163,7 +164,7 @@ impl TryFrom<toml::Value> for Choice {
     }
 }
 
-/// Name of what holds for all labels that are not listed.
+/// Key of the text for all labels that are not listed.
 pub(super) const ELSE: &str = "else";
 
 impl Choice {
@@ -246,7 +247,7 @@ pub(super) struct TableSeries {
     /// Whether the values are the known ones.
     #[serde(default)]
     pub(super) known: bool,
-    /// Whether the numbers along x are taken from the values.
+    /// Whether the numbers along x are subtracted from the values.
     #[serde(default)]
     pub(super) less_x: bool,
 }

@@ -1,4 +1,4 @@
-//! The runs of an entry, and the memory of what came out of them.
+//! The runs of an entry, and the memory of their results.
 
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,14 +14,14 @@ use crate::table::{Labels, number};
 use crate::trial::Trial;
 use crate::uniform_stress::loads;
 
-/// What stands for doubled braces while the others are filled: characters that no setting has.
+/// Placeholder for doubled braces while the others are filled: a character that no setting has.
 const OPENING: &str = "\u{1}";
 const CLOSING: &str = "\u{2}";
 
-/// The runs whose results an entry or a point of a plot joins, and the expression of its value.
+/// The runs whose results an entry or a point of a plot combines, and the expression of its value.
 pub(super) struct EntryRuns<'a> {
     file: &'a ExperimentFile,
-    /// What the table runs, added to what the file runs.
+    /// The run of the table, added to the run of the file.
     run: &'a Run,
     value: Expression,
     /// Labels of each run, by the beginning of their keys up to a comma.
@@ -30,7 +30,7 @@ pub(super) struct EntryRuns<'a> {
     commands: Vec<OnceCell<String>>,
 }
 
-/// What a name stands for in a run.
+/// Meaning of a name in a run.
 enum Meaning<'a> {
     Number(f64),
     Expression(Expression),
@@ -63,7 +63,7 @@ impl<'a> EntryRuns<'a> {
         Self::new(file, &table.run, &table.value, runs)
     }
 
-    /// Several runs by their labels. Those of the first run choose the expression of the value.
+    /// Several runs by their labels; the labels of the first run select the expression of the value.
     pub(super) fn new(
         file: &'a ExperimentFile,
         run: &'a Run,
@@ -224,7 +224,7 @@ pub(super) fn with_each(
         .collect()
 }
 
-/// A name of a key in expressions: what stands before a comma and its unit.
+/// Name of a key in expressions: the part before a comma and its unit.
 fn name_of(key: &str) -> &str {
     key.split(',').next().unwrap_or(key)
 }
@@ -271,7 +271,7 @@ fn written(number: f64) -> String {
     }
 }
 
-/// Results of all runs of an experiment, by the commands that give the same.
+/// Results of all runs of an experiment, by their commands: equal commands give equal results.
 #[derive(Default)]
 pub(super) struct RunMemory {
     /// Quantities that are read from each run.

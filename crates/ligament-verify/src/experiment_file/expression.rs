@@ -1,8 +1,8 @@
 //! Expressions of an experiment: numbers, names, + - * / ^, parentheses, and functions of numbers, of the runs that an entry joins, and of the
 //! history of a run.
 //!
-//! A name has letters, digits, `_` and `.`; a function is a name with expressions in parentheses. Those of a statistic are evaluated in every
-//! run, and the last one of a function of the history in every row.
+//! A name has letters, digits, `_` and `.`; a function is a name with expressions in parentheses. The expressions of a statistic are
+//! evaluated in every run, the last expression of a function of the history in every row.
 
 use std::ops::Range;
 
@@ -73,7 +73,7 @@ static FUNCTIONS: [Function; 30] = [
     function("asin", 1, Numbers(|x| x[0].asin())),
     function("atan", 1, Numbers(|x| x[0].atan())),
     function("hypot", 2, Numbers(|x| x[0].hypot(x[1]))),
-    // Speed of Rayleigh waves over that of shear waves, for Poisson's ratio in plane strain.
+    // Speed of Rayleigh waves over the speed of shear waves, for Poisson's ratio in plane strain.
     function("rayleigh", 1, Numbers(|x| rayleigh(x[0]))),
     // The largest and the smallest of all values of all runs.
     function(
@@ -127,14 +127,14 @@ static FUNCTIONS: [Function; 30] = [
                 .count() as f64)
         }),
     ),
-    // Of the straight line through the second values over the first ones.
+    // Slope of the straight line through the second values over the first ones.
     function("slope", 2, Runs(|all| Ok(LineFit::through(all)?.slope))),
     function(
         "intercept",
         2,
         Runs(|all| Ok(LineFit::through(all)?.intercept)),
     ),
-    // Largest distance of a value from the line, over that of the line.
+    // Largest distance of a value from the line, over the value of the line.
     function(
         "off_line",
         2,
@@ -213,7 +213,7 @@ impl Expression {
         found.with_context(|| format!("`{text}` is no expression"))
     }
 
-    /// Names that have no value in the text.
+    /// Names whose values the text does not define.
     pub(super) fn names(&self) -> Vec<&str> {
         match self {
             Self::Number(_) => Vec::new(),
@@ -389,7 +389,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The characters up to the first one that does not belong.
+    /// The characters up to the first one that does not belong to a word.
     fn word(&mut self, belongs: impl Fn(char, Option<char>) -> bool) -> &'a str {
         let mut before = None;
         let end = self.left.char_indices().find(|(_, it)| {

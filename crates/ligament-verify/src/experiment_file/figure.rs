@@ -31,7 +31,7 @@ impl Figure {
         Ok(())
     }
 
-    /// The plots; of the fast subset those of tables alone.
+    /// The plots; in the fast subset only plots of tables.
     pub(super) fn plots(
         &self,
         file: &ExperimentFile,
@@ -83,7 +83,7 @@ impl Figure {
         all
     }
 
-    /// Labels of the lines of a plot, and those of their points.
+    /// Labels of the lines of a plot, and of the points of each line.
     fn lines(&self, labels: &LabelsOfRun) -> Vec<(String, Vec<LabelsOfRun>)> {
         let Some(of_runs) = &self.runs else {
             return Vec::new();

@@ -10,7 +10,7 @@
 //! | `contact.N` | force that presses the bodies of the contact N, N |
 //! | `rigid.N.u_x`, `rigid.N.force_x` | displacement of the rigid body N and force on it |
 //! | `group.N.x` | force of the boundary group N on the body, N |
-//! | `velocity.all`, `velocity.beyond` | sum of the velocities along x of all points, of those with x > `between`, m/s |
+//! | `velocity.all`, `velocity.beyond` | sum of the velocities along x of all points, or of the points with x > `between`, m/s |
 
 use anyhow::{Context, bail};
 use ligament::run::Solution;
@@ -75,7 +75,7 @@ pub(super) fn value(solution: &Solution, row: &StepRecord, name: &str) -> anyhow
     found.with_context(|| format!("the run has no `{name}`"))
 }
 
-/// What is collected during a run.
+/// Data collected during a run.
 pub(super) struct Watch {
     /// All breakages in their order.
     pub(super) breaks: Vec<BreakRecord>,
@@ -84,7 +84,7 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Watches what the quantities of these names need.
+    /// Collects the data that the quantities of these names need.
     pub(super) fn new<'a>(mut names: impl Iterator<Item = &'a str>) -> Self {
         let needs_velocities = names.any(|it| it.starts_with("velocity."));
         Self {

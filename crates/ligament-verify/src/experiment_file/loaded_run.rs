@@ -1,4 +1,4 @@
-//! What is read from a run that loads a body: peaks, cracks and what else its experiment compares.
+//! Quantities of a run that loads a body: peaks, cracks and others that its experiment compares.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -322,8 +322,8 @@ pub(super) fn leads_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     Ok(f64::from(u8::from(reach(-1.0) > reach(1.0))))
 }
 
-/// Angle to the x axis of the mean direction of the crack from the right end of the first cut, minus that from the left end, degrees, over their
-/// common length; NaN where there is no crack at an end.
+/// Angle to the x axis of the mean direction of the crack from the right end of the first cut, minus the angle for the left end, degrees,
+/// over their common length; NaN where there is no crack at an end.
 pub(super) fn towards_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let crack = ran.crack();
     let [left, right] = *ran.cuts().first().context("the body has no cut")?;

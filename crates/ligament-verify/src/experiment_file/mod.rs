@@ -1,12 +1,12 @@
-//! Experiments that are files: `published/NAME.toml` says which case runs with which settings for the labels of an entry, and which expression of
-//! what comes out is compared. docs/verification.md explains every key.
+//! Experiments that are files: `published/NAME.toml` says which case runs with which settings for the labels of an entry, and which
+//! expression of its results is compared. docs/verification.md explains every key.
 //!
 //! | module | holds |
 //! |---|---|
-//! | `document` | the file as it is written |
+//! | `document` | the structure of the file |
 //! | `expression` | numbers, names, + - * / ^ and functions of numbers, of runs and of the history of a run |
-//! | `quantity`, `loaded_run`, `history` | what an expression can read from a run, and from every row of its history |
-//! | `entry_runs` | the runs of an entry, each with its labels and its trial, and their memory |
+//! | `quantity`, `loaded_run`, `history` | quantities that an expression can read from a run, and from every row of its history |
+//! | `entry_runs` | the runs of an entry, each with its labels and its trial, and the memory of their results |
 //! | `figure` | plots |
 
 mod document;
@@ -33,7 +33,7 @@ impl ExperimentFile {
     ///
     /// # Errors
     ///
-    /// If the file cannot be read or is none of an experiment.
+    /// If the file cannot be read or does not describe an experiment.
     pub(super) fn read(name: &str) -> anyhow::Result<Self> {
         let path = folder().join(format!("{name}.toml"));
         let attempt = || -> anyhow::Result<Self> {

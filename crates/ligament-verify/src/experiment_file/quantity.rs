@@ -5,7 +5,7 @@
 //! | a name of [`history`] | the value in a row of the history, or in the last one |
 //! | `intact.NAME` | the same in the last row without a broken bond |
 //! | `end.NAME` | the same in the last equilibrium of a run that goes on until none follows |
-//! | `frequency.N` | frequency of the elastic mode N from one on, Hz; the case is one of natural modes |
+//! | `frequency.N` | frequency of the elastic mode N, counted from 1, Hz; the case is one of natural modes |
 //! | `turn.N` | root mean square by which factors of bonds change where the mesh is turned by N degrees |
 //! | `phase_speed.N` | speed of waves with N points per wavelength from the probe `near` to `far`, over `speed` |
 //! | `at_point.X.Y.u_x` | displacement of the point nearest to a place, whose coordinates are numbers of the experiment by their names, m |
@@ -13,7 +13,7 @@
 //! | `first_yield.CRITERION.STRAIN.STATISTIC` | errors of [first yield](crate::anisotropy) on a mesh |
 //! | `largest.u_x` | largest size of a displacement of all points, m |
 //! | `loaded_elements.LOAD.u_x` | the same of a [square of finite elements](crate::square_elements), m |
-//! | `elements.PROBLEM.u_x` | difference of a plate from finite elements: L2 norm over all points, over that by the elements |
+//! | `elements.PROBLEM.u_x` | difference of a plate from finite elements: L2 norm over all points, over the norm by the elements |
 //! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
 //! | `common_breaks.N` | bonds that break up to N us with explicit and implicit steps alike, over those that one of them breaks more of |
 //! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
@@ -44,16 +44,16 @@ use crate::square_elements::SquareLoad;
 use crate::trial::{Number, Trial};
 use crate::{griffith, lamina_elements, square_elements};
 
-/// Name of the curve of displacement and load among what is read.
+/// Name of the curve of displacement and load among the quantities.
 pub(super) const CURVE: &str = "curve";
 
 /// Way to a quantity.
 #[derive(Clone, Copy)]
 enum Source {
     Run(fn(&LoadedRun<'_>) -> anyhow::Result<f64>),
-    /// Of a run, with the rest of the name.
+    /// Read from a run, with the rest of the name.
     Named(fn(&LoadedRun<'_>, &str) -> anyhow::Result<f64>),
-    /// Of the trial, with the rest of the name.
+    /// Read from a trial, with the rest of the name.
     Trial(fn(&Trial, &str, Number<'_>) -> anyhow::Result<f64>),
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
@@ -133,7 +133,7 @@ static QUANTITIES: &[(&str, Source)] = &[
         "first_break.horizon",
         Source::Run(|it| Ok(it.first_break()?.horizon)),
     ),
-    // Its distance from the nearer of the two places on the x axis at the distance `radius` from the origin, m.
+    // Distance of this middle from the nearer of the two places on the x axis at the distance `radius` from the origin, m.
     (
         "first_break.from_flank",
         Source::Run(|it| {
@@ -273,7 +273,8 @@ static QUANTITIES: &[(&str, Source)] = &[
         "crack.half_turn_y",
         Source::Run(|it| Ok(half_turn(&it.crack(), [0.0, 1.0]))),
     ),
-    // 1 where that is at most a horizon, where the crack reaches farther on the left, and the angle of the cut's two cracks, degrees.
+    // 1 where this distance is at most a horizon; 1 where the crack reaches farther on the left; and the angle of the cut's two cracks,
+    // degrees.
     ("crack.is_symmetric", Source::Run(is_symmetric)),
     ("crack.leads_left", Source::Run(leads_left)),
     ("crack.towards_left", Source::Run(towards_left)),
@@ -373,7 +374,7 @@ fn source(name: &str) -> anyhow::Result<Source> {
     })
 }
 
-/// What was read from a run.
+/// Quantities that were read from a run.
 pub(super) struct RunResults {
     /// Quantities by name, in all rows of the history or once; the reason why one has no value.
     values: BTreeMap<String, Result<Vec<f64>, String>>,
@@ -381,7 +382,7 @@ pub(super) struct RunResults {
     pub(super) curve: Vec<[f64; 2]>,
 }
 
-/// What a trial gives, as far as quantities need it.
+/// Results of a trial that quantities need.
 #[derive(Default)]
 struct Found {
     /// Frequencies of the elastic modes, Hz.
@@ -556,7 +557,7 @@ impl Cantilever {
     }
 }
 
-/// Share of the bonds that break up to a time in all runs, of the largest number of them in one.
+/// Number of bonds that break up to a time in all runs, over the largest number of them in one run.
 fn common_breaks(runs: &[Vec<BreakRecord>], until: f64) -> f64 {
     let early = |run: &Vec<BreakRecord>| -> BTreeSet<u32> {
         let early = run.iter().filter(|it| it.load_factor <= until);

@@ -1,7 +1,7 @@
 use super::*;
 use crate::places::repository;
 
-/// Every file of the repository is read, and what it names exists.
+/// Every file of the repository is read, and everything that it names exists.
 #[test]
 fn the_experiments_of_the_repository_are_right() {
     let mut n_files = 0;

@@ -108,7 +108,7 @@ impl Body {
 
     /// The lowest modes of a body with a density (kg/m^3) and fixed components of its nodes, shape (n_nodes, 2).
     ///
-    /// The eigenvalues 1/omega^2 are those of M^(1/2) K^-1 M^(1/2), with the diagonal mass matrix of the nodes' volumes.
+    /// The values 1/omega^2 are the eigenvalues of M^(1/2) K^-1 M^(1/2), with the diagonal mass matrix of the nodes' volumes.
     ///
     /// # Errors
     ///
@@ -285,7 +285,7 @@ mod tests {
         assert!(off <= tolerance, "{computed} is off {expected} by {off:e}");
     }
 
-    /// Distorted elements of both degrees hold a linear displacement exactly (patch test), and its stress.
+    /// Distorted elements of both degrees represent a linear displacement and its stress exactly (patch test).
     #[test]
     fn a_linear_displacement_on_the_outline_goes_on_inside() {
         for degree in [Degree::Linear, Degree::Quadratic] {
@@ -316,7 +316,7 @@ mod tests {
         }
     }
 
-    /// A force on the volume that stretches a bar as the closed form has it: u = f x (L - x/2)/E with nu = 0.
+    /// A force on the volume stretches a bar as in the closed form u = f x (L - x/2)/E with nu = 0.
     #[test]
     fn a_force_on_the_volume_stretches_a_bar() {
         let mesh = Mesh::rectangle(Degree::Quadratic, [10, 4], 0.01);

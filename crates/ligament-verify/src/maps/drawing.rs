@@ -14,7 +14,7 @@ use crate::named_modes::NAMES;
 pub(super) struct Motion {
     /// The body.
     pub(super) body: Discretisation,
-    /// Displacements of the body's points, shape (n_points, 2), m; of arbitrary size for a mode.
+    /// Displacements of the body's points, shape (n_points, 2), m; for a mode with an arbitrary amplitude.
     pub(super) displacements: Vec<[f64; 2]>,
     /// Rotations of the points of a lattice, shape (n_points), rad.
     pub(super) rotations: Vec<f64>,

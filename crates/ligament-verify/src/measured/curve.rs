@@ -70,7 +70,7 @@ impl MeasuredCurve {
     }
 }
 
-/// Point with the largest y; of equal ones the first.
+/// Point with the largest y, the first of equal ones.
 pub(super) fn peak(points: &Points) -> [f64; 2] {
     let largest = points
         .iter()

@@ -1,4 +1,4 @@
-//! The figure of a measured test: measured points, the band of the peak, and the curves of all runs; of a series its strengths and laws.
+//! The figure of a measured test: measured points, the band of the peak, and the curves of all runs; for a series its strengths and laws.
 
 use ligament_plot::plots::{Colour, Plot, Series};
 

@@ -120,7 +120,7 @@ fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
         }
         _ => Reliability::Sound,
     };
-    // Only what misses its band is shown with the reason.
+    // Only a value outside its band is shown with the reason.
     let standing = match allowed.admits(&known, computed) {
         true => Reliability::Sound,
         false => standing,
@@ -177,7 +177,7 @@ mod tests {
         assert_eq!(verdict(Some("coarse"), f64::NAN), Verdict::Failed);
     }
 
-    /// A band with an end at the measured value: what is just beyond it is missed, whichever way its digits are rounded.
+    /// A band with an end at the measured value: a value just beyond it is missed, whichever way its digits are rounded.
     #[test]
     fn a_band_may_end_at_the_measured_value() {
         for value in [1.00824, 1.00827] {

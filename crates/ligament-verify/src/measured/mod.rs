@@ -5,7 +5,7 @@
 //! |---|---|
 //! | [`test`](mod@test) | entries of the table, and their reader |
 //! | `curve` | measured and computed curves: peaks, areas |
-//! | `reading` | one run of a test, and what is read from it |
+//! | `reading` | one run of a test, and the values read from it |
 //! | `judgement` | values of a run against the bands |
 //! | `size_effect` | Bazant's law through peaks of several sizes |
 //! | `figure` | the figure of a test |
@@ -69,7 +69,7 @@ pub fn experiments() -> anyhow::Result<&'static [Experiment]> {
 }
 
 impl MeasuredTest {
-    /// Runs the test on its meshes, or on those of the fast subset, and judges what comes out.
+    /// Runs the test on its meshes, or on the meshes of the fast subset, and judges the results.
     ///
     /// # Errors
     ///

@@ -1,4 +1,4 @@
-//! One run of a measured test, into a folder as by `ligament run`, and what is read from there.
+//! One run of a measured test, into a folder as by `ligament run`, and the values that are read from it.
 
 use std::path::{Path, PathBuf};
 
@@ -17,18 +17,18 @@ use rustix::time::{ClockId, clock_gettime};
 use super::test::{Axis, MeasuredTest, Quantity, Variant};
 use crate::places::repository;
 
-/// What a run gave.
+/// Values of a run.
 #[derive(Debug, Clone)]
 pub(super) struct Reading {
     /// Name of the run.
     pub(super) run: String,
-    /// Series and size, of a run in a series.
+    /// Series and size, for a run in a series.
     pub(super) in_series: Option<(String, f64)>,
     /// Computed curve in the units of the axes, shape (n_rows, 2).
     pub(super) curve: Vec<[f64; 2]>,
     /// Lines of the cracks at the end, where a band asks for them.
     pub(super) cracks: Vec<CrackLine>,
-    /// Number of load steps or events that found no rest.
+    /// Number of load steps or events that did not come to rest.
     pub(super) failed: usize,
     /// Processor time, s.
     pub(super) seconds: f64,
@@ -37,7 +37,7 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Meshes the body, runs the case and reads its results; nothing of them stays.
+    /// Meshes the body, runs the case and reads its results; all files are removed.
     ///
     /// # Errors
     ///
@@ -101,7 +101,7 @@ impl Reading {
     }
 }
 
-/// Folder of the results in the temporary one.
+/// Folder of the results in the temporary folder.
 const OUT: &str = "results";
 
 /// Runs the case of a variant into a folder.

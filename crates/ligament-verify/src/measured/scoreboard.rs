@@ -10,7 +10,7 @@ use super::test::MeasuredTest;
 pub struct Scores {
     /// Case file, from the root of the repository.
     pub case: String,
-    /// Material, and what the source leaves open.
+    /// Material, and the properties that the source leaves open.
     pub material: String,
     /// Scores of the runs, in their order.
     pub runs: Vec<Score>,
@@ -25,7 +25,7 @@ pub struct Score {
     pub points: usize,
     /// Number of increments: load steps, or events of the exact path.
     pub increments: usize,
-    /// Number of increments that found no rest, among them one that ended the run.
+    /// Number of increments that did not come to rest, including one that ended the run.
     pub failed: usize,
     /// Processor time with meshing and output, s.
     pub seconds: f64,

@@ -65,7 +65,7 @@ impl Law {
         theory.g / (theory.young * self.slope) / theory.fracture_energy
     }
 
-    /// Effective length of the fracture process zone by the law over that of theory.
+    /// Effective length of the fracture process zone by the law over the theoretical length.
     pub(super) fn length_ratio(&self, theory: &SizeEffect) -> f64 {
         self.constant * theory.g / (self.slope * theory.g_slope) / theory.length
     }

@@ -17,7 +17,7 @@ pub struct MeasuredTest {
     pub title: String,
     /// Key of the source in the references.
     pub source: String,
-    /// Material as the source gives it, and what the source leaves open.
+    /// Material as in the source, and the properties that the source leaves open.
     pub material: String,
     /// Case file, from the root of the repository.
     pub case: String,
@@ -63,7 +63,7 @@ pub struct Band {
     pub of: Quantity,
     /// Position of a crack, m: the x at which its y is read.
     pub at: Option<f64>,
-    /// Measured value, in the units of the axes (mm for a crack); by default that of the measured curve.
+    /// Measured value, in the units of the axes (mm for a crack); by default the value of the measured curve.
     pub measured: Option<f64>,
     /// Smallest and largest accepted ratio to the measured value; for a crack the differences from it, mm.
     pub between: [f64; 2],
@@ -87,7 +87,7 @@ pub enum Quantity {
     CrackY,
     /// Fracture energy by the size effect of a series of runs, over the given one.
     SizeEffectEnergy,
-    /// Effective length of the fracture process zone by the size effect, over that of theory.
+    /// Effective length of the fracture process zone by the size effect, over the theoretical length.
     SizeEffectLength,
 }
 
@@ -104,7 +104,7 @@ pub struct Variant {
     /// Numbers of the geometry.
     #[serde(default)]
     pub numbers: BTreeMap<String, f64>,
-    /// Settings over those of the test.
+    /// Settings in addition to the settings of the test.
     #[serde(default)]
     pub set: Vec<String>,
     /// Whether the tests of the repository run it.
@@ -183,7 +183,7 @@ pub fn read(path: &Path) -> Result<Vec<MeasuredTest>, TestError> {
     parse(&text, path)
 }
 
-/// Measured tests from the text of a table; `path` is that of its file.
+/// Measured tests from the text of a table; `path` is the path of its file.
 fn parse(text: &str, path: &Path) -> Result<Vec<MeasuredTest>, TestError> {
     let entries = toml::from_str::<Entries>(text).map_err(|source| TestError::Parse {
         path: path.to_owned(),
@@ -311,7 +311,7 @@ fast = true
         assert!(test.run[0].fast && test.run[0].numbers.is_empty() && test.set.is_empty());
     }
 
-    /// Every fault names the test and what is wrong with it, and a key that does not exist its line.
+    /// Every fault names the test and the error; an unknown key is named with its line.
     #[test]
     fn wrong_entries_are_refused() {
         for (from, to, expected) in [

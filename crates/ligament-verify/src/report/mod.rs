@@ -151,7 +151,7 @@ nu,known,allowed,subset,standing,instead,reason
         }
     }
 
-    /// A table that no paper has stands below them, with counts and the largest difference.
+    /// A table that no paper has stands below the papers, with counts and the largest difference.
     #[test]
     fn the_page_has_a_line_a_table() {
         let done = [(EXPERIMENT, findings().unwrap())];

@@ -1,4 +1,4 @@
-//! The page of the measured tests: what missed its band first, then a table of all runs, then a figure for each test.
+//! The page of the measured tests: first the values outside their bands, then a table of all runs, then a figure for each test.
 
 use std::fmt::Write as _;
 
@@ -94,7 +94,7 @@ fn shown(row: &Row) -> String {
     }
 }
 
-/// Text of how far a value is beyond the nearer end of its band.
+/// Text of the distance of a value beyond the nearer end of its band.
 fn beyond(table: &Table, row: &Row) -> String {
     let difference = table.difference(row).words(&row.entry.known);
     format!("{difference}, allowed {}", row.entry.allowed)
@@ -254,7 +254,7 @@ run,quantity,known,allowed,subset,standing,instead,reason
         (experiment, findings)
     }
 
-    /// Misses stand first in every part of the page, in bold, with how far they are off and why.
+    /// Misses stand first in every part of the page, in bold, with their distance from the band and the reason.
     #[test]
     fn what_missed_stands_first_and_is_not_hidden() {
         let text = text(&[test("met", 0.95), test("missed", 1.3)]).unwrap();

@@ -16,10 +16,11 @@ use crate::patch_test::{SIZE, Untested, free_loading};
 use crate::run::NoObserver;
 use crate::setup::ELASTIC_ENERGY_TOLERANCE;
 
-/// Stiffness over that of the continuum from which there is a warning.
+/// Ratio of the stiffness to the stiffness of the continuum from which on there is a warning.
 pub const TOO_STIFF: f64 = 1.05;
 
-/// Stiffness over that of the continuum above which finer points are no cure: a strip of one cell is three times as stiff.
+/// Ratio of the stiffness to the stiffness of the continuum above which finer points do not help: a strip of one cell is three times as
+/// stiff.
 const MOST_CURABLE: f64 = 4.0;
 
 /// Thickness over the horizon from which a body is not tested. With the patch correction, strips of all laws but PDS are then at most 2 %
@@ -34,25 +35,25 @@ pub fn most_points(dimensions: usize) -> usize {
     }
 }
 
-/// Stiffness of a strip of a body over that of the continuum.
+/// Stiffness of a strip of a body, relative to the continuum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BendingTest {
     /// Number of points of the strip.
     pub points: usize,
-    /// Stiffness in bending across its thickness over that of the continuum.
+    /// Stiffness in bending across its thickness, relative to the continuum.
     pub bending: f64,
-    /// Stiffness in torsion over that of the continuum; none in the plane.
+    /// Stiffness in torsion, relative to the continuum; none in the plane.
     pub torsion: Option<f64>,
 }
 
 impl BendingTest {
-    /// The larger of the two stiffnesses over those of the continuum.
+    /// The larger of the two relative stiffnesses.
     pub fn largest(&self) -> f64 {
         self.torsion.map_or(self.bending, |it| it.max(self.bending))
     }
 
     /// Factor for the distances between points with which the stiffness ratio falls to [`TOO_STIFF`], as its excess is proportional to
-    /// their square; none below that ratio, or where finer points are no cure.
+    /// their square; none below that ratio, or where finer points do not help.
     pub fn refinement(&self) -> Option<f64> {
         let largest = self.largest();
         let factor = ((TOO_STIFF - 1.0) / (largest - 1.0)).sqrt();
@@ -129,7 +130,7 @@ impl Solver {
         })
     }
 
-    /// Stiffness of the strip over that of the continuum under the tractions of a linear stress.
+    /// Stiffness of the strip under the tractions of a linear stress, relative to the continuum.
     fn stiffness<const D: usize>(
         &mut self,
         strip: &Strip<D>,
@@ -145,7 +146,7 @@ impl Solver {
             }
         }
         let classical = strip.displacement(stress).ok_or(Untested::Degenerate)?;
-        // Strains of the size of those of the patch test.
+        // Strains as large as in the patch test.
         let size = SIZE / strip.largest_strain(stress).ok_or(Untested::Degenerate)?;
         self.equilibrium
             .load_with(free_loading(layout, force.clone()));

@@ -30,7 +30,7 @@ pub(super) struct Strip<const D: usize> {
     pub(super) is_whole: bool,
     pub(super) across: [f64; D],
     pub(super) along: [f64; D],
-    /// Direction across the other two; none in the plane.
+    /// Direction orthogonal to `across` and `along`; none in the plane.
     pub(super) beside: Option<[f64; D]>,
 }
 
@@ -131,7 +131,7 @@ impl<const D: usize> Strip<D> {
 
     /// Forces of the tractions of a stress on the points, shape (n_points), N.
     ///
-    /// The mean of N_P sigma over a flat side is the sum of sigma at its corners, with that of P counted twice, over D (D + 1).
+    /// The mean of N_P sigma over a flat side is the sum of sigma at its corners, with the corner P counted twice, over D (D + 1).
     pub(super) fn forces(&self, stress: &LinearStress<D>) -> Vec<[f64; D]> {
         let width = self.setup.thickness();
         let mut forces = vec![[0.0; D]; self.setup.body.n_points()];

@@ -52,8 +52,7 @@ impl AnyBody {
         }
     }
 
-    /// The meshed body of the first of several processes, on the others with its nodes alone; `None` on these where the first one has no such
-    /// body. Collective.
+    /// The meshed body of rank 0; other ranks get its nodes without cells, or `None` where rank 0 has no meshed body. Collective.
     ///
     /// # Errors
     ///
@@ -99,7 +98,7 @@ impl AnyBody {
     }
 }
 
-/// Conversions of each kind of body, compiled in this crate alone: all functions of a body's geometry come with it.
+/// Conversions of each kind of body, compiled only in this crate, because each of them compiles all functions of the body's geometry.
 macro_rules! from_bodies {
     ($($variant:ident: $($body:ty),*;)*) => {$($(
         impl From<$body> for AnyBody {

@@ -238,7 +238,7 @@ impl<const D: usize> Set<D> {
     }
 }
 
-/// Indices, among other points (ascending), of those of some points (ascending) that are there: the fewer are searched for among the more.
+/// Indices in `others` (ascending) of the `points` (ascending) that it contains; the shorter list is searched for in the longer one.
 pub(super) fn among(points: &[u32], others: &[u32]) -> Vec<u32> {
     if others.len() < points.len() {
         let is_there = |(_, point): &(u32, &u32)| points.binary_search(point).is_ok();

@@ -17,7 +17,7 @@ use thiserror::Error;
 
 use crate::coordinates::coordinates;
 
-/// Error of a group under pressure, or of a quiet edge, with an edge, of a solid a face, that is not on the outline of the body.
+/// Error of a group under pressure, or of a quiet edge, that has an edge (in a solid a face) not on the outline of the body.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error(
     "pressures and quiet edges are on the outline of the body, but the {side} of this group {}, around ({}), {}",
@@ -180,7 +180,7 @@ impl PointNames for &dyn Body {
     }
 }
 
-/// A meshed body, of which the first of several processes alone has all cells.
+/// A meshed body; only rank 0 of several processes has all cells.
 pub trait MeshedBody<const D: usize> {
     /// Corners of a cell.
     fn corners_of(&self, cell: u32) -> &[u32];
@@ -218,7 +218,7 @@ pub trait Geometry<const D: usize>: Body {
     /// The material points; `material_of_cell` (n_cells) has the index of each cell's material.
     fn cloud(&self, thickness: f64, material_of_cell: &[u32], n_materials: usize) -> PointCloud<D>;
 
-    /// The material points with all that their owners follow from; [`Geometry::completed`] adds the rest to them or to a part of them.
+    /// The material points with the data that determine their owners; [`Geometry::completed`] adds the rest to all or a part of them.
     fn undivided(
         &self,
         thickness: f64,
@@ -228,16 +228,16 @@ pub trait Geometry<const D: usize>: Body {
         self.cloud(thickness, material_of_cell, n_materials)
     }
 
-    /// The material points of this body from those of [`Geometry::undivided`].
+    /// Completes the material points of [`Geometry::undivided`] for this body.
     fn completed(&self, cloud: PointCloud<D>, _material_of_cell: &[u32]) -> PointCloud<D> {
         cloud
     }
 
-    /// The body with some of its points (ascending), and those of some `cells` (ascending) that have no other corners; groups keep their names
+    /// The body with some of its points (ascending), and with the `cells` (ascending) that have no other corners; groups keep their names
     /// where they lose all points. A body without cells between points has the cells of the points.
     fn restricted(&self, points: &[u32], cells: &[u32]) -> Restricted<D>;
 
-    /// A body with cells between points as one whose cells the first of several processes sends to the others; `None` for other bodies, which
+    /// The body as a meshed one, whose cells rank 0 sends to the other ranks; `None` for bodies without cells between points, which
     /// each process makes by itself.
     fn meshed(&self) -> Option<&dyn MeshedBody<D>> {
         None

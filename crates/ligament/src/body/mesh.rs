@@ -282,7 +282,7 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         })
     }
 
-    /// Elements of the triangles or tetrahedra of which the cells consist.
+    /// Linear elements from the triangles or tetrahedra that make up the cells.
     fn with_far_field(
         &self,
         system: BondSystem<D>,

@@ -32,7 +32,7 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
         materials: &[u32],
     ) -> BondSet<D>;
 
-    /// Triangles or tetrahedra of which the cell consists.
+    /// Triangles or tetrahedra that make up the cell.
     fn simplices(&self) -> Vec<Self>;
 
     /// Forces of uniform strains on the points of a cloud; `material_of_cell` (n_cells) has the index of each cell's material.
@@ -117,7 +117,7 @@ impl BodyCell<2> for Cell {
             .collect()
     }
 
-    /// From the middle of the cell to those of its edges.
+    /// Faces from the middle of the cell to the middles of its edges.
     fn faces_between_corners(
         &self,
         at: &dyn Fn(u32) -> [f64; 2],
@@ -216,7 +216,7 @@ impl BodyCell<3> for SolidCell {
         corners.collect()
     }
 
-    /// From the middle of the cell over those of its faces to those of their edges.
+    /// Faces from the middle of the cell over the middles of its faces to the middles of its edges.
     fn faces_between_corners(
         &self,
         at: &dyn Fn(u32) -> [f64; 3],

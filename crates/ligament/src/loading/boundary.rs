@@ -208,7 +208,7 @@ impl<const D: usize> Places<'_, D> {
         })
     }
 
-    /// The axis of the force-displacement curve where it is none of a load.
+    /// The axis of the force-displacement curve where it does not belong to a load.
     fn control_without_load(
         &self,
         axis: CurveAxis,
@@ -304,7 +304,7 @@ impl<const D: usize> Places<'_, D> {
         }
     }
 
-    /// Shares of points in a total, which sum to one: by the areas or lengths that they represent in a group that has such, elsewhere by
+    /// Shares of points in a total, which sum to one: by the areas or lengths that they represent where the group has these, elsewhere by
     /// volume.
     pub(super) fn shares(&self, place: &Place, points: &[u32]) -> Vec<(u32, f64)> {
         let mut weights = self.extents(place);
@@ -412,7 +412,7 @@ impl<const D: usize> Places<'_, D> {
     }
 
     /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward normal n,
-    /// or at the cell of a lattice whose face it is; in space -p n A with the area A of a face. Normals, lengths and areas are those of the
+    /// or at the cell of a lattice whose face it is; in space -p n A with the area A of a face. Normals, lengths and areas refer to the
     /// undeformed body (a dead load). Each point's share is then multiplied by the profile.
     fn pressures(&self, field: Field, load: &Load, pressure: f64) -> Result<Given, SetupError> {
         let place = field.part("place");

@@ -19,7 +19,7 @@ use crate::setup::check::contradiction;
 use crate::setup::{Analysis, ContactLaw, Rigid, RigidForm, Setup};
 use crate::system::over_dimension;
 
-/// Depth in a rigid body over the spacing of the points, beyond which the start is not one of surfaces that touch.
+/// Depth in a rigid body, over the spacing of the points, up to which surfaces count as touching at the start.
 const TOUCHING: f64 = 0.01;
 
 /// The contacts of a model in motion.
@@ -88,7 +88,7 @@ struct Outline<'a, const D: usize> {
     boundaries: Option<Arc<Boundaries<D>>>,
 }
 
-/// Sides of the facets of the outline, and of the faces of cracks at points; none of those that do not take part.
+/// Sides of the facets of the outline, and of the faces of cracks at points; `None` for facets and points that take no part.
 struct Sides {
     /// Shape (n_facets).
     of_facets: Vec<Option<u32>>,
@@ -152,7 +152,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         Ok(())
     }
 
-    /// The surface of these sides against what they may meet: on the exact path as in the undeformed body, elsewhere in present positions.
+    /// The pair of the surface of these sides with its opposite: on the exact path in the undeformed body, elsewhere in present positions.
     fn pair(&self, sides: Sides, law: ContactLaw, opposite: Opposite<D>) -> Arc<dyn SurfacePair> {
         let surface = self.surface(sides, law);
         if !matches!(self.setup.analysis, Analysis::Event(_)) {
@@ -216,7 +216,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         }
     }
 
-    /// Side 0 for the facets of the first group, 1 for those of the second.
+    /// Side 0 for the facets of the first group, 1 for the facets of the second.
     fn sides_of_groups(
         &self,
         field: Field,
@@ -350,7 +350,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         }
     }
 
-    /// Refuses a rigid body that begins inside what it meets: the facets with a side, and the points of their groups.
+    /// Refuses a rigid body that begins inside its opposite: the facets with a side, and the points of their groups.
     fn require_outside(
         &self,
         field: Field,

@@ -43,7 +43,7 @@ use restraints::restrained;
 /// Supports, loads and probes of a setup, for its model.
 #[derive(Debug)]
 pub struct Loading {
-    /// Supports and loads as they are at load factor 1.
+    /// Supports and loads at load factor 1.
     pub boundary: Arc<ProportionalLoading>,
     /// Supports and loads at the first part of the stages; none without stages.
     pub staged: Option<Arc<StagedLoading>>,
@@ -122,7 +122,7 @@ impl Loading {
         }
     }
 
-    /// A problem of this loading as one of a motion in time, if its analysis is one.
+    /// The problem of this loading as a motion in time; `None` without a motion.
     pub fn motion(&self, problem: &Problem) -> Option<MotionProblem> {
         let inertia = self.inertia.as_ref()?;
         Some(MotionProblem {

@@ -103,8 +103,8 @@ impl<const D: usize> Places<'_, D> {
         Ok(velocity)
     }
 
-    /// Dashpots A Z of a quiet edge at its points, with the areas A and outward normals of a pressure and the impedance Z of the materials at
-    /// the point; `densities` has those of the materials (n_materials), kg/m^3.
+    /// Dashpots A Z of a quiet edge at its points, with the areas A and outward normals of a pressure and the impedance Z of the materials
+    /// at the point; `densities` has the densities of the materials (n_materials), kg/m^3.
     fn dashpots(
         &self,
         field: Field,

@@ -8,8 +8,8 @@ use crate::error::{Fault, Field, SetupError};
 use crate::extent::Extent;
 use crate::setup::{Position, Setup};
 
-/// Distance over the horizon from the border of the near field at which bonds are those of the inside: a little more than three, so that rounding
-/// leaves out no points of a regular mesh.
+/// Distance over the horizon from the border of the near field at which bonds are as in its interior: a little more than three, so that
+/// rounding leaves out no points of a regular mesh.
 pub(crate) const REACH: f64 = 3.001;
 
 /// Whether each cell belongs to the near field, shape (n_cells): all its corners lie in one of its places. `None` without a far field.

@@ -87,7 +87,7 @@ impl<const D: usize> Places<'_, D> {
     }
 }
 
-/// Points of a body that all of several processes know: those of supports, loads, probes and surfaces that cut bonds; all points where the
+/// Points of a body that all of several processes know: points of supports, loads, probes and surfaces that cut bonds; all points where the
 /// temperature changes.
 pub(crate) fn points_known_to_all<const D: usize>(
     setup: &Setup,

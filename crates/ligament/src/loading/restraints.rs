@@ -131,9 +131,9 @@ impl<const D: usize> RestraintBuilder<'_, D> {
         Ok(())
     }
 
-    /// A rigid platen on some points. Their displacements v_i along a direction are a + b s_i with the places s_i across it, from their
-    /// middle, in space with places across it both ways: of the others a part e costs k e^2/2, with the stiffness k of a point that counts
-    /// as rigid. Where it is driven, a costs as much.
+    /// A rigid platen on some points. Their displacements along a direction may be v_i = a + b s_i, with the distances s_i of the points
+    /// from their middle across it (in space in two directions); any other part e costs k e^2/2, with the stiffness k of a point that
+    /// counts as rigid. If the platen is driven, the part a costs as much.
     fn platen(
         &mut self,
         field: Field,

@@ -8,7 +8,7 @@ use crate::coordinates::narrowed;
 use crate::error::Fault;
 use crate::setup::Sample;
 
-/// Largest distance of a sample from its point over the distance between nearest points: coordinates may be rounded, but those of another
+/// Largest distance of a sample from its point over the distance between nearest points: coordinates may be rounded, but samples of another
 /// mesh are refused.
 const NEARNESS: f64 = 0.1;
 

@@ -23,8 +23,8 @@ impl Worst {
     }
 }
 
-/// Number of points whose energies differ from those of the continuum by more than a tolerance under a strain along an axis, and the worst of
-/// them; collective.
+/// Number of points whose energies differ from the energy of the continuum by more than a tolerance under a strain along an axis, and the
+/// worst of them; collective.
 pub(super) fn off_energies(
     subdomain: &Subdomain,
     fixed: &ConstantFields,

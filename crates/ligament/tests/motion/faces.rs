@@ -44,8 +44,8 @@ fn against(model: &Model) -> Vec<f64> {
     velocity
 }
 
-/// Two halves of a bar, parted by a pre-crack whose faces close, fly against each other: without friction they keep their energy but for what
-/// pairs lose where they begin and end, and with it they rub.
+/// Two halves of a bar, separated by a pre-crack whose faces close, fly against each other: without friction they keep their energy except
+/// for the loss where pairs begin and end, and with friction some is dissipated.
 ///
 /// Work and energies balance to 1e-9: the trapezoidal rule is exact; measured 2e-14. A hundredth of the energy: each pair closes and opens within
 /// a time step, at some depth; measured 4e-3 and less.

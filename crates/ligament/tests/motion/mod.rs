@@ -1,4 +1,4 @@
-//! Motion in time: against closed forms of the scheme, and for what every motion must keep.
+//! Motion in time: against closed forms of the scheme, and against the conservation laws of every motion.
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 mod faces;
@@ -165,7 +165,7 @@ fn followed(problem: &MotionProblem, settings: &MotionSettings) -> (Outcome, Sta
     (outcome, states)
 }
 
-/// Resumes a motion from some of its rows: what it records from there on, and the outcome, have the same bits.
+/// Resumes a motion from some of its rows: its later records and its outcome have the same bits.
 fn assert_resumes(
     problem: &MotionProblem,
     settings: &MotionSettings,
@@ -195,15 +195,15 @@ fn imbalance(outcome: &Outcome) -> f64 {
     largest(outcome.history.iter().map(|it| it.energy_error().abs()))
 }
 
-/// Velocities that set all modes in motion: those of a wavy field, the same on every machine.
+/// Velocities that excite all modes: a wavy field, the same on every machine.
 fn wavy(n: usize) -> Vec<f64> {
     (0..n).map(|dof| (1.3 * dof as f64).sin() + 0.1).collect()
 }
 
 /// A free body keeps its momenta and its energy: 10,000 steps with all modes in motion.
 ///
-/// 1e-12 of the sum of the sizes, over which rounding adds up; energies balance to 1e-10 because those of the scheme do, see the driver. The
-/// energy that one reads off the velocities of the times themselves drifts below 1e-4.
+/// 1e-12 of the sum of the sizes, over which rounding adds up; energies balance to 1e-10 because the energies of the scheme do, see the
+/// driver. The energy computed from the velocities at the times themselves drifts below 1e-4.
 #[test]
 fn a_free_body_keeps_momentum_and_energy() {
     for (name, setup) in [("plane", plate(Law::NHPD)), ("space", block(Law::NHPD))] {

@@ -148,7 +148,8 @@ fn of_schemes_with_dashpots(duration: f64) -> [MotionSettings; 2] {
     [settings(duration, 10), implicit(duration, 10, 30, 0.0)]
 }
 
-/// Bonds that resist shear with a negative stiffness make the body unstable at Poisson's ratios near 1/2: its motion grows, and says so.
+/// Bonds that resist shear with a negative stiffness make the body unstable at Poisson's ratios near 1/2: its motion grows, and the run
+/// reports it.
 #[test]
 fn a_motion_that_grows_without_cause_ends() {
     let mut setup = plate(Law::PDS);
@@ -172,8 +173,8 @@ fn a_motion_that_grows_without_cause_ends() {
     assert!(outcome.history.len() < 20);
 }
 
-/// A free body in translation loses exp(-2 alpha t) of its energy to damping by mass, as long as a step can follow it; a step of 2/alpha or more, in
-/// which the scheme would turn its velocity round, is refused by both schemes.
+/// A free body in translation loses exp(-2 alpha t) of its energy to damping by mass, as long as a step can follow it; a step of 2/alpha or
+/// more, in which the scheme would reverse its velocity, is refused by both schemes.
 ///
 /// The decay to alpha t (alpha dt)^2/6: (1 - a)/(1 + a) = exp(-2 a - 2 a^3/3 - ...) with a = alpha dt/2.
 #[test]
@@ -213,7 +214,7 @@ fn damping_by_mass_decays_or_is_refused() {
     }
 }
 
-/// A velocity whose square is no number ends the motion at its first state, and says so.
+/// A velocity whose square is not finite ends the motion at its first state, with a message.
 #[test]
 fn velocities_beyond_all_numbers_end_a_motion() {
     for settings in [settings(1e-3, 10), implicit(1e-3, 10, 5, 0.0)] {
@@ -231,7 +232,7 @@ fn velocities_beyond_all_numbers_end_a_motion() {
     }
 }
 
-/// Steps in a number that has no end are refused, as they were begun before.
+/// An excessive number of steps is refused before the motion begins.
 #[test]
 fn steps_without_end_are_refused() {
     let problem = motion_of(&plate(Law::NHPD), |model| {

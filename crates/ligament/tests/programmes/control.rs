@@ -36,7 +36,7 @@ fn softening() -> Choice {
 
 /// A force on a point that follows the displacement of that point is the reaction to that displacement: both go through the same states,
 /// past the peak, brittle or softening. 1e-3 of the largest force where bonds soften: just past the
-/// peak cracks may go on at one end or another, to which iterates of another kind come a little differently.
+/// peak cracks may grow at one end or another, and different iterates lead to slightly different cracks.
 #[test]
 fn a_force_that_follows_its_displacement_is_its_reaction() {
     const END: f64 = 6e-5;
@@ -105,7 +105,7 @@ fn pressed_and_pulled(
             quantity: Quantity::Probes(vec![("hook".to_owned(), 1.0)]),
             to: *to,
         };
-        // Under control the factor says no more than which way the load goes.
+        // Under control the factor gives only the direction of the load.
         let factor = if is_controlled {
             1.0 + place as f64
         } else {
@@ -181,8 +181,8 @@ fn a_force_that_follows_its_displacement_closes_cracks() {
     }
 }
 
-/// A pressure that stays keeps a crack closed until the pull is larger: what a stage leaves closed is what the next one begins with, and
-/// stages of one load are its list of factors, to the rounding of the factors.
+/// A constant pressure keeps a crack closed until the pull is larger: the next stage begins with the faces that a stage leaves closed, and
+/// stages of one load equal its list of factors, to the rounding of the factors.
 #[test]
 fn faces_close_in_stages() {
     let cycles = [-0.5, 1.0, -0.5];
@@ -271,7 +271,7 @@ fn the_opening_of_a_crack_leads_through_a_snap_back() {
     let broken = order(&breaks.breaks);
     assert!(broken.len() > 60, "{}", broken.len());
     assert_eq!(broken, order(&path.breaks[..broken.len()]));
-    // With the same bonds the body is linear in the one force: its states are those of the line that leads to the next event.
+    // With the same bonds the body is linear in the one force: its states lie on the line that leads to the next event.
     for record in &followed.history[1..] {
         let on_path = exact.history.iter().rev();
         let mut on_path = on_path.filter(|it| it.broken_bonds == record.broken_bonds);

@@ -67,9 +67,10 @@ fn interpolated(curve: &[[f64; 2]], displacement: f64) -> f64 {
     low + (displacement - from) / (to - from) * (high - low)
 }
 
-/// A machine in series adds F/k to the displacement of the bar: in it the bar carries what it carries under a given displacement, and its far
-/// end goes back where the bar gives way faster than the machine. In each step the bonds take the same energy. The area under the curve, less what
-/// bar and machine store, is what the bonds released, but for a platen that gives way by 1e-6. 5e-3 of the peak: the given displacements lie between those of the stiff machine.
+/// A machine in series adds F/k to the displacement of the bar: with it the bar carries the same force as under the given displacement, and
+/// its far end moves back where the bar softens faster than the machine. In each step the bonds dissipate the same energy. The area under
+/// the curve, less the energy stored in bar and machine, is the energy released by the bonds, except for a platen that yields by 1e-6. 5e-3
+/// of the peak: the given displacements lie between the displacements of the stiff machine.
 #[test]
 fn a_soft_machine_snaps_back_on_the_curve_of_a_stiff_one() {
     const END: f64 = 0.2;
@@ -121,8 +122,8 @@ fn a_soft_machine_snaps_back_on_the_curve_of_a_stiff_one() {
     assert!(back > STEPS / 2, "{back}");
 }
 
-/// Brittle bonds take their energy all at once: the exact path goes from breakage to breakage as it does under a displacement, here far
-/// beyond factor 1 of a small one, until the energy is gone.
+/// Brittle bonds dissipate their energy all at once: the exact path goes from breakage to breakage as it does under a displacement, here
+/// far beyond factor 1 of a small one, until the energy is used up.
 #[test]
 fn the_exact_path_goes_on_until_the_energy_is_gone() {
     const END: f64 = 1.2e-3;
@@ -154,7 +155,7 @@ fn the_exact_path_goes_on_until_the_energy_is_gone() {
     assert!(largest.fold(0.0, f64::max) > 10.0);
 }
 
-/// From every moment, those between two rounds of breaking among them, runs go on to the same bits.
+/// Runs continue with the same bits from every restart point, also from points between two rounds of breaking.
 #[test]
 fn runs_go_on_to_the_same_bits() {
     for (law, analysis, end, count) in [

@@ -98,7 +98,7 @@ fn one_by_one() -> Analysis {
     Analysis::Stepped(settings)
 }
 
-/// Bonds that broke; and what a run told, with every digit, and its moments, where these are wanted.
+/// Bonds that broke; and, if wanted, the messages of a run with every digit, and its restart points.
 #[derive(Default)]
 struct Recorder {
     keeps_all: bool,
@@ -136,7 +136,7 @@ fn run(setup: Setup) -> (Outcome, Recorder) {
     (outcome, recorder)
 }
 
-/// Follows a run, goes on with it from each of its moments to the same bits, and gives their number.
+/// Follows a run, continues it from each of its restart points with the same bits, and returns the number of restart points.
 fn goes_on_from_every_moment(setup: Setup, analysis: &Analysis) -> usize {
     let recorder = || Recorder {
         keeps_all: true,
@@ -206,9 +206,9 @@ fn fine_steps_after_a_preload_follow_the_exact_path() {
     assert_eq!(exact.history.last().unwrap().factors, [1.0, 1.0]);
 }
 
-/// With the bonds that are left before each event, solutions at many load factors of the stage tell the largest at which all of them are
-/// within their limits: the exact path breaks the next bonds there, between it and the next higher one, and those that reach their limits
-/// at its load factor are the ones that it breaks.
+/// With the bonds that are left before each event, solutions at many load factors of the stage show the largest one at which all bonds are
+/// within their limits: the exact path breaks the next bonds there, between this factor and the next higher one, and breaks just the bonds
+/// that reach their limits at its load factor.
 #[test]
 fn the_exact_path_after_a_preload_is_that_of_a_search() {
     const PARTS: u32 = 400;
@@ -276,8 +276,8 @@ fn the_exact_path_after_a_preload_is_that_of_a_search() {
     assert!(falls > 3, "{falls}");
 }
 
-/// Through cycles of a load, with bonds that break at every new turn, work is stored and released energy to 1e-8, and at zero load an
-/// unbroken body has given its work back.
+/// Through cycles of a load, with bonds that break at every new reversal, work equals stored and released energy to 1e-8, and at zero load
+/// an unbroken body has returned its work.
 #[test]
 fn energies_balance_through_cycles() {
     let turns = [0.2, -0.2, 0.6, -0.6, 1.0, -1.0, 0.0];
@@ -312,7 +312,7 @@ fn energies_balance_through_cycles() {
     }
 }
 
-/// From every moment of a run in stages it goes on to the same bits.
+/// A run in stages continues with the same bits from each of its restart points.
 #[test]
 fn runs_in_stages_go_on_to_the_same_bits() {
     let there_and_back = |steps: Option<usize>| {
@@ -345,7 +345,7 @@ fn runs_in_stages_go_on_to_the_same_bits() {
     }
 }
 
-/// An elastic body has a solution at the end of each part, and there all is a sum of what the loads do alone.
+/// An elastic body has a solution at the end of each part, which is the sum of the solutions for the single loads.
 #[test]
 fn elastic_answers_are_sums_over_the_loads() {
     let elastic = || Analysis::default();

@@ -1,6 +1,6 @@
 //! Rows of the tangent stiffness on a rank.
 //!
-//! The blocks in the columns of a point are computed from its bonds for rows of smaller number; those above the diagonal follow by
+//! The blocks in the columns of a point are computed from its bonds for rows of smaller number; the blocks above the diagonal follow by
 //! symmetry. A rank computes the columns of its owned points and of points of larger number coupled with them, and stores its own
 //! rows.
 
@@ -22,7 +22,7 @@ pub(super) struct OwnRows<'a> {
     pub(super) subdomain: &'a Subdomain,
 }
 
-/// Bonds, and whether each degree of freedom is free (n_degrees_of_freedom); the others are decoupled, with a diagonal entry alone.
+/// Bonds, and whether each degree of freedom is free (n_degrees_of_freedom); the others are decoupled, with only a diagonal entry.
 #[derive(Clone, Copy)]
 pub(super) struct Taken<'a> {
     pub(super) bonds: UnbrokenBonds<'a>,

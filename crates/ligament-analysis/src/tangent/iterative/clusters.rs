@@ -25,7 +25,7 @@ pub(super) struct Clusters {
 }
 
 impl Clusters {
-    /// Clusters of at most `largest` points, more than those of an aggregate, from the diagonal D of K (n_degrees_of_freedom). The
+    /// Clusters of at most `largest` points, more than an aggregate has, from the diagonal D of K (n_degrees_of_freedom). The
     /// amounts of a rigid motion R are S = Z^T D R, because the columns of the coarse space Z are orthonormal with these weights.
     pub(super) fn new(
         operator: &Operator<'_>,

@@ -14,7 +14,7 @@ use super::coarse_stiffness::{CoarseEquations, CoarseStiffness};
 pub(super) struct CoarseFactor {
     factor: Box<dyn Factorisation>,
     pattern: Arc<Pattern>,
-    /// Motions without stiffness beyond those before them, as those of mechanisms; decoupled in the factor.
+    /// Motions without stiffness that is independent of the motions before them, as in mechanisms; decoupled in the factor.
     left_out: BTreeSet<usize>,
 }
 

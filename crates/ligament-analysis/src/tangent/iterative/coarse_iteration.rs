@@ -13,8 +13,8 @@ use super::coarse_stiffness::{CoarseEquations, CoarseStiffness};
 use super::point_blocks::invert_without_vanishing;
 use crate::vectors::{CHUNK, dot_of_chunks};
 
-/// Residual of the coarse equations in the norm of the preconditioner, relative to that of the works: the iterations of the first level are
-/// those with a factor; with 1e-1 there are a tenth more.
+/// Residual of the coarse equations in the norm of the preconditioner, relative to the works: the first level takes as many iterations as
+/// with a factor, and a tenth more with 1e-1.
 const TOLERANCE: f64 = 1e-2;
 
 /// Largest number of iterations.
@@ -332,8 +332,8 @@ mod tests {
         works
     }
 
-    /// Equations that lose some terms, by conjugate gradients and by the factor, and those made without these terms: the solutions agree to
-    /// the tolerance of conjugate gradients, and the changed equations are the new ones to the rounding of single precision.
+    /// Equations that lose some terms, by conjugate gradients and by the factor, and equations made without these terms: the solutions
+    /// agree to the tolerance of conjugate gradients, and the changed equations are the new ones to the rounding of single precision.
     #[test]
     fn changed_equations_are_those_without_the_terms() {
         let kept: Vec<RankOne> = every_seventh(false);

@@ -14,7 +14,7 @@ pub(super) trait CoarseEquations: Send {
     fn solve(&mut self, works: &mut Vec<f64>);
 
     /// Adds terms at coarse unknowns, ascending, those that add stiffness first. Returns whether that succeeded; if not, the
-    /// equations must be made anew.
+    /// equations must be rebuilt.
     fn change(&mut self, terms: &[RankOne]) -> bool;
 }
 

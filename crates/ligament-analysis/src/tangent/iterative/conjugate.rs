@@ -1,7 +1,7 @@
 //! Conjugate gradients with a two-level preconditioner: A-DEF2 (Tang 2009).
 //!
 //! With block Jacobi M^-1 and the coarse correction Q = Z E^-1 Z^T, the preconditioner maps a force r to M^-1 r + Q (r - K M^-1 r).
-//! The iteration must start at Q f, else it stalls. The coefficient of the search direction is that of Polak and Ribiere, which
+//! The iteration must start at Q f, else it stalls. The coefficient of the search direction is the one of Polak and Ribiere, which
 //! remains valid where bonds broke since the coarse stiffness was built.
 
 use rayon::prelude::*;

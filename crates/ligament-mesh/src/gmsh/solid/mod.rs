@@ -35,7 +35,7 @@ pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<Soli
     let faces = Faces::new(&solid.cells, positions.len());
     check_overlap(cursor, records, &solid, &faces)?;
     check_faces(cursor, records, &assembly, &faces, &groups)?;
-    // The search needs the most memory, and comes after what others need.
+    // The search for overlapping cells needs the most memory: the faces are freed before it.
     drop(faces);
     check_covering(cursor, records, &solid, &positions, SolidCell::tetrahedra)?;
     let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
@@ -67,7 +67,7 @@ fn check_overlap(
     })
 }
 
-/// Refuses surface elements in a group that are not faces of cells: shells beside the solid, or a surface that was meshed anew.
+/// Refuses surface elements in a group that are not faces of cells: shells beside the solid, or a surface that was meshed again.
 fn check_faces(
     cursor: &Cursor<'_>,
     records: &Records,

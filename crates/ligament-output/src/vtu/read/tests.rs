@@ -10,7 +10,7 @@ use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
 use ligament_mesh::SolidCell;
 use proptest::prelude::*;
 
-/// Numbers with all bits, also those of what is no number.
+/// Numbers of arbitrary bits, including NaN.
 fn floats(len: usize) -> impl Strategy<Value = Vec<f64>> {
     proptest::collection::vec(any::<u64>().prop_map(f64::from_bits), len)
 }
@@ -22,7 +22,7 @@ fn bits(values: &[f64]) -> Vec<u64> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
-    /// A block has 4096 numbers: lengths about it and about its double.
+    /// A block has 4096 numbers: lengths around one block and two blocks.
     #[test]
     fn what_was_written_is_read(
         (numbers, integers) in prop_oneof![1_usize..9, 4094_usize..4099, 8191_usize..8194]
@@ -147,7 +147,7 @@ fn what_is_no_result_file_is_named() {
     assert!(matches!(open, Err(Error::System { action: "read", .. })));
 }
 
-/// A file that is small only because it is all zeros: sizes are those of its own header, and far beyond what it says otherwise.
+/// A small file whose zeros inflate far beyond its size: the sizes in the header of its array are not trusted.
 #[test]
 fn what_inflates_beyond_its_file_is_refused() {
     let folder = tempfile::tempdir().unwrap();

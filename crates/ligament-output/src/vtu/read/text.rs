@@ -52,7 +52,7 @@ pub(super) struct Entry {
     section: Section,
     pub(super) name: String,
     vtk_type: String,
-    /// Numbers a point or cell.
+    /// Number of values per point or cell.
     pub(super) n_components: usize,
     /// Names of the components: all of them or none.
     pub(super) components: Vec<String>,
@@ -168,7 +168,7 @@ fn read(path: &Path) -> Result<String, Error> {
     String::from_utf8(bytes).map_err(|_| strange(path, "it is no text"))
 }
 
-/// The error of something in a file that is not as it should be.
+/// The error for a file with an invalid part, given the reason.
 pub(super) fn strange(path: &Path, reason: impl Into<String>) -> Error {
     Error::Unreadable {
         path: path.to_path_buf(),
@@ -244,8 +244,8 @@ fn is_ours(grid: Node<'_, '_>) -> bool {
     .all(|(key, value)| grid.attribute(key) == Some(value))
 }
 
-/// The bytes of an array, of which there are so many at most: a header in base64, then the compressed blocks in base64 of their
-/// own. None where they are damaged.
+/// The bytes of an array, at most `most`: a header in base64, then the compressed blocks in a base64 text of their own. `None` where they
+/// are damaged.
 fn decode(text: &str, most: usize) -> Option<Vec<u8>> {
     // Three bytes take four letters; the first three entries take 24 bytes.
     let start = BASE64_STANDARD.decode(text.get(..32)?).ok()?;

@@ -9,27 +9,27 @@ use crate::picture::panel::Scale;
 /// Direction of the light: to the right, up, to the eye.
 const LIGHT: [f64; 3] = [-0.35, 0.55, 0.76];
 
-/// Brightness of what the light does not meet.
+/// Brightness of triangles turned away from the light.
 const SHADE: f64 = 0.62;
 
 /// Steps of brightness.
 const STEPS: f64 = 24.0;
 
-/// Colour of what has no field or no value.
+/// Colour of triangles without a field or a value.
 const BARE: Rgb = [205, 210, 216];
 
-/// Colour and widths (pixels) of edges, and of edges seen through the body.
+/// Colour and widths (pixels) of edges, and of edges that the body hides.
 const EDGE: (Rgb, f64) = ([0x30; 3], 0.55);
 const FAINT: (Rgb, f64) = ([0x9a; 3], 0.4);
 
-/// Width of the rim of each piece in its own colour, pixels: no seam is left between two.
+/// Width of the rim of each piece in its own colour, pixels, so that no seam is left between two pieces.
 const SEAM: f64 = 0.5;
 
 /// Length of the arrows that show the axes, pixels.
 const ARROW: f64 = 15.0;
 
 impl Scene {
-    /// Draws it into a frame, seen from a side with displacements larger by a factor.
+    /// Draws the scene into a frame, seen from a side, with displacements magnified by a factor.
     pub(crate) fn draw(
         &self,
         drawing: &mut Drawing,
@@ -57,7 +57,7 @@ impl Scene {
         axes(drawing, frame, view);
     }
 
-    /// Paints the triangles that are seen, the farthest first; those of one colour that follow each other together.
+    /// Paints the visible triangles, the farthest first; consecutive ones of one colour are painted together.
     fn paint(
         &self,
         drawing: &mut Drawing,
@@ -128,7 +128,7 @@ impl Scene {
     }
 }
 
-/// The part of a polygon whose values, times a sign, are not below a level times it.
+/// The part of a polygon in which the value times a sign is not below the level times this sign.
 fn cut(polygon: &[([f64; 2], f64)], level: f64, sign: f64) -> Vec<([f64; 2], f64)> {
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (place, &(from, start)) in polygon.iter().enumerate() {
@@ -150,7 +150,7 @@ fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
     [x, y]
 }
 
-/// Brightness of a triangle as seen, whichever side is seen of it.
+/// Brightness of a triangle as seen, from either side.
 fn brightness(corners: [[f64; 3]; 3]) -> f64 {
     let normal = unit_normal(corners);
     let to_eye = if normal[2] < 0.0 { -1.0 } else { 1.0 };

@@ -1,9 +1,9 @@
-//! Pictures of solids: what is seen of triangles in space, from a side, drawn as filled paths.
+//! Pictures of solids: triangles in space, seen from a side and drawn as filled paths.
 //!
-//! Triangles ([`Scene`]) come from the outline of the body, from a section, from a crack or from where a field has a value
-//! (`read`). They are moved, looked at from a side ([`View`]), and those that others hide are left out by a depth buffer
-//! (`visible`); the rest is painted from the farthest to the nearest in bands of colour, darker where it is turned away from
-//! the light (`draw`). The picture consists of paths, as those of bodies in the plane: it can be edited, and becomes PNG or PDF.
+//! Triangles ([`Scene`]) come from the outline of the body, from a section, from a crack or from a level surface of a field (`read`). They
+//! are moved, looked at from a side ([`View`]), and hidden ones are left out by a depth buffer (`visible`); the others are painted from the
+//! farthest to the nearest in bands of colour, darker where they are turned away from the light (`draw`). The picture consists of paths,
+//! like pictures of bodies in the plane: it can be edited, and becomes PNG or PDF.
 
 mod draw;
 mod outline;

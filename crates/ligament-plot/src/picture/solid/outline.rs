@@ -7,7 +7,7 @@ use ligament_mesh::{Cell, SolidCell};
 /// Cosine of the angle between two faces below which their common edge is drawn: 35 degrees.
 const SHARP: f64 = 0.82;
 
-/// The faces of one cell alone, their corners counter-clockwise seen from outside, in the order of the cells.
+/// Faces that belong to only one cell, their corners counter-clockwise seen from outside, in the order of the cells.
 pub(super) fn outer_faces(cells: &[SolidCell]) -> Vec<Cell> {
     let all = || cells.iter().flat_map(SolidCell::faces);
     let mut sorted: Vec<([u32; 4], usize)> = all().map(|face| key(&face)).zip(0..).collect();
@@ -55,7 +55,7 @@ pub(super) fn sharp_edges(places: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[u
     sharp.map(|(ends, _)| ends).collect()
 }
 
-/// Edges of one triangle alone, ascending: the rim of a section. Triangles may have no area, where a plane passes through nodes.
+/// Edges that belong to only one triangle, ascending: the rim of a section. Triangles may have no area, where a plane passes through nodes.
 pub(super) fn rim(triangles: &[[u32; 3]]) -> Vec<[u32; 2]> {
     let sides = triangles
         .iter()

@@ -18,10 +18,10 @@ use crate::picture::PictureError;
 use crate::picture::field::{Field, NONE};
 use crate::picture::request::{CrackDrawing, SolidRequest};
 
-/// Fields that a crack surface has of its own, in the order of a jump.
+/// Fields that exist only on a crack surface, in the order of the components of a jump.
 const OF_CRACK: [&ResultField; 2] = [&OPENING, &SLIDING];
 
-/// Boxes up to which all faces are drawn where a crack is.
+/// Number of boxes up to which all faces are drawn where there is a crack.
 const MOST_WHOLE: usize = 100_000;
 
 /// A solid with displacements and a field of its points.
@@ -67,7 +67,7 @@ impl Solid<'_> {
             .map(|field| field.values[point as usize])
     }
 
-    /// The mean of points, at a place.
+    /// Adds a place with the mean displacement and value of some points; returns its number.
     fn push(&self, scene: &mut Scene, place: [f64; 3], points: &[u32]) -> u32 {
         let count = points.len() as f64;
         let moved = [0, 1, 2].map(|axis| {
@@ -159,7 +159,7 @@ impl Solid<'_> {
                 sharing.entry(middle).or_default().push(number as u32);
             }
         }
-        // Through the steps between boxes that a crack moved apart one sees what lies behind.
+        // Where a crack moved boxes apart, boxes behind them can be seen through the steps.
         let shows_all = links.is_some() && boxes.len() <= MOST_WHOLE;
         let mut named: HashMap<[i64; 3], u32> = HashMap::new();
         let mut outside = Vec::new();
@@ -205,7 +205,7 @@ impl Solid<'_> {
         scene
     }
 
-    /// Where the field has a value, within the edges of the body.
+    /// The level surface of the field, within the edges of the body.
     fn level(&self, level: f64) -> Result<Scene, PictureError> {
         let tetrahedra = Tetrahedra::new(&self.body.grid);
         let points = tetrahedra.points.iter();
@@ -219,7 +219,7 @@ impl Solid<'_> {
         Ok(scene)
     }
 
-    /// Where values of the nodes of tetrahedra have a level, with the field.
+    /// The level surface of values of the nodes of tetrahedra, with the field.
     fn on_level(&self, tetrahedra: &Tetrahedra, values: &[f64], level: f64) -> Scene {
         let found = level_set(&tetrahedra.corners, values, level);
         let mut scene = Scene::default();
@@ -260,7 +260,7 @@ impl Solid<'_> {
         (scene, drawn.or_else(|| self.field.clone()))
     }
 
-    /// Adds the edges of the body, which are seen through what hides them.
+    /// Adds the edges of the body, which are drawn also where they are hidden.
     fn add_edges(&self, scene: &mut Scene) {
         let whole = Solid {
             body: self.body.clone(),

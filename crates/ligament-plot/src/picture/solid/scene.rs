@@ -2,7 +2,7 @@
 
 use super::View;
 
-/// What is drawn of a solid: places with their displacements, triangles between them and lines over them.
+/// Parts of a solid that are drawn: places with their displacements, triangles between them and lines over them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Scene {
     /// Places without load, shape (n_places), m.
@@ -15,12 +15,12 @@ pub(crate) struct Scene {
     pub(super) triangles: Vec<[u32; 3]>,
     /// Ends of lines: edges of the body.
     pub(super) edges: Vec<[u32; 2]>,
-    /// Whether lines are seen through what hides them.
+    /// Whether lines are drawn also where triangles hide them.
     pub(super) shows_all_edges: bool,
 }
 
 impl Scene {
-    /// Adds a place; gives its number.
+    /// Adds a place; returns its number.
     pub(super) fn push(&mut self, place: [f64; 3], moved: [f64; 3], value: Option<f64>) -> u32 {
         self.places.push(place);
         self.moved.push(moved);

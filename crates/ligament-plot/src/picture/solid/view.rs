@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-/// The side that the eye is on, far away: lengths are seen the same everywhere.
+/// The side from which a distant eye looks: lengths are seen the same everywhere.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
     /// Angle of the eye about z from the x axis, degrees.
@@ -35,7 +35,7 @@ impl View {
         self.axes().map(along)
     }
 
-    /// The view along a normal, from where it points to; with z upwards, or y where it looks along z.
+    /// The view against a normal, from the side to which it points; with z upwards, or y if the normal is along z.
     pub(in crate::picture) fn along([x, y, z]: [f64; 3]) -> Self {
         let flat = libm::hypot(x, y);
         let is_upright = flat < 1e-9 * z.abs();

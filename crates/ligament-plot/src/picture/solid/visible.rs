@@ -1,17 +1,17 @@
-//! What of triangles and lines is not hidden by other triangles.
+//! Triangles and lines that other triangles do not hide.
 
 use std::ops::Range;
 
-/// Dots of the buffer to the pixel along each side.
+/// Dots of the buffer per pixel along each side.
 const DOTS: f64 = 3.0;
 
-/// Most dots along a side.
+/// Largest number of dots along a side.
 const MOST: usize = 6000;
 
 /// Depths of the nearest triangle at dots of the picture.
 pub(super) struct DepthBuffer {
     low: [f64; 2],
-    /// Dots to the metre.
+    /// Dots per metre.
     scale: f64,
     size: [usize; 2],
     /// Depth, m, and number of the nearest triangle, the first of equals; rows from below.
@@ -41,7 +41,7 @@ fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
 const NONE: u32 = u32::MAX;
 
 impl DepthBuffer {
-    /// The buffer of triangles as seen (to the right, up, to the eye, m) in a part of the picture, with so many pixels to the metre.
+    /// The buffer of triangles as seen (to the right, up, to the eye, m) in a part of the picture, with a scale in pixels per metre.
     pub(super) fn new(
         seen: &[[f64; 3]],
         triangles: &[[u32; 3]],
@@ -112,7 +112,7 @@ impl DepthBuffer {
         }
     }
 
-    /// Marks of the triangles that are the nearest at some dot, or in their middle, of so many.
+    /// Whether each triangle is the nearest one at some dot, or in its middle.
     pub(super) fn visible(&self, seen: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<bool> {
         let mut visible = vec![false; triangles.len()];
         for (_, number) in self.nearest.iter().filter(|it| it.1 != NONE) {
@@ -126,7 +126,7 @@ impl DepthBuffer {
         visible
     }
 
-    /// Whether a place is not behind a triangle, but for two dots.
+    /// Whether a place is not behind a triangle, with a tolerance of two dots.
     pub(super) fn is_seen(&self, place: [f64; 3]) -> bool {
         let [x, y] = self.dots(place).map(f64::round);
         let is_inside = x >= 0.0 && y >= 0.0 && x < self.size[0] as f64 && y < self.size[1] as f64;
@@ -137,7 +137,7 @@ impl DepthBuffer {
         place[2] >= depth - 2.0 / self.scale
     }
 
-    /// The pieces of a line that are seen, in steps of a pixel.
+    /// The visible pieces of a line, in steps of a pixel.
     pub(super) fn seen_pieces(&self, [from, to]: [[f64; 3]; 2]) -> Vec<[[f64; 2]; 2]> {
         let [a, b] = [from, to].map(|it| self.dots(it));
         let length = (b[0] - a[0]).hypot(b[1] - a[1]) / DOTS;
