@@ -228,6 +228,11 @@ impl Equilibrium {
         &self.equations.costs
     }
 
+    /// Adds the costs of the equations before these.
+    pub(crate) fn add_costs(&mut self, before: &Costs) {
+        self.equations.costs = before.plus(&self.equations.costs);
+    }
+
     /// Largest force at a point in all measured states so far, in equilibrium or not, N.
     pub(crate) fn largest_force(&self) -> f64 {
         self.equations.accuracy.largest_extents.force()
