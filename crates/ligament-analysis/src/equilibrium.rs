@@ -177,12 +177,6 @@ impl Equilibrium {
         Ok((equilibrium, state, balanced))
     }
 
-    /// Number of broken bonds of a state, over all processes.
-    pub(crate) fn broken_bonds(&self, state: &State) -> usize {
-        let broken = state.intact.iter().map(|intact| !intact);
-        self.numbers.count(broken)
-    }
-
     /// Switches to the iteration for softening bonds if the criteria soften.
     pub fn soften(&mut self) {
         self.softens |= self.equations.problem.criteria.soften();

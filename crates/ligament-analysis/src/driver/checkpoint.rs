@@ -131,11 +131,15 @@ impl<P: Serial, E> RestoredRun<P, E> {
         let problem = progress
             .problem(problem)
             .ok_or(CheckpointError::OtherModel)?;
+        let broken = numbers.count(state.intact.iter().map(|intact| !intact));
         let (equations, state, balanced) =
             equations((&problem, &position), (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
         let values_then = CheckValues::read(from).map_err(damaged)?;
         require_end(from).map_err(damaged)?;
+        if broken != progress.broken {
+            return Err(damaged(Damaged).into());
+        }
         if !CheckValues::new(&problem, &balanced).agrees(&values_then) {
             return Err(CheckpointError::OtherArithmetic.into());
         }
@@ -162,15 +166,13 @@ impl<P: Serial> RestoredRun<P> {
         let restored = Self::read(kind, problem, from, |(problem, _), numbered, from| {
             Equilibrium::restored(problem, energy_tolerance, numbered, from)
         })?;
-        // Redundant data agree: the numbers of records, broken bonds and solves.
+        // Redundant data agree: the numbers of records and solves.
         let Progress {
             solves: [last, recorded],
-            broken,
             ref history,
             ..
         } = restored.progress;
         let agrees = step(&restored.position) == Some(history.len())
-            && broken == restored.equations.broken_bonds(&restored.state)
             && recorded <= last
             && last <= restored.equations.costs().solves;
         match agrees {
