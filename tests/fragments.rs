@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament::body::{AnyBody, Geometry, MeshBody, SolidMeshBody};
-use ligament::run::{NoObserver, Posed, follow, restore, resume};
+use ligament::run::{NoObserver, Posed, follow, restore};
 use ligament::setup::Analysis;
 use ligament::{Loading, Model};
 use ligament_analysis::history::{Moment, ObserverError, Onward, StepRecord, View};
@@ -448,7 +448,7 @@ fn fragments_keep_all_bits() {
             &mut one.checkpoints[row].as_slice(),
         )
         .unwrap();
-        let outcome = resume(&analysis, restored, &mut Watched::default()).unwrap();
+        let outcome = restored.resume(&mut Watched::default()).unwrap();
         assert_eq!(outcome.history, one.rows);
     }
 }

@@ -145,7 +145,7 @@ fn assert_resumes_looking(name: &str, bench: &Bench, every: usize, looks_every: 
         };
         let outcome = on_threads(threads, || {
             let restored = run::restore(&problem, analysis, &mut checkpoint.as_slice()).unwrap();
-            run::resume(analysis, restored, &mut rest).unwrap()
+            restored.resume(&mut rest).unwrap()
         });
         let place = format!("{name}, moment {}", number * every);
         let differs = (rest.lines.iter().zip(&whole.lines[*from..])).position(|(a, b)| a != b);
@@ -387,7 +387,7 @@ fn a_run_that_a_rule_ended_can_be_prolonged() {
         assert!(ended.termination.is_by_rule(), "{}", ended.termination);
         let (problem, analysis) = (long.problem(), &long.model.setup.analysis);
         let restored = run::restore(&problem, analysis, &mut last.0.as_slice()).unwrap();
-        let prolonged = run::resume(analysis, restored, &mut Recorder::default()).unwrap();
+        let prolonged = restored.resume(&mut Recorder::default()).unwrap();
         let whole = run::follow(&problem, analysis, &mut Recorder::default()).unwrap();
         assert!(prolonged.state.broken_bonds() > ended.state.broken_bonds());
         assert_eq!(words(prolonged), words(whole));
@@ -429,7 +429,7 @@ fn an_observer_stops_a_run() {
         "the last state is told as the last"
     );
     let restored = run::restore(&problem, analysis, &mut stopped.moments[0].1.as_slice()).unwrap();
-    let outcome = run::resume(analysis, restored, &mut Recorder::default()).unwrap();
+    let outcome = restored.resume(&mut Recorder::default()).unwrap();
     assert_eq!(words(outcome), words(whole));
 }
 

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use ligament::run::{follow, restore, resume};
+use ligament::run::{follow, restore};
 use ligament::{Loading, Message};
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::driver::{Outcome, Problem};
@@ -183,7 +183,7 @@ fn followed(
         None => follow(&problem, &analysis, &mut seen).unwrap(),
         Some(mut from) => {
             let restored = restore(&problem, &analysis, &mut from).unwrap();
-            resume(&analysis, restored, &mut seen).unwrap()
+            restored.resume(&mut seen).unwrap()
         }
     };
     (outcome, seen)

@@ -52,7 +52,7 @@ pub fn checkpoints_of_the_same_bits(
     for (from, checkpoint) in one.moments.iter().step_by(stride) {
         let mut rest = Recorder::default();
         let restored = run::restore(posed, analysis, &mut checkpoint.as_slice()).unwrap();
-        run::resume(analysis, restored, &mut rest).unwrap();
+        restored.resume(&mut rest).unwrap();
         assert!(rest.lines[..] == one.lines[*from..], "{name}, from {from}");
     }
     one.moments.len()

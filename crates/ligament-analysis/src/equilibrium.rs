@@ -177,12 +177,6 @@ impl Equilibrium {
         Ok((equilibrium, state, balanced))
     }
 
-    /// Number of broken bonds of a state, over all processes.
-    pub(crate) fn broken_bonds(&self, state: &State) -> usize {
-        let broken = state.intact.iter().map(|intact| !intact);
-        self.numbers.count(broken)
-    }
-
     /// Switches to the iteration for softening bonds if the criteria soften.
     pub fn soften(&mut self) {
         self.softens |= self.equations.problem.criteria.soften();
@@ -226,6 +220,11 @@ impl Equilibrium {
     /// Accumulated costs of the equations.
     pub fn costs(&self) -> &Costs {
         &self.equations.costs
+    }
+
+    /// Adds the costs of the equations before these.
+    pub(crate) fn add_costs(&mut self, before: &Costs) {
+        self.equations.costs = before.plus(&self.equations.costs);
     }
 
     /// Largest force at a point in all measured states so far, in equilibrium or not, N.

@@ -22,9 +22,14 @@ PLATE: dict[str, Any] = {
 
 
 EVENTS: dict[str, Any] = {"fracture__control": "event", "fracture__steps": None, "fracture__stop": {"bonds": 40}}
+MOTION: dict[str, Any] = {
+    "analysis": "motion", "fracture__steps": None, "material__density": 2400.0, "motion": {"duration": 4e-5, "rows": 20},
+    "load": [{"group": "right", "velocity": {"x": 1.0}, "amplitude": {"shape": "smooth-ramp", "duration": 1e-5}}],
+}
+IMPLICIT: dict[str, Any] = {**MOTION, "motion": {"duration": 4e-5, "rows": 20, "scheme": "auto", "step": 1e-6}}
 
 
-@pytest.mark.parametrize("changes", [{}, EVENTS])
+@pytest.mark.parametrize("changes", [{}, EVENTS, MOTION, IMPLICIT])
 def test_rows_have_the_bits_of_a_run(changes: dict[str, Any]) -> None:
     rows = ligament.begin(PLATE, **changes)
     found = list(rows)

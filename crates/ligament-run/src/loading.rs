@@ -1,6 +1,6 @@
 //! Runs a body under loads, from its first state or from a checkpoint, and writes the results into a folder.
 
-use ligament::run::{Posed, Restored, follow, resume};
+use ligament::run::{Posed, Restored, follow};
 use ligament::{Loading, Message, Model};
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::{CaseFile, StressField};
@@ -118,7 +118,7 @@ impl LoadedBody<'_> {
         let mut pieces = Pieces::new(writer, requests.is_stopped);
         match restored {
             None => follow(&problem, analysis, &mut pieces)?,
-            Some(restored) => resume(analysis, restored, &mut pieces)?,
+            Some(restored) => restored.resume(&mut pieces)?,
         };
         Ok(())
     }
@@ -140,7 +140,7 @@ impl LoadedBody<'_> {
         let guarded = &mut self.model.guarded(watch);
         let outcome = match restored {
             None => follow(posed, analysis, guarded),
-            Some(restored) => resume(analysis, restored, guarded),
+            Some(restored) => restored.resume(guarded).map_err(Into::into),
         };
         outcome.map_err(|error| match self.model.growth(error) {
             Ok(growth) => growth.into(),

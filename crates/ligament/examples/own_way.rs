@@ -67,12 +67,8 @@ impl Way for Fatigue<'_> {
         Ok(())
     }
 
-    fn state(&self) -> &State {
-        self.run.state()
-    }
-
-    fn history(&self) -> &[StepRecord] {
-        self.run.history()
+    fn now(&self) -> (&State, &[StepRecord]) {
+        self.run.now()
     }
 
     fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {

@@ -9,7 +9,7 @@ mod watched_plate;
 use ligament::Loading;
 use ligament::analysis::history::{Moment, ObserverError, Onward, StepRecord, View};
 use ligament::prelude::*;
-use ligament::run::{follow, restore, resume};
+use ligament::run::{follow, restore};
 
 /// An observer that stops the run after some steps and keeps its checkpoint, which a program would write to a file.
 struct Pause {
@@ -46,7 +46,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("{} in {} bytes", first.termination, pause.checkpoint.len());
 
     let restored = restore(&problem, analysis, &mut pause.checkpoint.as_slice())?;
-    let second = resume(analysis, restored, &mut NoObserver)?;
+    let second = restored.resume(&mut NoObserver)?;
     println!("{}", second.termination);
     let broken = [&first, &second, &whole].map(|it| it.state.broken_bonds());
     println!(

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use ligament_analysis::Observer;
 use ligament_analysis::checkpoint::CheckpointError;
 use ligament_analysis::distributed_matrix::Communicator;
+pub use ligament_analysis::driver::Restored;
 use ligament_analysis::driver::{self, Outcome, Problem, Way, motion};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
@@ -163,7 +164,7 @@ pub fn follow<'a>(
     Ok(begin(posed, analysis, observer)?.follow()?)
 }
 
-/// The run of a checkpoint, for [`resume`].
+/// The run of a checkpoint, which [`Restored::resume`] continues, bitwise identical to an uninterrupted run.
 ///
 /// # Errors
 ///
@@ -175,75 +176,17 @@ pub fn restore<'a>(
 ) -> Result<Restored, Error> {
     let problem = match (posed.into(), analysis) {
         (Posed::Motion(problem), Analysis::Motion(settings)) => {
-            let restored = motion::restore(problem, settings, checkpoint)?;
-            return Ok(Restored::Motion(Box::new(restored)));
+            return Ok(motion::restore(problem, settings, checkpoint)?);
         }
         (Posed::Motion(_), _) => return Err(other_analysis(analysis, "a motion")),
         (Posed::Statics(problem), _) => problem,
     };
-    Ok(Restored::Statics(Box::new(match analysis {
+    Ok(match analysis {
         Analysis::Stepped(settings) => driver::stepped::restore(problem, settings, checkpoint)?,
         Analysis::Event(settings) => driver::event::restore(problem, settings, checkpoint)?,
         Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => {
             return Err(without_fracture());
         }
-    })))
-}
-
-/// A restored run, ready to continue.
-pub enum Restored {
-    /// Equilibrium under loads.
-    Statics(Box<driver::Restored>),
-    /// Motion in time.
-    Motion(Box<motion::Restored>),
-}
-
-impl Restored {
-    /// Load factor of the restored state, in a motion the time, s.
-    pub fn load_factor(&self) -> f64 {
-        match self {
-            Self::Statics(it) => it.load_factor(),
-            Self::Motion(it) => it.time(),
-        }
-    }
-
-    /// Number of bonds broken up to the restored state.
-    pub fn broken_bonds(&self) -> usize {
-        match self {
-            Self::Statics(it) => it.broken_bonds(),
-            Self::Motion(it) => it.broken_bonds(),
-        }
-    }
-}
-
-/// Continues a run from its checkpoint, bitwise identical to an uninterrupted run.
-///
-/// # Errors
-///
-/// If the run is of another driver, or the observer fails.
-pub fn resume(
-    analysis: &Analysis,
-    restored: Restored,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, Error> {
-    Ok(match (analysis, restored) {
-        (Analysis::Stepped(settings), Restored::Statics(restored)) => {
-            driver::stepped::resume(settings, *restored, observer)?
-        }
-        (Analysis::Event(settings), Restored::Statics(restored)) => {
-            driver::event::resume(settings, *restored, observer)?
-        }
-        (Analysis::Motion(settings), Restored::Motion(restored)) => {
-            motion::resume(settings, *restored, observer)?
-        }
-        (
-            Analysis::Elastic { .. }
-            | Analysis::Modal(_)
-            | Analysis::Stepped(_)
-            | Analysis::Event(_)
-            | Analysis::Motion(_),
-            Restored::Statics(_) | Restored::Motion(_),
-        ) => return Err(without_fracture()),
     })
 }
 

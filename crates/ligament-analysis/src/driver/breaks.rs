@@ -11,6 +11,12 @@ use crate::problem::Problem;
 use crate::softening::energy_at_limit;
 use crate::state::State;
 
+/// Criteria, with the deformation of a bond by its index among the breaking bonds and its local number.
+pub(super) type Judged<'a> = (
+    &'a CriteriaInState<'a>,
+    &'a dyn Fn(usize, usize) -> BondDeformation,
+);
+
 /// Bonds that are about to break in a state of a run.
 pub(super) struct Breaking<'a> {
     pub(super) problem: &'a Problem,

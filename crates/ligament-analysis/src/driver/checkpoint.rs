@@ -1,18 +1,20 @@
-//! Progress of a run: contents of a checkpoint other than the state, and the run restored from one.
+//! Checkpoints: the progress of a run beside its state, and the run restored from one.
+//!
+//! A checkpoint has the kind of the way and its position, the state, the progress, the equations, the energies and check values.
 
 use std::io::Read;
 
 use serde::{Deserialize, Serialize};
 
 use super::energies::Energies;
-use super::record::StepCounters;
 use super::start::ElasticAnswer;
+use super::way::{Outcome, Way};
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
-use crate::history::{LargestOverlap, StepRecord};
+use crate::history::{LargestOverlap, Observer, StepRecord};
 use crate::load_program::LoadCourse;
 use crate::problem::Problem;
 use crate::serial::{Damaged, Serial, require_end};
@@ -39,9 +41,33 @@ pub(super) struct Progress {
     pub(super) largest_force: f64,
     /// Largest overlap of crack faces so far.
     pub(super) overlap: Option<LargestOverlap>,
+    /// Whether a part has turned beyond small angles in a motion.
+    pub(super) has_turned: bool,
 }
 
 impl Progress {
+    /// Progress at the beginning of a run of a problem, with what an elastic solution told.
+    pub(super) fn new(problem: &Problem, elastic: ElasticAnswer) -> Self {
+        Self {
+            elastic,
+            broken: 0,
+            history: Vec::new(),
+            peak: 0.0,
+            energy_was_negative: false,
+            solves: [0; 2],
+            negative_eigenvalues: 0,
+            part_start: problem
+                .loads
+                .course()
+                .map_or_else(Vec::new, LoadCourse::start),
+            part: 0,
+            control_start: 0.0,
+            largest_force: 0.0,
+            overlap: None,
+            has_turned: false,
+        }
+    }
+
     /// Problem with the loads of the present part of its programme; None where the progress belongs to another programme.
     fn problem(&self, problem: &Problem) -> Option<Problem> {
         let mut problem = problem.clone();
@@ -57,62 +83,47 @@ impl Progress {
     }
 }
 
-/// Position of a driver.
-#[derive(Serialize, Deserialize)]
-pub(super) enum Place {
-    /// Before an event of the exact path.
-    Event(ToEvent),
-    /// Within a load step.
-    LoadStep(InLoadStep),
+/// Kind of a way, by which a checkpoint begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum WayKind {
+    ExactPath,
+    LoadSteps,
+    CentralDifferences,
+    Newmark,
 }
 
-/// Position before an event.
-#[derive(Serialize, Deserialize)]
-pub(super) struct ToEvent {
-    /// Number of the event.
-    pub(super) step: usize,
-    /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom); empty where they are proportional to it.
-    pub(super) growth: Vec<f64>,
-}
-
-/// Position within a load step.
-#[derive(Serialize, Deserialize)]
-pub(super) struct InLoadStep {
-    pub(super) counters: StepCounters,
-    /// Load factors of the steps up to the present one, that of the unloaded body first.
-    pub(super) load_factors: Vec<f64>,
-}
-
-/// A restored run, in equilibrium and ready to continue.
-pub struct Restored {
+/// A run as a checkpoint restores it, before it has an observer, with its position on its way.
+pub(super) struct RestoredRun<P, E = Equilibrium> {
     pub(super) problem: Problem,
-    pub(super) place: Place,
+    pub(super) position: P,
     pub(super) state: State,
     pub(super) progress: Progress,
-    pub(super) equilibrium: Equilibrium,
+    pub(super) equations: E,
+    /// The state in balance.
     pub(super) balanced: Balanced,
     pub(super) energies: Energies,
 }
 
-impl Restored {
-    /// Load factor of the restored state.
-    pub fn load_factor(&self) -> f64 {
-        self.state.load_factor
-    }
+/// Global numbers of the bonds of a checkpoint, and its state.
+pub(super) type NumberedState = (BondNumbers, State);
 
-    /// Number of bonds broken up to the restored state.
-    pub fn broken_bonds(&self) -> usize {
-        self.progress.broken
-    }
-
-    /// Restores the run of a checkpoint.
+impl<P: Serial, E> RestoredRun<P, E> {
+    /// Restores the run of a checkpoint of a way of this kind; `equations` restores them at a position, with their state in balance.
     pub(super) fn read(
+        kind: WayKind,
         problem: &Problem,
-        energy_tolerance: f64,
         from: &mut dyn Read,
+        equations: impl FnOnce(
+            (&Problem, &P),
+            NumberedState,
+            &mut dyn Read,
+        ) -> Result<(E, State, Balanced), SetupError>,
     ) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
-        let place = Serial::read(from).map_err(damaged)?;
+        if WayKind::read(from).map_err(damaged)? != kind {
+            return Err(CheckpointError::OtherDriver.into());
+        }
+        let position = P::read(from).map_err(damaged)?;
         let numbers = BondNumbers::new(&*problem.system)?;
         let n_components = problem.system.layout().components.len();
         let state = State::read((&numbers, n_components), &problem.criteria, from)?;
@@ -120,50 +131,101 @@ impl Restored {
         let problem = progress
             .problem(problem)
             .ok_or(CheckpointError::OtherModel)?;
-        let (equilibrium, state, balanced) =
-            Equilibrium::restored(&problem, energy_tolerance, (numbers, state), from)?;
+        let broken = numbers.count(state.intact.iter().map(|intact| !intact));
+        let (equations, state, balanced) =
+            equations((&problem, &position), (numbers, state), from)?;
         let energies = Energies::read(&problem, &state, &balanced, from)?;
-        let proof_then = CheckValues::read(from).map_err(damaged)?;
-        let restored = Self {
-            problem,
-            place,
-            state,
-            progress,
-            equilibrium,
-            balanced,
-            energies,
-        };
+        let values_then = CheckValues::read(from).map_err(damaged)?;
         require_end(from).map_err(damaged)?;
-        if !restored.agrees() {
+        if broken != progress.broken {
             return Err(damaged(Damaged).into());
         }
-        let proof_now = CheckValues::new(&restored.problem, &restored.balanced);
-        if !proof_now.agrees(&proof_then) {
+        if !CheckValues::new(&problem, &balanced).agrees(&values_then) {
             return Err(CheckpointError::OtherArithmetic.into());
         }
-        Ok(restored)
+        Ok(Self {
+            problem,
+            position,
+            state,
+            progress,
+            equations,
+            balanced,
+            energies,
+        })
     }
+}
 
-    /// Whether redundant data agree: the numbers of records, broken bonds and solves.
-    fn agrees(&self) -> bool {
-        let step = match &self.place {
-            Place::Event(it) => it.step,
-            Place::LoadStep(it) => it.counters.step,
-        };
-        let is_in_steps = match &self.place {
-            Place::Event(it) => it.step > 0,
-            Place::LoadStep(it) => it.load_factors.len().checked_sub(1) == Some(step),
-        };
+impl<P: Serial> RestoredRun<P> {
+    /// Restores a run of equilibria up to a step, whose number the position gives where it is one.
+    pub(super) fn of_equilibria(
+        kind: WayKind,
+        (problem, energy_tolerance): (&Problem, f64),
+        from: &mut dyn Read,
+        step: impl FnOnce(&P) -> Option<usize>,
+    ) -> Result<Self, SetupError> {
+        let restored = Self::read(kind, problem, from, |(problem, _), numbered, from| {
+            Equilibrium::restored(problem, energy_tolerance, numbered, from)
+        })?;
+        // Redundant data agree: the numbers of records and solves.
         let Progress {
             solves: [last, recorded],
-            broken,
+            ref history,
             ..
-        } = self.progress;
-        is_in_steps
-            && self.progress.history.len() == step
-            && broken == self.equilibrium.broken_bonds(&self.state)
+        } = restored.progress;
+        let agrees = step(&restored.position) == Some(history.len())
             && recorded <= last
-            && last <= self.equilibrium.costs().solves
+            && last <= restored.equations.costs().solves;
+        match agrees {
+            true => Ok(restored),
+            false => Err(CheckpointError::Damaged(Damaged).into()),
+        }
+    }
+}
+
+/// Gives the way of a restored run to an observer.
+type Observed = dyn for<'a> FnOnce(&'a mut (dyn Observer + 'a)) -> Box<dyn Way + 'a>;
+
+/// A restored run, ready to continue.
+pub struct Restored {
+    load_factor: f64,
+    broken_bonds: usize,
+    observed: Box<Observed>,
+}
+
+impl Restored {
+    /// A restored run whose way `observed` gives to an observer.
+    pub(super) fn new<P: 'static, E: 'static>(
+        run: RestoredRun<P, E>,
+        observed: impl for<'a> FnOnce(
+            RestoredRun<P, E>,
+            &'a mut (dyn Observer + 'a),
+        ) -> Box<dyn Way + 'a>
+        + 'static,
+    ) -> Self {
+        Self {
+            load_factor: run.state.load_factor,
+            broken_bonds: run.progress.broken,
+            observed: Box::new(move |observer| observed(run, observer)),
+        }
+    }
+
+    /// Load factor of the restored state, in a motion the time, s.
+    pub fn load_factor(&self) -> f64 {
+        self.load_factor
+    }
+
+    /// Number of bonds broken up to the restored state.
+    pub fn broken_bonds(&self) -> usize {
+        self.broken_bonds
+    }
+
+    /// Continues the run as if it had never stopped.
+    ///
+    /// # Errors
+    ///
+    /// If the run or the observer fails.
+    pub fn resume(self, observer: &mut dyn Observer) -> Result<Outcome, SetupError> {
+        (self.observed)(observer).follow()
     }
 }
 

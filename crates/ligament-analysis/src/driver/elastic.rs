@@ -2,8 +2,7 @@
 
 use super::record::StepCounters;
 use super::run::Run;
-use super::run::StopRules;
-use super::way::{Outcome, Rows, Stop, Way};
+use super::way::{Outcome, Rows, Stop, StopRules, Way};
 use crate::breakage::Breakage;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
@@ -23,7 +22,7 @@ pub fn begin<'a>(
     let (mut run, at_one) = Run::begin(problem, energy_tolerance, StopRules::NONE, observer)?;
     let ended = run.end_if_unstable()?;
     // An iterative solver starts from the known solution; a direct one recomputes it bit for bit.
-    let iterates = run.equilibrium.choice().iterates();
+    let iterates = run.equations.choice().iterates();
     let found = at_one.filter(|_| iterates && problem.loads.course().is_none());
     Ok(ElasticSolutions {
         ends: ends(problem),
@@ -87,12 +86,8 @@ impl Way for ElasticSolutions<'_> {
         Ok(())
     }
 
-    fn state(&self) -> &State {
-        &self.run.state
-    }
-
-    fn history(&self) -> &[StepRecord] {
-        &self.run.progress.history
+    fn now(&self) -> (&State, &[StepRecord]) {
+        self.run.now()
     }
 
     fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {

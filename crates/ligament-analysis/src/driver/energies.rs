@@ -12,7 +12,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact::faces::{FaceEnergy, FaceLoss};
 use crate::contact::{LastTouching, SurfaceEnergy, SurfaceWork};
-use crate::history::{ContactAtRest, InMotion};
+use crate::history::InMotion;
 use crate::problem::Problem;
 use crate::serial::{Serial, Sink};
 use crate::state::State;
@@ -34,6 +34,8 @@ pub(super) struct Energies {
     pub(super) friction: f64,
     /// Energy stored in contacts between surfaces.
     pub(super) in_contact: f64,
+    /// Time steps and energies of a motion, without those of contact; zero in statics.
+    pub(super) motion: InMotion,
     /// Largest external work so far.
     largest_work: f64,
     /// Degrees of freedom that are prescribed or loaded.
@@ -65,6 +67,7 @@ impl Energies {
             released,
             friction,
             in_contact,
+            motion,
             largest_work,
             last_loaded,
             thermal,
@@ -77,6 +80,7 @@ impl Energies {
         released.write(out);
         friction.write(out);
         in_contact.write(out);
+        motion.write(out);
         largest_work.write(out);
         last_loaded.write(out);
         thermal.write(out);
@@ -94,6 +98,7 @@ impl Energies {
             released: Serial::read(from)?,
             friction: Serial::read(from)?,
             in_contact: Serial::read(from)?,
+            motion: Serial::read(from)?,
             largest_work: Serial::read(from)?,
             last_loaded: Serial::read(from)?,
             thermal: Serial::read(from)?,
@@ -118,6 +123,7 @@ impl Energies {
             released: 0.0,
             friction: 0.0,
             in_contact: 0.0,
+            motion: InMotion::default(),
             surfaces: SurfaceEnergy::new(&problem.contact, LastTouching::default()),
             largest_work: 0.0,
             thermal: (0.0, 0.0),
@@ -268,16 +274,24 @@ impl Energies {
         self.contact.begin_part(load_factor);
     }
 
+    /// Time steps and energies of a motion.
+    pub(super) fn in_motion(&self) -> InMotion {
+        InMotion {
+            contact_energy: self.in_contact,
+            friction_energy: self.friction,
+            ..self.motion
+        }
+    }
+
     /// Adds the energy of pairs across cracks that opened or closed since the last state, and of friction and contact between surfaces: after a
-    /// breakage, at fixed load, what pairs lost is released; between two loads it corrects the work by the trapezoidal rule. Returns the energy
-    /// stored in contacts between surfaces, and what friction took since the last state.
+    /// breakage, at fixed load, what pairs lost is released; between two loads it corrects the work by the trapezoidal rule.
     pub(super) fn add_contact(
         &mut self,
         problem: &Problem,
         state: &State,
         breakage: &Breakage,
         balanced: &Balanced,
-    ) -> ContactAtRest {
+    ) {
         let loss = self.follow_contact(problem, (state, balanced), &breakage.bonds);
         let surfaces = self.follow_surfaces(problem, state);
         let mut taken = loss.friction + surfaces.dissipated;
@@ -289,25 +303,20 @@ impl Energies {
         }
         self.friction += taken;
         self.in_contact = surfaces.stored;
-        ContactAtRest {
-            contact_energy: surfaces.stored,
-            friction_energy: taken,
-        }
     }
 
-    /// Adds the energies of pairs across cracks and of contact between surfaces, in a step with inertia, to the energies of a motion. The energy that
+    /// Adds the energies of pairs across cracks and of contact between surfaces, in a step with inertia. The energy that
     /// pairs lose where they open and close counts as friction there.
     pub(super) fn add_contact_in_motion(
         &mut self,
         problem: &Problem,
         at: (&State, &Balanced),
         broken: &[u32],
-        motion: &mut InMotion,
     ) {
         let loss = self.follow_contact(problem, at, broken);
         let surfaces = self.follow_surfaces(problem, at.0);
-        motion.friction_energy += loss.closure + loss.friction + surfaces.dissipated;
-        motion.contact_energy = surfaces.stored;
+        self.friction += loss.closure + loss.friction + surfaces.dissipated;
+        self.in_contact = surfaces.stored;
     }
 
     /// Moves to the contact between surfaces of the next state, and adds the work of what moves rigid bodies.

@@ -18,15 +18,15 @@ use std::io::Read;
 use std::mem;
 use std::rc::Rc;
 
-use super::checkpoint::{Place, Restored, ToEvent};
+use super::checkpoint::{Restored, RestoredRun, WayKind};
 use super::energies::Energies;
 use super::prediction::{self, Prediction};
+use super::prepared::Prepared;
 use super::record::{StepCounters, largest_ratio};
-use super::run::{Prepared, Run, StopRules};
-use super::way::{Outcome, Rows, Stop, Way};
+use super::run::Run;
+use super::way::{Outcome, Rows, Stop, StopRules, Way};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
-use crate::checkpoint::CheckpointError;
 use crate::contact::LastTouching;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
@@ -141,7 +141,7 @@ pub fn refuse(problem: &Problem) -> Result<(), SetupError> {
     }
 }
 
-/// Restores a run from a checkpoint.
+/// Restores a run from a checkpoint, to continue as if it had never stopped; the stop rules may differ from those before.
 ///
 /// # Errors
 ///
@@ -151,30 +151,19 @@ pub fn restore(
     settings: &EventSettings,
     checkpoint: &mut dyn Read,
 ) -> Result<Restored, SetupError> {
-    let restored = Restored::read(problem, settings.energy_tolerance, checkpoint)?;
-    match restored.place {
-        Place::Event(_) => Ok(restored),
-        Place::LoadStep(_) => Err(CheckpointError::OtherDriver.into()),
-    }
+    let with = (problem, settings.energy_tolerance);
+    let step = |(step, _): &ToEvent| (*step > 0).then_some(*step);
+    let restored = RestoredRun::of_equilibria(WayKind::ExactPath, with, checkpoint, step)?;
+    let settings = settings.clone();
+    Ok(Restored::new(restored, move |restored, observer| {
+        let (run, line, (step, growth)) = Run::go_on(settings.stop, restored, observer);
+        Box::new(ExactPath::new(run, &settings, (step, line), growth))
+    }))
 }
 
-/// Continues a run as if it had never stopped; the stop rules may differ from those before.
-///
-/// # Errors
-///
-/// If the run belongs to another driver, or an observer fails.
-pub fn resume(
-    settings: &EventSettings,
-    mut restored: Restored,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
-    let Place::Event(ToEvent { step, growth }) = &mut restored.place else {
-        return Err(CheckpointError::OtherDriver.into());
-    };
-    let (step, growth) = (*step, mem::take(growth));
-    let (run, line) = Run::go_on(settings.stop, restored, observer);
-    Box::new(ExactPath::new(run, settings, (step, line), growth)).follow()
-}
+/// Position before an event: its number, and the rate of the displacements with the load factor, shape (n_degrees_of_freedom); empty where they are
+/// proportional to it.
+type ToEvent = (usize, Vec<f64>);
 
 /// Run along the exact path.
 pub struct ExactPath<'a> {
@@ -247,7 +236,7 @@ impl<'a> ExactPath<'a> {
         growth: Vec<f64>,
     ) -> Self {
         let loads = &*run.problem.loads;
-        let choice = run.equilibrium.choice();
+        let choice = run.equations.choice();
         let tie_tolerance = choice.tie_tolerance(settings.tie_tolerance);
         let goals: Box<dyn EquilibriumLine> = match loads.course() {
             Some(_) => Box::new(affine::Affine::new(tie_tolerance, growth)),
@@ -295,12 +284,8 @@ impl Way for ExactPath<'_> {
         Ok(())
     }
 
-    fn state(&self) -> &State {
-        &self.run.state
-    }
-
-    fn history(&self) -> &[StepRecord] {
-        &self.run.progress.history
+    fn now(&self) -> (&State, &[StepRecord]) {
+        self.run.now()
     }
 
     fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
@@ -337,7 +322,7 @@ impl ExactPath<'_> {
             return None;
         }
         let body = self.body.get_or_init(|| {
-            let stiffness = self.run.equilibrium.stiffness()?;
+            let stiffness = self.run.equations.stiffness()?;
             Body::new(&self.run.problem, stiffness).map(Rc::new)
         });
         let body = body.clone();
@@ -362,7 +347,7 @@ impl ExactPath<'_> {
                 self.line = critical;
                 continue;
             }
-            let missed = (self.run.equilibrium).missed(&self.run.state, &critical);
+            let missed = (self.run.equations).missed(&self.run.state, &critical);
             let missed = missed.map(|reason| self.run.without_equilibrium(self.step, reason));
             let end = missed
                 .or(goal.end.clone())
@@ -415,12 +400,8 @@ impl ExactPath<'_> {
         end: Option<Termination>,
     ) -> Result<Option<Termination>, SetupError> {
         before.swap(&mut self.run);
-        let (step, growth) = (self.step, self.goals.growth());
-        let place = || {
-            let growth = growth.to_vec();
-            Place::Event(ToEvent { step, growth })
-        };
-        let end = self.run.offer(&place, &self.line, end)?;
+        let position = (WayKind::ExactPath, &(self.step, self.goals.growth()));
+        let end = self.run.offer(position, &self.line, end)?;
         before.swap(&mut self.run);
         Ok(end)
     }

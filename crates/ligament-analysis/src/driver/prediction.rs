@@ -120,7 +120,7 @@ impl Run<'_> {
         let first = self.progress.elastic.first_break;
         let (share, balanced, times) = match first.map(|it| it.load_factor / load_factor) {
             Some(share) if (0.0..AT_ONCE).contains(&share) => {
-                let balanced = self.equilibrium.measured(&mut at_one.clone());
+                let balanced = self.equations.measured(&mut at_one.clone());
                 (share, balanced, load_factor)
             }
             Some(_) => return Ok(()),
@@ -175,9 +175,9 @@ impl Run<'_> {
             state.load_factor = load_factor;
         }
         let nothing = Breakage::default();
-        let attempt = (self.equilibrium).balance(&mut state, &nothing, &mut NoObserver)?;
-        self.equilibrium.aim(None);
-        self.progress.solves = [self.equilibrium.costs().solves; 2];
+        let attempt = (self.equations).balance(&mut state, &nothing, &mut NoObserver)?;
+        self.equations.aim(None);
+        self.progress.solves = [self.equations.costs().solves; 2];
         Ok(match attempt {
             Attempt::Balanced(balanced) => Some(balanced),
             Attempt::Unbalanced(_) => None,
@@ -278,7 +278,7 @@ fn at_full_load(run: &mut Run<'_>, at_one: Option<State>) -> Result<Attempt, Set
         return run.balance(0, &Breakage::default());
     };
     run.state = state;
-    Ok(Attempt::Balanced(run.equilibrium.measured(&mut run.state)))
+    Ok(Attempt::Balanced(run.equations.measured(&mut run.state)))
 }
 
 /// Predicts the first failure in a programme of stages.
@@ -347,7 +347,7 @@ fn in_stages(
 fn aim_at_end(run: &mut Run<'_>, part: &Part) -> bool {
     let dissipates = matches!(part.control, Some(PartControl::DissipatedEnergy { .. }));
     if dissipates {
-        run.equilibrium.aim(None);
+        run.equations.aim(None);
     } else {
         run.aim(1.0);
     }

@@ -1,27 +1,18 @@
-//! Records and checkpoints of the times of a run, as all drivers make them.
-
-use std::cell::Cell;
+//! Records of the times of a run, as all drivers make them.
 
 use ligament_model::failure::CriteriaInState;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::energies::Energies;
-use super::run_messages;
 use crate::balanced::Balanced;
-use crate::bond_numbers::{BondNumbers, sum_over_bonds};
+use crate::bond_numbers::sum_over_bonds;
 use crate::connectivity::Fragments;
-use crate::costs::Costs;
-use crate::history::{
-    ContactAtRest, LargestOverlap, Moment, Observer, ObserverError, Onward, Rates, StepRecord,
-    Termination, View,
-};
+use crate::history::{ContactAtRest, StepRecord};
 use crate::load_program::groups_of_reactions;
 use crate::probe;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
-use crate::serial::Sink;
-use crate::softened::SoftenedOfAll;
 use crate::state::State;
 
 /// Counters of a load step.
@@ -45,86 +36,6 @@ pub struct StepCounters {
     pub largest_ratio: f64,
 }
 
-/// A body at a time of its run, as records and observers see it.
-#[derive(Clone, Copy)]
-pub(super) struct RunView<'a> {
-    pub(super) problem: &'a Problem,
-    pub(super) numbers: &'a BondNumbers,
-    pub(super) fragments: &'a Fragments,
-    pub(super) state: &'a State,
-    pub(super) balanced: &'a Balanced,
-    pub(super) energies: &'a Energies,
-    pub(super) costs: &'a Costs,
-    /// Velocities and accelerations of a motion; None in statics.
-    pub(super) rates: Option<Rates<'a>>,
-}
-
-impl RunView<'_> {
-    /// Record of the time.
-    pub(super) fn record(&self, counters: StepCounters) -> StepRecord {
-        let solution = Solution {
-            motion: self.rates,
-            ..self.problem.solution(self.state, self.balanced)
-        };
-        step_record(
-            self.problem,
-            solution,
-            self.energies,
-            self.fragments,
-            counters,
-        )
-    }
-
-    /// Passes a record to the observer; without `is_whole` displacements are known at supported and loaded points alone.
-    pub(super) fn show(
-        &self,
-        record: &StepRecord,
-        [is_last, is_whole]: [bool; 2],
-        observer: &mut dyn Observer,
-    ) -> Result<(), ObserverError> {
-        let Self {
-            problem,
-            fragments,
-            state,
-            balanced,
-            costs,
-            ..
-        } = *self;
-        let criteria = problem.criteria_in(state, balanced);
-        let view = View {
-            softened: self.softened(),
-            system: &*problem.system,
-            state,
-            balanced,
-            loads: &*problem.loads,
-            criteria: &criteria,
-            fragments,
-            costs,
-            motion: self.rates,
-            is_last,
-            is_whole,
-        };
-        observer.step(record, &view)
-    }
-
-    /// Numbers of softened bonds. Collective.
-    pub(super) fn softened(&self) -> SoftenedOfAll {
-        SoftenedOfAll::in_state(self.state, self.numbers, self.problem.system.ends())
-    }
-
-    /// Tells the observer where the faces of cracks overlap more than in the records before.
-    pub(super) fn report_overlap(
-        &self,
-        step: usize,
-        largest: &mut Option<LargestOverlap>,
-        observer: &mut dyn Observer,
-    ) -> Result<(), ObserverError> {
-        let message =
-            run_messages::overlap(self.problem, self.state, self.fragments, step, largest);
-        message.map_or(Ok(()), |it| observer.message(it))
-    }
-}
-
 /// Record of an equilibrium.
 pub(super) fn step_record(
     problem: &Problem,
@@ -137,8 +48,10 @@ pub(super) fn step_record(
         state,
         balanced,
         loads,
+        motion,
         ..
     } = solution;
+    let is_static = motion.is_none() && problem.has_contact_at_rest();
     let reactions = loads.reactions(state.load_factor, &balanced.internal.values);
     StepRecord {
         step: counters.step,
@@ -151,7 +64,7 @@ pub(super) fn step_record(
         reaction: loads.control_force(state.load_factor, &balanced.internal),
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
-        contact: problem.has_contact_at_rest().then_some(ContactAtRest {
+        contact: is_static.then_some(ContactAtRest {
             contact_energy: energies.in_contact,
             friction_energy: energies.friction,
         }),
@@ -167,7 +80,7 @@ pub(super) fn step_record(
         at_rest: counters.at_rest,
         negative_eigenvalues: counters.negative_eigenvalues,
         closed_pairs: balanced.closed.len(),
-        motion: None,
+        motion: motion.map(|_| energies.in_motion()),
         contacts: balanced.touching.readings(&problem.contact),
         rigid_bodies: balanced.touching.rigid_states(&problem.contact),
         group_forces: group_forces(problem, state.load_factor, &reactions),
@@ -194,32 +107,6 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
             sum
         })
         .collect()
-}
-
-/// Offers a state to the observer as one from which the run can continue, by what `checkpoint` writes. Returns the reason why the run ends there:
-/// `end`, or a stop by the observer. Collective.
-pub(super) fn offer(
-    observer: &mut dyn Observer,
-    numbers: &BondNumbers,
-    end: Option<Termination>,
-    checkpoint: &dyn Fn(&mut dyn Sink),
-) -> Result<Option<Termination>, ObserverError> {
-    let asked = observer.asks(end.as_ref())?;
-    let has_taken_part = Cell::new(false);
-    let written = |out: &mut dyn Sink| {
-        has_taken_part.set(true);
-        checkpoint(out);
-    };
-    let all_take_part = numbers.subdomain().any(asked) && !numbers.subdomain().is_whole();
-    let moment = Moment {
-        end: end.as_ref(),
-        checkpoint: &written,
-    };
-    let onward = observer.moment(&moment)?;
-    if all_take_part && !has_taken_part.get() {
-        checkpoint(&mut ());
-    }
-    Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
 }
 
 /// Largest utilisation of the intact bonds; 0 without criteria.

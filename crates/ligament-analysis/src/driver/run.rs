@@ -1,47 +1,122 @@
-//! A run: the body in its present state with its equations and its record, as all drivers of equilibria use it.
+//! A run: the body in its present state with its equations and its record, as all ways through a loading use it.
 //!
-//! A `Run` computes equilibria with their energies, breaks bonds, fixes detached parts, makes records, begins the parts of a programme and
-//! applies stop rules.
+//! A `Run` breaks bonds, makes records, offers itself for checkpoints and applies stop rules; a run of equilibria computes them with their
+//! energies, fixes detached parts and begins the parts of a programme.
 
+use std::cell::Cell;
 use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::CriteriaInState;
+use serde::Serialize;
 
-use super::breaks::{self, Breaking};
-use super::checkpoint::{CheckValues, Place, Progress, Restored};
+use super::breaks::{self, Breaking, Judged};
+use super::checkpoint::{CheckValues, Progress, RestoredRun, WayKind};
 use super::energies::Energies;
-use super::record::{RunView, StepCounters, offer};
+use super::record::{StepCounters, step_record};
 use super::run_messages;
-use super::start::{Start, begin, report_detached_parts, report_mechanisms};
-use super::way::{Outcome, Rows, Stop};
+use super::start::{ElasticAnswer, Start, begin, report_detached_parts, report_mechanisms};
+use super::way::{Outcome, Rows, Stop, StopRules};
 use crate::balanced::{Attempt, Balanced};
-use crate::bond_numbers::sum_over_bonds;
+use crate::bond_numbers::{BondNumbers, sum_over_bonds};
 use crate::breakage::Breakage;
-use crate::breaking::{FirstToBreak, first_of_all};
-use crate::connectivity::AddedSupport;
-use crate::equilibrium::{ControlledQuantity, Dissipation, Equilibrium, IntactEquilibrium, Target};
+use crate::breaking::{self, BreakingRule, FirstToBreak, first_of_all};
+use crate::connectivity::{AddedSupport, Fragments};
+use crate::costs::Costs;
+use crate::equilibrium::{ControlledQuantity, Dissipation, Equilibrium, Target};
 use crate::error::SetupError;
-use crate::history::{BreakRecord, Observer, ObserverError, StepRecord, Termination};
+use crate::history::{
+    BreakRecord, Moment, Observer, ObserverError, Onward, Rates, StepRecord, Termination, View,
+};
 use crate::internal::InternalForces;
 use crate::load_program::{ControlKind, LoadCourse, PartControl};
 use crate::problem::Problem;
-use crate::serial::{Serial, Sink};
+use crate::result_fields::Solution as BalancedState;
+use crate::serial::{self, Serial, Sink};
 use crate::softened::SoftenedOfAll;
 use crate::softening::Softening;
+use crate::solver::SolverChoice;
 use crate::state::{Solution, State};
 use crate::termination::Verdict;
 use crate::unbalanced::Unbalanced;
 use crate::user_message::Message;
 
+/// Equations of a run: those of its equilibria, or the bonds that explicit steps move without any.
+pub trait Equations {
+    /// Global numbers of the local bonds.
+    fn numbers(&self) -> &BondNumbers;
+
+    /// Connected parts of the body.
+    fn fragments(&self) -> &Fragments;
+
+    /// Accumulated costs.
+    fn costs(&self) -> &Costs;
+
+    /// Solver that was chosen.
+    fn choice(&self) -> SolverChoice;
+
+    /// Appends the bytes from which they are restored.
+    fn write(&self, out: &mut dyn Sink);
+}
+
+impl Equations for Equilibrium {
+    fn numbers(&self) -> &BondNumbers {
+        self.numbers()
+    }
+
+    fn fragments(&self) -> &Fragments {
+        self.fragments()
+    }
+
+    fn costs(&self) -> &Costs {
+        self.costs()
+    }
+
+    fn choice(&self) -> SolverChoice {
+        *self.choice()
+    }
+
+    fn write(&self, out: &mut dyn Sink) {
+        self.write(out);
+    }
+}
+
+/// Bonds that break next in a balanced state of a body by a rule, in order. Collective.
+pub(super) fn next_to_break(
+    problem: &Problem,
+    equations: &impl Equations,
+    rule: &BreakingRule,
+    (state, balanced): (&State, &Balanced),
+) -> Vec<u32> {
+    let criteria = problem.criteria_in(state, balanced);
+    if problem.criteria.list.is_empty() {
+        return Vec::new();
+    }
+    let rule = BreakingRule {
+        tie_tolerance: equations.choice().tie_tolerance(rule.tie_tolerance),
+        ..*rule
+    };
+    let in_file = |bond| problem.system.ends_in_file(bond);
+    let (numbers, deformations) = (equations.numbers(), &balanced.deformations);
+    breaking::next_to_break(
+        numbers,
+        &rule,
+        deformations,
+        &criteria,
+        &state.intact,
+        in_file,
+    )
+}
+
 /// A run: the body in its present state, with its equations, its energies and its record.
 ///
-/// A [`Way`](super::Way) through a load program is made from its steps: an equilibrium, which bonds break in it, a record.
-pub struct Run<'a> {
+/// A [`Way`](super::Way) through a load program is made from its steps: an equilibrium, which bonds break in it, a record. Load steps, the exact
+/// path, elastic solutions and motions are ways of a run; explicit steps have equations `E` of their own, which solve nothing.
+pub struct Run<'a, E = Equilibrium> {
     /// Problem with the loads of the present part of its programme.
     pub(super) problem: Problem,
     pub(super) observer: &'a mut dyn Observer,
-    pub(super) equilibrium: Equilibrium,
+    pub(super) equations: E,
     pub(super) state: State,
     pub(super) energies: Energies,
     pub(super) progress: Progress,
@@ -49,6 +124,246 @@ pub struct Run<'a> {
     pub(super) collapsed: bool,
     pub(super) stop: StopRules,
     pub(super) started: Instant,
+}
+
+impl<'a, E> Run<'a, E> {
+    /// A run at the beginning of its loading, with what an elastic solution told.
+    pub(super) fn new(
+        problem: &Problem,
+        (equations, state): (E, State),
+        elastic: ElasticAnswer,
+        stop: StopRules,
+        observer: &'a mut dyn Observer,
+    ) -> Self {
+        Self {
+            problem: problem.clone(),
+            observer,
+            equations,
+            state,
+            energies: Energies::unloaded(problem),
+            progress: Progress::new(problem, elastic),
+            collapsed: false,
+            stop,
+            started: Instant::now(),
+        }
+    }
+
+    /// Continues from a checkpoint; also returns the balanced state, and where the run stands on its way.
+    pub(super) fn go_on<P>(
+        stop: StopRules,
+        restored: RestoredRun<P, E>,
+        observer: &'a mut dyn Observer,
+    ) -> (Self, Balanced, P) {
+        let run = Self {
+            problem: restored.problem,
+            observer,
+            equations: restored.equations,
+            state: restored.state,
+            energies: restored.energies,
+            progress: restored.progress,
+            collapsed: false,
+            stop,
+            started: Instant::now(),
+        };
+        (run, restored.balanced, restored.position)
+    }
+
+    /// The present state of the body, and the records so far.
+    pub fn now(&self) -> (&State, &[StepRecord]) {
+        (&self.state, &self.progress.history)
+    }
+
+    /// Notifies the observer of the next step and round.
+    pub(super) fn enter(&mut self, step: usize, round: usize) -> Result<(), ObserverError> {
+        let load_factor = self.state.load_factor;
+        self.observer
+            .round(step, round, load_factor, self.progress.broken)
+    }
+
+    /// Stop rule for broken bonds or wall time that applies at present.
+    pub(super) fn interruption(&self) -> Option<Termination> {
+        let mut seconds = [self.started.elapsed().as_secs_f64()];
+        // All processes stop at the same time.
+        if self.stop.wall_time.is_some() {
+            let communicator = &self.problem.solver.communicator;
+            communicator.all_reduce_max(&mut seconds);
+        }
+        let [seconds] = seconds;
+        if let Some(bonds) = self
+            .stop
+            .bonds
+            .filter(|&bonds| self.progress.broken >= bonds)
+        {
+            return Some(Termination::BondsBroken { bonds });
+        }
+        let is_over = |&allowed: &f64| seconds >= allowed;
+        (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
+    }
+}
+
+impl<E: Equations> Run<'_, E> {
+    /// Breaks bonds by criteria and their deformations, by their index among the bonds and their local number, in a state with these internal
+    /// forces, in a step and a round; the equations do not know of it yet.
+    pub(super) fn break_in_state(
+        &mut self,
+        bonds: &[u32],
+        (criteria, deformation): Judged<'_>,
+        internal: &InternalForces,
+        [step, round]: [usize; 2],
+    ) -> Result<(), ObserverError> {
+        let breaking = Breaking {
+            problem: &self.problem,
+            numbers: self.equations.numbers(),
+            criteria,
+            deformation,
+            moment: BreakRecord {
+                order: self.progress.broken,
+                step,
+                round,
+                ..BreakRecord::default()
+            },
+        };
+        let records = breaking.apply(&mut self.state, internal, bonds);
+        self.progress.broken += bonds.len();
+        self.observer.broke(&records)
+    }
+
+    /// Offers the present balanced state, whose energies are counted, to the observer as one from which the run can continue, with its position on
+    /// a way of this kind. Returns the reason why the run ends there: `end`, or a stop by the observer. Collective.
+    pub(super) fn offer<P: Serialize>(
+        &mut self,
+        (kind, position): (WayKind, &P),
+        balanced: &Balanced,
+        end: Option<Termination>,
+    ) -> Result<Option<Termination>, ObserverError> {
+        let Self {
+            observer,
+            equations,
+            state,
+            energies,
+            progress,
+            problem,
+            ..
+        } = self;
+        let numbers = equations.numbers();
+        let asked = observer.asks(end.as_ref())?;
+        let has_taken_part = Cell::new(false);
+        let checkpoint = |out: &mut dyn Sink| {
+            has_taken_part.set(true);
+            serial::write(&(kind, position), out);
+            state.write(numbers, out);
+            progress.write(out);
+            equations.write(out);
+            energies.write(out);
+            CheckValues::new(problem, balanced).write(out);
+        };
+        let all_take_part = numbers.subdomain().any(asked) && !numbers.subdomain().is_whole();
+        let moment = Moment {
+            end: end.as_ref(),
+            checkpoint: &checkpoint,
+        };
+        let onward = observer.moment(&moment)?;
+        if all_take_part && !has_taken_part.get() {
+            checkpoint(&mut ());
+        }
+        Ok(end.or_else(|| (onward == Onward::Stop).then_some(Termination::Stopped)))
+    }
+
+    /// Record of the present balanced state, with its rates in a motion.
+    pub(super) fn row(
+        &self,
+        (balanced, rates): (&Balanced, Option<Rates<'_>>),
+        counters: StepCounters,
+    ) -> StepRecord {
+        let solution = BalancedState {
+            motion: rates,
+            ..self.problem.solution(&self.state, balanced)
+        };
+        let fragments = self.equations.fragments();
+        step_record(&self.problem, solution, &self.energies, fragments, counters)
+    }
+
+    /// Adds a record to the history, passes it to the observer and tells what is wrong with it; without `is_whole` displacements are known at
+    /// supported and loaded points alone.
+    pub(super) fn push(
+        &mut self,
+        record: StepRecord,
+        (balanced, rates): (&Balanced, Option<Rates<'_>>),
+        [is_last, is_whole]: [bool; 2],
+    ) -> Result<(), ObserverError> {
+        let softened = self.softened();
+        let Self {
+            problem,
+            observer,
+            equations,
+            state,
+            progress,
+            ..
+        } = self;
+        let criteria = problem.criteria_in(state, balanced);
+        let fragments = equations.fragments();
+        let view = View {
+            softened,
+            system: &*problem.system,
+            state,
+            balanced,
+            loads: &*problem.loads,
+            criteria: &criteria,
+            fragments,
+            costs: equations.costs(),
+            motion: rates,
+            is_last,
+            is_whole,
+        };
+        observer.step(&record, &view)?;
+        let (step, is_moving) = (record.step, rates.is_some());
+        let mut messages = Vec::new();
+        if is_whole && (record.at_rest || !is_moving) {
+            let largest = &mut progress.overlap;
+            messages.push(run_messages::overlap(
+                problem, state, fragments, step, largest,
+            ));
+        }
+        if is_moving && !progress.has_turned {
+            let turned = run_messages::turned(problem, state, fragments, step);
+            progress.has_turned = turned.is_some();
+            messages.push(turned);
+        }
+        let history = &mut progress.history;
+        messages.push(run_messages::energies(problem, &record, history.last()));
+        if !is_moving {
+            messages.push(run_messages::dissipation(&record, history));
+        }
+        for message in messages.into_iter().flatten() {
+            observer.message(message)?;
+        }
+        history.push(record);
+        Ok(())
+    }
+
+    /// Numbers of softened bonds in the present state. Collective.
+    fn softened(&self) -> SoftenedOfAll {
+        let ends = self.problem.system.ends();
+        SoftenedOfAll::in_state(&self.state, self.equations.numbers(), ends)
+    }
+
+    /// Result of the run.
+    pub fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
+        Outcome {
+            broken_bonds: self.progress.broken,
+            softened_bonds: self.softened().bonds,
+            history: self.progress.history,
+            rows,
+            termination,
+            elastic_stiffness: self.progress.elastic.stiffness,
+            first_break: self.progress.elastic.first_break,
+            overlap: self.progress.overlap,
+            stability: self.progress.elastic.stability,
+            costs: *self.equations.costs(),
+            solver: self.equations.choice(),
+            state: self.state,
+        }
+    }
 }
 
 impl<'a> Run<'a> {
@@ -84,44 +399,9 @@ impl<'a> Run<'a> {
             ..
         } = start;
         let solves = [equilibrium.costs().solves; 2];
-        let run = Self {
-            problem: problem.clone(),
-            observer,
-            equilibrium,
-            state: unloaded,
-            energies: Energies::unloaded(problem),
-            progress: Progress {
-                elastic,
-                broken: 0,
-                history: Vec::new(),
-                peak: 0.0,
-                energy_was_negative: false,
-                solves,
-                negative_eigenvalues: 0,
-                part_start: problem
-                    .loads
-                    .course()
-                    .map_or_else(Vec::new, LoadCourse::start),
-                part: 0,
-                control_start: 0.0,
-                largest_force: 0.0,
-                overlap: None,
-            },
-            collapsed: false,
-            stop,
-            started: Instant::now(),
-        };
+        let mut run = Self::new(problem, (equilibrium, unloaded), elastic, stop, observer);
+        run.progress.solves = solves;
         (run, at_one)
-    }
-
-    /// The present state of the body.
-    pub fn state(&self) -> &State {
-        &self.state
-    }
-
-    /// The records so far.
-    pub fn history(&self) -> &[StepRecord] {
-        &self.progress.history
     }
 
     /// Sets the load factor of the next equilibrium.
@@ -139,38 +419,11 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Continues from a checkpoint; also returns its equilibrium.
-    pub(super) fn go_on(
-        stop: StopRules,
-        restored: Restored,
-        observer: &'a mut dyn Observer,
-    ) -> (Self, Balanced) {
-        let run = Self {
-            problem: restored.problem,
-            observer,
-            equilibrium: restored.equilibrium,
-            state: restored.state,
-            energies: restored.energies,
-            progress: restored.progress,
-            collapsed: false,
-            stop,
-            started: Instant::now(),
-        };
-        (run, restored.balanced)
-    }
-
     /// Enables softening from here on, if the criteria soften.
     pub fn soften(&mut self) {
         let n_bonds = self.problem.system.ends().len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
-        self.equilibrium.soften();
-    }
-
-    /// Notifies the observer of the next step and round.
-    pub(super) fn enter(&mut self, step: usize, round: usize) -> Result<(), ObserverError> {
-        let load_factor = self.state.load_factor;
-        self.observer
-            .round(step, round, load_factor, self.progress.broken)
+        self.equations.soften();
     }
 
     /// Equilibrium of the state after the last breakage; a negative energy is no equilibrium if the stop rules refuse it. Without
@@ -202,8 +455,8 @@ impl<'a> Run<'a> {
             let message = Message::new("negative-energy", text);
             self.observer.message(message.in_step(step))?;
         }
-        self.progress.solves[0] = self.equilibrium.costs().solves;
-        self.progress.negative_eigenvalues = self.equilibrium.negative_eigenvalues();
+        self.progress.solves[0] = self.equations.costs().solves;
+        self.progress.negative_eigenvalues = self.equations.negative_eigenvalues();
         Ok(attempt)
     }
 
@@ -238,14 +491,14 @@ impl<'a> Run<'a> {
         let held = self.state.held.clone();
         let mut farthest = Vec::new();
         loop {
-            let attempt = (self.equilibrium).balance(&mut self.state, breakage, self.observer)?;
+            let attempt = (self.equations).balance(&mut self.state, breakage, self.observer)?;
             let Attempt::Balanced(mut balanced) = attempt else {
                 return Ok(attempt);
             };
             let beyond = if self.is_whole() {
                 None
             } else {
-                self.equilibrium.beyond_size(&self.state)
+                self.equations.beyond_size(&self.state)
             };
             let Some(beyond) = beyond else {
                 let layout = self.problem.system.layout();
@@ -256,42 +509,13 @@ impl<'a> Run<'a> {
             farthest.push(beyond);
             self.state.return_to(before.clone());
             self.state.held.clone_from(&held);
-            self.equilibrium.hold(&mut self.state, &farthest);
+            self.equations.hold(&mut self.state, &farthest);
         }
     }
 
     /// Whether no bond has broken or softened in this run.
     pub(super) fn is_whole(&self) -> bool {
         self.progress.broken == 0 && self.state.softening.remaining.is_empty()
-    }
-
-    /// Offers the present equilibrium, whose energies are counted, to the observer. Returns the reason why the run ends there:
-    /// `end`, or a stop by the observer.
-    pub(super) fn offer(
-        &mut self,
-        place: &dyn Fn() -> Place,
-        balanced: &Balanced,
-        end: Option<Termination>,
-    ) -> Result<Option<Termination>, SetupError> {
-        let Self {
-            observer,
-            equilibrium,
-            state,
-            energies,
-            progress,
-            problem,
-            ..
-        } = self;
-        let numbers = equilibrium.numbers();
-        let checkpoint = |out: &mut dyn Sink| {
-            place().write(out);
-            state.write(numbers, out);
-            progress.write(out);
-            equilibrium.write(out);
-            energies.write(out);
-            CheckValues::new(problem, balanced).write(out);
-        };
-        Ok(offer(*observer, numbers, end, &checkpoint)?)
     }
 
     /// Adds the work and the released energy up to an equilibrium after a breakage, and reports mechanisms.
@@ -323,7 +547,7 @@ impl<'a> Run<'a> {
         let (intact, system) = (&self.state.intact, &self.problem.system);
         let in_file = |bond| system.ends_in_file(bond);
         first_of_all(
-            self.equilibrium.numbers(),
+            self.equations.numbers(),
             tie_tolerance,
             deformations,
             criteria,
@@ -350,39 +574,22 @@ impl<'a> Run<'a> {
         self.break_deformed(bonds, judged, &balanced.internal, at)
     }
 
-    /// Breaks bonds by criteria and their deformations, in an equilibrium with these internal forces,
+    /// Breaks bonds by criteria and their deformations, in an equilibrium with these internal forces, in a step and a round,
     /// and fixes detached parts.
     pub(super) fn break_deformed(
         &mut self,
         bonds: &[u32],
-        (criteria, deformation): (
-            &CriteriaInState<'_>,
-            &dyn Fn(usize, usize) -> BondDeformation,
-        ),
+        judged: Judged<'_>,
         internal: &InternalForces,
         at: [usize; 2],
     ) -> Result<Breakage, SetupError> {
-        let [step, round] = at;
-        let breaking = Breaking {
-            problem: &self.problem,
-            numbers: self.equilibrium.numbers(),
-            criteria,
-            deformation,
-            moment: BreakRecord {
-                order: self.progress.broken,
-                step,
-                round,
-                ..BreakRecord::default()
-            },
-        };
-        let records = breaking.apply(&mut self.state, internal, bonds);
-        self.progress.broken += bonds.len();
-        self.observer.broke(&records)?;
-        let breakage = self.equilibrium.break_bonds(&mut self.state, bonds);
+        self.break_in_state(bonds, judged, internal, at)?;
+        let [step, _] = at;
+        let breakage = self.equations.break_bonds(&mut self.state, bonds);
         // Where faces close, a detached part may be pressed against others, which the equilibrium decides.
         let may_press = self.problem.may_press();
         self.collapsed |= !may_press && self.loaded_part_is_detached(&breakage.holds);
-        let fragments = self.equilibrium.fragments();
+        let fragments = self.equations.fragments();
         report_detached_parts(step, fragments, &breakage.holds, self.observer)?;
         Ok(breakage)
     }
@@ -394,7 +601,7 @@ impl<'a> Run<'a> {
 
     fn loaded_part_is_detached(&self, holds: &[AddedSupport]) -> bool {
         let control = self.problem.loads.control();
-        let of_point = &self.equilibrium.fragments().of_point;
+        let of_point = &self.equations.fragments().of_point;
         control.kind == ControlKind::Force
             && control.points.iter().any(|&point| {
                 holds
@@ -439,74 +646,27 @@ impl<'a> Run<'a> {
         &mut self,
         balanced: &Balanced,
         counters: StepCounters,
-        [is_last, is_whole]: [bool; 2],
+        shown: [bool; 2],
     ) -> Result<(), SetupError> {
-        let Self {
-            problem,
-            observer,
-            equilibrium,
-            state,
-            energies,
-            progress,
+        let Progress {
+            broken,
+            solves: [last, recorded],
+            negative_eigenvalues,
             ..
-        } = self;
-        let view = RunView {
-            problem,
-            numbers: equilibrium.numbers(),
-            fragments: equilibrium.fragments(),
-            state,
-            balanced,
-            energies,
-            costs: equilibrium.costs(),
-            rates: None,
-        };
-        let record = view.record(StepCounters {
-            broken: progress.broken,
-            solves: progress.solves[0] - progress.solves[1],
-            negative_eigenvalues: progress.negative_eigenvalues,
+        } = self.progress;
+        let counters = StepCounters {
+            broken,
+            solves: last - recorded,
+            negative_eigenvalues,
             ..counters
-        });
-        progress.solves[1] = equilibrium.costs().solves;
+        };
+        let record = self.row((balanced, None), counters);
+        let progress = &mut self.progress;
+        progress.solves[1] = self.equations.costs().solves;
         progress.peak = progress.peak.max(record.reaction);
         progress.largest_force = progress.largest_force.max(balanced.internal.force_scale);
-        view.show(&record, [is_last, is_whole], *observer)?;
-        if is_whole {
-            view.report_overlap(record.step, &mut progress.overlap, *observer)?;
-        }
-        let history = &mut progress.history;
-        let messages = [
-            run_messages::energies(problem, &record, history.last()),
-            run_messages::dissipation(&record, history),
-        ];
-        for message in messages.into_iter().flatten() {
-            observer.message(message)?;
-        }
-        history.push(record);
+        self.push(record, (balanced, None), shown)?;
         Ok(())
-    }
-
-    /// Numbers of softened bonds in the present state. Collective.
-    fn softened(&self) -> SoftenedOfAll {
-        let ends = self.problem.system.ends();
-        SoftenedOfAll::in_state(&self.state, self.equilibrium.numbers(), ends)
-    }
-
-    /// Result of the run.
-    pub fn into_outcome(self, termination: Termination, rows: Rows) -> Outcome {
-        Outcome {
-            broken_bonds: self.equilibrium.broken_bonds(&self.state),
-            softened_bonds: self.softened().bonds,
-            history: self.progress.history,
-            rows,
-            termination,
-            elastic_stiffness: self.progress.elastic.stiffness,
-            first_break: self.progress.elastic.first_break,
-            overlap: self.progress.overlap,
-            stability: self.progress.elastic.stability,
-            costs: *self.equilibrium.costs(),
-            solver: *self.equilibrium.choice(),
-            state: self.state,
-        }
     }
 }
 
@@ -532,7 +692,7 @@ impl Run<'_> {
         });
         self.progress.control_start = value.unwrap_or(0.0);
         self.problem.loads = loads.clone();
-        self.equilibrium.load_with(loads);
+        self.equations.load_with(loads);
     }
 
     /// Prescribes the state of the following equilibria at a share of the present part: by its controlling motion or energy, or
@@ -568,7 +728,7 @@ impl Run<'_> {
                 }),
             })
         });
-        self.equilibrium.aim(held);
+        self.equations.aim(held);
     }
 
     /// Energy dissipated by the bonds, J.
@@ -602,7 +762,7 @@ const CONDITION: f64 = 1e3;
 impl Run<'_> {
     /// Utilisation up to which a bond is not stretched but for rounding, or for what an iterative solver leaves.
     pub(super) fn negligible_utilisation(&self) -> f64 {
-        let left = self.equilibrium.tolerance().unwrap_or_default();
+        let left = self.equations.tolerance().unwrap_or_default();
         NO_LOAD.max(CONDITION * left)
     }
 
@@ -643,26 +803,6 @@ impl Run<'_> {
         Ok(Some(end))
     }
 
-    /// Stop rule for broken bonds or wall time that applies at present.
-    pub(super) fn interruption(&self) -> Option<Termination> {
-        let mut seconds = [self.started.elapsed().as_secs_f64()];
-        // All processes stop at the same time.
-        if self.stop.wall_time.is_some() {
-            let communicator = &self.problem.solver.communicator;
-            communicator.all_reduce_max(&mut seconds);
-        }
-        let [seconds] = seconds;
-        if let Some(bonds) = self
-            .stop
-            .bonds
-            .filter(|&bonds| self.progress.broken >= bonds)
-        {
-            return Some(Termination::BondsBroken { bonds });
-        }
-        let is_over = |&allowed: &f64| seconds >= allowed;
-        (self.stop.wall_time.filter(is_over)).map(|seconds| Termination::WallTime { seconds })
-    }
-
     /// Termination by a step without equilibrium: where bonds broke or softened, a load on an added support means that the body
     /// collapsed.
     pub(super) fn without_equilibrium(&self, step: usize, reason: Unbalanced) -> Termination {
@@ -699,10 +839,7 @@ impl Run<'_> {
         let factors = course.factors(self.state.load_factor);
         let acts = factors.iter().any(|factor| *factor != 0.0);
         // Where the first load step breaks the body, the largest force in any state counts instead of that at rest.
-        let (at_rest, met) = (
-            self.progress.largest_force,
-            self.equilibrium.largest_force(),
-        );
+        let (at_rest, met) = (self.progress.largest_force, self.equations.largest_force());
         let largest = if at_rest <= NO_LOAD * met {
             met
         } else {
@@ -748,102 +885,5 @@ impl Run<'_> {
         let advice = "to follow the body past its peak, let a probe control a stage (its `control`), or follow the exact path";
         self.observer
             .message(message.in_step(step).with_advice(advice))
-    }
-}
-
-ligament_model::case_type! {
-    /// When to stop before the end of the loading; whichever comes first.
-    #[derive(Debug, Clone, Copy, PartialEq)]
-    #[case(serde(default))]
-    pub struct StopRules {
-        /// When the load has fallen to this share of its largest value; not where the load factor is below an earlier one.
-        #[range("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)]
-        pub load_fraction: Option<f64>,
-        /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
-        #[range("exclusiveMinimum" = 0)]
-        pub displacement: Option<f64>,
-        /// When so many bonds are broken.
-        #[range("minimum" = 1)]
-        pub bonds: Option<usize>,
-        /// After so much time, s.
-        #[range("exclusiveMinimum" = 0)]
-        pub wall_time: Option<f64>,
-        /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
-        pub negative_energy: bool,
-    }
-}
-
-impl StopRules {
-    /// Rules for the whole loading, as long as the body is stable.
-    pub const NONE: Self = Self {
-        load_fraction: None,
-        displacement: None,
-        bonds: None,
-        wall_time: None,
-        negative_energy: true,
-    };
-}
-
-impl Default for StopRules {
-    fn default() -> Self {
-        Self::NONE
-    }
-}
-
-/// Intact body with the equations of a problem, their factor and the elastic solution, from which runs begin that differ in the limits of
-/// their bonds alone.
-///
-/// A run that begins from here has the bits of a run that prepares itself. Only a direct solver with a symmetric factor is shared; with
-/// another one each run prepares itself.
-pub struct Prepared {
-    energy_tolerance: f64,
-    shared: Option<(IntactEquilibrium, Start)>,
-}
-
-impl Prepared {
-    /// Factorises the stiffness of the intact body and solves once at load factor one; `energy_tolerance` is that of the runs.
-    ///
-    /// # Errors
-    ///
-    /// If the equations cannot be set up, or the observer fails.
-    pub fn new(
-        problem: &Problem,
-        energy_tolerance: f64,
-        observer: &mut dyn Observer,
-    ) -> Result<Self, SetupError> {
-        let mut equilibrium = Equilibrium::new(problem, energy_tolerance)?;
-        let start = begin(problem, &mut equilibrium, observer)?;
-        Ok(Self {
-            energy_tolerance,
-            shared: equilibrium.intact().map(|it| (it, start)),
-        })
-    }
-
-    /// End of all runs where the intact model is unstable, unless the problem allows that.
-    pub fn refused(&self, problem: &Problem) -> Option<Termination> {
-        let (_, start) = self.shared.as_ref()?;
-        start.elastic.refused(problem)
-    }
-
-    /// Whether the runs share the factor.
-    pub fn is_shared(&self) -> bool {
-        self.shared.is_some()
-    }
-
-    /// Run of a problem that differs from the prepared one in its criteria, before its first step; also returns the equilibrium at load
-    /// factor one, if there is one.
-    pub(super) fn begun<'a>(
-        &self,
-        problem: &Problem,
-        stop: StopRules,
-        observer: &'a mut dyn Observer,
-    ) -> Result<(Run<'a>, Option<State>), SetupError> {
-        let Some((intact, start)) = &self.shared else {
-            return Run::begin(problem, self.energy_tolerance, stop, observer);
-        };
-        let equilibrium = intact.judged_by(&problem.criteria);
-        let mut start = start.clone();
-        start.read_off(problem, equilibrium.fragments());
-        Ok(Run::begun(problem, (equilibrium, start), stop, observer))
     }
 }

@@ -88,11 +88,7 @@ fn begin_proportional(
     };
     let mut start = Start {
         unloaded,
-        elastic: ElasticAnswer {
-            stiffness: f64::NAN,
-            first_break: None,
-            stability: None,
-        },
+        elastic: ElasticAnswer::UNKNOWN,
         at_one: None,
         deformed: None,
     };
@@ -132,6 +128,13 @@ fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
 }
 
 impl ElasticAnswer {
+    /// Without a solution.
+    pub(super) const UNKNOWN: Self = Self {
+        stiffness: f64::NAN,
+        first_break: None,
+        stability: None,
+    };
+
     /// End of a run where the intact model is unstable, unless the problem allows that.
     pub(super) fn refused(&self, problem: &Problem) -> Option<Termination> {
         let stability = self.stability.filter(Stability::is_unstable)?;

@@ -6,15 +6,16 @@
 use std::io::Read;
 use std::time::Instant;
 
-use super::checkpoint::{InLoadStep, Place, Restored};
+use super::checkpoint::{Restored, RestoredRun, WayKind};
 use super::prediction::{self, Prediction};
+use super::prepared::Prepared;
 use super::record::{StepCounters, largest_ratio};
-use super::run::{Prepared, Run, StopRules};
+use super::run::{Run, next_to_break};
 use super::start::ElasticAnswer;
-use super::way::{LoadPoint, Outcome, Rows, Stop, Way};
+use super::way::{LoadPoint, Outcome, Rows, Stop, StopRules, Way};
 use crate::balanced::Balanced;
 use crate::breakage::Breakage;
-use crate::breaking::{BreakingRule, next_to_break};
+use crate::breaking::BreakingRule;
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
@@ -47,7 +48,7 @@ pub struct SteppedSettings {
 /// If the equations cannot be set up, nothing resists the loads, or the observer fails.
 pub fn begin<'a>(
     problem: &Problem,
-    settings: &'a SteppedSettings,
+    settings: &SteppedSettings,
     observer: &'a mut dyn Observer,
 ) -> Result<LoadSteps<'a>, SetupError> {
     let begun = Run::begin(problem, settings.energy_tolerance, settings.stop, observer)?;
@@ -114,7 +115,8 @@ fn planned<'a>(
     Ok((run, at_one, plan))
 }
 
-/// Restores a run from a checkpoint.
+/// Restores a run from a checkpoint, to continue as if it had never stopped; the stop rules may differ from those before, and load steps may be
+/// added.
 ///
 /// # Errors
 ///
@@ -124,52 +126,37 @@ pub fn restore(
     settings: &SteppedSettings,
     checkpoint: &mut dyn Read,
 ) -> Result<Restored, SetupError> {
-    let restored = Restored::read(problem, settings.energy_tolerance, checkpoint)?;
-    let Place::LoadStep(InLoadStep {
-        load_factors: done, ..
-    }) = &restored.place
-    else {
-        return Err(CheckpointError::OtherDriver.into());
+    let energy_tolerance = settings.energy_tolerance;
+    let step = |(counters, load_factors): &InLoadStep| {
+        (load_factors.len() == counters.step + 1).then_some(counters.step)
     };
-    let planned = plan(problem, settings, &restored.progress.elastic);
-    let planned = |step: usize| planned.get(step).map(|it| it.load_factor.to_bits());
+    let with = (problem, energy_tolerance);
+    let restored = RestoredRun::of_equilibria(WayKind::LoadSteps, with, checkpoint, step)?;
+    let (_, done) = &restored.position;
+    let plan = plan(problem, settings, &restored.progress.elastic);
+    let planned = |step: usize| plan.get(step).map(|it| it.load_factor.to_bits());
     let is_same = |step: &usize| planned(*step) == Some(done[*step].to_bits());
-    match (0..done.len()).find(|step| !is_same(step)) {
-        None => Ok(restored),
-        Some(step) => Err(CheckpointError::OtherLoading {
-            step,
-            was: done[step],
-        }
-        .into()),
+    if let Some(step) = (0..done.len()).find(|step| !is_same(step)) {
+        let was = done[step];
+        return Err(CheckpointError::OtherLoading { step, was }.into());
     }
+    let settings = settings.clone();
+    Ok(Restored::new(restored, move |restored, observer| {
+        let (mut run, balanced, (counters, _)) = Run::go_on(settings.stop, restored, observer);
+        run.aim(plan[counters.step].load_factor);
+        Box::new(LoadSteps {
+            run,
+            settings,
+            plan,
+            next: counters.step,
+            begun: Some((counters, balanced)),
+            ended: None,
+        })
+    }))
 }
 
-/// Continues a run as if it had never stopped; the stop rules may differ from those before, and load steps may be added.
-///
-/// # Errors
-///
-/// If the run belongs to another driver, or an observer fails.
-pub fn resume(
-    settings: &SteppedSettings,
-    restored: Restored,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
-    let Place::LoadStep(InLoadStep { counters, .. }) = restored.place else {
-        return Err(CheckpointError::OtherDriver.into());
-    };
-    let plan = plan(&restored.problem, settings, &restored.progress.elastic);
-    let (mut run, balanced) = Run::go_on(settings.stop, restored, observer);
-    run.aim(plan[counters.step].load_factor);
-    let steps = LoadSteps {
-        run,
-        settings,
-        plan,
-        next: counters.step,
-        begun: Some((counters, balanced)),
-        ended: None,
-    };
-    Box::new(steps).follow()
-}
+/// Position within a load step: load factors of the steps up to the present one, that of the unloaded body first.
+type InLoadStep = (StepCounters, Vec<f64>);
 
 /// A load step.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -232,7 +219,7 @@ fn refined(settings: &SteppedSettings, first_break: Option<LoadPoint>) -> Vec<f6
 /// Run through load steps.
 pub struct LoadSteps<'a> {
     run: Run<'a>,
-    settings: &'a SteppedSettings,
+    settings: SteppedSettings,
     /// All load steps, the unloaded body first.
     plan: Vec<LoadStep>,
     /// Number of the next load step.
@@ -273,12 +260,8 @@ impl Way for LoadSteps<'_> {
         Ok(())
     }
 
-    fn state(&self) -> &State {
-        &self.run.state
-    }
-
-    fn history(&self) -> &[StepRecord] {
-        &self.run.progress.history
+    fn now(&self) -> (&State, &[StepRecord]) {
+        self.run.now()
     }
 
     fn set_next_load_factor(&mut self, load_factor: f64) -> bool {
@@ -296,7 +279,7 @@ impl<'a> LoadSteps<'a> {
     /// Load steps from the unloaded body; with its equilibrium at load factor one, if there is one.
     fn begun(
         (mut run, at_one): (Run<'a>, Option<State>),
-        settings: &'a SteppedSettings,
+        settings: &SteppedSettings,
     ) -> Result<Self, SetupError> {
         let mut plan = Vec::new();
         let ended = run.end_if_unstable()?;
@@ -306,7 +289,7 @@ impl<'a> LoadSteps<'a> {
         }
         Ok(Self {
             run,
-            settings,
+            settings: settings.clone(),
             plan,
             next: 0,
             begun: None,
@@ -351,17 +334,14 @@ impl<'a> LoadSteps<'a> {
 
     fn next_to_break(&mut self, balanced: &Balanced) -> Vec<u32> {
         let start = Instant::now();
-        let BreakingRule { tie_tolerance, .. } = self.settings.rule;
-        let rule = BreakingRule {
-            tie_tolerance: self.run.equilibrium.choice().tie_tolerance(tie_tolerance),
-            ..self.settings.rule
-        };
-        let (deformations, criteria) = (&balanced.deformations, self.run.criteria(balanced));
-        let (intact, system) = (&self.run.state.intact, &self.run.problem.system);
-        let in_file = |bond| system.ends_in_file(bond);
-        let numbers = self.run.equilibrium.numbers();
-        let next = next_to_break(numbers, &rule, deformations, &criteria, intact, in_file);
-        self.run.equilibrium.count_bond_work(start);
+        let Run {
+            problem,
+            equations,
+            state,
+            ..
+        } = &self.run;
+        let next = next_to_break(problem, equations, &self.settings.rule, (state, balanced));
+        self.run.equations.count_bond_work(start);
         next
     }
 
@@ -409,16 +389,11 @@ impl<'a> LoadSteps<'a> {
     ) -> Result<Option<Termination>, SetupError> {
         let is_last = counters.at_rest && counters.step + 1 == self.plan.len();
         let done = end.is_none() && is_last;
-        let place = || {
-            Place::LoadStep(InLoadStep {
-                counters,
-                load_factors: (self.plan[..=counters.step].iter())
-                    .map(|it| it.load_factor)
-                    .collect(),
-            })
-        };
+        let steps = self.plan[..=counters.step].iter();
+        let load_factors: Vec<f64> = steps.map(|it| it.load_factor).collect();
         let end = end.or(done.then_some(Termination::StepsDone));
-        self.run.offer(&place, balanced, end)
+        let position = (WayKind::LoadSteps, &(counters, load_factors));
+        Ok(self.run.offer(position, balanced, end)?)
     }
 
     /// Records the end of the load step, and stops where the run ends.

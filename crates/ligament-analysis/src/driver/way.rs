@@ -6,6 +6,7 @@ use crate::balanced::Stability;
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{LargestOverlap, StepRecord, Termination};
+use crate::motion::MotionStop;
 use crate::solver::SolverChoice;
 use crate::state::State;
 
@@ -20,11 +21,18 @@ pub trait Way {
     /// Where the run ended, or failed.
     fn advance(&mut self) -> Result<(), Stop>;
 
+    /// The present state of the body, and the records so far: those of its [run](super::Run::now).
+    fn now(&self) -> (&State, &[StepRecord]);
+
     /// The present state of the body.
-    fn state(&self) -> &State;
+    fn state(&self) -> &State {
+        self.now().0
+    }
 
     /// The records so far.
-    fn history(&self) -> &[StepRecord];
+    fn history(&self) -> &[StepRecord] {
+        self.now().1
+    }
 
     /// Gives the next row another load factor, in a controlled stage another share of its motion or energy; whether this way takes one.
     fn set_next_load_factor(&mut self, _load_factor: f64) -> bool {
@@ -66,6 +74,55 @@ pub enum Stop {
 impl<E: Into<SetupError>> From<E> for Stop {
     fn from(error: E) -> Self {
         Self::Failed(error.into())
+    }
+}
+
+ligament_model::case_type! {
+    /// When to stop before the end of the loading; whichever comes first.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    #[case(serde(default))]
+    pub struct StopRules {
+        /// When the load has fallen to this share of its largest value; not where the load factor is below an earlier one.
+        #[range("exclusiveMinimum" = 0, "exclusiveMaximum" = 1)]
+        pub load_fraction: Option<f64>,
+        /// When the displacement of the first load reaches this, m; in rad, m^3 or K where that is its unit.
+        #[range("exclusiveMinimum" = 0)]
+        pub displacement: Option<f64>,
+        /// When so many bonds are broken.
+        #[range("minimum" = 1)]
+        pub bonds: Option<usize>,
+        /// After so much time, s.
+        #[range("exclusiveMinimum" = 0)]
+        pub wall_time: Option<f64>,
+        /// When the stored energy becomes negative, as it may where Poisson's ratio makes the bonds' shear stiffness negative.
+        pub negative_energy: bool,
+    }
+}
+
+impl StopRules {
+    /// Rules for the whole loading, as long as the body is stable.
+    pub const NONE: Self = Self {
+        load_fraction: None,
+        displacement: None,
+        bonds: None,
+        wall_time: None,
+        negative_energy: true,
+    };
+}
+
+impl From<MotionStop> for StopRules {
+    fn from(stop: MotionStop) -> Self {
+        Self {
+            bonds: stop.bonds,
+            wall_time: stop.wall_time,
+            ..Self::NONE
+        }
+    }
+}
+
+impl Default for StopRules {
+    fn default() -> Self {
+        Self::NONE
     }
 }
 

@@ -176,7 +176,7 @@ fn assert_resumes(
         let mut checkpoint = states.checkpoints[row].as_slice();
         let restored = motion::restore(problem, settings, &mut checkpoint).unwrap();
         let mut rest = States::default();
-        let again = motion::resume(settings, restored, &mut rest).unwrap();
+        let again = restored.resume(&mut rest).unwrap();
         assert_eq!(again.history, outcome.history, "row {row}");
         assert_eq!(again.state, outcome.state, "row {row}");
         assert_eq!(again.termination, outcome.termination, "row {row}");

@@ -3,7 +3,7 @@
 
 use ligament::Loading;
 use ligament::prelude::*;
-use ligament::run::{follow, restore, resume};
+use ligament::run::{follow, restore};
 use ligament::setup::{Control, Quantity};
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::breaking::BreakingOrder;
@@ -150,7 +150,7 @@ fn goes_on_from_every_moment(setup: Setup, analysis: &Analysis) -> usize {
     for (from, checkpoint) in &whole.moments {
         let restored = restore(&problem, analysis, &mut checkpoint.as_slice()).unwrap();
         let mut rest = recorder();
-        let again = resume(analysis, restored, &mut rest).unwrap();
+        let again = restored.resume(&mut rest).unwrap();
         assert!(rest.lines == whole.lines[*from..], "moment {from}");
         assert_eq!(again.state, outcome.state);
         assert_eq!(again.termination, outcome.termination);

@@ -47,8 +47,8 @@ impl Affine {
     /// Finds the growth at a rate of the loads, unless it is present.
     fn grow(&mut self, run: &mut Run<'_>, rate: &dyn LoadProgram) -> Result<(), Unbalanced> {
         if !mem::replace(&mut self.is_present, false) {
-            self.growth = run.equilibrium.growth(&mut run.state, rate)?;
-            run.progress.solves[0] = run.equilibrium.costs().solves;
+            self.growth = run.equations.growth(&mut run.state, rate)?;
+            run.progress.solves[0] = run.equations.costs().solves;
         }
         Ok(())
     }
@@ -112,7 +112,7 @@ impl EquilibriumLine for Affine {
                 }
             }
         };
-        run.equilibrium.count_bond_work(start);
+        run.equations.count_bond_work(start);
         Ok(up_to_displacement(goal, run, &self.growth))
     }
 

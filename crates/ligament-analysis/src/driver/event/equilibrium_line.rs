@@ -18,7 +18,7 @@ pub(super) trait EquilibriumLine {
             *value += by * growth;
         }
         run.state.load_factor = load_factor;
-        run.equilibrium.arrived(&mut run.state)
+        run.equations.arrived(&mut run.state)
     }
 
     /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom); empty where they are proportional to it.

@@ -38,9 +38,9 @@ impl InContact {
     /// Finds the growth in a direction of the load, unless it is present.
     fn grow(&mut self, run: &mut Run<'_>, heading: Heading) -> Result<(), Unbalanced> {
         if !std::mem::replace(&mut self.is_present, false) {
-            let equilibrium = &mut run.equilibrium;
-            self.growth = equilibrium.growth_in_contact(&mut run.state, heading)?;
-            run.progress.solves[0] = run.equilibrium.costs().solves;
+            let equations = &mut run.equations;
+            self.growth = equations.growth_in_contact(&mut run.state, heading)?;
+            run.progress.solves[0] = run.equations.costs().solves;
         }
         Ok(())
     }
@@ -57,7 +57,7 @@ impl EquilibriumLine for InContact {
         self.grow(run, heading)?;
         let start = Instant::now();
         let now = run.state.load_factor;
-        let to_contact = run.equilibrium.reach(&run.state, &self.growth, heading);
+        let to_contact = run.equations.reach(&run.state, &self.growth, heading);
         let left = if rises { 1.0 - now } else { now };
         let reach = to_contact.min(left);
         let loads = run.problem.loads.clone();
@@ -93,7 +93,7 @@ impl EquilibriumLine for InContact {
             // Bonds that are at their limits already, or beyond them without any load.
             None => held(self.tie_tolerance, line, &criteria, run),
         };
-        run.equilibrium.count_bond_work(start);
+        run.equations.count_bond_work(start);
         Ok(up_to_displacement(goal, run, &self.growth))
     }
 

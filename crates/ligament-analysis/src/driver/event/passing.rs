@@ -51,7 +51,7 @@ pub(super) fn may_pass(run: &Run<'_>, step: usize) -> bool {
 
 /// Whether updates of the body may be delayed with its added supports: these may fix only detached parts that are not observed.
 pub(super) fn may_wait(run: &Run<'_>, body: &Body) -> bool {
-    let fragments = run.equilibrium.fragments();
+    let fragments = run.equations.fragments();
     let layout = run.problem.system.layout();
     let fragment = |point: u32| fragments.of_point[point as usize] as usize;
     let mut is_asked_for = vec![false; fragments.len()];
@@ -87,7 +87,7 @@ pub(super) fn pass(
         },
         run,
     };
-    passing.run.equilibrium.count_bond_work(start);
+    passing.run.equations.count_bond_work(start);
     let first_step = *step;
     while may_pass(passing.run, *step) {
         let Some(critical) = passing.go_to(&first) else {
@@ -98,7 +98,7 @@ pub(super) fn pass(
             break;
         };
         let breakage = passing.break_first(&first, critical, *step)?;
-        if passing.run.collapsed || !passing.run.equilibrium.can_update(&breakage) {
+        if passing.run.collapsed || !passing.run.equations.can_update(&breakage) {
             let before = passing.before(&breakage);
             return Ok(Passed::Broke(before, breakage));
         }
@@ -154,8 +154,8 @@ impl Passing<'_, '_> {
         run.account(step, &Breakage::default(), &critical)?;
         critical.stored_energy = run.energies.stored_in_proportion();
         run.enter(step, 0)?;
-        run.progress.solves[0] = run.equilibrium.costs().solves;
-        run.progress.negative_eigenvalues = run.equilibrium.negative_eigenvalues();
+        run.progress.solves[0] = run.equations.costs().solves;
+        run.progress.negative_eigenvalues = run.equations.negative_eigenvalues();
         let counters = StepCounters {
             step,
             broken_in_step: first.bonds.len(),
@@ -182,7 +182,7 @@ impl Passing<'_, '_> {
     fn follow(&mut self, breakage: &Breakage) -> Option<FirstToBreak> {
         let scale = self.factor().recip();
         let Run {
-            equilibrium, state, ..
+            equations, state, ..
         } = &mut *self.run;
         let ends = self.problem.system.ends();
         let points = breakage.bonds.iter().flat_map(|&bond| ends[bond as usize]);
@@ -190,7 +190,7 @@ impl Passing<'_, '_> {
         points.sort_unstable();
         points.dedup();
         let lagging = &mut self.lagging;
-        let first = equilibrium.update_and_forward_solve(state, breakage, |factor, half| {
+        let first = equations.update_and_forward_solve(state, breakage, |factor, half| {
             let correction = ForwardSubstituted {
                 factor,
                 by_row: half.by_row(),
@@ -201,7 +201,7 @@ impl Passing<'_, '_> {
         let start = Instant::now();
         self.know(&breakage.bonds);
         self.add_up_forces();
-        self.run.equilibrium.count_bond_work(start);
+        self.run.equations.count_bond_work(start);
         Some(first)
     }
 
@@ -255,7 +255,7 @@ impl Passing<'_, '_> {
     fn catch_up(&mut self) {
         let start = Instant::now();
         // Without a factor the last known motions are the start of the next iteration.
-        if let Some(factor) = self.run.equilibrium.factor() {
+        if let Some(factor) = self.run.equations.factor() {
             self.lagging.catch_up(factor, &self.run.state);
         }
         let factor = self.factor();
@@ -263,19 +263,19 @@ impl Passing<'_, '_> {
         for (motion, line) in motions.zip(&self.lagging.displacement) {
             *motion = factor * line;
         }
-        self.run.equilibrium.count_bond_work(start);
+        self.run.equations.count_bond_work(start);
     }
 
     /// Equilibrium of the whole body before a breakage that was not applied.
     fn before(&mut self, breakage: &Breakage) -> Balanced {
         self.catch_up();
         let Run {
-            equilibrium, state, ..
+            equations, state, ..
         } = &mut *self.run;
         for &bond in &breakage.bonds {
             state.intact[bond as usize] = true;
         }
-        let before = equilibrium.measured(state);
+        let before = equations.measured(state);
         for &bond in &breakage.bonds {
             state.intact[bond as usize] = false;
         }

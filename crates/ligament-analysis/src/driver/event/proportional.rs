@@ -35,7 +35,7 @@ impl EquilibriumLine for Proportional {
         let criteria = run.criteria(line);
         let first = run.first_to_break(self.tie_tolerance, &line.deformations, &criteria);
         let ratio = first.ratio;
-        run.equilibrium.count_bond_work(start);
+        run.equations.count_bond_work(start);
         let now = run.state.load_factor;
         let mut goal = Goal {
             ratio: 1.0,
@@ -81,7 +81,7 @@ impl EquilibriumLine for Proportional {
         let state = &mut run.state;
         let factor = load_factor / state.load_factor;
         state.load_factor = load_factor;
-        let fragments = run.equilibrium.fragments();
+        let fragments = run.equations.fragments();
         // A temperature strains all parts, and where faces close any part may press on another.
         let faces_close = run.problem.system.faces_close();
         let is_heated = !run.problem.loads.thermal_strain(load_factor).is_none();
@@ -98,7 +98,7 @@ impl EquilibriumLine for Proportional {
             }
         }
         let critical = line.scaled(factor);
-        run.equilibrium.count_bond_work(start);
+        run.equations.count_bond_work(start);
         critical
     }
 

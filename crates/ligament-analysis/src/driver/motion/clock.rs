@@ -1,4 +1,4 @@
-//! Times of a motion: equal time steps, of which a fixed number makes a row of the history.
+//! Times of a motion: equal time steps, of which a fixed number makes a row of the history, and the pace of implicit steps among them.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,6 +7,12 @@ use crate::motion::{MotionError, MotionSettings, Scheme};
 
 /// Largest number of time steps: a step of the smallest body takes a microsecond, so that these take eleven days.
 const MOST_STEPS: f64 = 1e12;
+
+/// Largest number of times that a step is halved.
+pub(super) const HALVINGS: usize = 10;
+
+/// Steps of a motion without a breakage after which halved steps are doubled again.
+pub(super) const CALM: usize = 8;
 
 /// Times of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -87,6 +93,72 @@ impl Clock {
     /// Time after a number of steps, s.
     pub(super) fn time(&self, steps: usize) -> f64 {
         self.duration * (steps as f64 / (self.rows * self.steps_per_row) as f64)
+    }
+}
+
+/// Kind and length of the steps.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub(super) struct Pace {
+    /// Whether the steps have inertia; steps without it are equilibria.
+    pub(super) has_inertia: bool,
+    /// Number of halvings: of the steps of the clock, without inertia of the time between two rows.
+    pub(super) halvings: usize,
+    /// Number of steps since the last halving or breakage.
+    pub(super) calm: usize,
+}
+
+impl Pace {
+    /// Steps without inertia from row to row.
+    pub(super) const STATICS: Self = Self {
+        has_inertia: false,
+        halvings: 0,
+        calm: 0,
+    };
+
+    /// Steps of the clock, with inertia.
+    pub(super) const MOTION: Self = Self {
+        has_inertia: true,
+        ..Self::STATICS
+    };
+
+    /// Steps of half the length.
+    pub(super) fn halved(self) -> Self {
+        Self {
+            halvings: self.halvings + 1,
+            calm: 0,
+            ..self
+        }
+    }
+
+    /// Steps of twice the length.
+    pub(super) fn doubled(self) -> Self {
+        Self {
+            halvings: self.halvings - 1,
+            calm: 0,
+            ..self
+        }
+    }
+
+    /// Largest number of halvings.
+    pub(super) fn most_halvings(&self, clock: &Clock) -> usize {
+        match self.has_inertia {
+            true => HALVINGS,
+            false => clock.steps_per_row.trailing_zeros() as usize,
+        }
+    }
+
+    /// Number of parts, 2^[`HALVINGS`] of which a step of the clock has, in a step.
+    pub(super) fn parts(&self, clock: &Clock) -> usize {
+        let whole = 1_usize << HALVINGS;
+        match self.has_inertia {
+            true => whole >> self.halvings,
+            false => (clock.steps_per_row * whole) >> self.halvings,
+        }
+    }
+
+    /// Number of calm steps after which the steps are doubled.
+    pub(super) fn calm_enough(&self) -> usize {
+        if self.has_inertia { CALM } else { 1 }
     }
 }
 

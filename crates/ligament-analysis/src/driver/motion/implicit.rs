@@ -1,53 +1,64 @@
 //! Implicit motion by Newmark's scheme ([`newmark`](super::newmark)), with ordered breaking in each step as in load steps.
 //!
 //! A step is an equilibrium of the bonds under the loads at its end and between the springs of the inertia; the factor of the stiffness serves
-//! all steps of one length. A step that does not converge, or in which bonds break round after round, is halved and taken again.
+//! all steps of one length. A step that does not converge, or in which bonds break round after round, is halved and taken again. The scheme `auto`
+//! leaves inertia out as long as the body keeps its balance ([`quasi_static`]).
 //!
 //! Points with a prescribed motion have no mass here: the trapezoidal rule would let the acceleration of a prescribed motion ring.
 
-use std::time::Instant;
+use std::io::Read;
+use std::sync::Arc;
 
-use super::checkpoint::ImplicitMotion;
-use super::clock::Clock;
-use super::motion_state::{MassAndDamping, Motion, MotionState, free_masses};
-use super::record::{self, MotionView};
-use super::record::{IMPLICIT, Progress};
-use super::stepping::{CALM, HALVINGS, Pace, Stepping, scheme};
-use super::trial_step::{self, Rejected, StepSettings, TrialStep};
+use super::clock::{CALM, Clock, HALVINGS, Pace};
+use super::newmark::{Newmark, StepLoads};
+use super::rates::{MassAndDamping, Motion};
+use super::record::RowInTime;
+use super::trial_step::{self, Rejected, TrialStep};
 use super::{quasi_static, rigid_step};
+use crate::balanced::Balanced;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact::{RigidBody, RigidMotion};
+use crate::driver::checkpoint::{Restored, RestoredRun, WayKind};
 use crate::driver::energies::Energies;
-use crate::driver::way::{Outcome, Stop, Way};
+use crate::driver::run::Run;
+use crate::driver::start::ElasticAnswer;
+use crate::driver::way::{Outcome, Rows, Stop, Way};
+use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
+use crate::load_program::LoadProgram;
 use crate::motion::{MotionError, MotionProblem, MotionSettings};
 use crate::problem::Problem;
-use crate::serial::Sink;
+use crate::restraints::Restraints;
 use crate::softening::Softening;
 use crate::state::State;
 use crate::user_message::Message;
 
 /// Motion in implicit steps.
 pub(super) struct ImplicitSteps<'a> {
-    settings: &'a MotionSettings,
-    problem: MotionProblem,
-    /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
-    masses: Vec<f64>,
-    stepping: Stepping,
-    here: MotionState,
-    energies: Energies,
-    progress: Progress,
+    /// Run with the equations of a step at the present pace.
+    run: Run<'a>,
+    settings: MotionSettings,
+    body: MassAndDamping,
+    clock: Clock,
     pace: Pace,
-    observer: &'a mut dyn Observer,
-    started: Instant,
+    /// Restraints of a step at the present pace.
+    restraints: Arc<Restraints>,
+    /// Deformations and energy of the bonds at the time of the state; its forces are those that supports and loads balance.
+    balanced: Balanced,
+    motion: Motion,
+    /// Time at which the body last lost its balance, s, with the number of bonds broken before.
+    moving_since: (f64, usize),
 }
+
+/// Position of a motion at a row of its history.
+type AtRow = (Clock, Pace, (f64, usize), Motion);
 
 /// Begins a motion at time zero.
 pub(super) fn begin<'a>(
     problem: &MotionProblem,
-    settings: &'a MotionSettings,
+    settings: &MotionSettings,
     observer: &'a mut dyn Observer,
 ) -> Result<ImplicitSteps<'a>, SetupError> {
     check(problem, settings)?;
@@ -55,156 +66,160 @@ pub(super) fn begin<'a>(
     if settings.share_of_statics().is_none() {
         observer.begins(clock.ahead(true));
     }
-    let mut state = State::fresh(&*problem.problem.system);
-    problem
-        .problem
-        .loads
-        .prescribe(0.0, &mut state.displacement);
+    let MotionProblem {
+        problem: of_body,
+        initial_velocity,
+        ..
+    } = problem;
+    let mut state = State::fresh(&*of_body.system);
+    of_body.loads.prescribe(0.0, &mut state.displacement);
     let n_bonds = state.intact.len();
-    state.softening = Softening::of_sound_bonds(&problem.problem.criteria, n_bonds);
-    let masses = free_masses(problem, settings.rotary_inertia);
+    state.softening = Softening::of_sound_bonds(&of_body.criteria, n_bonds);
+    let body = MassAndDamping::new(problem, settings);
     let pace = quasi_static::first_pace(problem, settings);
-    let scheme = scheme(settings, &clock, pace);
-    let mut stepping = Stepping::new(problem, scheme, &masses, (&mut state, settings))?;
-    let balanced = stepping.equilibrium.measured(&mut state);
-    let mut motion = ImplicitSteps {
-        here: MotionState {
-            motion: Motion::with_velocity(problem.initial_velocity.to_vec(), &balanced),
-            state,
-            balanced,
-            broken: 0,
-        },
-        energies: Energies::unloaded(&problem.problem),
-        progress: Progress::at_start(clock),
-        problem: problem.clone(),
-        started: Instant::now(),
-        settings,
-        masses,
-        stepping,
+    let of_step = problem_of_step(&body, scheme(settings, &clock, pace));
+    let mut equations = equations(&of_step, settings, &mut state)?;
+    let balanced = equations.measured(&mut state);
+    let (stop, elastic) = (settings.stop.into(), ElasticAnswer::UNKNOWN);
+    let mut steps = ImplicitSteps {
+        run: Run::new(of_body, (equations, state), elastic, stop, observer),
+        settings: settings.clone(),
+        motion: Motion::with_velocity(initial_velocity.to_vec(), &balanced),
+        restraints: of_step.loads.restraints().clone(),
+        moving_since: (0.0, 0),
+        body,
+        clock,
         pace,
-        observer,
+        balanced,
     };
-    motion.begin();
-    Ok(motion)
+    steps.begin_to_move();
+    Ok(steps)
 }
 
-/// Continues a motion from a checkpoint.
-pub(super) fn resume(
+/// Restores a motion from a checkpoint.
+pub(super) fn restore(
+    problem: &MotionProblem,
     settings: &MotionSettings,
-    motion: ImplicitMotion,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
-    if motion.progress.clock != Clock::implicit(settings)? {
-        return Err(CheckpointError::OtherTimes.into());
-    }
-    let ImplicitMotion {
-        problem,
-        here,
-        stepping,
-        pace,
-        energies,
-        progress,
-    } = motion;
-    let motion = ImplicitSteps {
-        masses: free_masses(&problem, settings.rotary_inertia),
-        started: Instant::now(),
-        settings,
-        problem,
-        stepping,
-        here,
-        energies,
-        progress,
-        pace,
-        observer,
-    };
-    Box::new(motion).follow()
-}
-
-impl ImplicitSteps<'_> {
-    /// Sets accelerations and energies of time zero.
-    fn begin(&mut self) {
-        let MotionState { state, motion, .. } = &self.here;
-        let (external, damping) = self.inertia().forces(state, &motion.velocity);
-        let masses = &self.masses;
-        let motion = &mut self.here.motion;
-        for (dof, &mass) in masses.iter().enumerate() {
-            if mass > 0.0 {
-                let force = external[dof] - motion.internal[dof] - damping[dof];
-                motion.acceleration[dof] = force / mass;
-            } else {
-                motion.velocity[dof] = 0.0;
+    checkpoint: &mut dyn Read,
+) -> Result<Restored, SetupError> {
+    let clock = Clock::implicit(settings)?;
+    let body = MassAndDamping::new(problem, settings);
+    let scheme = |pace| scheme(settings, &clock, pace);
+    let n_rigid = problem.problem.contact.rigid_bodies.len();
+    let restored = RestoredRun::read(
+        WayKind::Newmark,
+        &problem.problem,
+        checkpoint,
+        |(_, (clock_then, pace, _, motion)): (_, &AtRow), numbered, from| {
+            if *clock_then != clock {
+                return Err(CheckpointError::OtherTimes.into());
             }
-        }
-        (motion.external, motion.damping) = (external, damping);
-        let problem = &self.problem.problem;
-        motion.rigid = problem.contact.rates_at_start(&self.here.balanced.touching);
-        self.here.balance_forces(problem, &self.masses);
-        let MotionState {
-            state,
+            let has_rates = motion.rigid.is_empty() || motion.rigid.len() == n_rigid;
+            let fits = motion.fits(body.masses.len()) && has_rates;
+            if !fits || pace.halvings > pace.most_halvings(&clock) {
+                return Err(CheckpointError::OtherModel.into());
+            }
+            let of_step = problem_of_step(&body, scheme(*pace));
+            let tolerance = settings.breakages.energy_tolerance;
+            Equilibrium::restored(&of_step, tolerance, numbered, from)
+        },
+    )?;
+    let of_step = problem_of_step(&body, scheme(restored.position.1));
+    let settings = settings.clone();
+    Ok(Restored::new(restored, move |restored, observer| {
+        let (run, balanced, (clock, pace, moving_since, motion)) =
+            Run::go_on(settings.stop.into(), restored, observer);
+        let mut steps = ImplicitSteps {
+            restraints: of_step.loads.restraints().clone(),
+            run,
+            settings,
+            body,
+            clock,
+            pace,
             balanced,
             motion,
-            ..
-        } = &self.here;
-        let problem = &self.problem.problem;
-        let nothing = Breakage::default();
-        (self.energies).account(problem, (state, balanced), &nothing);
-        let rigid = problem.contact.kinetic_energy(0.0, &motion.rigid);
-        let kinetic = motion.kinetic_energy(masses) + rigid;
-        self.progress.motion.initial_energy = kinetic + balanced.stored_energy;
-        self.progress.motion.kinetic_energy = kinetic;
+            moving_since,
+        };
+        steps.balance_forces();
+        Box::new(steps)
+    }))
+}
+
+/// Scheme of steps at a pace; None without inertia.
+fn scheme(settings: &MotionSettings, clock: &Clock, pace: Pace) -> Option<Newmark> {
+    pace.has_inertia.then(|| Newmark {
+        step: clock.step() / f64::from(1_u32 << pace.halvings),
+        dissipation: settings.dissipation,
+        damping: settings.damping,
+    })
+}
+
+/// Problem of a step of a scheme; that of the body without one.
+fn problem_of_step(body: &MassAndDamping, scheme: Option<Newmark>) -> Problem {
+    let problem = &body.problem.problem;
+    let Some(scheme) = scheme else {
+        return problem.clone();
+    };
+    let loads = StepLoads {
+        base: problem.loads.clone(),
+        restraints: Arc::new(scheme.restraints(&body.problem, &body.masses)),
+        factor: 1.0 / scheme.of_stiffness(),
+        added: vec![0.0; body.masses.len()],
+        rigid: rigid_step::loads(&problem.contact, &scheme, None),
+    };
+    Problem {
+        loads: Arc::new(loads),
+        ..problem.clone()
     }
+}
+
+/// Equations of the problem of a step, for the bonds of a state.
+fn equations(
+    of_step: &Problem,
+    settings: &MotionSettings,
+    state: &mut State,
+) -> Result<Equilibrium, SetupError> {
+    let mut equations = Equilibrium::new(of_step, settings.breakages.energy_tolerance)?;
+    let broken = (0..).zip(&state.intact).filter(|(_, intact)| !**intact);
+    let broken: Vec<u32> = broken.map(|(bond, _)| bond).collect();
+    for &bond in &broken {
+        state.intact[bond as usize] = true;
+    }
+    state.held.fill(false);
+    equations.break_bonds(state, &broken);
+    if !state.softening.remaining.is_empty() {
+        equations.soften();
+    }
+    Ok(equations)
 }
 
 impl Way for ImplicitSteps<'_> {
+    /// Takes steps up to the next row of the history; stops where a step does not converge however small it is.
     fn advance(&mut self) -> Result<(), Stop> {
         self.record()?;
-        let (row, time) = (self.progress.history.len(), self.here.state.load_factor);
-        self.observer.round(row, 0, time, self.here.broken)?;
-        self.move_to_row(row)
-    }
-
-    fn state(&self) -> &State {
-        &self.here.state
-    }
-
-    fn history(&self) -> &[StepRecord] {
-        &self.progress.history
-    }
-
-    fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
-        let solver = *self.stepping.equilibrium.choice();
-        let costs = self.stepping.costs();
-        let (problem, records) = (&self.problem.problem, (&self.energies, &costs));
-        let now = self.stepping.now(problem, &self.here, records);
-        Ok(record::outcome(&now, self.progress, solver, end))
-    }
-}
-
-impl ImplicitSteps<'_> {
-    /// Takes steps up to a row of the history; stops where a step does not converge however small it is.
-    fn move_to_row(&mut self, row: usize) -> Result<(), Stop> {
+        let row = self.run.progress.history.len();
+        self.run.enter(row, 0)?;
         let Clock {
             steps_per_row,
             rows,
             duration,
-        } = self.progress.clock;
+        } = self.clock;
         let (mut tick, ticks) = (0, steps_per_row << HALVINGS);
         while tick < ticks {
-            if self.lengthen(row, tick)? {
+            if self.lengthen(tick)? {
                 continue;
             }
-            let length = self.pace.parts(&self.progress.clock);
+            let length = self.pace.parts(&self.clock);
             let share = (tick + length) as f64 / ticks as f64;
             let time = duration * ((row - 1) as f64 + share) / rows as f64;
-            match self.attempt(row, time) {
-                Ok(taken) => {
-                    self.accept(taken)?;
+            match self.attempt(time) {
+                Ok(trial) => {
+                    self.accept(trial)?;
                     tick += length;
                 }
                 Err(Rejected::Failed(error)) => return Err(error.into()),
                 Err(Rejected::Unbalanced(reason)) if !self.can_shorten() => {
-                    let step = self.progress.history.len();
-                    return Err(Stop::End(Termination::NoEquilibrium { step, reason }));
+                    return Err(Stop::End(Termination::NoEquilibrium { step: row, reason }));
                 }
                 Err(Rejected::Rounds | Rejected::Free | Rejected::Unbalanced(_)) => {
                     self.shorten()?;
@@ -214,40 +229,88 @@ impl ImplicitSteps<'_> {
         Ok(())
     }
 
+    fn now(&self) -> (&State, &[StepRecord]) {
+        self.run.now()
+    }
+
+    fn outcome(self: Box<Self>, end: Termination) -> Result<Outcome, SetupError> {
+        Ok(self.run.into_outcome(end, Rows::Times))
+    }
+}
+
+impl ImplicitSteps<'_> {
+    /// Sets accelerations and energies of time zero.
+    fn begin_to_move(&mut self) {
+        let (body, motion) = (&self.body, &mut self.motion);
+        let (external, damping) = body.forces(&self.run.state, &motion.velocity);
+        for (dof, &mass) in body.masses.iter().enumerate() {
+            if mass > 0.0 {
+                let force = external[dof] - motion.internal[dof] - damping[dof];
+                motion.acceleration[dof] = force / mass;
+            } else {
+                motion.velocity[dof] = 0.0;
+            }
+        }
+        (motion.external, motion.damping) = (external, damping);
+        let contact = &self.run.problem.contact;
+        motion.rigid = contact.rates_at_start(&self.balanced.touching);
+        let rigid = contact.kinetic_energy(0.0, &motion.rigid);
+        let kinetic = motion.kinetic_energy(&body.masses) + rigid;
+        self.balance_forces();
+        let Run {
+            problem,
+            state,
+            energies,
+            ..
+        } = &mut self.run;
+        energies.account(problem, (state, &self.balanced), &Breakage::default());
+        energies.motion.initial_energy = kinetic + self.balanced.stored_energy;
+        energies.motion.kinetic_energy = kinetic;
+    }
+
+    fn balance_forces(&mut self) {
+        let internal = &mut self.balanced.internal.values;
+        self.body.balance_forces(&self.motion, internal);
+    }
+
+    fn scheme(&self) -> Option<Newmark> {
+        scheme(&self.settings, &self.clock, self.pace)
+    }
+
     /// Whether shorter steps than the present ones are possible, or steps with inertia.
     fn can_shorten(&self) -> bool {
-        let most = self.pace.most_halvings(&self.progress.clock);
+        let most = self.pace.most_halvings(&self.clock);
         !self.pace.has_inertia || self.pace.halvings < most
     }
 
     /// Halves the steps, or lets the body move where the shortest ones without inertia are too long.
     fn shorten(&mut self) -> Result<(), SetupError> {
-        if self.pace.halvings < self.pace.most_halvings(&self.progress.clock) {
+        if self.pace.halvings < self.pace.most_halvings(&self.clock) {
             let pace = self.pace.halved();
             if pace.has_inertia {
                 return self.change_pace(pace);
             }
             self.pace = pace;
-            let equilibrium = &mut self.stepping.equilibrium;
-            equilibrium.return_to(&self.here.state);
+            self.run.equations.return_to(&self.run.state);
             return Ok(());
         }
-        let time = self.here.state.load_factor;
+        let time = self.run.state.load_factor;
         let share = self.settings.share_of_statics().unwrap_or_default();
         let text = format!(
             "the body loses its balance: a step without inertia would set free more than {share:.1e} of the work, or let a part slip off another \
              one, so that it moves from here on"
         );
-        self.observer
+        self.run
+            .observer
             .message(Message::new("lost-balance", text).at_time(time))?;
-        self.progress.moving_since = (time, self.here.broken);
+        self.moving_since = (time, self.run.progress.broken);
         self.change_pace(Pace::MOTION)
     }
 
     /// Doubles steps that are calm, or leaves inertia out where the body came to rest; returns whether it did.
-    fn lengthen(&mut self, row: usize, tick: usize) -> Result<bool, SetupError> {
+    fn lengthen(&mut self, tick: usize) -> Result<bool, SetupError> {
         let pace = self.pace;
-        let is_aligned = tick.is_multiple_of(2 * pace.parts(&self.progress.clock));
+        let is_aligned = tick.is_multiple_of(2 * pace.parts(&self.clock));
         if pace.halvings > 0 && pace.calm >= pace.calm_enough() && is_aligned {
             let pace = pace.doubled();
             match pace.has_inertia {
@@ -259,7 +322,7 @@ impl ImplicitSteps<'_> {
         let is_calm = pace.calm > 0 && pace.calm.is_multiple_of(CALM);
         match self.settings.share_of_statics() {
             Some(share) if pace.has_inertia && pace.halvings == 0 && is_calm => {
-                self.come_to_rest(row, tick, share)
+                self.come_to_rest(tick, share)
             }
             _ => Ok(false),
         }
@@ -268,50 +331,49 @@ impl ImplicitSteps<'_> {
     /// Takes steps with the equations of another pace from here on.
     fn change_pace(&mut self, pace: Pace) -> Result<(), SetupError> {
         self.pace = pace;
-        let clock = &self.progress.clock;
-        let scheme = scheme(self.settings, clock, pace);
-        let of_state = (&mut self.here.state, self.settings);
-        let stepping = Stepping::new(&self.problem, scheme, &self.masses, of_state)?;
-        let costs = self.stepping.costs();
-        self.stepping = Stepping { costs, ..stepping };
+        let of_step = problem_of_step(&self.body, self.scheme());
+        let mut equations = equations(&of_step, &self.settings, &mut self.run.state)?;
+        equations.add_costs(self.run.equations.costs());
+        self.restraints = of_step.loads.restraints().clone();
+        self.run.equations = equations;
         Ok(())
     }
 
     /// Leaves inertia out, if the body with its present bonds has an equilibrium at this time that is as near as `share` of the energy; returns
     /// whether it has.
-    fn come_to_rest(&mut self, row: usize, tick: usize, share: f64) -> Result<bool, SetupError> {
-        let rounding = quasi_static::rounding(&self.stepping.equilibrium, &self.here.balanced);
+    fn come_to_rest(&mut self, tick: usize, share: f64) -> Result<bool, SetupError> {
+        let rounding = quasi_static::rounding(&self.run.equations, &self.balanced);
         let most = (share * self.energy_given()).max(rounding);
-        let kinetic = self.progress.motion.kinetic_energy;
+        let kinetic = self.run.energies.motion.kinetic_energy;
         if kinetic > most {
             return Ok(false);
         }
         let pace = self.pace;
-        let time = self.here.state.load_factor;
-        self.change_pace(quasi_static::pace_from(tick, &self.progress.clock))?;
-        let taken = match self.attempt(row, time) {
+        let time = self.run.state.load_factor;
+        self.change_pace(quasi_static::pace_from(tick, &self.clock))?;
+        let trial = match self.attempt(time) {
             Err(Rejected::Failed(error)) => return Err(error),
-            taken => taken.ok(),
+            trial => trial.ok(),
         };
-        let problem = &self.problem.problem;
-        let is_near = |taken: &TrialStep| {
-            let free = quasi_static::set_free(problem, &self.energies, &self.here, taken);
-            taken.broken.is_empty() && kinetic + free <= most
+        let is_near = |trial: &TrialStep| {
+            let free = quasi_static::set_free(&self.run, &self.balanced, trial);
+            trial.broken.is_empty() && kinetic + free <= most
         };
-        let Some(taken) = taken.filter(is_near) else {
+        let Some(trial) = trial.filter(is_near) else {
             self.change_pace(Pace { calm: 0, ..pace })?;
             return Ok(false);
         };
         let before = self.in_bonds();
-        self.accept(taken)?;
-        self.progress.motion.damping_energy += kinetic + self.in_bonds() - before;
-        let (since, before) = self.progress.moving_since;
-        let broken = self.here.broken - before;
+        self.accept(trial)?;
+        self.run.energies.motion.damping_energy += kinetic + self.in_bonds() - before;
+        let (since, before) = self.moving_since;
+        let broken = self.run.progress.broken - before;
         let text = format!(
             "the body is at rest again, after a motion of {:.3e} s in which {broken} bonds broke",
             time - since
         );
-        self.observer
+        self.run
+            .observer
             .message(Message::new("at-rest", text).at_time(time))?;
         Ok(true)
     }
@@ -321,161 +383,198 @@ impl ImplicitSteps<'_> {
         let Energies {
             external_work,
             released,
+            friction,
             ..
-        } = self.energies;
-        let friction = self.progress.motion.friction_energy;
-        external_work - self.here.balanced.stored_energy - released - friction
+        } = self.run.energies;
+        external_work - self.balanced.stored_energy - released - friction
     }
 
     /// Largest energy that the body was given so far, J.
     fn energy_given(&self) -> f64 {
-        let initial = self.progress.motion.initial_energy;
-        self.energies.largest_work().max(initial)
-    }
-
-    fn inertia(&self) -> MassAndDamping<'_> {
-        MassAndDamping {
-            problem: &self.problem,
-            masses: &self.masses,
-            damping: self.settings.damping,
-        }
+        let initial = self.run.energies.motion.initial_energy;
+        self.run.energies.largest_work().max(initial)
     }
 
     /// A step to a time, without effect on the motion; the reason why it is too long, if it is.
-    fn attempt(&mut self, row: usize, time: f64) -> Result<TrialStep, Rejected> {
-        let loads = self.stepping.loads(&self.here, self.inertia());
-        let trial = StepSettings {
-            row,
-            broken: self.here.broken,
-            rule: self.settings.breakages.rule,
-            rounds: self.can_shorten().then_some(self.settings.breakages.rounds),
+    fn attempt(&mut self, time: f64) -> Result<TrialStep, Rejected> {
+        let breakages = &self.settings.breakages;
+        let most = self.can_shorten().then_some(breakages.rounds);
+        let loads = self.loads();
+        self.run.equations.load_with(loads);
+        let trial = trial_step::attempt(&mut self.run, time, &breakages.rule, most)?;
+        let share = self.settings.share_of_statics();
+        let Some(share) = share.filter(|_| !self.pace.has_inertia) else {
+            return Ok(trial);
         };
-        let equilibrium = &mut self.stepping.equilibrium;
-        equilibrium.load_with(loads);
-        let start = State {
-            load_factor: time,
-            ..self.here.state.clone()
-        };
-        let start = (start, self.here.balanced.clone());
-        let problem = &self.problem.problem;
-        let taken = trial_step::attempt(problem, equilibrium, start, &trial)?;
-        let Some(share) = self
-            .settings
-            .share_of_statics()
-            .filter(|_| !self.pace.has_inertia)
-        else {
-            return Ok(taken);
-        };
-        let problem = &self.problem.problem;
-        let free = quasi_static::set_free(problem, &self.energies, &self.here, &taken);
-        let work = (self.energies).work_to(problem, &taken.state, &taken.balanced);
-        let given = self.energies.external_work + work;
-        let equilibrium = &self.stepping.equilibrium;
-        let rounding = quasi_static::rounding(equilibrium, &taken.balanced);
-        let both = [&self.here.state, &taken.state];
-        let slips = quasi_static::slips(problem, equilibrium.size(), both);
+        let Run {
+            problem,
+            equations,
+            energies,
+            state,
+            ..
+        } = &self.run;
+        let free = quasi_static::set_free(&self.run, &self.balanced, &trial);
+        let work = energies.work_to(problem, &trial.state, &trial.balanced);
+        let given = energies.external_work + work;
+        let rounding = quasi_static::rounding(equations, &trial.balanced);
+        let slips = quasi_static::slips(problem, equations.size(), [state, &trial.state]);
         if !slips && free <= (share * self.energy_given().max(given)).max(rounding) {
-            return Ok(taken);
+            return Ok(trial);
         }
         Err(Rejected::Free)
     }
 
     /// Accepts a step, with its energies.
-    fn accept(&mut self, taken: TrialStep) -> Result<(), SetupError> {
-        let problem = &self.problem.problem;
-        self.observer.broke(&taken.records)?;
-        let expansion = problem.loads.thermal_strain(taken.state.load_factor);
-        let (system, before) = (&*problem.system, &self.here.state);
-        let breakage = match taken.broken.is_empty() {
+    fn accept(&mut self, trial: TrialStep) -> Result<(), SetupError> {
+        self.run.observer.broke(&trial.records)?;
+        let (before, system) = (&self.run.state, &*self.run.problem.system);
+        let expansion = self
+            .run
+            .problem
+            .loads
+            .thermal_strain(trial.state.load_factor);
+        let breakage = match trial.broken.is_empty() {
             true => Breakage::default(),
-            false => Breakage::new(system, expansion, before, &taken.broken),
+            false => Breakage::new(system, expansion, before, &trial.broken),
         };
-        let motion = self.stepping.after(&self.here, &taken, self.inertia());
+        let after = self.after(&trial);
+        let dissipates = self.settings.dissipation > 0.0;
+        let motion = &mut self.run.energies.motion;
         if self.pace.has_inertia {
-            let way = |dof: usize| taken.state.displacement[dof] - before.displacement[dof];
-            let both = [&self.here.motion, &motion];
-            let dissipates = self.settings.dissipation > 0.0;
-            let damped = self.inertia().damped(both, &way, dissipates);
-            self.progress.motion.damping_energy += damped;
+            let way = |dof: usize| trial.state.displacement[dof] - before.displacement[dof];
+            let both = [&self.motion, &after];
+            motion.damping_energy += self.body.damped(both, &way, dissipates);
         }
-        self.progress.motion.kinetic_energy = motion.kinetic_energy(&self.masses);
-        self.move_rigid_bodies(&taken, &motion);
-        self.progress.motion.time_steps += 1;
-        self.pace.calm = if taken.broken.is_empty() {
+        motion.kinetic_energy = after.kinetic_energy(&self.body.masses);
+        // The energies of rigid bodies with a mass.
+        let contact = &self.run.problem.contact;
+        let of_rigid = |it: &Motion| contact.kinetic_energy(0.0, &it.rigid);
+        let [rigid_before, rigid] = [&self.motion, &after].map(of_rigid);
+        motion.kinetic_energy += rigid;
+        if dissipates {
+            let both = [(before, &self.balanced), (&trial.state, &trial.balanced)];
+            let work = rigid_step::work(contact, both[0], both[1]);
+            motion.damping_energy += work - (rigid - rigid_before);
+        }
+        motion.time_steps += 1;
+        self.pace.calm = if trial.broken.is_empty() {
             self.pace.calm + 1
         } else {
             0
         };
-        self.here = MotionState {
-            broken: self.here.broken + taken.broken.len(),
-            state: taken.state,
-            balanced: taken.balanced,
-            motion,
-        };
-        let problem = &self.problem.problem;
-        self.here.balance_forces(problem, &self.masses);
-        let (
+        self.run.progress.broken += trial.broken.len();
+        self.run.state = trial.state;
+        (self.balanced, self.motion) = (trial.balanced, after);
+        self.balance_forces();
+        let Run {
             problem,
-            MotionState {
-                state, balanced, ..
-            },
-        ) = (&self.problem.problem, &self.here);
-        (self.energies).account(problem, (state, balanced), &breakage);
-        if self.pace.has_inertia {
-            let (at, motion) = ((state, balanced), &mut self.progress.motion);
-            (self.energies).add_contact_in_motion(problem, at, &breakage.bonds, motion);
-        } else {
-            let taken = (self.energies).add_contact(problem, state, &breakage, balanced);
-            let motion = &mut self.progress.motion;
-            motion.friction_energy += taken.friction_energy;
-            motion.contact_energy = taken.contact_energy;
+            state,
+            energies,
+            ..
+        } = &mut self.run;
+        let at = (&*state, &self.balanced);
+        energies.account(problem, at, &breakage);
+        match self.pace.has_inertia {
+            true => energies.add_contact_in_motion(problem, at, &breakage.bonds),
+            false => energies.add_contact(problem, state, &breakage, &self.balanced),
         }
         Ok(())
     }
 
-    /// Adds the energies of the rigid bodies with a mass in a step.
-    fn move_rigid_bodies(&mut self, taken: &TrialStep, after: &Motion) {
-        let contact = &self.problem.problem.contact;
-        let kinetic = |it: &Motion| contact.kinetic_energy(0.0, &it.rigid);
-        let [before, now] = [&self.here.motion, after].map(kinetic);
-        let motion = &mut self.progress.motion;
-        motion.kinetic_energy += now;
-        if self.settings.dissipation > 0.0 {
-            let here = (&self.here.state, &self.here.balanced);
-            let work = rigid_step::work(contact, here, (&taken.state, &taken.balanced));
-            motion.damping_energy += work - (now - before);
+    /// Loads of a step from the present time.
+    fn loads(&self) -> Arc<dyn LoadProgram> {
+        let (body, problem, state) = (&self.body, &self.run.problem, &self.run.state);
+        let base = problem.loads.clone();
+        let Some(scheme) = &self.scheme() else {
+            return base;
+        };
+        let Motion {
+            velocity,
+            acceleration,
+            internal,
+            external,
+            damping,
+            rigid,
+        } = &self.motion;
+        let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
+        let n = velocity.len();
+        let mut predicted = vec![0.0; n];
+        // Velocity less its change with the displacement times the predicted displacement.
+        let mut remaining = vec![0.0; n];
+        for dof in 0..n {
+            let (v, a) = (velocity[dof], acceleration[dof]);
+            predicted[dof] = state.displacement[dof] + dt * v + (0.5 - beta) * dt * dt * a;
+            remaining[dof] = v + (1.0 - gamma) * dt * a - scheme.velocity() * predicted[dof];
         }
+        let mut added = body.damping_forces(state, &remaining);
+        let factor = 1.0 / scheme.of_stiffness();
+        let of_mass = scheme.acceleration() / (1.0 - scheme.dissipation);
+        for (dof, sum) in added.iter_mut().enumerate() {
+            let mass = body.masses[dof];
+            let at_start = damping[dof] + internal[dof] - external[dof];
+            let force = mass * of_mass * predicted[dof] - scheme.of_start() * at_start - *sum;
+            *sum = if mass > 0.0 { factor * force } else { 0.0 };
+        }
+        let from = Some((state, &self.balanced, &**rigid));
+        Arc::new(StepLoads {
+            base,
+            restraints: self.restraints.clone(),
+            factor,
+            added,
+            rigid: rigid_step::loads(&problem.contact, scheme, from),
+        })
+    }
+
+    /// Velocities, accelerations and forces after a step.
+    fn after(&self, trial: &TrialStep) -> Motion {
+        let (body, motion, state) = (&self.body, &self.motion, &self.run.state);
+        let n = body.masses.len();
+        let mut after = Motion::with_velocity(vec![0.0; n], &trial.balanced);
+        let Some(scheme) = &self.scheme() else {
+            after.external = body.forces(&trial.state, &after.velocity).0;
+            return after;
+        };
+        let (dt, beta, gamma) = (scheme.step, scheme.beta(), scheme.gamma());
+        for dof in (0..n).filter(|&dof| body.masses[dof] > 0.0) {
+            let (u, v, a) = (
+                state.displacement[dof],
+                motion.velocity[dof],
+                motion.acceleration[dof],
+            );
+            let predicted = u + dt * v + (0.5 - beta) * dt * dt * a;
+            let now = scheme.acceleration() * (trial.state.displacement[dof] - predicted);
+            after.acceleration[dof] = now;
+            after.velocity[dof] = v + dt * ((1.0 - gamma) * a + gamma * now);
+        }
+        (after.external, after.damping) = body.forces(&trial.state, &after.velocity);
+        let contact = &self.run.problem.contact;
+        after.rigid = rigid_step::after(contact, scheme, (state, &motion.rigid), &trial.state);
+        after
     }
 
     /// Records the present time as a row, and stops where the motion ends there.
     fn record(&mut self) -> Result<(), Stop> {
-        let costs = self.stepping.costs();
         let Self {
-            here,
-            problem,
-            stepping,
-            energies,
-            progress,
-            observer,
+            run,
+            balanced,
+            motion,
+            clock,
             ..
         } = self;
-        let rounding = match problem.problem.contact.is_empty() {
+        let rounding = match run.problem.contact.is_empty() {
             true => 0.0,
-            false => quasi_static::rounding(&stepping.equilibrium, &here.balanced),
+            false => quasi_static::rounding(&run.equations, balanced),
         };
-        let now = MotionView {
+        let now = RowInTime {
+            clock,
+            balanced,
+            rates: motion.rates(),
+            missed: None,
+            below_zero: 0.0,
             rounding,
-            ..stepping.now(&problem.problem, here, (energies, &costs))
         };
-        let stop = (&self.settings.stop, self.started);
-        let pace = self.pace;
-        let checkpoint = |progress: &Progress, out: &mut dyn Sink| {
-            let state = |out: &mut dyn Sink| {
-                ImplicitMotion::write(&problem.problem, here, (stepping, pace), out);
-            };
-            progress.write_all(energies, IMPLICIT, &state, out);
-        };
-        now.record(progress, stop, *observer, &checkpoint)
+        let position = (&*clock, &self.pace, &self.moving_since, &*motion);
+        run.record_in_time(&now, (WayKind::Newmark, &position))
     }
 }
 

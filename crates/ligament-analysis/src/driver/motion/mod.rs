@@ -1,30 +1,24 @@
 //! Motion in time: explicit and implicit steps in which bonds break.
 
-mod body;
-mod checkpoint;
 mod clock;
 mod explicit;
 mod implicit;
 mod inertia;
-mod motion_state;
 mod newmark;
 mod quasi_static;
+mod rates;
 mod record;
 mod rigid_step;
-mod stepping;
 mod trial_step;
 
 use std::io::Read;
 
-use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::Observer;
 use crate::motion::{MotionProblem, MotionSettings, Scheme, critical_step};
 use crate::solver::ExplicitChoice;
 
-use super::{Outcome, Way};
-pub use checkpoint::Restored;
-use checkpoint::RestoredMotion;
+use super::{Outcome, Restored, Way};
 use clock::Clock;
 
 /// Begins a motion at time zero.
@@ -34,7 +28,7 @@ use clock::Clock;
 /// If the motion cannot be computed ([`MotionError`](crate::motion::MotionError)), or an observer fails.
 pub fn begin<'a>(
     problem: &MotionProblem,
-    settings: &'a MotionSettings,
+    settings: &MotionSettings,
     observer: &'a mut dyn Observer,
 ) -> Result<Box<dyn Way + 'a>, SetupError> {
     Ok(match settings.scheme {
@@ -74,38 +68,18 @@ pub fn time_step(
     }
 }
 
-/// Restores a motion from a checkpoint.
+/// Restores a motion from a checkpoint, to continue as if it had never stopped; the rules for a stop may differ from those before.
 ///
 /// # Errors
 ///
-/// If the checkpoint is damaged, or belongs to another body or to statics.
+/// If the checkpoint is damaged, or belongs to another body, to other times or to another scheme.
 pub fn restore(
     problem: &MotionProblem,
     settings: &MotionSettings,
     checkpoint: &mut dyn Read,
 ) -> Result<Restored, SetupError> {
-    Restored::read(problem, settings, checkpoint)
-}
-
-/// Continues a motion as if it had never stopped; the rules for a stop may differ from those before.
-///
-/// # Errors
-///
-/// If its times differ from those of the checkpoint, or an observer fails.
-pub fn resume(
-    settings: &MotionSettings,
-    restored: Restored,
-    observer: &mut dyn Observer,
-) -> Result<Outcome, SetupError> {
-    match restored.0 {
-        RestoredMotion::Explicit(it) if settings.is_explicit() => {
-            explicit::resume(settings, *it, observer)
-        }
-        RestoredMotion::Implicit(it) if !settings.is_explicit() => {
-            implicit::resume(settings, *it, observer)
-        }
-        RestoredMotion::Explicit(_) | RestoredMotion::Implicit(_) => {
-            Err(CheckpointError::OtherDriver.into())
-        }
+    match settings.scheme {
+        Scheme::Explicit => explicit::restore(problem, settings, checkpoint),
+        Scheme::Implicit | Scheme::Auto => implicit::restore(problem, settings, checkpoint),
     }
 }

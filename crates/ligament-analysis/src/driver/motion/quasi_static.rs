@@ -8,13 +8,11 @@
 //! another without friction has one beside it as well, past which it cannot have slipped at once ([`slips`]). A step across a gap finds that one; what the
 //! force does on the way counts as set free, but not what a prescribed motion seems to do there by the trapezoidal rule.
 
-use super::clock::Clock;
-use super::motion_state::MotionState;
-use super::stepping::{HALVINGS, Pace};
+use super::clock::{Clock, HALVINGS, Pace};
 use super::trial_step::TrialStep;
 use crate::balanced::Balanced;
 use crate::bond_numbers::sum_over_bonds;
-use crate::driver::energies::Energies;
+use crate::driver::run::Run;
 use crate::equilibrium::Equilibrium;
 use crate::motion::{MotionProblem, MotionSettings};
 use crate::problem::Problem;
@@ -76,16 +74,12 @@ pub(super) fn slips(problem: &Problem, size: f64, [before, after]: [&State; 2]) 
     moved.map(way).fold(0.0, f64::max) > SLIP * size + LEVER * prescribed
 }
 
-/// Energy that a step sets free, J.
-pub(super) fn set_free(
-    problem: &Problem,
-    energies: &Energies,
-    here: &MotionState,
-    taken: &TrialStep,
-) -> f64 {
+/// Energy that a step of a run sets free after a balanced state, J.
+pub(super) fn set_free(run: &Run<'_>, last: &Balanced, taken: &TrialStep) -> f64 {
+    let (problem, energies) = (&run.problem, &run.energies);
     let work = energies.work_to(problem, &taken.state, &taken.balanced);
-    let stored = taken.balanced.stored_energy - here.balanced.stored_energy;
-    let (before, after) = (&here.state.dissipated, &taken.state.dissipated);
+    let stored = taken.balanced.stored_energy - last.stored_energy;
+    let (before, after) = (&run.state.dissipated, &taken.state.dissipated);
     let dissipated = after
         .iter()
         .zip(before)
@@ -98,7 +92,7 @@ pub(super) fn set_free(
     let mut onward = energies.clone();
     let faces = onward.follow_contact(problem, now, &taken.broken);
     let surfaces = onward.follow_surfaces(problem, now.0);
-    let kept = surfaces.stored - here.balanced.touching.energy();
+    let kept = surfaces.stored - last.touching.energy();
     // Faces close and open without force on the way, which the trapezoidal rule counts as work.
     let closure = if taken.broken.is_empty() {
         faces.closure

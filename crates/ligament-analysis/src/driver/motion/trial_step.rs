@@ -2,13 +2,12 @@
 
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
-use crate::breaking::{BreakingRule, next_to_break};
+use crate::breaking::BreakingRule;
 use crate::driver::breaks::{self, Breaking};
+use crate::driver::run::{Run, next_to_break};
 use crate::driver::start::NoObserver;
-use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::history::BreakRecord;
-use crate::problem::Problem;
 use crate::state::State;
 use crate::unbalanced::Unbalanced;
 
@@ -39,118 +38,60 @@ impl<E: Into<SetupError>> From<E> for Rejected {
     }
 }
 
-/// Settings of a step.
-pub(super) struct StepSettings {
-    /// Row of the history to which the step leads.
-    pub(super) row: usize,
-    /// Number of bonds that broke before it.
-    pub(super) broken: usize,
-    pub(super) rule: BreakingRule,
-    /// Largest number of rounds of breaking; None: any number.
-    pub(super) rounds: Option<usize>,
-}
-
-/// A step to the time of a state, from an equilibrium before it; the reason why it is too long, if it is.
+/// A step of a run to a time, with at most `most` rounds of breaking, if there is a limit, on a copy of its state; the reason why it is too long, if
+/// it is. The equations follow the copy.
 pub(super) fn attempt(
-    problem: &Problem,
-    equilibrium: &mut Equilibrium,
-    (state, balanced): (State, Balanced),
-    settings: &StepSettings,
+    run: &mut Run<'_>,
+    time: f64,
+    rule: &BreakingRule,
+    most: Option<usize>,
 ) -> Result<TrialStep, Rejected> {
-    let mut taken = TrialStep {
-        state,
-        balanced,
-        broken: Vec::new(),
-        records: Vec::new(),
+    let (problem, equations, before) = (&run.problem, &mut run.equations, &run.state);
+    let mut state = State {
+        load_factor: time,
+        ..before.clone()
     };
-    // Friction and contact follow from the start of the step.
-    let contact = (taken.state.friction.clone(), taken.state.surfaces.clone());
-    let mut breakage = Breakage::default();
-    let mut rounds = 0;
+    let (mut broken, mut records) = (Vec::new(), Vec::new());
+    let (mut breakage, mut round) = (Breakage::default(), 0);
     loop {
-        (taken.state.friction, taken.state.surfaces) = contact.clone();
-        let attempt = equilibrium.balance(&mut taken.state, &breakage, &mut NoObserver)?;
-        taken.balanced = match attempt {
+        // Friction and contact follow from the start of the step.
+        (state.friction, state.surfaces) = (before.friction.clone(), before.surfaces.clone());
+        let balanced = match equations.balance(&mut state, &breakage, &mut NoObserver)? {
             Attempt::Balanced(balanced) => balanced,
-            Attempt::Unbalanced(reason) => {
-                return Err(Rejected::Unbalanced(reason));
-            }
+            Attempt::Unbalanced(reason) => return Err(Rejected::Unbalanced(reason)),
         };
         breakage = Breakage::default();
-        if problem.begin_softening(&mut taken.state, &taken.balanced) {
+        if problem.begin_softening(&mut state, &balanced) {
             continue;
         }
-        let next = next(problem, &settings.rule, equilibrium, &taken);
+        let next = next_to_break(problem, &*equations, rule, (&state, &balanced));
         if next.is_empty() {
-            breaks::soften(problem, &mut taken.state);
-            return Ok(taken);
+            breaks::soften(problem, &mut state);
+            return Ok(TrialStep {
+                state,
+                balanced,
+                broken,
+                records,
+            });
         }
-        rounds += 1;
-        if settings.rounds.is_some_and(|most| rounds > most) {
+        round += 1;
+        if most.is_some_and(|most| round > most) {
             return Err(Rejected::Rounds);
         }
-        let moment = BreakRecord {
-            order: settings.broken + taken.broken.len(),
-            step: settings.row,
-            round: rounds,
-            ..BreakRecord::default()
-        };
-        breakage = taken.break_bonds(problem, &next, moment, equilibrium);
-    }
-}
-
-/// Bonds that break next in an equilibrium of a step.
-fn next(
-    problem: &Problem,
-    rule: &BreakingRule,
-    equilibrium: &Equilibrium,
-    taken: &TrialStep,
-) -> Vec<u32> {
-    let criteria = problem.criteria_in(&taken.state, &taken.balanced);
-    if problem.criteria.list.is_empty() {
-        return Vec::new();
-    }
-    let (system, deformations) = (&problem.system, &taken.balanced.deformations);
-    let in_file = |bond| system.ends_in_file(bond);
-    let rule = BreakingRule {
-        tie_tolerance: equilibrium.choice().tie_tolerance(rule.tie_tolerance),
-        ..*rule
-    };
-    let intact = &taken.state.intact;
-    next_to_break(
-        equilibrium.numbers(),
-        &rule,
-        deformations,
-        &criteria,
-        intact,
-        in_file,
-    )
-}
-
-impl TrialStep {
-    /// Breaks bonds of an equilibrium of the step.
-    fn break_bonds(
-        &mut self,
-        problem: &Problem,
-        bonds: &[u32],
-        moment: BreakRecord,
-        equilibrium: &mut Equilibrium,
-    ) -> Breakage {
-        let Self {
-            state, balanced, ..
-        } = self;
-        let criteria = problem.criteria_in(state, balanced);
-        let deformation = |_, bond: usize| balanced.deformations[bond];
         let breaking = Breaking {
             problem,
-            numbers: equilibrium.numbers(),
-            criteria: &criteria,
-            deformation: &deformation,
-            moment,
+            numbers: equations.numbers(),
+            criteria: &problem.criteria_in(&state, &balanced),
+            deformation: &|_: usize, bond: usize| balanced.deformations[bond],
+            moment: BreakRecord {
+                order: run.progress.broken + broken.len(),
+                step: run.progress.history.len(),
+                round,
+                ..BreakRecord::default()
+            },
         };
-        let records = breaking.apply(state, &balanced.internal, bonds);
-        self.records.extend(records);
-        self.broken.extend(bonds);
-        equilibrium.break_bonds(&mut self.state, bonds)
+        records.extend(breaking.apply(&mut state, &balanced.internal, &next));
+        breakage = equations.break_bonds(&mut state, &next);
+        broken.extend(next);
     }
 }

@@ -1,24 +1,13 @@
-//! An implicit motion at a time: state, velocities and forces.
+//! An implicit motion at a time: velocities and forces of the points, and the masses and the damping behind them.
 
 use serde::{Deserialize, Serialize};
 
 use crate::balanced::Balanced;
 use crate::contact::RigidRates;
 use crate::history::Rates;
-use crate::motion::{Damping, MotionProblem};
-use crate::problem::Problem;
+use crate::motion::{Damping, MotionProblem, MotionSettings};
 use crate::state::State;
 use crate::vectors::{sum_of_chunks, weighted_square};
-
-/// Motion at a time.
-pub(super) struct MotionState {
-    pub(super) state: State,
-    /// Deformations and energy of the bonds; its forces are those that supports and loads balance.
-    pub(super) balanced: Balanced,
-    /// Number of broken bonds.
-    pub(super) broken: usize,
-    pub(super) motion: Motion,
-}
 
 /// Velocities and forces at a time, each of shape (n_degrees_of_freedom).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -36,21 +25,11 @@ pub(super) struct Motion {
 }
 
 /// Masses and damping of a body.
-#[derive(Clone, Copy)]
-pub(super) struct MassAndDamping<'a> {
-    pub(super) problem: &'a MotionProblem,
+pub(super) struct MassAndDamping {
+    pub(super) problem: MotionProblem,
     /// Mass of each degree of freedom, zero where its motion is prescribed, shape (n_degrees_of_freedom).
-    pub(super) masses: &'a [f64],
-    pub(super) damping: Damping,
-}
-
-/// Mass of each degree of freedom, zero where its motion is prescribed.
-pub(super) fn free_masses(problem: &MotionProblem, rotary_inertia: f64) -> Vec<f64> {
-    let mut masses = problem.masses(rotary_inertia);
-    for dof in problem.prescribed() {
-        masses[dof as usize] = 0.0;
-    }
-    masses
+    pub(super) masses: Vec<f64>,
+    damping: Damping,
 }
 
 impl Motion {
@@ -95,7 +74,20 @@ impl Motion {
     }
 }
 
-impl MassAndDamping<'_> {
+impl MassAndDamping {
+    /// Masses and damping of a problem.
+    pub(super) fn new(problem: &MotionProblem, settings: &MotionSettings) -> Self {
+        let mut masses = problem.masses(settings.rotary_inertia);
+        for dof in problem.prescribed() {
+            masses[dof as usize] = 0.0;
+        }
+        Self {
+            problem: problem.clone(),
+            masses,
+            damping: settings.damping,
+        }
+    }
+
     /// Forces of loads and restraints, and of damping, at the time of a state with its velocities (n_degrees_of_freedom).
     pub(super) fn forces(&self, state: &State, velocity: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let loads = &self.problem.problem.loads;
@@ -120,7 +112,7 @@ impl MassAndDamping<'_> {
         } = self.damping;
         let MotionProblem {
             problem, dashpots, ..
-        } = self.problem;
+        } = &self.problem;
         let mut forces = vec![0.0; velocity.len()];
         if beta > 0.0 {
             problem
@@ -128,7 +120,7 @@ impl MassAndDamping<'_> {
                 .multiply(state.bonds(), velocity, &mut forces);
             forces.iter_mut().for_each(|force| *force *= beta);
         }
-        for ((force, mass), velocity) in forces.iter_mut().zip(self.masses).zip(velocity) {
+        for ((force, mass), velocity) in forces.iter_mut().zip(&self.masses).zip(velocity) {
             *force += alpha * mass * velocity;
         }
         let layout = problem.system.layout();
@@ -144,9 +136,7 @@ impl MassAndDamping<'_> {
         }
         forces
     }
-}
 
-impl MassAndDamping<'_> {
     /// Energy that damping took between two times, and with dissipation that of the scheme, J, for the way of each degree of freedom: the work
     /// of the forces that are out of balance at both times, and what the parameters of the scheme take from the kinetic energy.
     pub(super) fn damped(
@@ -155,7 +145,7 @@ impl MassAndDamping<'_> {
         way: &(dyn Fn(usize) -> f64 + Sync),
         dissipates: bool,
     ) -> f64 {
-        let masses = self.masses;
+        let masses = &*self.masses;
         let left = |motion: &Motion, dof: usize| {
             let inertia = masses[dof] * motion.acceleration[dof];
             let balance = motion.external[dof] - motion.internal[dof];
@@ -181,21 +171,16 @@ impl MassAndDamping<'_> {
             false => sum,
         }
     }
-}
 
-impl MotionState {
-    /// Makes the forces of the state those that supports and loads balance: the bonds' with inertia and damping, and at restraints the external
-    /// ones.
-    pub(super) fn balance_forces(&mut self, problem: &Problem, masses: &[f64]) {
-        let Self {
-            balanced, motion, ..
-        } = self;
-        let restraints = problem.loads.restraints();
-        for (dof, value) in balanced.internal.values.iter_mut().enumerate() {
-            *value = match masses[dof] > 0.0 && restraints.acts_on(dof) {
+    /// Makes the internal forces (n_degrees_of_freedom) of a motion those that supports and loads balance: the bonds' with inertia and damping, and
+    /// at restraints the external ones.
+    pub(super) fn balance_forces(&self, motion: &Motion, internal: &mut [f64]) {
+        let restraints = self.problem.problem.loads.restraints();
+        for (dof, value) in internal.iter_mut().enumerate() {
+            *value = match self.masses[dof] > 0.0 && restraints.acts_on(dof) {
                 true => motion.external[dof],
                 false => {
-                    let inertia = masses[dof] * motion.acceleration[dof];
+                    let inertia = self.masses[dof] * motion.acceleration[dof];
                     motion.internal[dof] + inertia + motion.damping[dof]
                 }
             };
