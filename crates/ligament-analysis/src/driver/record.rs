@@ -109,7 +109,7 @@ impl RunView<'_> {
 
     /// Numbers of softened bonds. Collective.
     pub(super) fn softened(&self) -> SoftenedOfAll {
-        SoftenedOfAll::in_state(self.state, self.numbers, self.problem.system.ends())
+        SoftenedOfAll::in_state(self.state, self.numbers, &self.problem.system.ends)
     }
 
     /// Tells the observer where the faces of cracks overlap more than in the records before.
@@ -177,7 +177,7 @@ pub(super) fn step_record(
 
 /// Forces and moments of each group on the body: the reactions that count for it and its own given forces.
 fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<Vec<f64>> {
-    let layout = problem.system.layout();
+    let layout = problem.system.layout;
     let groups = problem.loads.groups();
     let owners = groups_of_reactions(groups, layout);
     let numbered = groups.iter().enumerate();
@@ -245,5 +245,5 @@ pub(super) fn largest_ratio_by(
         .filter(|(_, (intact, _))| **intact)
         .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
         .reduce(|| 0.0, f64::max);
-    problem.system.subdomain().max(ratio)
+    problem.system.subdomain.max(ratio)
 }

@@ -93,7 +93,7 @@ fn write_report(
     patch_test::write(out, extent, model, &mut stages)?;
     let too_stiff = bending_test::write(out, extent, model, &mut stages)?;
     write_stages(out, stages.done())?;
-    let intact = vec![true; model.system.ends().len()];
+    let intact = vec![true; model.system.ends.len()];
     let loose = Fragments::find(&*model.system, &intact).points.len();
     if loose > 1 {
         writeln!(
@@ -116,8 +116,8 @@ fn write_report(
         let (grid, system) = (model.body().grid(), &model.system);
         let points = ModelPoints {
             fixed: &model.fixed,
-            volumes: system.volumes(),
-            spacing: system.spacing(),
+            volumes: &system.volumes,
+            spacing: &system.spacing,
         };
         point_grid(&path, &grid, points)?;
         writeln!(out, "fields written to {}", path.display())?;

@@ -17,7 +17,7 @@ use super::{body, criteria};
 /// Writes the report on the model.
 pub(super) fn write(out: &mut dyn Write, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
     writeln!(out, "{}", heading(&case.case.title))?;
-    let volume = model.system.volumes().iter().sum();
+    let volume = model.system.volumes.iter().sum();
     body::write(out, model.body(), volume)?;
     write_section(out, model)?;
     write_materials(out, model)?;
@@ -123,7 +123,7 @@ fn write_bonds(out: &mut dyn Write, model: &Model) -> io::Result<()> {
         entry(out, "far field", elements)?;
     }
     entry(out, "points with no_fail", model.no_fail_points())?;
-    spread(out, "nearest distance", over(system.spacing()), "m")?;
+    spread(out, "nearest distance", over(&system.spacing), "m")?;
     spread(out, "horizon", over(&fixed.horizon), "m")?;
     let Spread { min, mean, max } = family(model);
     let of_points = format!("{min} to {max}, mean {mean:.1}");

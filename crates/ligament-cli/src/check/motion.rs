@@ -96,7 +96,7 @@ fn write_waves(out: &mut dyn Write, model: &Model) -> io::Result<()> {
     let (Some(time), Some(speed)) = (shortest, slowest) else {
         return Ok(());
     };
-    let spacing = model.system.spacing().iter().copied().fold(0.0, f64::max);
+    let spacing = model.system.spacing.iter().copied().fold(0.0, f64::max);
     let points = time * speed / spacing;
     let length = quantity(time * speed, "m");
     entry(

@@ -96,7 +96,7 @@ fn in_one_sweep(problem: &Problem) -> bool {
     let is_plain = |it: &Criterion| it.after.is_brittle() && it.surroundings.is_none();
     let are_plain = criteria.list.iter().all(is_plain);
     let is_cold = loads.temperature_change(0.0).is_empty();
-    let is_linear = system.is_linear() && !system.faces_close();
+    let is_linear = system.element.is_linear() && !system.faces_close;
     are_plain && is_cold && is_linear
 }
 
@@ -104,7 +104,7 @@ impl Body {
     /// Unloaded body with all its bonds, or the body of a restored state.
     pub(super) fn new(problem: &Problem, numbers: BondNumbers, restored: Option<State>) -> Self {
         let system = &*problem.system;
-        let n_bonds = system.ends().len();
+        let n_bonds = system.ends.len();
         let state = restored.unwrap_or_else(|| State {
             softening: Softening::of_sound_bonds(&problem.criteria, n_bonds),
             ..State::fresh(system)
@@ -385,7 +385,7 @@ impl Body {
         let deformations = std::mem::take(&mut self.balanced.deformations);
         let mut swept = (problem.system).forces(self.state.bonds(), deformations, expansion);
         self.balanced.closed = self.contact.closed(&self.state, expansion).1;
-        let layout = problem.system.layout();
+        let layout = problem.system.layout;
         faces::add_to(&mut swept, &self.balanced.closed, layout, expansion);
         self.balanced.deformations = swept.deformations;
         self.balanced.internal = swept.internal;

@@ -48,13 +48,13 @@ impl ExplicitMotion {
     ) -> Result<Self, SetupError> {
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
-        let n_components = problem.problem.system.layout().components.len();
+        let n_components = problem.problem.system.layout.components.len();
         let state = State::read((&numbers, n_components), &problem.problem.criteria, from)?;
         let velocities: Velocities = Serial::read(from).map_err(damaged)?;
         let costs = Serial::read(from).map_err(damaged)?;
         let system = &*problem.problem.system;
         let lengths = [velocities.half.len(), velocities.acceleration.len()];
-        let fits = state.fits(system, system.ends().len(), &problem.problem.criteria);
+        let fits = state.fits(system, system.ends.len(), &problem.problem.criteria);
         let contact = &problem.problem.contact;
         let n_rigid = contact.rigid_bodies.len();
         let can_touch = state.surfaces.fits(contact) && velocities.rigid.len() == n_rigid;
@@ -121,12 +121,12 @@ impl ImplicitMotion {
         let clock = &progress.clock;
         let damaged = CheckpointError::Damaged;
         let numbers = BondNumbers::new(&*problem.problem.system)?;
-        let n_components = problem.problem.system.layout().components.len();
+        let n_components = problem.problem.system.layout.components.len();
         let state = State::read((&numbers, n_components), &problem.problem.criteria, from)?;
         let motion: Motion = Serial::read(from).map_err(damaged)?;
         let pace: Pace = Serial::read(from).map_err(damaged)?;
         let costs: Costs = Serial::read(from).map_err(damaged)?;
-        let n = problem.problem.system.layout().n_degrees_of_freedom();
+        let n = problem.problem.system.layout.n_degrees_of_freedom();
         let n_rigid = problem.problem.contact.rigid_bodies.len();
         let has_rates = motion.rigid.is_empty() || motion.rigid.len() == n_rigid;
         if !motion.fits(n) || !has_rates || pace.halvings > pace.most_halvings(clock) {

@@ -102,10 +102,10 @@ pub(super) fn chosen(
     settings: &MotionSettings,
 ) -> Result<(Clock, ExplicitChoice), SetupError> {
     let system = &problem.problem.system;
-    if !system.subdomain().is_whole() {
+    if !system.subdomain.is_whole() {
         return Err(MotionError::SeveralProcesses.into());
     }
-    if settings.damping.stiffness > 0.0 && !system.is_linear() {
+    if settings.damping.stiffness > 0.0 && !system.element.is_linear() {
         return Err(MotionError::StiffnessDamping.into());
     }
     let critical = critical_step(problem, settings)?;
