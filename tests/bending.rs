@@ -325,7 +325,7 @@ fn a_round_bar_is_as_much_too_stiff_in_torsion_as_its_strip() {
     for rotational_factor in [1.0, 0.0] {
         let setup = bar(6, rotational_factor);
         let model = Model::build(setup.clone(), &mut ()).unwrap();
-        let volume: f64 = model.system.volumes().iter().sum();
+        let volume: f64 = model.system.volumes.iter().sum();
         let (section, test) = tested(&model);
         let expected = torque(setup, volume / ROUND[1]);
         let found = test.torsion.unwrap();

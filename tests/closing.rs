@@ -164,13 +164,13 @@ fn closed_faces_slide_without_friction() {
 fn pairs_are_in_balance() {
     let bench = Bench::new(CYCLE, &[]);
     let system = bench.model.plane();
-    let mut intact = vec![true; system.ends().len()];
+    let mut intact = vec![true; system.topology().ends.len()];
     for bond in (0..intact.len()).step_by(7) {
         intact[bond] = false;
     }
     let pairs: Vec<ContactPair> = system.contact_pairs(&intact);
     assert!(pairs.len() > bench.model.cut_bonds() && bench.model.cut_bonds() > 50);
-    let (layout, positions) = (system.layout(), &system.cloud.positions);
+    let (layout, positions) = (system.topology().layout, &system.cloud.positions);
     let motion = |[x, y]: [f64; 2]| [3.0 - 2.0 * y, -5.0 + 2.0 * x, 2.0];
     let moved: Vec<f64> = positions.iter().flat_map(|&p| motion(p)).collect();
     let mut normals_of_cut = 0;
@@ -199,7 +199,7 @@ fn pairs_are_in_balance() {
 fn pairs_follow_breakages() {
     let bench = Bench::new(CYCLE, &[]);
     let system = bench.model.plane();
-    let mut intact = vec![true; system.ends().len()];
+    let mut intact = vec![true; system.topology().ends.len()];
     let mut pairs: Vec<ContactPair> = system.contact_pairs(&intact);
     for round in 0..6 {
         let all = (round..intact.len() as u32).step_by(17 + 5 * round as usize);

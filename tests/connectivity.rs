@@ -115,7 +115,7 @@ fn random_graphs_come_apart_as_a_search_finds() {
     for graph in 0..100 {
         let order = shuffled(system, random);
         let kept = bench.points() / 2 + 2 * graph;
-        let mut prescribed = vec![false; system.layout().n_degrees_of_freedom()];
+        let mut prescribed = vec![false; system.topology().layout.n_degrees_of_freedom()];
         for &dof in &random.permutation(prescribed.len())[..4] {
             prescribed[dof] = true;
         }

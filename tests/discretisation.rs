@@ -137,7 +137,7 @@ fn rounded_coordinates_have_the_bonds_of_exact_ones() {
         let cloud = cloud_of(mesh, 1.0);
         let found = BondSet::search(&cloud, &Horizons::from_spacing(&cloud.spacing, 3.0));
         let leaves = bonds_outside(&PlaneOutline::of_cells(&mesh.cells, &cloud), &found, &cloud);
-        let inside = found.ends.into_iter().zip(leaves);
+        let inside = found.ends.iter().copied().zip(leaves);
         inside.filter(|it| !it.1).map(|it| it.0).collect::<Vec<_>>()
     };
     let seven_digits = |x: f64| format!("{x:.6e}").parse().unwrap();
@@ -220,7 +220,7 @@ fn threads_do_not_change_a_bit_of_the_model() {
         let [x, y, biaxial, shear] =
             [0, 1, 2, 3].map(|it| &model.fixed.energy_ratios[it].at_points);
         [
-            &system.cloud.spacing,
+            &*system.cloud.spacing,
             &system.weight,
             &system.rigidities.axial,
             &system.rigidities.shear,
@@ -498,7 +498,7 @@ load = [{ group = "inside", pressure = 1.0 }]
     };
     let on_rim = places.iter().filter(|p| p[0].hypot(p[1]) < 0.1 + 1e-6);
     let inner = 0.1 * (std::f64::consts::PI / on_rim.count() as f64).cos();
-    let kept: Vec<[u32; 2]> = inside.plane().bonds.ends.clone();
+    let kept: Vec<[u32; 2]> = inside.plane().bonds.ends.to_vec();
     assert!(kept.iter().all(|ends| nearest(ends) > inner - 1e-9));
     let lost: Vec<[u32; 2]> = (across.plane().bonds.ends.iter().copied())
         .filter(|ends| !kept.contains(ends))

@@ -172,7 +172,10 @@ fn tied_bonds_break_in_one_event() {
     assert!(largest(damage.iter().copied()) > 0.3 && asymmetry < 1e-12);
     let pairs = (run.outcome.history.iter()).filter(|step| step.broken_in_step == 2);
     assert!(pairs.count() > 20);
-    let (numbering, ends) = (bench.model.body().numbering(), bench.model.plane().ends());
+    let (numbering, ends) = (
+        bench.model.body().numbering(),
+        &bench.model.plane().topology().ends,
+    );
     let in_file = |bond: u32| numbering.ends_in_file(ends[bond as usize]);
     let of_event = |pair: &[_]| -> bool {
         let [a, b]: [&ligament_analysis::history::BreakRecord; 2] = [&pair[0], &pair[1]];

@@ -64,9 +64,9 @@ fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
     let cloud = &system.cloud;
     let of_points = cloud.positions.iter();
     let of_points = of_points.map(|&position| motion(strains, angle, position));
-    let strain = of_all(system.layout(), of_points);
+    let strain = of_all(system.topology().layout, of_points);
     let mut boundary = ProportionalLoading::new(
-        system.layout(),
+        system.topology().layout,
         Control {
             kind: ControlKind::Displacement,
             points: vec![0],
@@ -81,8 +81,11 @@ fn first_breakage(bench: &Bench, strains: [f64; 2], angle: f64) -> f64 {
     };
     assert!((0..cloud.len()).filter(|&it| is_free(it)).count() >= 25);
     for point in (0..cloud.len()).filter(|&point| !is_free(point)) {
-        for &component in system.components() {
-            let value = system.layout().value(point as u32, component, &strain);
+        for &component in system.topology().layout.components {
+            let value = system
+                .topology()
+                .layout
+                .value(point as u32, component, &strain);
             boundary
                 .prescribe(&[point as u32], component, value)
                 .unwrap();
@@ -343,7 +346,7 @@ fn orientation_makes_frictional_bars_stronger_as_known() {
                 let angle = f64::from(turn) * 0.9_f64.to_radians();
                 let of_points = system.cloud.positions.iter();
                 let of_points = of_points.map(|&it| motion([strain, 0.0], angle, it));
-                let u = of_all(system.layout(), of_points);
+                let u = of_all(system.topology().layout, of_points);
                 let intact = vec![true; system.bonds.len()];
                 let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
                 let utilisation = |&bond: &u32| {

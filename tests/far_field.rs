@@ -106,7 +106,7 @@ fn plate(settings: &[&str]) -> Solution {
 
 /// Nodes of the ends of the broken bonds.
 fn broken(Solution { model, outcome, .. }: &Solution) -> BTreeSet<[u32; 2]> {
-    let bonds = model.system.ends().iter().zip(&outcome.state.intact);
+    let bonds = model.system.ends.iter().zip(&outcome.state.intact);
     let numbering = model.body().numbering();
     let broken = bonds.filter(|(_, intact)| !**intact);
     broken

@@ -339,7 +339,7 @@ impl Separation {
         let positions = bench.positions().iter();
         let is_left = positions.map(|&position| segment.side(position) > 0.0);
         let motions = is_left.map(|is_left| if is_left { [x, y, 0.0] } else { [0.0; 3] });
-        let u = of_all(system.layout(), motions);
+        let u = of_all(system.topology().layout, motions);
         let intact = vec![true; system.bonds.len()];
         let deformations = system.deformations(&intact, &u, ThermalStrain::NONE);
         for bond in segment.crossing(bench) {

@@ -80,10 +80,10 @@ struct Watched {
 
 impl Observer for Watched {
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        let layout = view.system.layout();
+        let layout = view.system.layout;
         let velocity = view.motion.unwrap().velocity;
         let mut halves = [0.0; 2];
-        let numbering = view.system.numbering();
+        let numbering = &view.system.numbering;
         for point in 0..layout.n_points as u32 {
             let place = numbering.ends_in_file([point; 2])[0] % 80;
             let right = usize::from(place >= 40);
@@ -498,7 +498,7 @@ fn faces_enclose_the_cells_of_points() {
             2 => vector_areas(&model.plane().cloud, &**body.geometry::<2>()),
             _ => vector_areas(&model.solid().cloud, &**body.geometry::<3>()),
         };
-        let spacing = model.system.to_bonds().spacing()[0];
+        let spacing = model.system.to_bonds().spacing[0];
         let largest = sums.iter().map(|it| norm(*it)).fold(0.0, f64::max);
         println!("{name}: {largest:.1e} m^2 of cells of {spacing:.1e} m");
         assert!(largest < 1e-12 * spacing.min(1.0) && !sums.is_empty());

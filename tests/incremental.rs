@@ -760,7 +760,7 @@ fn nested_dissection_leaves_little_fill() {
     let order = assert_permutation(system, &unknowns);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
     let points = (0..bench.points() as u32).map(|it| system.cloud.numbering.point(it));
-    let of_file = points.flat_map(|it| system.layout().range(it));
+    let of_file = points.flat_map(|it| system.topology().layout.range(it));
     let natural = of_file.filter_map(|it| unknowns.number(it)).collect();
     let [dissection, natural, degree] = [
         Elimination::Given(order),

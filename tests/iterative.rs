@@ -277,7 +277,7 @@ temperature = [{ change = 1.0 }]
 "#;
         let bench = Bench::new(LATTICE, &[&law_setting]);
         let system: &dyn Bonds = &**bench.model.plane();
-        let (n_bonds, n) = (system.ends().len(), system.layout().n_degrees_of_freedom());
+        let (n_bonds, n) = (system.ends.len(), system.layout.n_degrees_of_freedom());
         let mut random = Random(7);
         let intact: Vec<bool> = (0..n_bonds).map(|_| random.uniform() > -0.8).collect();
         let remaining: Vec<StiffnessFactors> = (0..n_bonds)
@@ -322,10 +322,10 @@ fn rigid_shapes_cost_nothing() {
     );
     let system: &dyn Bonds = &**bench.model.plane();
     let all: Vec<u32> = (0..system.n_points() as u32).collect();
-    let intact = vec![true; system.ends().len()];
+    let intact = vec![true; system.ends.len()];
     let shapes = system.rigid_shapes(&all);
     assert_eq!(shapes.len(), 3);
-    let mut forces = vec![0.0; system.layout().n_degrees_of_freedom()];
+    let mut forces = vec![0.0; system.layout.n_degrees_of_freedom()];
     for shape in shapes {
         system.multiply(UnbrokenBonds::whole(&intact), &shape, &mut forces);
         let size = largest(system.point_stiffness().iter().map(|it| it.force));

@@ -33,7 +33,7 @@ impl Ring {
     /// Radius, radial displacement and Lame's at each point. What the gauges leave open is taken out: the ring is symmetric, so
     /// the field of Lame has no mean, and a rotation has no radial component.
     fn compare(&self, bench: &Bench, run: &Run) -> Vec<[f64; 3]> {
-        let u = by_point(bench.model.plane().layout(), run.displacement());
+        let u = by_point(bench.model.plane().topology().layout, run.displacement());
         let mean = [0, 1].map(|axis| u.iter().map(|u| u[axis]).sum::<f64>() / u.len() as f64);
         let radial = |(&[x, y], u): (&[f64; 2], &[f64; 3])| {
             let r = x.hypot(y);
@@ -176,7 +176,7 @@ outside = { centre = [0.0, 0.0], radius = 0.03 }
     ] {
         let bench = Bench::new(text, &[]);
         let run = bench.solve();
-        let motions = by_point(bench.model.plane().layout(), run.displacement());
+        let motions = by_point(bench.model.plane().topology().layout, run.displacement());
         let [[xx, xy], [yx, yy]] = [0, 1].map(|axis| {
             let along: Vec<f64> = motions.iter().map(|it| it[axis]).collect();
             gradient(bench.positions(), &along)

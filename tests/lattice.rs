@@ -206,7 +206,7 @@ fn a_lattice_is_the_mesh_with_the_same_points_and_volumes() {
         let bonds = bench.bonds_in_file().into_iter();
         bonds.map(|bond| bench.nodes_of_bond(bond)).collect()
     };
-    assert_eq!(one.plane().bonds.ends, ends(&mesh));
+    assert_eq!(*one.plane().bonds.ends, ends(&mesh));
     assert!(one.cut_bonds() > 0 && one.cut_bonds() == other.cut_bonds());
     let volumes = mesh.in_file(&other.plane().cloud.volumes);
     assert!(deviation(&one.plane().cloud.volumes, &volumes) < 1e-12);

@@ -87,7 +87,7 @@ fn plates_are_those_of_the_independent_calculation() {
                 .iter()
                 .map(|&row| reference.number(row, column))
                 .collect();
-            let motions = by_point(bench.model.plane().layout(), run.displacement());
+            let motions = by_point(bench.model.plane().topology().layout, run.displacement());
             let found: Vec<f64> = motions.iter().map(|it| it[component]).collect();
             let error = deviation(&found, &expected);
             let is_zero = expected.iter().all(|&value| value == 0.0);
@@ -261,7 +261,10 @@ fn uniform_strains_of_a_lattice_have_the_stress_of_the_continuum() {
         ];
         for ([xx, yy, xy], expected) in strains {
             let motion = |p: &[f64; 2]| [xx * p[0] + xy * p[1], xy * p[0] + yy * p[1], 0.0];
-            let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
+            let u = of_all(
+                system.topology().layout,
+                system.cloud.positions.iter().map(motion),
+            );
             let deformations = internal::sweep(
                 system,
                 UnbrokenBonds::whole(&intact),

@@ -128,7 +128,10 @@ fn all() -> impl Iterator<Item = (&'static Entry, String, Bench)> {
 
 fn stored_energy(bench: &Bench, motion: impl Fn(&[f64; 2]) -> [f64; 3]) -> f64 {
     let system = &**bench.model.plane();
-    let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
+    let u = of_all(
+        system.topology().layout,
+        system.cloud.positions.iter().map(motion),
+    );
     internal::sweep(
         system,
         UnbrokenBonds::whole(&vec![true; system.bonds.len()]),
@@ -169,7 +172,7 @@ fn internal_forces_are_in_balance() {
     for (entry, title, bench) in all() {
         let system = &**bench.model.plane();
         let mut random = Random(1);
-        let u: Vec<f64> = (0..system.layout().n_degrees_of_freedom())
+        let u: Vec<f64> = (0..system.topology().layout.n_degrees_of_freedom())
             .map(|_| 1e-4 * random.uniform())
             .collect();
         let forces = internal::sweep(
@@ -180,7 +183,7 @@ fn internal_forces_are_in_balance() {
         )
         .internal;
         let mut sum = [0.0; 3];
-        let of_points = by_point(system.layout(), &forces.values);
+        let of_points = by_point(system.topology().layout, &forces.values);
         for (force, p) in of_points.iter().zip(&system.cloud.positions) {
             sum[0] += force[0];
             sum[1] += force[1];
@@ -197,7 +200,11 @@ fn internal_forces_are_in_balance() {
             forces.force_scale > 0.0 && error < 1e-12,
             "{title}: {error:e}"
         );
-        let turns = system.components().contains(&Component::Rotation);
+        let turns = system
+            .topology()
+            .layout
+            .components
+            .contains(&Component::Rotation);
         assert_eq!(turns, entry.element == ElementKind::Beam, "{title}");
     }
 }
@@ -221,7 +228,7 @@ fn every_law_is_solved() {
             residual < 1e-10 && run.last().reaction > 0.0,
             "{title}: {residual:e}"
         );
-        let motions = by_point(bench.model.plane().layout(), run.displacement());
+        let motions = by_point(bench.model.plane().topology().layout, run.displacement());
         let turns = motions.iter().any(|motion| motion[2] != 0.0);
         let has_shear = bench
             .model
@@ -277,7 +284,10 @@ fn central_forces_are_common_to_all() {
     let settings = settings.each_ref().map(String::as_str);
     let motions = |law: &'static str, settings: &[&str]| {
         let bench = square(law, settings);
-        let motions = by_point(bench.model.plane().layout(), bench.solve().displacement());
+        let motions = by_point(
+            bench.model.plane().topology().layout,
+            bench.solve().displacement(),
+        );
         motions.into_flattened()
     };
     let reference = motions("bbpd", &settings);

@@ -55,7 +55,7 @@ fn assert_carried(run: &Run) {
 fn carried(bench: &Bench, run: &Run) -> Vec<(usize, f64)> {
     let internal = sweep(bench, run).internal.values;
     let force = |&(point, component): &(u32, Component)| {
-        let layout = bench.model.plane().layout();
+        let layout = bench.model.plane().topology().layout;
         let dof = layout.degree_of_freedom(point, component).unwrap();
         (dof, internal[dof] - bench.boundary.force[dof])
     };

@@ -124,7 +124,11 @@ fn sums_weights_and_stiffness_are_those_of_the_independent_calculation() {
     }
     let (unknowns, matrix) = free_stiffness(&bench, &whole(&bench));
     let diagonal = |at: [f64; 2]| {
-        let along_x = system.layout().range(point_at(&bench, at) as u32).start;
+        let along_x = system
+            .topology()
+            .layout
+            .range(point_at(&bench, at) as u32)
+            .start;
         let unknown = unknowns.number(along_x).unwrap();
         matrix.diagonal(unknown)
     };
@@ -137,7 +141,7 @@ fn free_stiffness(bench: &Bench, intact: &[bool]) -> (Unknowns, SymmetricMatrix)
     let system = &**bench.model.plane();
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
-    let held = vec![false; system.layout().n_degrees_of_freedom()];
+    let held = vec![false; system.topology().layout.n_degrees_of_freedom()];
     let bonds = UnbrokenBonds::whole(intact);
     let matrix = assembly::assemble(system, &unknowns, &pattern, bonds, &held);
     (unknowns, matrix)
@@ -190,7 +194,8 @@ fn uniform_strains_are_in_equilibrium_inside() {
             let wanted = points.filter(|(_, at)| at.iter().all(|it| it.abs() < 4.4e-3) == inside);
             wanted
                 .flat_map(|(point, _)| {
-                    &swept.internal.values[bench.model.plane().layout().range(point as u32)]
+                    &swept.internal.values
+                        [bench.model.plane().topology().layout.range(point as u32)]
                 })
                 .fold(0.0_f64, |largest, force| largest.max(force.abs()))
         };
@@ -215,7 +220,13 @@ fn moduli_of_the_infinite_lattice_are_right_but_for_the_printed_form() {
         let middle = point_at(&bench, [0.0, 0.0]);
         let force_x = |displacement: fn([f64; 2]) -> [f64; 2]| {
             let swept = sweep(&bench, &whole(&bench), displacement);
-            let along_x = bench.model.plane().layout().range(middle as u32).start;
+            let along_x = bench
+                .model
+                .plane()
+                .topology()
+                .layout
+                .range(middle as u32)
+                .start;
             -swept.internal.values[along_x] / bench.model.plane().cloud.volumes[middle]
         };
         let found = [
@@ -338,7 +349,7 @@ fn uniform_strains_are_exact_on_rectangular_cells() {
                 points
                     .filter(|(_, at)| is_inside(**at) == inside)
                     .flat_map(|(point, _)| {
-                        let range = solid.model.plane().layout().range(point as u32);
+                        let range = solid.model.plane().topology().layout.range(point as u32);
                         &swept.internal.values[range]
                     })
                     .fold(0.0_f64, |largest, force| largest.max(force.abs()))

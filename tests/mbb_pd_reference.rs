@@ -92,7 +92,7 @@ fn plates_are_those_of_the_independent_calculation() {
         let mut errors = Vec::new();
         for (component, column) in ["ux", "uy"].into_iter().enumerate() {
             let expected: Vec<f64> = rows().map(|row| reference.number(row, column)).collect();
-            let found = by_point(bench.model.plane().layout(), run.displacement());
+            let found = by_point(bench.model.plane().topology().layout, run.displacement());
             let found: Vec<f64> = found.iter().map(|motion| motion[component]).collect();
             errors.push(deviation(&found, &expected));
         }
@@ -147,14 +147,14 @@ fn stiffness_beside_cracks() {
     let axis = |row: usize, column: &str| usize::from(expected.text(row, column) == "y");
     let unknown = |row: usize, point: &str, of: &str| {
         let point = expected.count(row, point) - 1;
-        system.layout().range(point as u32).start + axis(row, of)
+        system.topology().layout.range(point as u32).start + axis(row, of)
     };
     let moved: BTreeSet<usize> = (0..expected.len())
         .map(|row| unknown(row, "a", "i"))
         .collect();
     assert_eq!(moved.len(), 6);
     for moved in moved {
-        let mut u = vec![0.0; system.layout().n_degrees_of_freedom()];
+        let mut u = vec![0.0; system.topology().layout.n_degrees_of_freedom()];
         u[moved] = 1.0;
         let sweep = internal::sweep(
             system,

@@ -170,8 +170,8 @@ fn assert_part<const D: usize>(
         assert_eq!(body.cells_of(&group), Some(among(of_group, &cells)));
     }
     let n = all.n_materials;
-    assert_eq!(cloud.volumes, at(&points, &all.volumes, 1));
-    assert_eq!(cloud.spacing, at(&points, &all.spacing, 1));
+    assert_eq!(*cloud.volumes, at(&points, &all.volumes, 1));
+    assert_eq!(*cloud.spacing, at(&points, &all.spacing, 1));
     assert_eq!(cloud.material_shares, at(&points, &all.material_shares, n));
     let places = |it: &u32| all.positions[*it as usize];
     assert!(

@@ -148,7 +148,7 @@ fn three_masses_on_two_springs() {
         (true, vec![0.5 * (3.0 - root), 0.5 * (3.0 + root)]),
         (false, vec![0.0, 1.0, 3.0]),
     ] {
-        let mut supports = Supports::none(truss.system.clone().with_elements().layout());
+        let mut supports = Supports::none(truss.system.clone().with_elements().topology().layout);
         supports.hold("line", vec![0, 1, 2], &[Component::Y]);
         if held {
             supports.hold("end", vec![0], &[Component::X]);
@@ -190,7 +190,7 @@ fn modes_of(
 /// Stiffness of the unknowns as a dense matrix, from the elements' rows.
 fn dense_stiffness(bench: &ModalBench, dofs: &[(usize, f64)]) -> DMatrix<f64> {
     let system = &**bench.model.plane();
-    let mut place = vec![usize::MAX; system.layout().n_degrees_of_freedom()];
+    let mut place = vec![usize::MAX; system.topology().layout.n_degrees_of_freedom()];
     for (k, (dof, _)) in dofs.iter().enumerate() {
         place[*dof] = k;
     }

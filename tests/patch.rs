@@ -43,7 +43,7 @@ fn left(model: &Model) -> f64 {
 
 /// Displacements of a uniform strain (eps_xx, eps_yy, gamma_xy) without rotations of the points.
 fn affine(model: &Model, [xx, yy, xy]: [f64; 3]) -> Vec<f64> {
-    let components = model.plane().components();
+    let components = model.plane().topology().layout.components;
     let of_point = |[x, y]: &[f64; 2]| {
         let (x, y) = (*x, *y);
         components.iter().map(move |component| match component {
@@ -72,7 +72,10 @@ fn bond_forces(model: &Model, displacement: &[f64]) -> Vec<[f64; 2]> {
         deformations,
         ThermalStrain::NONE,
     );
-    let of_points = sweep.internal.values.chunks(system.components().len());
+    let of_points = sweep
+        .internal
+        .values
+        .chunks(system.topology().layout.components.len());
     of_points.map(|force| [force[0], force[1]]).collect()
 }
 

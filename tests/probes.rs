@@ -49,7 +49,7 @@ load = [{ group = \"right\", displacement = { x = 1e-5 } }]
         );
     }
     // What a probe is of the motions of all points is what it reads: openings that are controlled go by it.
-    let layout = bench.model.plane().layout();
+    let layout = bench.model.plane().topology().layout;
     for (probe, found) in bench.problem().probes.iter().zip(&run.last().probes) {
         let weights = probe.reading.weights(layout).unwrap();
         let sum: f64 = weights

@@ -66,7 +66,7 @@ fn both(text: &str, settings: &[&str], run: impl Fn(&Bench) -> Run + Sync) -> [S
             SolverChoice::Distributed(DistributedChoice { n_ranks: RANKS, .. })
         ));
         let mut seen = seen(&run);
-        let subdomain = bench.model.system.subdomain().clone();
+        let subdomain = bench.model.system.subdomain.clone();
         let own = (subdomain, std::mem::take(&mut seen.displacement));
         (seen, own)
     });

@@ -31,7 +31,10 @@ fn square(settings: &[&str]) -> Bench {
 /// Energy of a motion (x, y, rotation) of all points, J.
 fn stored_energy(bench: &Bench, motion: impl FnMut(&[f64; 2]) -> [f64; 3]) -> f64 {
     let system = &**bench.model.plane();
-    let u = of_all(system.layout(), system.cloud.positions.iter().map(motion));
+    let u = of_all(
+        system.topology().layout,
+        system.cloud.positions.iter().map(motion),
+    );
     let intact = vec![true; system.bonds.len()];
     internal::sweep(
         system,

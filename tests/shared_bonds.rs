@@ -124,7 +124,7 @@ impl Observer for Seen {
         let (system, state, deformations) = (view.system, view.state, &view.balanced.deformations);
         let damage = fields::damage(system, &state.intact);
         let energy = fields::strain_energy_density(system, state.bonds(), deformations, &[]);
-        let own = |point: &u32| system.subdomain().owns(*point);
+        let own = |point: &u32| system.subdomain.owns(*point);
         let points = (0..system.n_points() as u32).filter(own);
         let Some(FieldValues::Numbers(stress)) = STRESS_PRINCIPAL.values(view) else {
             panic!("stresses are numbers")
@@ -134,7 +134,7 @@ impl Observer for Seen {
             let place = it as usize;
             let largest = Some(stress[count * place]).filter(|it| !it.is_nan());
             [
-                f64::from(system.subdomain().number(it)),
+                f64::from(system.subdomain.number(it)),
                 damage[place],
                 energy[place],
                 largest.unwrap_or(0.0),
@@ -176,7 +176,7 @@ fn followed(
         Body::Plane(model) => (problem(model), model.setup.analysis.clone()),
         Body::Space(model) => (problem(model), model.setup.analysis.clone()),
     };
-    let subdomain = problem.system.subdomain();
+    let subdomain = &problem.system.subdomain;
     assert_eq!(subdomain.is_whole(), ranks.size() == 1);
     seen.subdomain = Some(subdomain.clone());
     let outcome = match from {

@@ -64,8 +64,8 @@ fn of_bonds(model: &Model) -> Vec<(&'static str, Vec<f64>)> {
         ("axial", rigidities.axial.clone()),
         ("shear", rigidities.shear.clone()),
         ("rotational", rigidities.rotational.clone()),
-        ("horizon", system.horizons().to_vec()),
-        ("weight", system.weights().to_vec()),
+        ("horizon", system.horizons.to_vec()),
+        ("weight", system.weights.to_vec()),
         ("Omega", model.fixed.domain_factor.clone()),
         ("shear ratio", model.fixed.shear_ratio.clone()),
     ];
@@ -95,13 +95,13 @@ fn is_owned_by(subdomain: &Subdomain, number: u32) -> bool {
 /// Shares a body out among 1, 2 and 3 ranks and compares with one process.
 fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
     let whole = Model::build(setup.clone(), &mut ()).unwrap();
-    let (ends, lists) = (whole.system.ends(), of_bonds(&whole));
+    let (ends, lists) = (&whole.system.ends, of_bonds(&whole));
     for n_ranks in 1..=3 {
         let known = on_ranks(n_ranks, |together| {
             let mut setup = setup.clone();
             setup.solver.communicator = together.clone();
             let model = Model::build(setup, &mut ()).unwrap();
-            let subdomain = model.system.subdomain();
+            let subdomain = &model.system.subdomain;
             // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
             let here = |ends: [u32; 2]| {
                 let [a, b] = ends.map(|end| subdomain.point(end));
@@ -111,7 +111,7 @@ fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
             let is_known = |ends: &[u32; 2]| here(*ends).is_some();
             let places: Vec<usize> = (0..ends.len()).filter(|&it| is_known(&ends[it])).collect();
             let expected: Vec<[u32; 2]> = ends.iter().filter_map(|&it| here(it)).collect();
-            assert_eq!(model.system.ends(), expected);
+            assert_eq!(*model.system.ends, expected);
             let is_owned = |ends: &[u32; 2]| ends.iter().any(|&end| is_owned_by(subdomain, end));
             assert_eq!(
                 places.len(),
@@ -306,7 +306,7 @@ fn all_points_have_their_names_on_each_rank() {
             let mut setup = setup.clone();
             setup.solver.communicator = together;
             let model = Model::build(setup, &mut ()).unwrap();
-            assert!(!model.system.subdomain().is_whole());
+            assert!(!model.system.subdomain.is_whole());
             let once = match [model.names.point_tags(), model.names.point_tags()].map(|it| it.tags)
             {
                 [Tags::Listed(one), Tags::Listed(other)] => Arc::ptr_eq(&one, &other),

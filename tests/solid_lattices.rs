@@ -52,9 +52,9 @@ fn the_mean_stress_of_a_pressure_in_a_hole_is_exact() {
     let (state, system) = (&solution.outcome.state, &**solution.model.solid());
     let deformations = system.deformations(&state.intact, &state.displacement, ThermalStrain::NONE);
     let [taken, left, rows] = counted(16);
-    assert_eq!(system.n_points() as f64, left);
+    assert_eq!(system.topology().n_points() as f64, left);
     let mut mean = [0.0; 6];
-    for point in 0..system.n_points() as u32 {
+    for point in 0..system.topology().n_points() as u32 {
         let stress = system.stress(state.bonds(), &deformations, point);
         for (sum, component) in mean.iter_mut().zip(stress) {
             *sum += component / left;

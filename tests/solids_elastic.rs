@@ -150,9 +150,9 @@ fn an_extruded_plate_is_the_plate_in_plane_strain() {
     let plane = setup.solve(&mut NoObserver).unwrap();
     let solid = solved("extruded-twin/solid.toml", &[]);
     let flat = &plane.model.plane().cloud;
-    let layout = plane.model.plane().layout();
+    let layout = plane.model.plane().topology().layout;
     let deep = &solid.model.solid().cloud;
-    let spatial = solid.model.solid().layout();
+    let spatial = solid.model.solid().topology().layout;
     let (mut off, mut all) = (0.0, 0.0);
     for (point, position) in deep.positions.iter().enumerate() {
         let [x, y] = std::array::from_fn(|axis| position[axis] + deep.origin[axis]);
@@ -178,7 +178,7 @@ fn an_extruded_plate_is_the_plate_in_plane_strain() {
 fn displaced(solution: &Solution) -> Vec<([f64; 3], f64, [f64; 3])> {
     let (cloud, layout) = (
         &solution.model.solid().cloud,
-        solution.model.solid().layout(),
+        solution.model.solid().topology().layout,
     );
     let all = &solution.outcome.state.displacement;
     let axes = [Component::X, Component::Y, Component::Z];

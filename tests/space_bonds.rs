@@ -87,7 +87,7 @@ fn plain(cloud: PointCloud<3>, poisson: f64, element: ElementKind) -> Arc<dyn Sy
 fn dense(system: &dyn System<3>, bonds: UnbrokenBonds<'_>) -> DMatrix<f64> {
     let unknowns = Unknowns::all_but(system, |_| false);
     let pattern = Arc::new(assembly::pattern(system, &unknowns).unwrap());
-    let held = vec![false; system.layout().n_degrees_of_freedom()];
+    let held = vec![false; system.topology().layout.n_degrees_of_freedom()];
     let matrix = assembly::assemble(system, &unknowns, &pattern, bonds, &held);
     let n = pattern.dimension();
     let mut full = DMatrix::zeros(n, n);
@@ -203,7 +203,10 @@ fn all_ways_to_the_stiffness_agree() {
         let broken = [3, 77, 140];
         let changed = system.changed(left, &u, ThermalStrain::NONE, &broken);
         let terms = changed.lost_terms();
-        assert_eq!(terms.len(), broken.len() * system.components().len());
+        assert_eq!(
+            terms.len(),
+            broken.len() * system.topology().layout.components.len()
+        );
         let mut without = whole.clone();
         for (rigidity, entries) in &terms {
             for (row, one) in entries {
@@ -263,7 +266,7 @@ fn pulled(system: &dyn System<3>, distance: f64) -> ProportionalLoading {
             .collect()
     };
     let (top, bottom) = (layer(highest), layer(-highest));
-    let layout = system.layout();
+    let layout = system.topology().layout;
     let n_components = layout.components.len();
     let mut shape = vec![0.0; top.len() * n_components];
     for at_point in shape.chunks_mut(n_components) {
@@ -357,7 +360,7 @@ fn a_bar_has_the_modulus_of_its_material() {
     let modulus = force * 0.01 / (volume * (0.01_f64 / 14.0).powi(2));
     assert!((modulus / YOUNG - 1.0).abs() < 0.02, "{modulus}");
     // Width of the layer in the middle.
-    let layout = system.layout();
+    let layout = system.topology().layout;
     let at = |place: [f64; 3]| -> f64 {
         let point = positions.iter().position(|p| *p == place).unwrap() as u32;
         layout.value(point, Component::X, &state.displacement)
@@ -400,7 +403,7 @@ fn a_bar_has_the_modulus_of_its_material() {
     }
     // And so is the force through its middle, between two layers.
     let crossing: Vec<(u32, bool)> = (0..)
-        .zip(&system.bonds.ends)
+        .zip(&*system.bonds.ends)
         .filter_map(|(bond, ends)| {
             let [a, b] = ends.map(|end| positions[end as usize][2] < 0.5);
             (a != b).then_some((bond, a))
@@ -436,7 +439,7 @@ fn sums_over_families_make_the_bulk_modulus_right() {
         &ones,
     )
     .with_elements();
-    let components = system.components().len();
+    let components = system.topology().layout.components.len();
     let swollen: Vec<f64> = (system.cloud.positions.iter())
         .flat_map(|p| (0..components).map(move |place| p.get(place).map_or(0.0, |x| 1e-3 * x)))
         .collect();
@@ -479,7 +482,7 @@ fn heat_makes_a_free_body_grow() {
         pressed < 0.0 && force.abs() < 1e-9 * pressed.abs(),
         "{force:e} {pressed:e}"
     );
-    let layout = system.layout();
+    let layout = system.topology().layout;
     let reach = |component: Component, axis: usize| {
         let moved = (0..)
             .zip(&system.cloud.positions)

@@ -80,7 +80,7 @@ fn assert_free(name: &str, bench: &Bench, run: &Run) {
     let [xx, yy, xy] = free_strain(bench);
     let positions = bench.positions();
     let size = largest([xx, yy, xy].map(f64::abs));
-    let motions = by_point(bench.model.plane().layout(), run.displacement());
+    let motions = by_point(bench.model.plane().topology().layout, run.displacement());
     let [x, y] = [0, 1].map(|axis| motions.iter().map(|it| it[axis]).collect::<Vec<f64>>());
     // The rigid motion that fits two points, to be taken off.
     let (first, last) = (0, positions.len() - 1);

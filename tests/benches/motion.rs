@@ -46,7 +46,7 @@ fn seconds(problem: &MotionProblem, steps: usize, step: f64) -> f64 {
 
 fn measure(name: &str, setup: &Setup) {
     let problem = problem(setup);
-    let n_bonds = problem.problem.system.ends().len();
+    let n_bonds = problem.problem.system.ends.len();
     let step = 0.8
         * critical_step(&problem, &MotionSettings::new(1.0))
             .unwrap()

@@ -15,7 +15,8 @@ const ACROSS: [usize; 2] = [18, 29];
 fn solids(criterion: &mut Criterion) {
     for across in ACROSS {
         let system = cylinder(across);
-        let mut group = criterion.benchmark_group(format!("{} points", system.n_points()));
+        let mut group =
+            criterion.benchmark_group(format!("{} points", system.topology().n_points()));
         group.sampling_mode(SamplingMode::Flat).sample_size(10);
         for method in [Method::Direct, Method::Iterative] {
             if method == Method::Direct && across != ACROSS[0] {
@@ -40,7 +41,7 @@ fn solids(criterion: &mut Criterion) {
                 });
             });
         }
-        let motions = vec![1.0; system.layout().n_degrees_of_freedom()];
+        let motions = vec![1.0; system.topology().layout.n_degrees_of_freedom()];
         let mut forces = motions.clone();
         let intact = vec![true; system.bonds.len()];
         group.throughput(Throughput::Elements(intact.len() as u64));

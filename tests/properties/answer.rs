@@ -52,7 +52,7 @@ impl Answer {
         let mut breaks = Breaks::default();
         let solution = setup.solve(&mut breaks).unwrap();
         let system = solution.model.plane();
-        let layout = system.layout();
+        let layout = system.topology().layout;
         let history = &solution.outcome.history;
         let of_group = |force: &Vec<f64>| Component::ALL.map(|it| layout.value(0, it, force));
         let energies = |step: &StepRecord| {
@@ -65,7 +65,7 @@ impl Answer {
         };
         let mut rounds: BTreeMap<(usize, usize), Vec<[u32; 2]>> = BTreeMap::new();
         for record in &breaks.0 {
-            let ends = system.ends()[record.bond as usize];
+            let ends = system.topology().ends[record.bond as usize];
             let of_round = rounds.entry((record.step, record.round)).or_default();
             of_round.push(ends);
         }

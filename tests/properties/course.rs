@@ -68,7 +68,7 @@ impl Check {
         if self.force_scale == 0.0 {
             return;
         }
-        let layout: Layout = view.system.layout();
+        let layout: Layout = view.system.layout;
         let n = layout.n_degrees_of_freedom();
         let all: Vec<u32> = (0..n as u32).collect();
         let mut outer = view.loads.forces(record.load_factor, &all);

@@ -62,7 +62,7 @@ impl Order {
             numbered.sort_unstable();
             numbered
         };
-        let bonds = ordered(model.plane().bonds.ends.clone());
+        let bonds = ordered(model.plane().bonds.ends.to_vec());
         let n_bonds = bonds.len() as u32;
         let absent = ordered(model.fixed.absent.iter().map(|it| it.ends).collect());
         let absent = absent

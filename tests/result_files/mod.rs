@@ -123,7 +123,7 @@ impl Case {
             let row: [Entry; 2] = [usize::into(number), mode.kind.name().into()];
             table.push(row.into_iter().chain(reals.map(Entry::from)));
             canvas.grid(&file, &mut expected);
-            let motions = by_point(model.plane().layout(), &mode.shape);
+            let motions = by_point(model.plane().topology().layout, &mode.shape);
             let moved: Vec<[f64; 3]> = motions.iter().map(|it| [it[0], it[1], 0.0]).collect();
             canvas.displacement(&file, &moved, &mut expected);
             let mut fields = canvas.on(&file, &mut expected);

@@ -64,7 +64,7 @@ fn labels(problem: &Problem) -> Vec<String> {
 
 /// Names of the two or three components of bonds that files have, each with how it is read.
 fn deformation_names(problem: &Problem) -> &'static [&'static str] {
-    if problem.system.strain_names()[0] == "strain_xx" {
+    if problem.system.element.strain_names()[0] == "strain_xx" {
         &["strain_xx", "strain_xy", "strain_yy"]
     } else {
         &["stretch", "shear"]
@@ -134,7 +134,7 @@ impl<'a> Recorder<'a> {
             "stored_energy",
             "broken_bonds",
         ];
-        let n_bonds = problem.system.ends().len();
+        let n_bonds = problem.system.ends.len();
         Self {
             expected: Expected::new(mesh, model),
             model,
@@ -202,7 +202,7 @@ impl<'a> Recorder<'a> {
     fn write_fields(&mut self, file: &str, view: &View<'_>) {
         let (state, balanced) = (view.state, view.balanced);
         let system = &**self.model.plane();
-        let layout = system.layout();
+        let layout = system.topology().layout;
         let motions = by_point(layout, &state.displacement);
         let points = 0..system.cloud.len();
         self.canvas.grid(file, &mut self.expected);
@@ -306,7 +306,7 @@ impl<'a> Recorder<'a> {
             part: "point",
             name: "displacement",
         };
-        let motions = by_point(system.layout(), &view.state.displacement);
+        let motions = by_point(system.topology().layout, &view.state.displacement);
         let motions = motions.iter().map(|it| [it[0], it[1], 0.0]);
         self.expected.components(point, ["", "", ""], motions);
         let cell = |name| Place {
@@ -376,7 +376,7 @@ impl Observer for Recorder<'_> {
             self.step_of_breaking[record.bond as usize] = record.step as i64;
             let ends = self
                 .expected
-                .in_file(self.problem.system.ends()[record.bond as usize]);
+                .in_file(self.problem.system.ends[record.bond as usize]);
             let [a, b] = ends.map(|end| self.model.body().tag(end) as usize);
             let row: [Entry; 10] = [
                 record.order.into(),
@@ -425,7 +425,7 @@ impl Observer for Recorder<'_> {
         self.dissipated.clone_from(&view.state.dissipated);
         if let Some(softened) = &mut self.softened {
             let body = self.model.body();
-            let in_file = |bond: usize| self.expected.in_file(view.system.ends()[bond]);
+            let in_file = |bond: usize| self.expected.in_file(view.system.ends[bond]);
             let tags = |bond: usize| in_file(bond).map(|end| body.tag(end) as usize);
             softened.step(record, view, tags, &self.labels);
         }
@@ -456,7 +456,7 @@ impl Observer for Recorder<'_> {
             record.negative_eigenvalues.into(),
             record.dissipated_energy.into(),
         ];
-        let layout = self.model.plane().layout();
+        let layout = self.model.plane().topology().layout;
         let forces = record
             .group_forces
             .iter()

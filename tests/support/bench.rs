@@ -196,7 +196,7 @@ impl Bench {
 
     /// Bonds in the order of their ends in the mesh file.
     pub fn bonds_in_file(&self) -> Vec<u32> {
-        let ends = self.model.system.ends();
+        let ends = &self.model.system.ends;
         let order = self.model.body().numbering().bonds_in_file(ends);
         order.unwrap_or_else(|| (0..ends.len() as u32).collect())
     }
@@ -209,7 +209,7 @@ impl Bench {
 
     /// Nodes of the ends of a bond in the mesh file, ascending.
     pub fn nodes_of_bond(&self, bond: u32) -> [u32; 2] {
-        let ends = self.model.system.ends()[bond as usize];
+        let ends = self.model.system.ends[bond as usize];
         self.model.body().numbering().ends_in_file(ends)
     }
 
@@ -226,7 +226,7 @@ impl Bench {
 
     /// Tags of the ends of a bond, the smaller first.
     pub fn tags_of_bond(&self, bond: usize) -> [u64; 2] {
-        let [a, b] = self.model.system.ends()[bond].map(|end| self.model.body().tag(end));
+        let [a, b] = self.model.system.ends[bond].map(|end| self.model.body().tag(end));
         [a.min(b), a.max(b)]
     }
 }
@@ -256,7 +256,7 @@ impl Run {
     pub fn group_force(&self, bench: &Bench, name: &str) -> [f64; 3] {
         let groups = &bench.boundary.groups;
         let place = groups.iter().position(|group| group.name == name).unwrap();
-        let layout = bench.model.system.layout();
+        let layout = bench.model.system.layout;
         let components = layout.of_body();
         [0, 1, 2].map(|it| layout.value(0, components[it], &self.last().group_forces[place]))
     }
@@ -291,7 +291,7 @@ impl Observer for Watch {
     }
 
     fn step(&mut self, _: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        let (subdomain, layout) = (view.system.subdomain(), view.system.layout());
+        let (subdomain, layout) = (&view.system.subdomain, view.system.layout);
         let is_held = |dof: &usize| view.state.held[*dof];
         let dofs = subdomain.owned().flat_map(|point| layout.range(point));
         self.held

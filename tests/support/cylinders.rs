@@ -69,11 +69,11 @@ pub fn cylinder_of(
 
 /// The cylinder pulled by a thousandth of its height, with its lower end held.
 pub fn pulled(system: &Arc<dyn System<3>>, method: Method) -> Problem {
-    let layout = system.layout();
+    let layout = system.topology().layout;
     let at_end = |lower: bool| -> Vec<u32> {
-        let points = 0..system.n_points() as u32;
+        let points = 0..system.topology().n_points() as u32;
         let z = |point: &u32| system.cloud.positions[*point as usize][2];
-        let reach = 2.2 / (system.n_points() as f64).cbrt();
+        let reach = 2.2 / (system.topology().n_points() as f64).cbrt();
         points
             .filter(|point| {
                 if lower {

@@ -194,7 +194,7 @@ impl Impact {
         model.setup.contacts.clone_from(&setup.contacts);
         model.setup.rigid_bodies.clone_from(&setup.rigid_bodies);
         let problem = contact_problem(&model).unwrap();
-        let (system, layout) = (model.system.to_bonds(), model.system.layout());
+        let (system, layout) = (model.system.to_bonds(), model.system.layout);
         let over = |value: &dyn Fn(&[f64], usize) -> f64| -> Vec<f64> {
             let places = 0..layout.components.len();
             let points = 0..layout.n_points as u32;
@@ -204,9 +204,9 @@ impl Impact {
                 .collect()
         };
         let (motions, velocity) = (over(&motion), over(&velocity));
-        let intact = vec![true; system.ends().len()];
+        let intact = vec![true; system.ends.len()];
         let bonds = Bonded {
-            topology: system.topology(),
+            families: system.families(),
             intact: &intact,
         };
         let contacts = Contacts::new(&problem, layout, &motions, bonds);
@@ -238,7 +238,7 @@ impl Impact {
 
     /// Layout of the degrees of freedom.
     pub fn layout(&self) -> Layout {
-        self.system.layout()
+        self.system.layout
     }
 
     /// Forces K u of the bonds.
@@ -284,7 +284,7 @@ impl Impact {
         let internal = self.internal(&self.motions);
         let mut forces = vec![0.0; internal.len()];
         let bonds = Bonded {
-            topology: self.system.topology(),
+            families: self.system.families(),
             intact: &self.intact,
         };
         self.contacts.advance(self.time, step, &self.motions, bonds);

@@ -61,8 +61,8 @@ impl Truss {
             precision: 0.0,
             origin: [0.0; 2],
             thickness: 1.0,
-            volumes: vec![1.0; n],
-            spacing: vec![1.0; n],
+            volumes: vec![1.0; n].into(),
+            spacing: vec![1.0; n].into(),
             lattice_cell: None,
             n_materials: 1,
             material_shares: vec![1.0; n],
@@ -112,7 +112,7 @@ impl Truss {
                 })
                 .collect(),
             system: BondSystem {
-                weight: vec![1.0; bonds.len()],
+                weight: vec![1.0; bonds.len()].into(),
                 rigidities: Rigidities {
                     axial: of_bonds(&rigidity),
                     shear: of_bonds(&rigidity),

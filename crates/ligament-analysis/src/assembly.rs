@@ -19,7 +19,7 @@ const TASK: usize = 1024;
 pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
     let lower_rows = |point: usize| {
         let (layout, restraints) = (unknowns.layout(), unknowns.restraints());
-        let lower = restraints.lower_points(layout, system.coupled_points(), point);
+        let lower = restraints.lower_points(layout, &system.coupled_points, point);
         let of_point = |other: u32| unknowns.of_point(other as usize).map(|(row, _)| row);
         lower.into_iter().flat_map(of_point)
     };
@@ -75,7 +75,7 @@ pub fn assemble(
     bonds: UnbrokenBonds<'_>,
     held: &[bool],
 ) -> SymmetricMatrix {
-    let coupled = system.coupled_points();
+    let coupled = &system.coupled_points;
     let n_components = unknowns.layout().components.len();
     let mut matrix = SymmetricMatrix::zero(pattern.clone());
     columns_of_points(&mut matrix.values, pattern, unknowns, system.n_points())

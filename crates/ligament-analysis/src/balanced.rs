@@ -69,7 +69,7 @@ impl Balanced {
         Self {
             deformations: Deformations::default(),
             internal: InternalForces {
-                values: vec![0.0; system.layout().n_degrees_of_freedom()],
+                values: vec![0.0; system.layout.n_degrees_of_freedom()],
                 force_scale: 0.0,
                 moment_scale: 0.0,
                 thermal: 0.0,

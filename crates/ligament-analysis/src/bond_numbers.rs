@@ -65,7 +65,7 @@ impl BondNumbers {
     ///
     /// If a process stores no bond of a divided body.
     pub(crate) fn new(system: &dyn Bonds) -> Result<Self, WithoutBonds> {
-        let (subdomain, ends) = (system.subdomain(), system.ends());
+        let (subdomain, ends) = (&system.subdomain, &system.ends);
         let held = if subdomain.is_whole() {
             StoredBonds::All(ends.len())
         } else if subdomain.any(ends.is_empty()) {
@@ -325,15 +325,15 @@ fn received(subdomain: &Subdomain, ends: &[[u32; 2]], numbers: &[Option<u32>]) -
 
 /// Sum of values of the bonds of a body (n_bonds), over all processes.
 pub(crate) fn sum_over_bonds(system: &dyn Bonds, values: impl Iterator<Item = f64>) -> f64 {
-    let subdomain = system.subdomain();
-    let with_ends = values.zip(system.ends());
+    let subdomain = &system.subdomain;
+    let with_ends = values.zip(system.ends.iter());
     let owned = with_ends.filter(|(_, ends)| subdomain.owns_bond(**ends));
     subdomain.sum(owned.map(|it| it.0).sum())
 }
 
 /// Adds values of the bonds of a body (n_bonds) to a sum, over all processes; on one process one by one.
 pub(crate) fn add_over_bonds(system: &dyn Bonds, sum: &mut f64, values: impl Iterator<Item = f64>) {
-    match system.subdomain().is_whole() {
+    match system.subdomain.is_whole() {
         true => values.for_each(|value| *sum += value),
         false => *sum += sum_over_bonds(system, values),
     }

@@ -31,12 +31,12 @@ impl Breakage {
         bonds: &[u32],
     ) -> Self {
         let (left, displacement) = (state.bonds(), &state.displacement);
-        let subdomain = system.subdomain();
+        let subdomain = &system.subdomain;
         Self {
             bonds: bonds.to_vec(),
             holds: Vec::new(),
             owned: (!subdomain.is_whole()).then(|| {
-                let ends = system.ends();
+                let ends = &system.ends;
                 let owned = bonds.iter().copied();
                 let owned = owned.filter(|&bond| subdomain.owns_bond(ends[bond as usize]));
                 let owned: Vec<u32> = owned.collect();

@@ -44,10 +44,10 @@ pub struct AddedSupport {
 impl Fragments {
     /// Finds the parts connected by intact bonds; collective on a divided body.
     pub fn find(system: &dyn Bonds, intact: &[bool]) -> Self {
-        let subdomain = system.subdomain();
-        let bonds = system.ends().iter().zip(intact);
+        let subdomain = &system.subdomain;
+        let bonds = system.ends.iter().zip(intact);
         let bonds = bonds.filter(|(_, intact)| **intact).map(|(ends, _)| *ends);
-        let far = system.far_field().into_iter();
+        let far = system.far_field.iter();
         let elements = far.flat_map(|far| {
             let points = 0..system.n_points() as u32;
             points.flat_map(move |point| far.at(point).map(move |other| [point, other]))

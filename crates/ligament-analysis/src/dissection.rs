@@ -6,7 +6,7 @@
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 use ligament_model::Bonds;
-use ligament_model::interface::CoupledPoints;
+use ligament_model::CoupledPoints;
 
 use crate::unknowns::Unknowns;
 
@@ -31,7 +31,7 @@ fn points_in_order(system: &dyn Bonds) -> Vec<u32> {
     let n_points = system.n_points() as u32;
     let dissection = Dissection {
         system,
-        coupled: system.coupled_points(),
+        coupled: &system.coupled_points,
         half: (0..n_points).map(|_| AtomicU32::new(0)).collect(),
         halves: AtomicU32::new(0),
     };
@@ -42,7 +42,7 @@ fn points_in_order(system: &dyn Bonds) -> Vec<u32> {
 /// another part that it may read is valid.
 struct Dissection<'a> {
     system: &'a dyn Bonds,
-    coupled: CoupledPoints<'a>,
+    coupled: &'a CoupledPoints,
     /// Number of the last half to which a point was assigned.
     half: Vec<AtomicU32>,
     halves: AtomicU32,

@@ -159,10 +159,10 @@ impl Equilibrium {
         (numbers, mut state): (BondNumbers, State),
         from: &mut dyn Read,
     ) -> Result<(Self, State, Balanced), SetupError> {
-        let n_bonds = problem.system.ends().len();
+        let n_bonds = problem.system.ends.len();
         let fits = state.fits(&*problem.system, n_bonds, &problem.criteria)
             && state.surfaces.fits(&problem.contact);
-        if problem.system.subdomain().any(!fits) {
+        if problem.system.subdomain.any(!fits) {
             return Err(CheckpointError::OtherModel.into());
         }
         let mut equilibrium = Self::numbered(problem, numbers, energy_tolerance)?;
@@ -300,7 +300,7 @@ impl Equilibrium {
             |dof| loads.is_prescribed(dof) || held[dof],
             |dof| unknowns.is_unknown(dof),
         );
-        let (subdomain, layout) = (system.subdomain(), system.layout());
+        let (subdomain, layout) = (&system.subdomain, system.layout);
         for hold in &breakage.holds {
             let dof = subdomain.local_index(hold.degree_of_freedom, layout.components.len());
             if let Some(dof) = dof {
@@ -423,7 +423,7 @@ impl Equilibrium {
         let Equations {
             problem, solver, ..
         } = &mut self.equations;
-        let (subdomain, layout) = (problem.system.subdomain(), problem.system.layout());
+        let (subdomain, layout) = (&problem.system.subdomain, problem.system.layout);
         for &dof in dofs {
             if let Some(here) = subdomain.local_index(dof, layout.components.len()) {
                 state.held[here] = true;

@@ -18,8 +18,8 @@ pub fn damage(system: &dyn Bonds, intact: &[bool]) -> Vec<f64> {
 /// Damage of one point, see [`damage`].
 pub fn point_damage(system: &dyn Bonds, intact: &[bool], point: u32) -> f64 {
     let (mut broken, mut all) = (0.0, 0.0);
-    let weights = system.weights();
-    for &bond in system.incidence().at(point) {
+    let weights = &system.weights;
+    for &bond in system.incidence.at(point) {
         let weight = weights[bond as usize];
         all += weight;
         if !intact[bond as usize] {
@@ -65,9 +65,9 @@ pub fn point_damage_by(
             .fold(1.0, f64::min)
     };
     let (mut lost, mut all) = (0.0, 0.0);
-    let (topology, volumes, weights) = (system.topology(), system.volumes(), system.weights());
-    for &bond in topology.incidence.at(point) {
-        let volume = volumes[topology.neighbour(bond, point) as usize];
+    let (families, volumes, weights) = (system.families(), &system.volumes, &system.weights);
+    for &bond in families.incidence.at(point) {
+        let volume = volumes[families.neighbour(bond, point) as usize];
         let weight = weights[bond as usize] * volume;
         all += weight;
         lost += (1.0 - force(bond as usize)) * weight;
@@ -78,9 +78,12 @@ pub fn point_damage_by(
 /// Energy dissipated at every point, J/m^3: its share of the dissipated energy of each bond, mostly a half, over its volume.
 pub fn dissipated_energy_density(system: &dyn Bonds, dissipated: &[f64]) -> Vec<f64> {
     gather(system, |point| {
-        let bonds = system.incidence().at(point).iter();
-        let shares = bonds.map(|&bond| system.share(bond, point) * dissipated[bond as usize]);
-        shares.sum::<f64>() / system.volumes()[point as usize]
+        let bonds = system.incidence.at(point).iter();
+        let shares = bonds.map(|&bond| {
+            let is_first = system.ends[bond as usize][0] == point;
+            system.rigidities().share(bond, is_first) * dissipated[bond as usize]
+        });
+        shares.sum::<f64>() / system.volumes[point as usize]
     })
 }
 
@@ -97,7 +100,7 @@ pub fn strain_energy_density(
     });
     for it in closed {
         for end in it.pair.ends.map(|end| end as usize) {
-            densities[end] += 0.5 * it.energy() / system.volumes()[end];
+            densities[end] += 0.5 * it.energy() / system.volumes[end];
         }
     }
     densities
@@ -111,7 +114,7 @@ pub fn point_energy_density(
     closed: &[ClosedPair],
     point: u32,
 ) -> f64 {
-    let volume = system.volumes()[point as usize];
+    let volume = system.volumes[point as usize];
     let of_point = closed.iter().filter(|it| it.pair.ends.contains(&point));
     let of_contact = of_point.map(|it| 0.5 * it.energy() / volume);
     of_contact.fold(

@@ -103,7 +103,7 @@ fn load(motion: &FreeMotion) -> String {
 
 /// Free parts of the intact body, before any solution.
 pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBody> {
-    let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
+    let fragments = Fragments::find(system, &vec![true; system.ends.len()]);
     let unknowns = Unknowns::all_but(system, |dof| loads.is_prescribed(dof));
     let holds = fragments.missing_supports(
         0..fragments.len() as u32,
@@ -136,7 +136,7 @@ fn free_body(
 ) -> FreeBody {
     let fragment = holds[0].fragment as usize;
     let (points, extent) = (&fragments.points[fragment], fragments.extents[fragment]);
-    let layout = system.layout();
+    let layout = system.layout;
     let is_prescribed = |dof| loads.is_prescribed(dof) || loads.restraints().holds(layout, dof);
     let force = |dof: usize| loads.forces(1.0, &[dof as u32])[0];
     let mut gauges: Vec<usize> = holds.iter().map(|hold| hold.degree_of_freedom).collect();
@@ -144,7 +144,7 @@ fn free_body(
     let named = |dof: usize| (layout.point(dof), layout.component(dof));
     FreeBody {
         points: extent.n_points,
-        is_whole: extent.n_points == system.subdomain().n_all(),
+        is_whole: extent.n_points == system.subdomain.n_all(),
         first: extent.first,
         motions: system.free_motions(points, &is_prescribed, &force),
         gauges: gauges.into_iter().map(named).collect(),

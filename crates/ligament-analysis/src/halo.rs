@@ -28,7 +28,7 @@ impl HaloExchange {
     /// Exchange for a problem; collective.
     pub(crate) fn new(problem: &Problem) -> Self {
         let system = &*problem.system;
-        let (subdomain, layout) = (system.subdomain(), system.layout());
+        let (subdomain, layout) = (&system.subdomain, system.layout);
         let mut common = match subdomain.is_whole() {
             true => Vec::new(),
             false => common_points(&*problem.loads, &problem.probes, layout),
@@ -43,7 +43,7 @@ impl HaloExchange {
             counts: ranks
                 .map(|rank| n_components * (before(rank + 1) - before(rank)))
                 .collect(),
-            ghosts: Ghosts::new(subdomain, system.ends().iter().flatten().copied()),
+            ghosts: Ghosts::new(subdomain, system.ends.iter().flatten().copied()),
             subdomain: subdomain.clone(),
             layout,
             common,

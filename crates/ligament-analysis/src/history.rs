@@ -194,7 +194,7 @@ pub struct LargestOverlap {
 
 /// Equilibrium state, for observers that read fields.
 ///
-/// On a divided body ([`BondTopology::subdomain`](ligament_model::BondTopology::subdomain)), displacements and forces are given at
+/// On a divided body ([`Topology::subdomain`](ligament_model::Topology::subdomain)), displacements and forces are given at
 /// all points, bonds are the local ones, and quantities computed from the bonds of a point are valid at owned points alone. Any
 /// observer may read a view without the other processes.
 pub struct View<'a> {

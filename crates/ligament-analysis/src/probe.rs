@@ -308,7 +308,7 @@ pub enum StressComponent {
 pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
     let system = solution.system;
     let readings = probes.iter().map(|it| &it.reading);
-    let subdomain = system.subdomain();
+    let subdomain = &system.subdomain;
     let first_is_owned =
         |place: &Shares| (place.first()).is_some_and(|(point, _)| subdomain.owns(*point));
     let parts = readings.map(|reading| match reading {
@@ -324,7 +324,7 @@ pub(crate) fn values(probes: &[Probe], solution: Solution<'_>) -> Vec<f64> {
             own.value(solution)
         }
         Reading::SectionForce { bonds, component } => {
-            let ends = system.ends();
+            let ends = &system.ends;
             // Pairs cut by pre-cracks are numbered after the bonds; only a single process has forces of pairs.
             let owned = bonds.iter().filter(|(bond, _)| {
                 let ends = ends.get(*bond as usize);
@@ -375,12 +375,10 @@ impl Reading {
         let (system, state, balanced) = (solution.system, solution.state, solution.balanced);
         let rate = |point: u32, component: Component, of: fn(Rates<'_>) -> &[f64]| {
             let rates = solution.motion;
-            rates.map_or(f64::NAN, |it| {
-                system.layout().value(point, component, of(it))
-            })
+            rates.map_or(f64::NAN, |it| system.layout.value(point, component, of(it)))
         };
         let motion = |point: u32, component: Component| {
-            system.layout().value(point, component, &state.displacement)
+            system.layout.value(point, component, &state.displacement)
         };
         match self {
             Self::RelativeDisplacement { places, component } => {
@@ -418,7 +416,7 @@ impl Reading {
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;
                 // Bonds cut by pre-cracks are numbered after the others.
-                let n_bonds = system.ends().len();
+                let n_bonds = system.ends.len();
                 let of_bonds = bonds.partition_point(|(bond, _)| (*bond as usize) < n_bonds);
                 let crossing = &bonds[..of_bonds];
                 let force = system.force_through(state.bonds(), deformations, crossing, *component);

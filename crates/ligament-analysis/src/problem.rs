@@ -44,7 +44,7 @@ impl Problem {
 
     /// Whether parts of the body may be pressed against each other or against rigid bodies.
     pub fn may_press(&self) -> bool {
-        self.system.faces_close() || !self.contact.is_empty()
+        self.system.faces_close || !self.contact.is_empty()
     }
 
     /// The criteria with the limits and stresses that the bonds have in an equilibrium.
@@ -75,7 +75,7 @@ impl Problem {
     /// no force: a bond begins at the deformation at which its stress was the strength, and softens when equilibrium is sought again.
     pub(crate) fn begin_softening(&self, state: &mut State, balanced: &Balanced) -> bool {
         let begun = self.beginning(state, balanced);
-        let some = self.system.subdomain().any(begun.is_some());
+        let some = self.system.subdomain.any(begun.is_some());
         if let Some(begun) = begun {
             state.softening.begin(&self.criteria, begun);
         }

@@ -182,11 +182,11 @@ result_fields! {
         => InState(|view| numbers(displacements(view)));
     ROTATION "rotation" ["rad"] TURN Main(6),
         "Rotation of the point: in the plane counter-clockwise, in space about x, y and z, right-handed."
-        => InState(|view| numbers(rotations(view.system.layout(), &view.state.displacement)));
+        => InState(|view| numbers(rotations(view.system.layout, &view.state.displacement)));
     VELOCITY "velocity" ["m/s"] VECTOR Main(7), "Velocity of the point, in a motion."
-        => InState(|view| numbers(vectors(view.system.layout(), view.motion?.velocity)));
+        => InState(|view| numbers(vectors(view.system.layout, view.motion?.velocity)));
     ACCELERATION "acceleration" ["m/s^2"] VECTOR Low, "Acceleration of the point, in a motion."
-        => InState(|view| numbers(vectors(view.system.layout(), view.motion?.acceleration)));
+        => InState(|view| numbers(vectors(view.system.layout, view.motion?.acceleration)));
     DAMAGE "damage" ["-"] SCALAR Main(1), "Share of the point's bonds that are broken, weighted with volumes, 0 to 1."
         => Probed(|it| Some(fields::damage(it.system, &it.state.intact)), |it, point| fields::point_damage(it.system, &it.state.intact, point));
     STRAIN_ENERGY_DENSITY "strain_energy_density" ["J/m^3"] SCALAR Main(3),
@@ -277,7 +277,7 @@ impl ResultField {
             Probed(read, _) => read(view.solution()).map(FieldValues::Numbers),
             Stress(reading) => numbers(stresses(view, reading)),
             ByMaterial(of, read, _) => {
-                let count = self.components(view.system.layout().is_in_space()).count();
+                let count = self.components(view.system.layout.is_in_space()).count();
                 numbers(material_stresses(view.solution(), of, read, count))
             }
             Model(_) | EnergyRatios | ScatterFactors | CrackSurface => None,
@@ -365,7 +365,7 @@ impl<'a> ModelPoints<'a> {
 /// Displacements of the points, with a third component of zero in the plane, shape (n_points, 3), m; on a divided body only at
 /// owned points and at the ends of their bonds.
 pub fn displacements(view: &View<'_>) -> Vec<f64> {
-    vectors(view.system.layout(), &view.state.displacement)
+    vectors(view.system.layout, &view.state.displacement)
 }
 
 /// Components x, y and z of values at all degrees of freedom, zero where points lack a component, shape (n_points, 3).
@@ -402,11 +402,11 @@ fn present(values: Vec<f64>) -> Option<FieldValues> {
 fn reactions(view: &View<'_>) -> Vec<f64> {
     let internal = &view.balanced.internal.values;
     let reactions = view.loads.reactions(view.state.load_factor, internal);
-    vectors(view.system.layout(), &reactions)
+    vectors(view.system.layout, &reactions)
 }
 
 fn fragments(view: &View<'_>) -> Vec<i64> {
-    let (numbering, subdomain) = (view.system.numbering(), view.system.subdomain());
+    let (numbering, subdomain) = (&view.system.numbering, &view.system.subdomain);
     let first_in_file = |points: &Vec<u32>| {
         let numbers = points.iter().map(|&it| -f64::from(numbering.in_file(it)));
         numbers.fold(f64::NEG_INFINITY, f64::max)
@@ -425,7 +425,7 @@ fn fragments(view: &View<'_>) -> Vec<i64> {
 }
 
 fn held(view: &View<'_>) -> Vec<i64> {
-    let n_components = view.system.layout().components.len();
+    let n_components = view.system.layout.components.len();
     let held = view.state.held.chunks(n_components);
     held.map(|held| i64::from(held.contains(&true))).collect()
 }
@@ -458,7 +458,7 @@ fn dissipated_energy_density(view: &View<'_>) -> Option<FieldValues> {
 /// Stress-free strains due to the temperature, shape (n_points, n_components); empty where the temperature does not change.
 fn thermal_strain(view: &View<'_>) -> Vec<f64> {
     let strain = view.loads.thermal_strain(view.state.load_factor);
-    let places = thermal_strain_places(view.system.layout().is_in_space());
+    let places = thermal_strain_places(view.system.layout.is_in_space());
     let of_points = (0..view.system.n_points()).filter(|_| !strain.is_none());
     let of_point = |point: usize| {
         let strains: Vec<f64> = strain.of_point(point).engineering().collect();

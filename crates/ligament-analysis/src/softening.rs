@@ -245,7 +245,8 @@ pub(crate) fn energy_at_limit(
     bond: usize,
 ) -> f64 {
     let criterion = &criteria.criteria().list[place];
-    system.energy_at(criterion, criteria.limits(place)[bond], bond)
+    let limit = criteria.limits(place)[bond];
+    criterion.energy_at(limit, system.rigidities(), bond)
 }
 
 /// Remaining stiffness of a bond for the largest utilisations, the smallest of all criteria.

@@ -354,7 +354,7 @@ impl SolverSettings {
             }
             (Some(unfit), _) => return Err(unfit),
         };
-        if system.faces_close() {
+        if system.faces_close {
             return Err(Unfit::ClosingFaces);
         }
         Ok(DistributedChoice {
@@ -370,13 +370,13 @@ impl SolverSettings {
             (self.ordering.is_some(), "ordering"),
             (self.update.is_some(), "update"),
         ];
-        if !system.has_energy() {
+        if !system.element.has_energy() {
             return Some(Unfit::WithoutEnergy);
         }
-        if !system.is_linear() {
+        if !system.element.is_linear() {
             return Some(Unfit::NotLinear);
         }
-        if system.some_negative() {
+        if system.rigidities().some_negative(&system.subdomain) {
             return Some(Unfit::Indefinite);
         }
         let named = named.into_iter().find(|(is_named, _)| *is_named);
@@ -386,7 +386,7 @@ impl SolverSettings {
 
 /// Number of space axes of a body.
 pub fn n_axes(system: &dyn Bonds) -> usize {
-    let components = system.components().iter();
+    let components = system.layout.components.iter();
     components.filter(|it| !it.is_rotation()).count()
 }
 

@@ -82,7 +82,7 @@ impl State {
 
     /// Whether all arrays have the shapes for a body with this number of bonds and these criteria.
     pub(crate) fn fits(&self, system: &dyn Bonds, n_bonds: usize, criteria: &Criteria) -> bool {
-        let n = system.layout().n_degrees_of_freedom();
+        let n = system.layout.n_degrees_of_freedom();
         let of_degrees_of_freedom = [self.displacement.len(), self.held.len()];
         let of_bonds = [
             self.intact.len(),
@@ -98,8 +98,8 @@ impl State {
 
     /// Unloaded body with all its bonds.
     pub fn fresh(system: &dyn Bonds) -> Self {
-        let n = system.layout().n_degrees_of_freedom();
-        let n_bonds = system.ends().len();
+        let n = system.layout.n_degrees_of_freedom();
+        let n_bonds = system.ends.len();
         Self {
             load_factor: 0.0,
             displacement: vec![0.0; n],

@@ -31,8 +31,8 @@ const MATRICES: usize = 4;
 
 /// Least bytes of the matrix of some bonds and its factor: a block for each bond, and as much in the factor.
 pub(crate) fn least_bytes(system: &dyn Bonds) -> usize {
-    let n_components = system.components().len();
-    size_of::<f64>() * (MATRICES + 1) * n_components * n_components * system.ends().len()
+    let n_components = system.layout.components.len();
+    size_of::<f64>() * (MATRICES + 1) * n_components * n_components * system.ends.len()
 }
 
 impl Stiffness {
@@ -55,7 +55,7 @@ impl Stiffness {
         let elimination = ordering.elimination(&**system, &unknowns);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
         // Without positive stiffnesses the matrix may not be positive definite.
-        let suitable = if system.all_positive() {
+        let suitable = if system.rigidities().all_positive(&system.subdomain) {
             FactorKind::Llt
         } else {
             FactorKind::Ldlt
@@ -65,11 +65,11 @@ impl Stiffness {
             choice: DirectChoice {
                 reason,
                 factorisation: settings.factorisation.unwrap_or(suitable),
-                unsymmetric: !system.has_energy(),
+                unsymmetric: !system.element.has_energy(),
                 ordering,
                 update: settings.update.unwrap_or(Update::Incremental),
                 rebuild_every: settings.rebuild_every.max(1),
-                most_bonds_in_place: most_bonds_in_place(&symbolic, system.components().len()),
+                most_bonds_in_place: most_bonds_in_place(&symbolic, system.layout.components.len()),
             },
             symbolic,
             uncoupled: unknowns.clone(),
@@ -95,7 +95,7 @@ impl Stiffness {
         let pattern = Arc::new(pattern.expect("the points of a pattern ascend"));
         let elimination = self.choice.ordering.elimination(&*self.system, &unknowns);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
-        let n_components = self.system.components().len();
+        let n_components = self.system.layout.components.len();
         Ok(Self {
             choice: DirectChoice {
                 most_bonds_in_place: most_bonds_in_place(&symbolic, n_components),
@@ -115,7 +115,7 @@ impl Stiffness {
         let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
         points.iter().enumerate().all(|(place, &point)| {
             let lower =
-                restraints.lower_points(layout, self.system.coupled_points(), point as usize);
+                restraints.lower_points(layout, &self.system.coupled_points, point as usize);
             let mut others = points[..place].iter();
             others.all(|it| lower.binary_search(it).is_ok())
         })
@@ -179,7 +179,7 @@ impl Stiffness {
             return Ok(0);
         }
         let is_alone = |dof: usize| {
-            let incidence = self.system.incidence();
+            let incidence = &self.system.incidence;
             let mut bonds = incidence.at(self.unknowns.layout().point(dof)).iter();
             bonds.all(|&bond| !state.intact[bond as usize])
         };

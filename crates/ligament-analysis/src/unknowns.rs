@@ -28,8 +28,9 @@ impl Unknowns {
     /// Where k_t = 0 (nu = 1/3 in plane stress, 1/4 in plane strain) no bond resists the rotation of a point: such rotations carry
     /// no moments and are fixed at zero.
     pub fn all_but(system: &dyn Bonds, is_fixed: impl Fn(usize) -> bool) -> Self {
-        let resisted = system.resisted();
-        Self::select(system.layout(), |dof| !is_fixed(dof) && resisted[dof])
+        let (layout, subdomain) = (system.layout, &system.subdomain);
+        let resisted = (system.rigidities()).resisted(&system.ends, layout, subdomain);
+        Self::select(layout, |dof| !is_fixed(dof) && resisted[dof])
     }
 
     /// Unknowns that are rotations.

@@ -3,7 +3,7 @@
 //! Breaking bonds lose their elements, and elements supported by these bonds change.
 
 use crate::deformation::Deformation;
-use crate::element::{Element, Elements, Term};
+use crate::element::{Element, Term};
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
@@ -41,7 +41,7 @@ struct ChangedElement<const D: usize, const M: usize, E: Element<D, M>> {
     after: Option<(E, E::Deformation)>,
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
     pub(crate) fn changed(
         &self,
@@ -51,7 +51,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         bonds: &[u32],
     ) -> Box<dyn ChangedElements> {
         let ends = &self.system.bonds.ends;
-        let deformed = |bond: usize, element: E::Element| {
+        let deformed = |bond: usize, element: E| {
             let deformation = deformation(&element, ends[bond], displacement, expansion);
             (element, deformation)
         };
@@ -63,8 +63,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
                 after: None,
             })
         });
-        let mut elements: Vec<ChangedElement<D, M, E::Element>> = broken.collect();
-        let dependent_bonds = self.elements.dependent_bonds(bonds);
+        let mut elements: Vec<ChangedElement<D, M, E>> = broken.collect();
+        let dependent_bonds = E::dependent_bonds(&self.lattice, bonds);
         if !dependent_bonds.is_empty() {
             let mut intact = left.intact.to_vec();
             for &bond in bonds {

@@ -14,6 +14,8 @@
 //! strain along the crack to the traction (Poisson) is not recovered. With friction the pair resists the motion of its faces along the crack
 //! with the same stiffness, up to the coefficient times its pressure.
 
+use std::sync::Arc;
+
 use crate::bonds::{BondSet, Incidence};
 use crate::communicator::Wire;
 use crate::layout::{Component, Layout};
@@ -39,7 +41,7 @@ pub struct Faces<const D: usize = 2> {
     /// Bonds that pre-cracks cut, in the order of their ends.
     cut: Vec<CutBond<D>>,
     /// Points that bonds and closed faces couple with each point, ascending; `None` where faces do not close.
-    coupled: Option<Incidence>,
+    coupled: Option<Arc<Incidence>>,
 }
 
 /// Two points on either side of a crack.
@@ -237,7 +239,7 @@ impl<const D: usize> Faces<D> {
         others.sort_unstable();
         let coupled = Incidence::from_pairs(others.iter().copied(), n_points);
         Self {
-            coupled: Some(coupled),
+            coupled: Some(coupled.into()),
             cut,
         }
     }
@@ -253,7 +255,7 @@ impl<const D: usize> Faces<D> {
     }
 
     /// Points that bonds and closed faces couple with each point; `None` where faces do not close.
-    pub(crate) fn coupled(&self) -> Option<&Incidence> {
+    pub(crate) fn coupled(&self) -> Option<&Arc<Incidence>> {
         self.coupled.as_ref()
     }
 }

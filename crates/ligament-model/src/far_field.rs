@@ -7,15 +7,17 @@
 //! Elements pass a uniform strain exactly. Bonds with the [patch correction](crate::correction::patch) on their own cells bear the same
 //! forces at the border of these cells as elements would in a uniform strain, so that bonds and elements share a point without a seam.
 
+use std::sync::Arc;
+
 use ligament_mesh::MeshCell;
 use rayon::prelude::*;
 
 use crate::bonds::Incidence;
 use crate::cloud::PointCloud;
 use crate::correction::patch::gradients;
-use crate::coupled::CoupledPoints;
 use crate::material::{Stiffness, stress};
 use crate::tensor::{SymTensor, dot, minus};
+use crate::topology::CoupledPoints;
 
 /// Stiffness between two points, rows by columns, N/m.
 type Block<const D: usize> = [[f64; D]; D];
@@ -33,13 +35,15 @@ pub struct Simplex<C> {
 #[derive(Debug, Clone)]
 pub struct FarField<const D: usize> {
     /// Points A < B of each coupling, shape (n_couplings), in ascending order.
-    ends: Vec<[u32; 2]>,
+    ends: Arc<[[u32; 2]]>,
     /// Stiffness K_AB of each coupling: force at A for a motion of B, shape (n_couplings).
     blocks: Vec<Block<D>>,
     /// Couplings of each point.
-    couplings: Incidence,
+    couplings: Arc<Incidence>,
     /// Other points that bonds, crack faces or elements couple with each point, ascending.
-    coupled_points: Incidence,
+    pub(crate) coupled_points: CoupledPoints,
+    /// Points that elements couple with each point.
+    pub(crate) neighbours: CoupledPoints,
     /// Volume of the elements at each point, shape (n_points), m^3.
     volumes: Vec<f64>,
 }
@@ -51,7 +55,7 @@ impl<const D: usize> FarField<D> {
         cloud: &PointCloud<D>,
         simplices: &[Simplex<C>],
         stiffness: &[Stiffness],
-        coupled: CoupledPoints<'_>,
+        coupled: &CoupledPoints,
     ) -> Self {
         let edges = |it: &Simplex<C>| it.cell.edges().collect::<Vec<_>>();
         let mut ends: Vec<[u32; 2]> = simplices.par_iter().flat_map_iter(edges).collect();
@@ -72,54 +76,22 @@ impl<const D: usize> FarField<D> {
                 }
             }
         }
-        let couplings = Incidence::new(&ends, cloud.len());
-        let mut far = Self {
-            coupled_points: Incidence::from_pairs(std::iter::empty(), cloud.len()),
+        let couplings = Arc::new(Incidence::new(&ends, cloud.len()));
+        let ends = ends.into();
+        let neighbours = CoupledPoints::from_bonds(&ends, &couplings);
+        Self {
+            coupled_points: joined([coupled, &neighbours], cloud.len()),
+            neighbours,
             ends,
             blocks,
             couplings,
             volumes,
-        };
-        far.coupled_points = far.joined(coupled);
-        far
-    }
-
-    /// Points that the elements or a given list couple with each point, ascending.
-    fn joined(&self, coupled: CoupledPoints<'_>) -> Incidence {
-        let of_point = |point: u32| {
-            let mut others: Vec<u32> = coupled.at(point).chain(self.neighbours(point)).collect();
-            others.sort_unstable();
-            others.dedup();
-            others.into_iter().map(move |other| (point, other))
-        };
-        let points = 0..self.couplings.n_points() as u32;
-        Incidence::from_pairs(points.flat_map(of_point), self.couplings.n_points())
-    }
-
-    /// Other points that bonds, crack faces or elements couple with each point.
-    pub(crate) fn coupled_points(&self) -> CoupledPoints<'_> {
-        CoupledPoints {
-            lists: &self.coupled_points,
-            ends: None,
         }
     }
 
     /// Points A < B of each coupling, shape (n_couplings).
     pub fn ends(&self) -> &[[u32; 2]] {
         &self.ends
-    }
-
-    /// Points that elements couple with each point.
-    pub(crate) fn neighbours_of_points(&self) -> CoupledPoints<'_> {
-        CoupledPoints {
-            lists: &self.couplings,
-            ends: Some(&self.ends),
-        }
-    }
-
-    /// Points that elements couple with a point.
-    pub(crate) fn neighbours(&self, point: u32) -> impl Iterator<Item = u32> + '_ {
-        self.neighbours_of_points().at(point)
     }
 
     /// Couplings of a point A with their other points B, and the stiffness K_AB.
@@ -178,6 +150,18 @@ impl<const D: usize> FarField<D> {
         });
         sizes.sum()
     }
+}
+
+/// Points that some of the lists couple with each point, ascending.
+fn joined(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoints {
+    let of_point = |point: u32| {
+        let mut others: Vec<u32> = lists.iter().flat_map(|it| it.at(point)).collect();
+        others.sort_unstable();
+        others.dedup();
+        others.into_iter().map(move |other| (point, other))
+    };
+    let of_points = (0..n_points as u32).flat_map(of_point);
+    CoupledPoints::from_lists(&Arc::new(Incidence::from_pairs(of_points, n_points)))
 }
 
 /// Displacement of a point in motions with some components a point.

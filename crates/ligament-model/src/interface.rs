@@ -2,20 +2,19 @@
 //!
 //! A sweep over all bonds is one call through the interface; the loop inside has the element as a type parameter.
 
-use ligament_mesh::Numbering;
+use std::ops::Deref;
+
 use rayon::prelude::*;
 
-use crate::bonds::{BondSet, Incidence};
+use crate::bonds::BondSet;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
-pub use crate::coupled::CoupledPoints;
 use crate::deformation::Deformations;
 use crate::element::{BondDeformation, Rigidities, StiffnessFactors, Term};
-use crate::failure::Criterion;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
 use crate::ghosts::Ghosts;
-use crate::layout::{Component, Layout};
+use crate::layout::Component;
 use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::carried::StrainReading;
@@ -25,113 +24,27 @@ use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
 use crate::system::UnbrokenBonds;
 use crate::thermal::ThermalStrain;
+use crate::topology::Topology;
 
 /// The bonds of a body, as equations use them. Points, bonds and degrees of freedom are numbers; coordinates and the number of dimensions
-/// stay behind this interface.
+/// stay behind this interface. Bonds dereference to their [`Topology`].
 ///
 /// Where a body is divided between processes, each has the bonds at its owned points, and arrays of shape (n_bonds) are over those. Results
-/// for the whole body, and forces at points, are the same on all processes, and their calls are collective: stiffnesses by sign, resisted
-/// degrees of freedom, point stiffnesses, rigid motions, forces and energies of a sweep, overlaps. Energy densities and stresses of points
-/// are valid at owned points, and their calls are not collective.
-pub trait Bonds: BondTopology + BondKinetics + BondReadings + BondContact {}
+/// for the whole body, and forces at points, are the same on all processes, and their calls are collective: point stiffnesses, rigid
+/// motions, forces and energies of a sweep, overlaps. Energy densities and stresses of points are valid at owned points, and their calls
+/// are not collective.
+pub trait Bonds: std::fmt::Debug + Send + Sync {
+    /// Points, bonds and families.
+    fn topology(&self) -> &Topology;
 
-impl<T: BondTopology + BondKinetics + BondReadings + BondContact> Bonds for T {}
+    /// Rigidities of the bonds.
+    fn rigidities(&self) -> &Rigidities;
 
-/// Points, bonds and their connections: numbers without coordinates.
-pub trait BondTopology: std::fmt::Debug + Send + Sync {
-    /// Number of points.
-    fn n_points(&self) -> usize;
-
-    /// Numbering of the points, internal and in the file.
-    fn numbering(&self) -> &Numbering;
-
-    /// The points and bonds of the body on this process.
-    fn subdomain(&self) -> &Subdomain;
-
-    /// Components of the motion of a point, in the order of the arrays over degrees of freedom.
-    fn components(&self) -> &'static [Component];
-
-    /// Positions of the motions of the points in arrays over degrees of freedom.
-    fn layout(&self) -> Layout {
-        Layout {
-            n_points: self.n_points(),
-            components: self.components(),
-        }
-    }
-
-    /// Names of the strains of a bond.
-    fn strain_names(&self) -> &'static [&'static str];
-
-    /// Points A < B of each bond, shape (n_bonds).
-    fn ends(&self) -> &[[u32; 2]];
-
-    /// Numbers in the file of the ends of a bond, ascending, by which ties are broken.
-    fn ends_in_file(&self, bond: u32) -> [u32; 2] {
-        self.numbering().ends_in_file(self.ends()[bond as usize])
-    }
-
-    /// Bonds of each point.
-    fn incidence(&self) -> &Incidence;
-
-    /// Ends and families of the bonds.
-    fn topology(&self) -> Topology<'_> {
-        Topology {
-            ends: self.ends(),
-            incidence: self.incidence(),
-            far: self.far_field(),
-        }
-    }
-
-    /// Points that elements of the far field couple with each point; none without a far field.
-    fn far_field(&self) -> Option<CoupledPoints<'_>>;
-
-    /// Bonds whose elements couple each point, ascending; on the imaginary lattice these include bonds that do not end at the point.
-    fn elements_at_points(&self) -> &Incidence;
-
-    /// Other points that elements couple with each point.
-    fn coupled_points(&self) -> CoupledPoints<'_>;
-
-    /// Volume of each point, shape (n_points), m^3.
-    fn volumes(&self) -> &[f64];
-
-    /// Distance of each point from its nearest neighbour, shape (n_points), m.
-    fn spacing(&self) -> &[f64];
-
-    /// Horizon of each bond, shape (n_bonds), m.
-    fn horizons(&self) -> &[f64];
-
-    /// Weight of each bond in the damage of its ends, shape (n_bonds).
-    fn weights(&self) -> &[f64];
-
-    /// Fraction of the energy of a bond that belongs to one of its ends: mostly a half.
-    fn share(&self, bond: u32, point: u32) -> f64;
-
-    /// Diagonal of the box around all points of the body, m.
+    /// Diagonal of the box around all points of the body, m; collective.
     fn extent(&self) -> f64;
 
     /// Sorts points so that the first half lies before the second along the longest side of their box; ties are broken by number.
     fn halve(&self, points: &mut [u32]);
-}
-
-/// Stiffness and forces of the bonds, and motions that cost no energy.
-pub trait BondKinetics: BondTopology {
-    /// Whether forces are linear in the displacements.
-    fn is_linear(&self) -> bool;
-
-    /// Whether forces derive from an energy, so that the stiffness is symmetric.
-    fn has_energy(&self) -> bool;
-
-    /// Whether every bond resists stretch and shear, so that the stiffness is definite.
-    fn all_positive(&self) -> bool;
-
-    /// Whether some bond has a negative stiffness, so that the stiffness of the body may be indefinite.
-    fn some_negative(&self) -> bool;
-
-    /// Whether some bond has a negative shear stiffness.
-    fn some_negative_shear(&self) -> bool;
-
-    /// Whether some bond resists each degree of freedom, shape (n_degrees_of_freedom).
-    fn resisted(&self) -> Vec<bool>;
 
     /// Stiffness of each point with all its bonds, shape (n_points).
     fn point_stiffness(&self) -> Vec<PointStiffness>;
@@ -216,10 +129,10 @@ pub trait BondKinetics: BondTopology {
     /// The product K u of the stiffness of the unbroken bonds with motions u, shape (n_degrees_of_freedom) both; for bonds whose forces are
     /// linear in the displacements. The result overwrites `forces`.
     ///
-    /// The result does not depend on the number of threads, as in [`BondKinetics::forces`].
+    /// The result does not depend on the number of threads, as in [`Bonds::forces`].
     fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]);
 
-    /// The product K u, as [`BondKinetics::multiply`], and the unbroken bonds near their limits, ascending, in one sweep. The forces overwrite
+    /// The product K u, as [`Bonds::multiply`], and the unbroken bonds near their limits, ascending, in one sweep. The forces overwrite
     /// `forces`.
     fn forces_near_limits(
         &self,
@@ -240,10 +153,7 @@ pub trait BondKinetics: BondTopology {
         expansion: ThermalStrain<'_>,
         bonds: &[u32],
     ) -> Box<dyn ChangedElements>;
-}
 
-/// Energies, stresses and forces derived from a state of the bonds.
-pub trait BondReadings: BondTopology {
     /// Energy 1/2 u^T K u', J, of an unbroken bond with its remaining stiffness, for two deformations of all bonds.
     fn mutual_energy(
         &self,
@@ -321,15 +231,6 @@ pub trait BondReadings: BondTopology {
         component: Component,
     ) -> f64;
 
-    /// Energy of a bond at a limit of the measure of a criterion, from the rigidity that the criterion weakens, J; 0 where the limit is infinite.
-    fn energy_at(&self, criterion: &Criterion, limit: f64, bond: usize) -> f64;
-}
-
-/// Pairs of points across cracks.
-pub trait BondContact: BondTopology {
-    /// Whether crack faces carry pressure where they close.
-    fn faces_close(&self) -> bool;
-
     /// Pairs of points across cracks while the bonds marked in `intact` (n_bonds) are unbroken, in the order of their numbers.
     fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair>;
 
@@ -357,30 +258,11 @@ pub trait BondContact: BondTopology {
     );
 }
 
-/// Ends and families of bonds, without coordinates.
-#[derive(Debug, Clone, Copy)]
-pub struct Topology<'a> {
-    /// Points A < B of each bond, shape (n_bonds).
-    pub ends: &'a [[u32; 2]],
-    /// Bonds of each point.
-    pub incidence: &'a Incidence,
-    /// Points that elements of the far field, which never break, couple with each point.
-    pub far: Option<CoupledPoints<'a>>,
-}
+impl Deref for dyn Bonds + '_ {
+    type Target = Topology;
 
-impl<'a> Topology<'a> {
-    /// Points that bonds marked in `intact` (n_bonds), or elements of the far field, connect with a point.
-    pub fn connected(self, point: u32, intact: &[bool]) -> impl Iterator<Item = u32> {
-        let bonds = self.incidence.at(point).iter();
-        let intact = bonds.filter(|bond| intact[**bond as usize]);
-        let by_bonds = intact.map(move |&bond| self.neighbour(bond, point));
-        by_bonds.chain(self.far.into_iter().flat_map(move |far| far.at(point)))
-    }
-
-    /// The other end of a bond of `point`.
-    pub fn neighbour(self, bond: u32, point: u32) -> u32 {
-        let [a, b] = self.ends[bond as usize];
-        if a == point { b } else { a }
+    fn deref(&self) -> &Topology {
+        self.topology()
     }
 }
 

@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 
 use crate::deformation::Deformation;
-use crate::element::{Element, Elements};
+use crate::element::Element;
 use crate::failure::{Criteria, Measure};
 use crate::point_sums::BondForces;
 use crate::subdomain::Whole;
@@ -76,14 +76,14 @@ impl<'a> NearLimits<'a> {
 }
 
 /// Forces of unbroken bonds at motions of the points, and the bonds near their limits.
-struct LinearForces<'a, const D: usize, const M: usize, E, J> {
+struct LinearForces<'a, const D: usize, const M: usize, E: Element<D, M>, J> {
     typed: &'a ElementSystem<D, M, E>,
     bonds: UnbrokenBonds<'a>,
     motions: &'a [f64],
     judge: J,
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>, J: Judge> BondForces<M>
+impl<const D: usize, const M: usize, E: Element<D, M>, J: Judge> BondForces<M>
     for LinearForces<'_, D, M, E, J>
 {
     /// Bonds near their limits.
@@ -104,7 +104,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>, J: Judge> BondForces<M>
     }
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Product of the stiffness of the unbroken bonds with motions, shape (M n_points) both.
     pub(crate) fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
         self.swept(bonds, motions, Unlimited, forces);

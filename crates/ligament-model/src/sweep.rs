@@ -5,8 +5,8 @@ use std::ops::Range;
 use rayon::prelude::*;
 
 use crate::deformation::{Deformation, Deformations};
-use crate::element::{DeformationOf, Element, Elements};
-use crate::layout::Component;
+use crate::element::Element;
+use crate::layout::Layout;
 use crate::point_sums::{BondForces, GROUPS, PointSum, group};
 use crate::subdomain::{Share, Subdomain, Whole};
 use crate::surface::Vector;
@@ -59,7 +59,7 @@ pub struct InternalForces {
     pub on_rigid_bodies: Vec<Vector>,
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Deformation of every bond less its thermal deformation, broken or not, shape (n_bonds).
     pub(crate) fn deformations(
         &self,
@@ -69,7 +69,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     ) -> Deformations {
         assert_eq!(displacement.len(), M * self.system.cloud.len());
         let ends = &self.system.bonds.ends;
-        let of_task = |(task, deformations): (usize, &mut [DeformationOf<D, M, E>])| {
+        let of_task = |(task, deformations): (usize, &mut [E::Deformation])| {
             for (bond, deformation) in (task * TASK..).zip(deformations) {
                 let element = self.whole(intact, bond);
                 *deformation = element.deformation(displacement);
@@ -97,7 +97,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         expansion: ThermalStrain<'_>,
     ) -> BondSweep {
         let subdomain = &self.system.cloud.subdomain;
-        let of_bonds: &[DeformationOf<D, M, E>] = Deformation::of_bonds(&deformations);
+        let of_bonds: &[E::Deformation] = Deformation::of_bonds(&deformations);
         let (mut at_points, energies) = match subdomain.is_whole() {
             true => self.sums(Whole, bonds, of_bonds),
             false => self.sums(subdomain, bonds, of_bonds),
@@ -119,7 +119,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         subdomain.all_reduce_sum(&mut energies);
         BondSweep::new(
             &at_points,
-            &E::COMPONENTS,
+            self.topology.layout,
             energies,
             deformations,
             subdomain,
@@ -131,7 +131,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         &self,
         share: impl Share,
         bonds: UnbrokenBonds<'_>,
-        deformations: &[DeformationOf<D, M, E>],
+        deformations: &[E::Deformation],
     ) -> (Vec<PointForces<M>>, Vec<f64>) {
         let deformed = DeformedBonds {
             typed: self,
@@ -169,7 +169,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     fn expansion_energies(
         &self,
         bonds: UnbrokenBonds<'_>,
-        deformations: &[DeformationOf<D, M, E>],
+        deformations: &[E::Deformation],
         expansion: ThermalStrain<'_>,
         group: Range<usize>,
     ) -> [f64; 2] {
@@ -191,11 +191,11 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
 }
 
 impl BondSweep {
-    /// The sweep with the sums of the forces at the owned points, whose motions have given components, and with the thermal work, stored and
+    /// The sweep with the sums of the forces at the owned points, and with the thermal work, stored and
     /// expansion energies of the whole body, J.
     fn new<const M: usize>(
         at_points: &[PointForces<M>],
-        components: &[Component; M],
+        layout: Layout,
         energies: [f64; 3],
         deformations: Deformations,
         subdomain: &Subdomain,
@@ -208,7 +208,8 @@ impl BondSweep {
             collected(|forces| forces.size),
         );
         let largest = |of_rotations: bool| {
-            let places = (0..M).filter(|&place| components[place].is_rotation() == of_rotations);
+            let is_one = |place: &usize| layout.components[*place].is_rotation() == of_rotations;
+            let places = (0..M).filter(is_one);
             let sizes = places.flat_map(|place| sizes.iter().skip(place).step_by(M).copied());
             sizes.fold(0.0, f64::max)
         };
@@ -264,14 +265,14 @@ impl<const M: usize> PointSum<M> for PointForces<M> {
 }
 
 /// Unbroken bonds with their deformations (n_bonds), of which a share is summed.
-struct DeformedBonds<'a, const D: usize, const M: usize, E: Elements<D, M>, S> {
+struct DeformedBonds<'a, const D: usize, const M: usize, E: Element<D, M>, S> {
     typed: &'a ElementSystem<D, M, E>,
     share: S,
     bonds: UnbrokenBonds<'a>,
-    deformations: &'a [DeformationOf<D, M, E>],
+    deformations: &'a [E::Deformation],
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>, S: Share> BondForces<M>
+impl<const D: usize, const M: usize, E: Element<D, M>, S: Share> BondForces<M>
     for DeformedBonds<'_, D, M, E, S>
 {
     /// Energy of each bond, J; zero for bonds of other processes.

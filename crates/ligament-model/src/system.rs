@@ -7,7 +7,7 @@ pub mod elements;
 mod parts;
 mod rigid;
 
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use ligament_mesh::MeshCell;
 use rayon::prelude::*;
@@ -15,14 +15,15 @@ use rayon::prelude::*;
 use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
 use crate::contact::Faces;
-use crate::coupled::CoupledPoints;
 use crate::deformation::DeformationPool;
 use crate::element::strain_stiffness::StrainStiffness;
-use crate::element::{Element, ElementKind, Elements, Rigidities, StiffnessFactors};
+use crate::element::{Element, ElementKind, Rigidities, StiffnessFactors};
 use crate::far_field::{FarField, Simplex};
 use crate::law::BondStiffness;
+use crate::layout::{Component, Layout};
 use crate::material::Stiffness;
 use crate::point_sums::Reach;
+use crate::topology::{CoupledPoints, Topology};
 
 /// Points and bonds in D dimensions with their rigidities; constant after construction.
 #[derive(Debug, Clone)]
@@ -32,7 +33,7 @@ pub struct BondSystem<const D: usize = 2> {
     /// Bonds without those that pre-cracks cut.
     pub bonds: BondSet<D>,
     /// Omega alpha of each bond: its weight in the damage of its ends, shape (n_bonds).
-    pub weight: Vec<f64>,
+    pub weight: Arc<[f64]>,
     /// Rigidities of the bonds.
     pub rigidities: Rigidities,
     /// Kinematics of the bonds.
@@ -74,7 +75,7 @@ impl<const D: usize> BondSystem<D> {
             ..
         } = stiffness;
         (
-            (&bonds.ends, &bonds.length, domain_factor).into_par_iter(),
+            (&*bonds.ends, &bonds.length, domain_factor).into_par_iter(),
             (&mut weight, &mut axial, &mut shear, &mut rotational).into_par_iter(),
         )
             .into_par_iter()
@@ -102,7 +103,7 @@ impl<const D: usize> BondSystem<D> {
         };
         Self {
             rigidities,
-            weight,
+            weight: weight.into(),
             element,
             beyond_correction,
             bonds,
@@ -124,10 +125,9 @@ impl<const D: usize> BondSystem<D> {
     /// Crack faces are not taken over.
     pub fn within(self, cloud: PointCloud<D>, points: &[u32]) -> Self {
         let mut bonds = self.bonds;
-        for end in bonds.ends.as_flattened_mut() {
-            *end = points[*end as usize];
-        }
-        bonds.incidence = Incidence::new(&bonds.ends, cloud.len());
+        let of_body = |ends: &[u32; 2]| ends.map(|end| points[end as usize]);
+        bonds.ends = bonds.ends.iter().map(of_body).collect();
+        bonds.incidence = Incidence::new(&bonds.ends, cloud.len()).into();
         Self {
             cloud,
             bonds,
@@ -139,11 +139,8 @@ impl<const D: usize> BondSystem<D> {
 
     /// The system with linear finite elements between its points.
     pub fn with_far_field<C: MeshCell<D>>(mut self, simplices: &[Simplex<C>]) -> Self {
-        let by_bonds = CoupledPoints {
-            lists: &self.bonds.incidence,
-            ends: Some(&self.bonds.ends),
-        };
-        let far = FarField::new(&self.cloud, simplices, &self.materials, by_bonds);
+        let by_bonds = CoupledPoints::from_bonds(&self.bonds.ends, &self.bonds.incidence);
+        let far = FarField::new(&self.cloud, simplices, &self.materials, &by_bonds);
         self.far = Some(far);
         self
     }
@@ -155,10 +152,13 @@ impl<const D: usize> BondSystem<D> {
 }
 
 /// A bond system whose elements, between points with M components, are a type parameter, so that loops over bonds resolve it once.
-#[derive(Debug, Clone)]
-pub(crate) struct ElementSystem<const D: usize, const M: usize, E> {
+#[derive(Debug)]
+pub(crate) struct ElementSystem<const D: usize, const M: usize, E: Element<D, M>> {
     pub(crate) system: BondSystem<D>,
-    pub(crate) elements: E,
+    /// Points and bonds as arrays.
+    pub(crate) topology: Topology,
+    /// What the elements share.
+    pub(crate) lattice: E::Lattice,
 }
 
 /// Unbroken bonds with their remaining stiffness.
@@ -180,32 +180,68 @@ impl<'a> UnbrokenBonds<'a> {
     }
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
+    /// The system with what its elements share.
+    fn new(system: BondSystem<D>, lattice: E::Lattice) -> Self {
+        let BondSystem { cloud, bonds, .. } = &system;
+        let couplings = E::couplings(&lattice);
+        let of_elements = couplings.map(|[_, points]| points);
+        let coupled_points = match (&system.far, of_elements.or(system.faces.coupled())) {
+            (Some(far), _) => far.coupled_points.clone(),
+            (None, Some(points)) => CoupledPoints::from_lists(points),
+            (None, None) => CoupledPoints::from_bonds(&bonds.ends, &bonds.incidence),
+        };
+        let topology = Topology {
+            layout: Layout {
+                n_points: cloud.len(),
+                components: &Component::in_dimensions(D)[..M],
+            },
+            numbering: cloud.numbering.clone(),
+            subdomain: cloud.subdomain.clone(),
+            volumes: cloud.volumes.clone(),
+            spacing: cloud.spacing.clone(),
+            ends: bonds.ends.clone(),
+            horizons: bonds.horizon.clone(),
+            weights: system.weight.clone(),
+            element: system.element,
+            incidence: bonds.incidence.clone(),
+            elements_at_points: couplings
+                .map_or(&bonds.incidence, |[bonds, _]| bonds)
+                .clone(),
+            coupled_points,
+            far_field: system.far.as_ref().map(|it| it.neighbours.clone()),
+            faces_close: system.faces.close(),
+        };
+        Self {
+            system,
+            topology,
+            lattice,
+        }
+    }
+
     /// Bonds with the points that their elements reach.
     pub(crate) fn reach(&self) -> Reach<'_> {
-        let BondSet {
-            ends, incidence, ..
-        } = &self.system.bonds;
-        let couplings = self.elements.couplings();
-        let bonds = couplings.map_or(incidence, |[elements, _]| elements);
-        Reach { ends, bonds }
+        Reach {
+            ends: &self.topology.ends,
+            bonds: &self.topology.elements_at_points,
+        }
     }
 }
 
 // These functions are the sweeps over all bonds: the compiler left some as calls, which cost the sweeps a fifth more time.
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// The element of a bond with its whole stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
     #[inline(always)]
-    pub(crate) fn whole(&self, intact: &[bool], bond: usize) -> E::Element {
+    pub(crate) fn whole(&self, intact: &[bool], bond: usize) -> E {
         let BondSystem {
             bonds, rigidities, ..
         } = &self.system;
-        self.elements.element(bonds, rigidities, intact, bond)
+        E::new(&self.lattice, bonds, rigidities, intact, bond)
     }
 
     /// The element of a bond with its remaining stiffness; `None` if the bond is broken.
     #[inline(always)]
-    pub(crate) fn left(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E::Element> {
+    pub(crate) fn left(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E> {
         if !bonds.intact[bond] {
             return None;
         }

@@ -36,7 +36,7 @@ impl UniformStrains {
         forces: &CellForces<D>,
         displacements: &[Vec<f64>],
     ) -> Option<Self> {
-        let (bonds, layout) = (&system.bonds, system.layout());
+        let (bonds, layout) = (&system.bonds, system.topology().layout);
         let mean = mean_strains(&system.cloud, layout, forces, displacements)?;
         let mut squares = vec![0.0; displacements.len()];
         let (mut largest, mut place) = (-1.0, None);
@@ -98,7 +98,7 @@ impl UniformStrains {
 /// the softer material, which is how they are corrected. As two halves in series they pull their ends by more, and that part of the jump
 /// belongs to their ends.
 pub fn loads<const D: usize>(system: &dyn System<D>, forces: &CellForces<D>) -> Vec<Vec<f64>> {
-    let layout = system.layout();
+    let layout = system.topology().layout;
     let of_strain = |(k, strain): (usize, SymTensor<D>)| {
         let mut loads = excess_across(system, &strain);
         for (point, forces) in (0..).zip(forces.of_points()) {
@@ -116,7 +116,7 @@ pub fn loads<const D: usize>(system: &dyn System<D>, forces: &CellForces<D>) -> 
 /// (n_degrees_of_freedom).
 fn excess_across<const D: usize>(system: &dyn System<D>, strain: &SymTensor<D>) -> Vec<f64> {
     let (cloud, beyond) = (&system.cloud, &system.beyond_correction);
-    let layout = system.layout();
+    let layout = system.topology().layout;
     let mut motions = vec![0.0; layout.n_degrees_of_freedom()];
     if beyond.is_empty() {
         return motions;

@@ -114,7 +114,7 @@ fn answer(
             Question::Displacement => Answer::Values(displacement(&problem, way.state())),
             Question::Damage => {
                 let damage = damage(&*problem.system, &way.state().intact);
-                Answer::Values(problem.system.numbering().to_file(damage))
+                Answer::Values(problem.system.numbering.to_file(damage))
             }
         };
         if answers.send(answer).is_err() {
@@ -136,7 +136,7 @@ fn advance(way: &mut dyn Way, collected: &Receiver<Vec<Entry>>) -> Answer {
 
 /// Displacements of the points in the order of the body's file, shape (n_points, n_components), m.
 fn displacement(problem: &Problem, state: &State) -> Vec<f64> {
-    let layout = problem.system.layout();
+    let layout = problem.system.layout;
     let n_components = n_components(problem);
     let of_point = |point: u32| {
         let mut values = [0.0; 3];
@@ -149,14 +149,14 @@ fn displacement(problem: &Problem, state: &State) -> Vec<f64> {
         values
     };
     let of_points = (0..layout.n_points as u32).map(of_point).collect();
-    let in_file = problem.system.numbering().to_file(of_points);
+    let in_file = problem.system.numbering.to_file(of_points);
     let values = in_file.iter().flat_map(|it| &it[..n_components]);
     values.copied().collect()
 }
 
 /// Number of components of a displacement.
 fn n_components(problem: &Problem) -> usize {
-    let layout = problem.system.layout();
+    let layout = problem.system.layout;
     let components = layout.components.iter();
     components.filter(|it| !it.is_rotation()).count()
 }

@@ -32,7 +32,7 @@ impl FieldsOnDisk {
         let output = &case.case.output;
         let every = output.fields_every.unwrap_or_default() as usize;
         let bonds = if output.bonds {
-            BOND * model.system.ends().len() as f64
+            BOND * model.system.ends.len() as f64
         } else {
             0.0
         };
@@ -48,7 +48,7 @@ impl FieldsOnDisk {
             Analysis::Elastic { .. } | Analysis::Modal(_) => Some(2),
         };
         Self {
-            of_one: POINT * model.system.subdomain().n_all() as f64 + bonds,
+            of_one: POINT * model.system.subdomain.n_all() as f64 + bonds,
             most,
             every,
         }

@@ -113,7 +113,7 @@ impl LoadedBody<'_> {
         let (grid, fixed) = (model.body().grid(), &model.fixed);
         let folder = broadcast_path(&*loading.solver.communicator, None)?;
         let writer = || PieceWriter::new(folder, &grid, fixed, write_rule(case), &problem);
-        let is_divided = !model.system.subdomain().is_whole();
+        let is_divided = !model.system.subdomain.is_whole();
         let writer = is_divided.then(writer).transpose()?;
         let mut pieces = Pieces::new(writer, requests.is_stopped);
         match restored {
@@ -151,7 +151,7 @@ impl LoadedBody<'_> {
 
 /// The grid of the body on this process, with the tags of all points where the process has only a part of the body.
 fn grid(model: &Model) -> BodyGrid {
-    let is_whole = model.system.subdomain().is_whole();
+    let is_whole = model.system.subdomain.is_whole();
     BodyGrid {
         of_body: (!is_whole).then(|| model.names.point_tags()),
         ..model.body().grid()

@@ -71,19 +71,19 @@ fn gigabytes(bytes: u64) -> f64 {
 /// Estimated bytes of the equations of a system and of its bonds; without a stiffness the equations are solved without a matrix.
 pub fn of_equations(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize {
     let Some(stiffness) = stiffness else {
-        let unknowns = system.layout().n_degrees_of_freedom();
+        let unknowns = system.layout.n_degrees_of_freedom();
         let of_unknown = WITHOUT_MATRIX[usize::from(n_axes(system) > 2)];
-        return of_unknown * unknowns + BOND * system.ends().len();
+        return of_unknown * unknowns + BOND * system.ends.len();
     };
     let factor = size_of::<f64>() * stiffness.symbolic().n_factor_values();
     let further = times_of_factor(stiffness.choice().unsymmetric) - 1;
-    stiffness.bytes() + further * factor + BOND * system.ends().len()
+    stiffness.bytes() + further * factor + BOND * system.ends.len()
 }
 
 /// Bytes available to the matrix and its factor in a run of a case, after the program and the bonds.
 pub fn for_factor(case: &CaseFile, system: &dyn Bonds) -> Option<usize> {
     let of_equations = allowed(case)? as f64 / MARGIN - PROGRAM as f64;
-    Some((of_equations as usize).saturating_sub(BOND * system.ends().len()))
+    Some((of_equations as usize).saturating_sub(BOND * system.ends.len()))
 }
 
 /// Ratio of the number of values of a factor to the number of the symmetric factor.
@@ -183,8 +183,8 @@ pub fn foresee_equations(
     system: &dyn Bonds,
     problem: &Problem,
 ) -> anyhow::Result<()> {
-    let times = times_of_factor(!problem.system.has_energy());
-    let most = (times * MOST_OVER_BONDS * BOND * system.ends().len()) as u64;
+    let times = times_of_factor(!problem.system.element.has_energy());
+    let most = (times * MOST_OVER_BONDS * BOND * system.ends.len()) as u64;
     if allowed(case).is_none_or(|there| most <= there) {
         return Ok(());
     }

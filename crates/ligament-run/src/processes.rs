@@ -22,7 +22,7 @@ pub fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading> {
         !model.setup.analysis.is_motion() || model.setup.solver.communicator.size() == 1,
         "analysis = \"motion\": several processes cannot compute a motion in time; run the case with one process, without mpirun"
     );
-    let is_whole = model.system.subdomain().is_whole();
+    let is_whole = model.system.subdomain.is_whole();
     ensure!(
         !case.case.output.bonds || is_whole,
         "output.bonds: several processes cannot write files of bonds; run the case with one process, or remove the key"

@@ -109,7 +109,7 @@ pub fn summary(
         first_softened_bond: noted.first.softened.map(|it| bond_event(model, &it)),
         first_broken_bond: noted.first.broken.map(|it| bond_event(model, &it)),
         peak: loaded(outcome.peak()),
-        reactions_at_peak: resultants_at_peak(boundary, model.system.layout(), outcome),
+        reactions_at_peak: resultants_at_peak(boundary, model.system.layout, outcome),
         // The force of a motion rises and falls with its waves.
         first_peak: loaded(outcome.first_peak(DROP)).filter(|_| outcome.rows != Rows::Times),
         broken_bonds: outcome.broken_bonds,

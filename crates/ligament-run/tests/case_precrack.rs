@@ -127,7 +127,7 @@ fn bonds(path: &Path, text: String) -> Vec<[u32; 2]> {
     )
     .unwrap();
     assert!(model.cut_bonds() > 100, "{}", path.display());
-    model.plane().bonds.ends.clone()
+    model.plane().bonds.ends.to_vec()
 }
 
 /// The slots of the disk and of the plate, written out in their cases to a micrometre, cut the same bonds as by centre, length

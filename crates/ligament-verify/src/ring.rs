@@ -47,7 +47,7 @@ pub(super) fn radial(solution: &Solution) -> Vec<([f64; 2], f64)> {
     // Lame's field has a zero mean over the volume, and a rotation has no u_r. Points of a lattice have equal volumes.
     let weights = match cloud.lattice_cell {
         Some(_) => vec![1.0; cloud.len()],
-        None => cloud.volumes.clone(),
+        None => cloud.volumes.to_vec(),
     };
     let whole: f64 = weights.iter().sum();
     let mean = [0, 1].map(|axis| {

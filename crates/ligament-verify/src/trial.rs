@@ -172,7 +172,7 @@ pub(super) fn displacements(solution: &Solution) -> impl Iterator<Item = [f64; 2
 
 fn displacement(solution: &Solution, point: u32) -> [f64; 2] {
     let (layout, motions) = (
-        solution.model.plane().layout(),
+        solution.model.plane().topology().layout,
         &solution.outcome.state.displacement,
     );
     [Component::X, Component::Y].map(|component| layout.value(point, component, motions))

@@ -40,7 +40,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let model = Model::build(setup, &mut ())?;
     let mut problem = Loading::new(&model)?.problem(&model);
     // The critical stretch falls by a third over the width of 6 cm.
-    let ends = problem.system.ends().iter();
+    let ends = problem.system.ends.iter();
     let middle = ends.map(|ends| ends.map(|end| model.body().position(end)[0]));
     let limits: Vec<f64> = middle
         .map(|[one, other]| 2.5e-4 * (1.0 - (one + other) / 2.0 / 0.18))

@@ -40,7 +40,7 @@ fn absent_bonds<const D: usize>(
     is_absent: &[bool],
     absence: Absence,
 ) -> Vec<AbsentBond> {
-    (bonds.ends.iter().zip(&bonds.horizon))
+    (bonds.ends.iter().zip(&*bonds.horizon))
         .zip(is_absent)
         .filter(|(_, is_absent)| **is_absent)
         .map(|((&ends, &horizon), _)| AbsentBond {

@@ -41,12 +41,12 @@ impl Model {
     /// Whether the family of each point is complete, shape (n_points): neither the point nor a neighbour is marked in `excluded`
     /// (n_points), such as the [rim](crate::Body::rim) of the body, and pre-cracks cut none of their bonds.
     pub fn interior(&self, excluded: &[bool]) -> Vec<bool> {
-        let bonds = self.system.topology();
+        let families = self.system.families();
         let is_whole = |point: u32| {
-            let mut family = bonds.incidence.at(point).iter();
+            let mut family = families.incidence.at(point).iter();
             !excluded[point as usize]
                 && self.fixed.precrack_share[point as usize] == 0.0
-                && !family.any(|&bond| excluded[bonds.neighbour(bond, point) as usize])
+                && !family.any(|&bond| excluded[families.neighbour(bond, point) as usize])
         };
         (0..self.system.n_points() as u32).map(is_whole).collect()
     }

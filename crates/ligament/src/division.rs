@@ -38,7 +38,7 @@ pub(crate) fn divided<const D: usize>(
         Some(meshed) => of_first_process(&setup, meshed, communicator)?,
     };
     let cloud = PointCloud {
-        volumes: part.volumes,
+        volumes: part.volumes.into(),
         material_shares: part.material_shares,
         ..cloud.part(&part.points)
     };
@@ -79,7 +79,8 @@ fn of_first_process<const D: usize>(
     let Some(mut whole) = agreed(together, whole)? else {
         let mut cloud = meshed.nodes(setup.thickness(), setup.materials.len());
         let spacing = receive(together, Way::ToAll, Vec::read);
-        cloud.spacing = spacing.map_err(unreadable)?;
+        let spacing: Vec<f64> = spacing.map_err(unreadable)?;
+        cloud.spacing = spacing.into();
         let near = near_points(setup, &mut cloud, communicator);
         together.all_gather_list(cloud.box_around(near.iter().copied()).to_vec());
         let (from, to) = (0, together.rank());

@@ -53,7 +53,7 @@ pub(crate) fn points<'a, const D: usize>(
     let outline = outline.filter(|_| !setup.bonds_through_voids);
     let spacing = outline.as_ref().map(|it| it.spacing(&cloud));
     let cloud = PointCloud {
-        spacing: spacing.unwrap_or(cloud.spacing),
+        spacing: spacing.map_or(cloud.spacing, Arc::from),
         ..cloud
     };
     Ok((cloud, outline))

@@ -452,7 +452,7 @@ fn warnings<const D: usize>(
     crossed: Precracked,
 ) -> Vec<Message> {
     let implausible = plausibility::of_model(described, cloud, criteria, crossed.idle);
-    let points = (&cloud.subdomain, cloud.spacing.as_slice());
+    let points = (&cloud.subdomain, &*cloud.spacing);
     let of_model = warning::of_model(described, points, report, fixed, crossed.touched);
     (implausible.into_iter().chain(of_model))
         .chain(warning::of_criteria(criteria))

@@ -143,7 +143,7 @@ fn displacements(
 ) -> Result<Vec<Vec<f64>>, Untested> {
     let loads = forces.into_iter();
     let loads: Vec<_> = loads
-        .map(|force| free_loading(system.layout(), force))
+        .map(|force| free_loading(system.layout, force))
         .collect();
     let problem = Problem {
         solver: setup.solver.for_few_solutions(&**system),

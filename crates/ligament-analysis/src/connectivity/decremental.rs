@@ -5,7 +5,7 @@
 //! cost of that part.
 
 use ligament_model::Bonds;
-use ligament_model::interface::Topology;
+use ligament_model::topology::Families;
 
 use super::{AddedSupport, FragmentExtent, Fragments, across_ranks};
 use crate::restraints::Restraints;
@@ -36,7 +36,7 @@ const NEITHER: u8 = 2;
 impl Connectivity {
     /// Connectivity of the body with all its bonds.
     pub fn new(system: &dyn Bonds) -> Self {
-        let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
+        let fragments = Fragments::find(system, &vec![true; system.ends.len()]);
         Self {
             changed: fragments.extents.iter().map(|it| it.first).collect(),
             fragments,
@@ -75,14 +75,14 @@ impl Connectivity {
         for &bond in bonds {
             intact[bond as usize] = true;
         }
-        let topology = system.topology();
-        let subdomain = system.subdomain();
+        let families = system.families();
+        let subdomain = &system.subdomain;
         if !subdomain.is_whole() {
             let mut apart = Vec::new();
             for &bond in bonds {
                 intact[bond as usize] = false;
-                let ends = topology.ends[bond as usize];
-                if self.search.detached_part(topology, intact, ends).is_some() {
+                let ends = families.ends[bond as usize];
+                if self.search.detached_part(families, intact, ends).is_some() {
                     apart.push(ends);
                 }
             }
@@ -95,8 +95,8 @@ impl Connectivity {
             if !std::mem::replace(&mut intact[bond as usize], false) {
                 continue;
             }
-            let ends = topology.ends[bond as usize];
-            if let Some(part) = self.search.detached_part(topology, intact, ends) {
+            let ends = families.ends[bond as usize];
+            if let Some(part) = self.search.detached_part(families, intact, ends) {
                 self.fragments.split_off(part);
                 let Fragments {
                     of_point, extents, ..
@@ -141,12 +141,12 @@ impl Search {
     /// Points connected with one of two points, if the two are no longer connected.
     fn detached_part(
         &mut self,
-        topology: Topology<'_>,
+        families: Families<'_>,
         intact: &[bool],
         ends: [u32; 2],
     ) -> Option<Vec<u32>> {
         let part = self
-            .ended(topology, intact, ends)
+            .ended(families, intact, ends)
             .map(|side| self.reached[side].clone());
         for reached in &mut self.reached {
             self.effort += reached.len();
@@ -158,7 +158,7 @@ impl Search {
     }
 
     /// Search that ended; None if the two met.
-    fn ended(&mut self, topology: Topology<'_>, intact: &[bool], ends: [u32; 2]) -> Option<usize> {
+    fn ended(&mut self, families: Families<'_>, intact: &[bool], ends: [u32; 2]) -> Option<usize> {
         for (side, end) in ends.into_iter().enumerate() {
             self.reach(side, end);
         }
@@ -169,7 +169,7 @@ impl Search {
                 return Some(side);
             };
             next[side] += 1;
-            for neighbour in topology.connected(point, intact) {
+            for neighbour in families.connected(point, intact) {
                 match self.reached_by[neighbour as usize] {
                     NEITHER => self.reach(side, neighbour),
                     by if usize::from(by) != side => return None,

@@ -21,7 +21,7 @@ pub(crate) struct FacePairs {
 impl FacePairs {
     /// Pairs across cracks for intact bonds (n_bonds); none where faces do not close.
     pub(crate) fn new(system: &dyn Bonds, intact: &[bool]) -> Self {
-        if !system.faces_close() {
+        if !system.faces_close {
             return Self::default();
         }
         Self {
@@ -31,10 +31,10 @@ impl FacePairs {
 
     /// Updates the pairs for bonds that have just broken, by their numbers; `intact` (n_bonds) marks the remaining bonds.
     pub(crate) fn follow(&mut self, system: &dyn Bonds, intact: &[bool], broken: &[u32]) {
-        if !system.faces_close() {
+        if !system.faces_close {
             return;
         }
-        if !system.subdomain().is_whole() {
+        if !system.subdomain.is_whole() {
             self.pairs = system.contact_pairs(intact);
             return;
         }
@@ -135,7 +135,7 @@ pub(crate) fn add_virial(
     point: u32,
     stress: &mut [f64],
 ) {
-    let volume = system.volumes()[point as usize];
+    let volume = system.volumes[point as usize];
     for it in closed.iter().filter(|it| it.pair.ends.contains(&point)) {
         for (stress, part) in stress.iter_mut().zip(it.virial_share(volume).components()) {
             *stress += part;
@@ -163,9 +163,9 @@ pub(crate) struct FaceEnergy {
 impl FaceEnergy {
     /// Contact energies of the unloaded body.
     pub(crate) fn of_unloaded(system: &dyn Bonds) -> Self {
-        let n_degrees_of_freedom = system.layout().n_degrees_of_freedom();
+        let n_degrees_of_freedom = system.layout.n_degrees_of_freedom();
         Self {
-            motions: vec![0.0; n_degrees_of_freedom * usize::from(system.faces_close())],
+            motions: vec![0.0; n_degrees_of_freedom * usize::from(system.faces_close)],
             ..Self::default()
         }
     }

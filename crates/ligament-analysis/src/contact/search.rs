@@ -42,7 +42,7 @@ fn step<'a>(system: &'a dyn Bonds, state: &'a State) -> ContactStep<'a> {
     ContactStep {
         last: &state.surfaces,
         bonds: Bonded {
-            topology: system.topology(),
+            families: system.families(),
             intact: &state.intact,
         },
         motions: &state.displacement,
@@ -52,12 +52,12 @@ fn step<'a>(system: &'a dyn Bonds, state: &'a State) -> ContactStep<'a> {
 impl ContactSearch {
     /// Search in the body of a problem, without pairs across cracks.
     pub(crate) fn new(problem: &Problem) -> Self {
-        let layout = problem.system.layout();
+        let layout = problem.system.layout;
         Self {
             system: problem.system.clone(),
             layout,
             faces: FacePairs::default(),
-            face_friction: if problem.system.faces_close() {
+            face_friction: if problem.system.faces_close {
                 problem.face_friction
             } else {
                 0.0

@@ -68,7 +68,7 @@ impl Breaking<'_> {
     ) -> Option<BreakRecord> {
         let deformation = (self.deformation)(place, bond);
         let verdict = self.criteria.breaking(bond, &deformation)?;
-        let ends = self.problem.system.ends()[bond];
+        let ends = self.problem.system.ends[bond];
         Some(BreakRecord {
             order: moment.order + place + 1,
             bond: number,
@@ -87,7 +87,7 @@ pub(super) fn soften(problem: &Problem, state: &mut State) {
         return;
     }
     let criteria = state.softening.criteria(&problem.criteria);
-    for bond in 0..problem.system.ends().len() {
+    for bond in 0..problem.system.ends.len() {
         if state.intact[bond] {
             state.dissipated[bond] = by_softening(problem, state, &criteria, (bond, None));
         }

@@ -125,7 +125,7 @@ impl<P: Serial, E> RestoredRun<P, E> {
         }
         let position = P::read(from).map_err(damaged)?;
         let numbers = BondNumbers::new(&*problem.system)?;
-        let n_components = problem.system.layout().components.len();
+        let n_components = problem.system.layout.components.len();
         let state = State::read((&numbers, n_components), &problem.criteria, from)?;
         let progress: Progress = Serial::read(from).map_err(damaged)?;
         let problem = progress
@@ -244,7 +244,7 @@ pub(super) struct CheckValues {
 impl CheckValues {
     /// Check values of an equilibrium of a problem.
     pub(super) fn new(problem: &Problem, balanced: &Balanced) -> Self {
-        let subdomain = problem.system.subdomain();
+        let subdomain = &problem.system.subdomain;
         Self {
             n_ranks: subdomain.n_ranks(),
             stored_energy: balanced.stored_energy,

@@ -336,7 +336,7 @@ impl Energies {
         broken: &[u32],
     ) -> FaceLoss {
         let expansion = |load_factor| problem.loads.thermal_strain(load_factor);
-        let layout = problem.system.layout();
+        let layout = problem.system.layout;
         self.contact.follow(at, layout, broken, &expansion)
     }
 

@@ -149,7 +149,7 @@ impl Run<'_> {
             "the body breaks at once: its first bond reaches its limit at {share:.4} of the first load step, at whose end {} of {} bonds would be \
              beyond theirs",
             sum_over_bonds(system, of_bonds),
-            sum_over_bonds(system, system.ends().iter().map(|_| 1.0))
+            sum_over_bonds(system, system.ends.iter().map(|_| 1.0))
         );
         let message = Message::new("breaks-at-once", text);
         let advice = "the loads are too large, or the steps too few (SI units: m, N, Pa)";
@@ -166,7 +166,8 @@ impl Run<'_> {
         let control = course.map(LoadCourse::control);
         let is_by_energy = matches!(control, Some(Some(PartControl::DissipatedEnergy { .. })));
         let can_fail = !self.problem.criteria.list.is_empty();
-        if course.is_none() || is_by_energy || !can_fail || !self.problem.system.is_linear() {
+        if course.is_none() || is_by_energy || !can_fail || !self.problem.system.element.is_linear()
+        {
             return Ok(None);
         }
         let mut state = self.state.clone();
@@ -198,11 +199,11 @@ pub(super) fn predict(
     let begins_by_stress = list.iter().any(|it| it.starting().is_some());
     let turns_back = steps.is_some_and(|it| it.iter().any(|factor| *factor < 0.0));
     let is_bent = run.problem.contact.is_linear();
-    let is_linear = system.is_linear() && !(begins_by_stress && turns_back) && !is_bent;
+    let is_linear = system.element.is_linear() && !(begins_by_stress && turns_back) && !is_bent;
     match run.problem.loads.course() {
         _ if !is_linear => Ok(Prediction::Nonlinear),
         None => in_proportion(run, at_one, steps),
-        Some(_) if system.faces_close() || begins_by_stress => Ok(Prediction::Nonlinear),
+        Some(_) if system.faces_close || begins_by_stress => Ok(Prediction::Nonlinear),
         Some(course) => {
             let programme = course.programme.clone();
             in_stages(run, &programme, steps.is_some())

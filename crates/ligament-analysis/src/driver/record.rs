@@ -90,7 +90,7 @@ pub(super) fn step_record(
 
 /// Forces and moments of each group on the body: the reactions that count for it and its own given forces.
 fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<Vec<f64>> {
-    let layout = problem.system.layout();
+    let layout = problem.system.layout;
     let groups = problem.loads.groups();
     let owners = groups_of_reactions(groups, layout);
     let numbered = groups.iter().enumerate();
@@ -132,5 +132,5 @@ pub(super) fn largest_ratio_by(
         .filter(|(_, (intact, _))| **intact)
         .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
         .reduce(|| 0.0, f64::max);
-    problem.system.subdomain().max(ratio)
+    problem.system.subdomain.max(ratio)
 }

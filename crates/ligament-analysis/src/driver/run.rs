@@ -343,7 +343,7 @@ impl<E: Equations> Run<'_, E> {
 
     /// Numbers of softened bonds in the present state. Collective.
     fn softened(&self) -> SoftenedOfAll {
-        let ends = self.problem.system.ends();
+        let ends = &self.problem.system.ends;
         SoftenedOfAll::in_state(&self.state, self.equations.numbers(), ends)
     }
 
@@ -421,7 +421,7 @@ impl<'a> Run<'a> {
 
     /// Enables softening from here on, if the criteria soften.
     pub fn soften(&mut self) {
-        let n_bonds = self.problem.system.ends().len();
+        let n_bonds = self.problem.system.ends.len();
         self.state.softening = Softening::of_sound_bonds(&self.problem.criteria, n_bonds);
         self.equations.soften();
     }
@@ -501,7 +501,7 @@ impl<'a> Run<'a> {
                 self.equations.beyond_size(&self.state)
             };
             let Some(beyond) = beyond else {
-                let layout = self.problem.system.layout();
+                let layout = self.problem.system.layout;
                 let points = farthest.into_iter().map(|dof| layout.point(dof));
                 balanced.mechanisms.extend(points);
                 return Ok(Attempt::Balanced(balanced));
@@ -700,10 +700,7 @@ impl Run<'_> {
     pub(super) fn aim(&mut self, share: f64) {
         let loads = &self.problem.loads;
         let control = (loads.course()).and_then(|it| Some((it, it.control()?)));
-        let (subdomain, layout) = (
-            self.problem.system.subdomain(),
-            self.problem.system.layout(),
-        );
+        let (subdomain, layout) = (&self.problem.system.subdomain, self.problem.system.layout);
         let held = control.and_then(|(course, control)| {
             let start = self.progress.control_start;
             let way = control.end() - start;

@@ -38,10 +38,10 @@ pub(super) fn turned(
     step: usize,
 ) -> Option<Message> {
     let system = &*problem.system;
-    let motions = system.motions_about_centre(system.volumes()).motions;
+    let motions = system.motions_about_centre(&system.volumes).motions;
     let angles = fragments.points.iter().map(|points| match points.len() {
         1 => 0.0,
-        _ => angle(system.layout(), &motions, points, &state.displacement),
+        _ => angle(system.layout, &motions, points, &state.displacement),
     });
     let most = |most: (usize, f64), it: (usize, f64)| if it.1 > most.1 { it } else { most };
     let (fragment, angle) = angles.enumerate().fold((0, TURNED), most);
@@ -105,7 +105,7 @@ pub(super) fn energies(
     last: Option<&StepRecord>,
 ) -> Option<Message> {
     let system = &problem.system;
-    if !system.is_linear() || !system.has_energy() {
+    if !system.element.is_linear() || !system.element.has_energy() {
         return None;
     }
     let limit = if problem.criteria.soften() {
@@ -177,22 +177,22 @@ fn largest(problem: &Problem, state: &State, fragments: &Fragments) -> Option<Ov
         return None;
     }
     let system = &*problem.system;
-    let layout = system.layout();
+    let layout = system.layout;
     let displacements = layout.displacements(&state.displacement);
     let displacement = displacements.fold(0.0, |largest: f64, it| largest.max(it.abs()));
-    let displacement = system.subdomain().max(displacement);
+    let displacement = system.subdomain.max(displacement);
     let mut holds = vec![0.0; fragments.len()];
     let held = (0..state.held.len()).filter(|&dof| state.held[dof]);
     let held_points = held.map(|dof| layout.point(dof));
-    for point in held_points.filter(|&it| system.subdomain().owns(it)) {
+    for point in held_points.filter(|&it| system.subdomain.owns(it)) {
         holds[fragments.of_point[point as usize] as usize] += 1.0;
     }
-    system.subdomain().all_reduce_sum(&mut holds);
+    system.subdomain.all_reduce_sum(&mut holds);
     let is_held = |fragment: &u32| holds[*fragment as usize] < layout.components.len() as f64;
     let asked: Vec<bool> = fragments.of_point.iter().map(is_held).collect();
     let expansion = problem.loads.thermal_strain(state.load_factor);
-    let spacing = system.spacing().iter().copied().fold(0.0, f64::max);
-    let spacing = system.subdomain().max(spacing);
+    let spacing = system.spacing.iter().copied().fold(0.0, f64::max);
+    let spacing = system.subdomain.max(spacing);
     let beyond = (LARGEST * displacement).max(ROUNDING * spacing);
     system.overlap(
         &state.intact,

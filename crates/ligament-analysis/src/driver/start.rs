@@ -80,7 +80,7 @@ fn begin_proportional(
     );
     // Contact may hold a free body.
     for body in free.into_iter().filter(|_| problem.contact.is_empty()) {
-        observer.message(body.message(problem.system.faces_close()))?;
+        observer.message(body.message(problem.system.faces_close))?;
     }
     let mut at_one = State {
         load_factor: 1.0,
@@ -174,7 +174,7 @@ impl Start {
         let criteria = problem.criteria_before_softening(at_one, balanced);
         let ratio = largest_ratio_by(&criteria, problem, at_one, balanced);
         let is_bent = problem.contact.is_linear();
-        let is_predicted = ratio > 0.0 && problem.system.is_linear() && !is_bent;
+        let is_predicted = ratio > 0.0 && problem.system.element.is_linear() && !is_bent;
         self.elastic.first_break = is_predicted.then(|| LoadPoint {
             load_factor: 1.0 / ratio,
             displacement: record.displacement / ratio,
@@ -190,7 +190,11 @@ fn stability(
     state: &State,
     observer: &mut dyn Observer,
 ) -> Result<Option<Stability>, SetupError> {
-    if !problem.system.some_negative() {
+    if !problem
+        .system
+        .rigidities()
+        .some_negative(&problem.system.subdomain)
+    {
         return Ok(None);
     }
     let stability = equilibrium.stability(state)?;

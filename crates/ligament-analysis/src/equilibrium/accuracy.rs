@@ -56,7 +56,7 @@ impl Accuracy {
     /// Scales of a body before its first equilibrium; `tolerance` is the tolerance of an iterative solver.
     pub(super) fn new(system: &dyn Bonds, loads: &dyn LoadProgram, tolerance: Option<f64>) -> Self {
         let of_bonds = LocalStiffness::new(system);
-        let n_dofs = system.layout().n_degrees_of_freedom();
+        let n_dofs = system.layout.n_degrees_of_freedom();
         let prescribed = (0..n_dofs).filter(|&dof| loads.is_prescribed(dof));
         Self {
             prescribed: prescribed.map(|dof| dof as u32).collect(),
@@ -68,7 +68,7 @@ impl Accuracy {
             largest_extents: Extents::default(),
             of_contacts: Vec::new(),
             tolerance,
-            subdomain: system.subdomain().clone(),
+            subdomain: system.subdomain.clone(),
         }
     }
 

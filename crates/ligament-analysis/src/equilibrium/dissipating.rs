@@ -154,7 +154,7 @@ fn ahead(
         .filter(|(bond, _)| state.intact[*bond])
         .map(|(bond, slope)| criteria.utilisation(bond, slope))
         .reduce(|| 0.0, f64::max);
-    let largest = problem.system.subdomain().max(largest);
+    let largest = problem.system.subdomain.max(largest);
     let at = |by: f64| here.ahead(&slopes, by);
     let excess = |by: f64| dissipated(problem, state, &at(by)) - goal.energy;
     let (mut low, mut high) = (0.0, 1.0 / largest);
@@ -212,9 +212,9 @@ fn opening(
     };
     let forces = system.forces(bonds, deformations.clone(), ThermalStrain::NONE);
     let values = (0..).zip(forces.internal.values);
-    let subdomain = system.subdomain();
+    let subdomain = &system.subdomain;
     let weights = values.filter(|(_, weight)| *weight != 0.0);
-    let weights = Target::owned_weights(subdomain, system.layout(), weights);
+    let weights = Target::owned_weights(subdomain, system.layout, weights);
     let opens = subdomain.any(!weights.is_empty());
     let mut target = Target {
         subdomain: subdomain.clone(),

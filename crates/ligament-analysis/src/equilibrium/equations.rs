@@ -72,7 +72,7 @@ impl Equations {
     ) -> Result<Self, SetupError> {
         let (system, loads) = (&problem.system, &problem.loads);
         let unknowns = Unknowns::all_but(&**system, |dof| loads.is_prescribed(dof));
-        let unknowns = unknowns.of_owned(system.subdomain());
+        let unknowns = unknowns.of_owned(&system.subdomain);
         let unknowns = Arc::new(unknowns.restrained_by(loads.restraints()));
         let Solving {
             stiffness,
@@ -90,7 +90,7 @@ impl Equations {
         accuracy.is_unbounded |= !problem.contact.rigid_bodies.is_empty();
         Ok(Self {
             // The residual alone decides where strains are not linear in the displacements or forces have no energy.
-            energy_tolerance: if system.is_linear() && system.has_energy() {
+            energy_tolerance: if system.element.is_linear() && system.element.has_energy() {
                 energy_tolerance
             } else {
                 0.0
@@ -229,7 +229,11 @@ impl Equations {
             accuracy: &self.accuracy,
             unknowns: &self.unknowns,
             subdomain: self.subdomain(),
-            some_negative: self.problem.system.some_negative(),
+            some_negative: self
+                .problem
+                .system
+                .rigidities()
+                .some_negative(&self.problem.system.subdomain),
         }
     }
 
@@ -482,7 +486,12 @@ impl Equations {
             let Some(&first) = vanishing.first() else {
                 return Ok(held_now);
             };
-            if self.problem.system.some_negative() {
+            if self
+                .problem
+                .system
+                .rigidities()
+                .some_negative(&self.problem.system.subdomain)
+            {
                 return Err(self.vanishing_pivot(first));
             }
             let (subdomain, layout) = (self.subdomain(), self.layout());
@@ -500,7 +509,13 @@ impl Equations {
         let place = self.place(dof);
         let stiffness = self.stiffness.as_ref();
         let is_llt = stiffness.is_some_and(|it| it.choice().factorisation == FactorKind::Llt);
-        if is_llt && self.problem.system.some_negative() {
+        if is_llt
+            && self
+                .problem
+                .system
+                .rigidities()
+                .some_negative(&self.problem.system.subdomain)
+        {
             Unbalanced::NotPositiveDefinite { place }
         } else {
             Unbalanced::VanishingPivot { place }

@@ -89,7 +89,7 @@ pub(super) struct Residual {
 impl LocalStiffness {
     /// Stiffnesses of the points of a bond system.
     pub(super) fn new(system: &dyn Bonds) -> Self {
-        let layout = system.layout();
+        let layout = system.layout;
         let of_point = |PointStiffness { force, moment }: PointStiffness| {
             let components = layout.components.iter();
             components.map(move |it| if it.is_rotation() { moment } else { force })

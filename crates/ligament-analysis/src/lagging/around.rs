@@ -121,9 +121,9 @@ impl<'a> Around<'a> {
         self.stored.update_bounds(&state.intact, ends);
         let system = &*self.problem.system;
         for &end in ends {
-            for &bond in system.incidence().at(end) {
+            for &bond in system.incidence.at(end) {
                 let kappa = self.kappa(bond, state);
-                let both = system.ends()[bond as usize];
+                let both = system.ends[bond as usize];
                 let lowest = both.iter().flat_map(|&point| self.reach.parts_at(point));
                 for part in lowest.flat_map(|&part| self.division.with_ancestors(part as usize)) {
                     self.per_norm[part] = self.per_norm[part].max(kappa);
@@ -153,7 +153,7 @@ impl<'a> Around<'a> {
         for (&bond, deformation) in bonds.iter().zip(deformations) {
             self.deformations[bond as usize] = deformation;
         }
-        let ends = bonds.iter().flat_map(|&bond| system.ends()[bond as usize]);
+        let ends = bonds.iter().flat_map(|&bond| system.ends[bond as usize]);
         let points = self.distinct(ends.chain(points.iter().copied()));
         self.stored.update_strains(&state.intact, &points);
         let bonds = self.bonds_of(&points);
@@ -186,7 +186,7 @@ impl<'a> Around<'a> {
         for &point in points {
             self.marks[point as usize] = true;
         }
-        let (ends, incidence) = (self.problem.system.ends(), self.problem.system.incidence());
+        let (ends, incidence) = (&self.problem.system.ends, &self.problem.system.incidence);
         let mut bonds = Vec::new();
         for &point in points {
             // A bond of two of the points belongs to its first end.
@@ -204,7 +204,7 @@ impl<'a> Around<'a> {
 
     /// Raises the largest ratios of points to the ratios of some bonds.
     fn raise_points(&mut self, bonds: &[u32]) {
-        let ends = self.problem.system.ends();
+        let ends = &self.problem.system.ends;
         for &bond in bonds {
             let ratio = self.ratios[bond as usize];
             for end in ends[bond as usize] {
@@ -231,7 +231,7 @@ impl<'a> Around<'a> {
         }
         let mut changed = Changed::default();
         let mut raised = vec![0.0_f64; self.is_current.len()];
-        let ends = self.problem.system.ends();
+        let ends = &self.problem.system.ends;
         for &bond in bonds {
             let ratio = self.ratio(bond);
             if ends[bond as usize]

@@ -33,7 +33,7 @@ impl Bounds {
             }
         }
         let across = across(system, division);
-        let mut row_of = vec![usize::MAX; system.layout().n_degrees_of_freedom()];
+        let mut row_of = vec![usize::MAX; system.layout.n_degrees_of_freedom()];
         for (row, &dof) in division.degree_of_freedom.iter().enumerate() {
             row_of[dof as usize] = row;
         }
@@ -71,7 +71,7 @@ struct Border {
 impl Border {
     /// Border from the bonds across it, in the order of the points.
     fn new(system: &dyn Bonds, whole: &[bool], across: &[Across]) -> Self {
-        let layout = system.layout();
+        let layout = system.layout;
         let n = layout.components.len();
         let (mut dofs, mut blocks) = (Vec::new(), Vec::new());
         for of_point in across.chunk_by(|one, other| one.1 == other.1) {
@@ -111,7 +111,7 @@ impl Border {
 /// Bonds from parts to points of their borders: part, point and bond, ascending.
 fn across(system: &dyn Bonds, division: &Division) -> Vec<Across> {
     let mut across = Vec::new();
-    for (bond, ends) in (0..).zip(system.ends()) {
+    for (bond, ends) in (0..).zip(system.ends.iter()) {
         for &end in ends {
             let own = division.part_of(end);
             let mut part = division.part_of_bond[bond as usize] as usize;

@@ -47,8 +47,8 @@ impl Division {
         let dofs = stiffness.unknowns().degrees_of_freedom();
         let unknowns = symbolic.unknown_of_row().iter();
         let degree_of_freedom: Vec<u32> = unknowns.map(|&unknown| dofs[unknown]).collect();
-        let part_of_point = parts_of_points(system.layout(), &parts, &degree_of_freedom)?;
-        let ends = system.ends().iter();
+        let part_of_point = parts_of_points(system.layout, &parts, &degree_of_freedom)?;
+        let ends = system.ends.iter();
         let lower = |&[a, b]: &[u32; 2]| {
             let [a, b] = [a, b].map(|end| part_of_point[end as usize]);
             lower(&parts, a, b)
@@ -114,12 +114,11 @@ fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
         let depends_on_motions = it.surroundings.is_none() || it.follows_stress();
         it.after.is_brittle() && depends_on_motions && !it.measure.takes_strains()
     };
-    system.is_linear()
-        && system.has_energy()
-        && !system.some_negative()
+    system.element.is_linear()
+        && system.element.has_energy()
+        && !system.rigidities().some_negative(&system.subdomain)
         && !problem.may_press()
-        && std::ptr::eq(system.elements_at_points(), system.incidence())
-        && system.far_field().is_none()
+        && system.coupled_points.are_ends_of_bonds()
         && loads.course().is_none()
         && loads.restraints().is_empty()
         && loads.temperature_change(1.0).is_empty()
@@ -131,7 +130,7 @@ fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
 /// Points whose motions and forces records need, ascending; None where probes read more.
 fn wanted(problem: &Problem) -> Option<Vec<u32>> {
     let (system, loads) = (&problem.system, &problem.loads);
-    let layout = system.layout();
+    let layout = system.layout;
     let prescribed = (0..layout.n_degrees_of_freedom()).filter(|&dof| loads.is_prescribed(dof));
     let loaded = loads.loaded_degrees_of_freedom();
     let dofs = prescribed.chain(loaded.into_iter().map(|dof| dof as usize));
@@ -150,10 +149,10 @@ fn wanted(problem: &Problem) -> Option<Vec<u32>> {
 
 /// Points and their neighbours, whose motions determine the forces at the points.
 fn with_neighbours(system: &dyn Bonds, points: &[u32]) -> Vec<u32> {
-    let topology = system.topology();
+    let families = system.families();
     let neighbours = points.iter().flat_map(|&point| {
-        let bonds = topology.incidence.at(point).iter();
-        bonds.map(move |&bond| topology.neighbour(bond, point))
+        let bonds = families.incidence.at(point).iter();
+        bonds.map(move |&bond| families.neighbour(bond, point))
     });
     points.iter().copied().chain(neighbours).collect()
 }

@@ -37,7 +37,7 @@ impl Reach {
         }
         let (mut parts, mut starts) = (Vec::new(), vec![0]);
         for &point in &points {
-            let bonds = system.incidence().at(point).iter();
+            let bonds = system.incidence.at(point).iter();
             let mut here: Vec<u32> = bonds
                 .map(|&bond| division.part_of_bond[bond as usize])
                 .collect();
@@ -46,7 +46,7 @@ impl Reach {
             parts.extend(here);
             starts.push(parts.len());
         }
-        let layout = system.layout();
+        let layout = system.layout;
         let border = |part: usize| {
             let dofs = bounds.border(part).iter();
             let mut points: Vec<u32> = dofs.map(|&dof| layout.point(dof as usize)).collect();
@@ -90,9 +90,7 @@ impl Reach {
     ) -> Vec<f64> {
         let mut largest = per_norm::of_parts(division, |bond| of_bonds[bond as usize]);
         for (largest, border) in largest.iter_mut().zip(&self.borders) {
-            let bonds = border
-                .iter()
-                .flat_map(|&point| system.incidence().at(point));
+            let bonds = border.iter().flat_map(|&point| system.incidence.at(point));
             *largest = bonds.fold(*largest, |largest, &bond| {
                 largest.max(of_bonds[bond as usize])
             });
@@ -101,11 +99,11 @@ impl Reach {
     }
 
     fn found_beside(&self, system: &dyn Bonds, division: &Division, part: usize) -> Vec<u32> {
-        let topology = system.topology();
+        let families = system.families();
         let mut points = self.borders[part].clone();
         for &point in &self.borders[part] {
-            let bonds = topology.incidence.at(point).iter();
-            points.extend(bonds.map(|&bond| topology.neighbour(bond, point)));
+            let bonds = families.incidence.at(point).iter();
+            points.extend(bonds.map(|&bond| families.neighbour(bond, point)));
         }
         points.sort_unstable();
         points.dedup();

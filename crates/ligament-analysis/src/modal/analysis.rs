@@ -71,11 +71,12 @@ impl ModalAnalysis {
         let (system, supports) = (&*problem.system, &problem.supports);
         let unknowns = Unknowns::all_but(system, |dof| supports.held[dof]);
         let has_rotations = !unknowns.rotations_only().is_empty();
-        let suitable = if has_rotations && system.some_negative_shear() {
-            Rotations::Massless
-        } else {
-            Rotations::Inertia
-        };
+        let suitable =
+            if has_rotations && system.rigidities().some_negative_shear(&system.subdomain) {
+                Rotations::Massless
+            } else {
+                Rotations::Inertia
+            };
         let rotations = settings.rotations.unwrap_or(suitable);
         let masses = Masses::new(&problem.mass, &unknowns, rotations);
         let dofs = unknowns.degrees_of_freedom().iter();
@@ -357,7 +358,7 @@ impl ModalAnalysis {
 
     fn stability(&self, negative: usize) -> Result<Option<Stability>, ModalError> {
         let system = &*self.problem.system;
-        if !system.some_negative() {
+        if !system.rigidities().some_negative(&system.subdomain) {
             return Ok(None);
         }
         let expected = self.stiffness.negative_rotations(&State::fresh(system))?;

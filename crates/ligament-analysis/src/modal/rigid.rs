@@ -25,8 +25,8 @@ pub(super) fn motions(
     masses: &Masses,
     wanted: usize,
 ) -> RigidMotions {
-    let layout = system.layout();
-    let fragments = Fragments::find(system, &vec![true; system.ends().len()]);
+    let layout = system.layout;
+    let fragments = Fragments::find(system, &vec![true; system.ends.len()]);
     let mut motions = RigidMotions {
         count: 0,
         shapes: Vec::new(),

@@ -18,7 +18,7 @@ use ligament_model::thermal::ThermalStrain;
 pub(super) fn eigenvalue(system: &dyn Bonds, shape: &[f64]) -> f64 {
     2.0 * internal::sweep(
         system,
-        UnbrokenBonds::whole(&vec![true; system.ends().len()]),
+        UnbrokenBonds::whole(&vec![true; system.ends.len()]),
         shape,
         ThermalStrain::NONE,
     )
@@ -34,7 +34,7 @@ pub(super) fn mode(
     shape: Vec<f64>,
     rigid_below: f64,
 ) -> Mode {
-    let intact = vec![true; system.ends().len()];
+    let intact = vec![true; system.ends.len()];
     let BondSweep {
         deformations,
         internal,

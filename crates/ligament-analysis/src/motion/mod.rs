@@ -296,7 +296,7 @@ impl Damping {
 impl MotionProblem {
     /// Mass of each degree of freedom with a factor on the rotational inertias, shape (n_degrees_of_freedom), kg and kg m^2.
     pub fn masses(&self, rotary_inertia: f64) -> Vec<f64> {
-        let layout = self.problem.system.layout();
+        let layout = self.problem.system.layout;
         let of_dof = |dof: usize| {
             let point = layout.point(dof) as usize;
             match layout.component(dof).is_rotation() {
@@ -309,14 +309,14 @@ impl MotionProblem {
 
     /// Degrees of freedom whose motion is not prescribed, ascending.
     pub fn free(&self) -> Vec<u32> {
-        let n = self.problem.system.layout().n_degrees_of_freedom();
+        let n = self.problem.system.layout.n_degrees_of_freedom();
         let is_free = |dof: &u32| !self.problem.loads.is_prescribed(*dof as usize);
         (0..n as u32).filter(is_free).collect()
     }
 
     /// Degrees of freedom whose motion is prescribed, ascending.
     pub fn prescribed(&self) -> Vec<u32> {
-        let n = self.problem.system.layout().n_degrees_of_freedom();
+        let n = self.problem.system.layout.n_degrees_of_freedom();
         let is_prescribed = |dof: &u32| self.problem.loads.is_prescribed(*dof as usize);
         (0..n as u32).filter(is_prescribed).collect()
     }

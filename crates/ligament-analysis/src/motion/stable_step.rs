@@ -36,7 +36,7 @@ pub fn critical_step(
     if free.is_empty() {
         return Err(MotionError::NothingMoves);
     }
-    let layout = problem.problem.system.layout();
+    let layout = problem.problem.system.layout;
     let massless = free.iter().find(|&&dof| masses[dof as usize] <= 0.0);
     if let Some(&dof) = massless {
         return Err(MotionError::Massless {
@@ -100,7 +100,7 @@ struct Product<'a> {
 impl<'a> Product<'a> {
     fn new(problem: &'a MotionProblem, of_contact: Vec<f64>) -> Self {
         let system = &*problem.problem.system;
-        let n = system.layout().n_degrees_of_freedom();
+        let n = system.layout.n_degrees_of_freedom();
         Self {
             problem,
             fresh: State::fresh(system),
@@ -113,18 +113,14 @@ impl<'a> Product<'a> {
     fn apply(&mut self) {
         let (system, loads) = (&*self.problem.problem.system, &self.problem.problem.loads);
         let bonds = self.fresh.bonds();
-        if system.is_linear() {
+        if system.element.is_linear() {
             system.multiply(bonds, &self.motions, &mut self.forces);
         } else {
             let largest = self
                 .motions
                 .iter()
                 .fold(0.0_f64, |most, it| most.max(it.abs()));
-            let spacing = system
-                .spacing()
-                .iter()
-                .copied()
-                .fold(f64::INFINITY, f64::min);
+            let spacing = system.spacing.iter().copied().fold(f64::INFINITY, f64::min);
             let small = PROBE * spacing / largest;
             let motions: Vec<f64> = self.motions.iter().map(|it| small * it).collect();
             let swept = internal::sweep(system, bonds, &motions, ThermalStrain::NONE);
@@ -145,6 +141,6 @@ impl<'a> Product<'a> {
 /// Whether points with inertia of rotation turn without bound, because bonds have a negative shear stiffness.
 fn has_unstable_rotations(problem: &MotionProblem) -> bool {
     let system = &problem.problem.system;
-    let rotates = system.components().iter().any(|it| it.is_rotation());
-    rotates && system.some_negative_shear()
+    let rotates = system.layout.components.iter().any(|it| it.is_rotation());
+    rotates && system.rigidities().some_negative_shear(&system.subdomain)
 }

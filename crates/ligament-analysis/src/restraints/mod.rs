@@ -8,7 +8,7 @@ mod supports_to_add;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ligament_model::interface::CoupledPoints;
+use ligament_model::CoupledPoints;
 
 use crate::unknowns::Layout;
 
@@ -187,7 +187,7 @@ impl Restraints {
     pub(crate) fn lower_points(
         &self,
         layout: Layout,
-        coupled: CoupledPoints<'_>,
+        coupled: &CoupledPoints,
         point: usize,
     ) -> Vec<u32> {
         let is_lower = |other: &u32| (*other as usize) < point;

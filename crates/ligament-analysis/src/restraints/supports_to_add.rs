@@ -21,7 +21,7 @@ pub fn missing_supports(
     is_fixed: &dyn Fn(usize) -> bool,
     can_hold: &dyn Fn(usize) -> bool,
 ) -> Vec<usize> {
-    let layout = system.layout();
+    let layout = system.layout;
     if restraints.is_empty() {
         return system.holds(points, is_fixed, can_hold);
     }
@@ -55,9 +55,9 @@ fn unrestrained(
     motions: Vec<Vec<f64>>,
 ) -> Vec<Vec<f64>> {
     let count = motions.len();
-    let n_components = system.layout().components.len();
+    let n_components = system.layout.components.len();
     let place = |dof: u32| {
-        let in_body = system.subdomain().index_in_body(dof as usize, n_components);
+        let in_body = system.subdomain.index_in_body(dof as usize, n_components);
         dofs.binary_search(&in_body).ok()
     };
     let restraints = restraints.acting_on(|dof| place(dof).is_some());

@@ -74,7 +74,7 @@ impl DistributedSolver {
         numbers: Arc<BondNumbers>,
         tolerance: Option<f64>,
     ) -> Self {
-        let subdomain = system.subdomain();
+        let subdomain = &system.subdomain;
         let own = if subdomain.is_whole() {
             let halve = |points: &mut [u32]| system.halve(points);
             let partition = Partition::new(system.n_points(), communicator.size(), &halve);
@@ -88,7 +88,7 @@ impl DistributedSolver {
             subdomain: &own,
         };
         let columns = rows.columns();
-        let between = (0..).zip(system.ends()).filter(|(_, ends)| {
+        let between = (0..).zip(system.ends.iter()).filter(|(_, ends)| {
             let own = ends.iter().filter(|&&end| rows.is_own(end));
             own.count() == 1
         });
@@ -204,7 +204,7 @@ impl DistributedSolver {
         let mut stale = std::mem::take(&mut self.kept.stale);
         for point in points {
             stale.insert(point);
-            stale.extend(self.system.coupled_points().at(point));
+            stale.extend(self.system.coupled_points.at(point));
         }
         stale.into_iter().collect()
     }
@@ -308,7 +308,7 @@ impl TangentSolver for DistributedSolver {
         let n_bonds = state.softening.remaining.len();
         let mut in_matrix = self.kept.matrix_of.remaining.clone();
         in_matrix.resize(n_bonds, StiffnessFactors::WHOLE);
-        let ends = self.system.ends();
+        let ends = &self.system.ends;
         let due = due_bonds(&in_matrix, state);
         let of_due = due.into_iter().flat_map(|bond| ends[bond]);
         self.kept.stale.extend(of_due);

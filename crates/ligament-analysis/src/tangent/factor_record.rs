@@ -84,7 +84,7 @@ impl FactorRecord {
 
     /// Whether the record has the bonds and unknowns of this body.
     pub(super) fn fits(&self, system: &dyn Bonds, unknowns: &Unknowns) -> bool {
-        let n_bonds = system.ends().len();
+        let n_bonds = system.ends.len();
         let n_unknowns = unknowns.len();
         let terms = self.changes.iter().flatten().chain(&self.beside);
         let entries = terms.flat_map(|it| &it.entries);

@@ -292,7 +292,7 @@ impl TangentSolver for IterativeSolver {
         let mut in_blocks = self.blocks_of.remaining.clone();
         in_blocks.resize(n_bonds, StiffnessFactors::WHOLE);
         let due = due_bonds(&in_blocks, state);
-        let ends = self.system.ends();
+        let ends = &self.system.ends;
         let of_due = due.into_iter().flat_map(|bond| ends[bond]);
         self.stale.extend(of_due);
         self.in_coarse.resize(n_bonds, StiffnessFactors::WHOLE);

@@ -101,9 +101,9 @@ impl Coupled<'_> {
     /// Diagonal entry of the matrix with all bonds whole.
     fn whole_diagonal(self, dof: usize) -> f64 {
         let system = self.system;
-        let whole = vec![true; system.ends().len()];
+        let whole = vec![true; system.ends.len()];
         let point = self.unknowns.layout().point(dof);
-        let elements = system.elements_at_points().at(point).iter();
+        let elements = system.elements_at_points.at(point).iter();
         elements
             .flat_map(|&bond| system.terms(&whole, bond as usize, &StiffnessFactors::WHOLE))
             .map(|(rigidity, entries)| {

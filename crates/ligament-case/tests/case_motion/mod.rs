@@ -125,7 +125,7 @@ fn a_case_becomes_a_problem_of_motion() {
     let mass: f64 = problem.mass.mass.iter().sum();
     let expected = 7850.0 * 0.01 * 0.002 * 0.002;
     assert!((mass / expected - 1.0).abs() < 1e-13, "{mass}");
-    let layout = problem.problem.system.layout();
+    let layout = problem.problem.system.layout;
     let loads = &problem.problem.loads;
     let mut displacement = vec![0.0; layout.n_degrees_of_freedom()];
     let time = 0.3e-6;
@@ -343,7 +343,7 @@ fn equilibria_and_motion_alternate_where_the_case_says_so() {
 fn the_ground_accelerates_its_points() {
     let load = "load.0={group=\"left\",base_acceleration={x=4.0,y=0.0}}";
     let problem = motion(BAR, &[load]).unwrap();
-    let layout = problem.problem.system.layout();
+    let layout = problem.problem.system.layout;
     let mut displacement = vec![0.0; layout.n_degrees_of_freedom()];
     problem.problem.loads.prescribe(3.0, &mut displacement);
     let dof = layout.degree_of_freedom(0, Component::X).unwrap();

@@ -178,7 +178,7 @@ fn write_first(
     let moved = quantity(first.point.displacement, units.displacement);
     report.entry(name, format!("{at}: {load} at {moved}"))?;
     let system = &model.system;
-    let ends = (system.numbering()).ordered(system.ends()[first.bond as usize]);
+    let ends = system.numbering.ordered(system.ends[first.bond as usize]);
     let [one, other] = ends.map(|end| model.body().tag(end));
     let mut bond = format!(
         "{}s {one} and {other} at {}, by {}",

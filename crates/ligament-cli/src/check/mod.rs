@@ -101,7 +101,7 @@ fn write_report(
     patch_test::write(report, extent, model, &mut stages)?;
     let too_stiff = bending_test::write(report, extent, model, &mut stages)?;
     write_stages(report, stages.done())?;
-    let intact = vec![true; model.system.ends().len()];
+    let intact = vec![true; model.system.ends.len()];
     let loose = Fragments::find(&*model.system, &intact).points.len();
     if loose > 1 {
         report.line(format!(
@@ -126,8 +126,8 @@ fn write_fields(model: &Model, folder: &Path) -> anyhow::Result<PathBuf> {
     let path = folder.join(FIELDS);
     let points = ModelPoints {
         fixed: &model.fixed,
-        volumes: model.system.volumes(),
-        spacing: model.system.spacing(),
+        volumes: &model.system.volumes,
+        spacing: &model.system.spacing,
     };
     point_grid(&path, &model.body().grid(), points)?;
     Ok(path)

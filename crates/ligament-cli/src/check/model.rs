@@ -18,7 +18,7 @@ use super::{body, criteria};
 pub(super) fn write(report: &mut Report<'_>, case: &CaseFile, model: &Model) -> anyhow::Result<()> {
     report.line(heading(&case.case.title))?;
     report.line(analysis_words(&model.setup))?;
-    let volume = model.system.volumes().iter().sum();
+    let volume = model.system.volumes.iter().sum();
     body::write(report, model.body(), volume)?;
     write_section(report, model)?;
     write_materials(report, model)?;
@@ -122,7 +122,7 @@ fn write_bonds(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     if model.no_fail_points() > 0 {
         report.entry("points with no_fail", model.no_fail_points())?;
     }
-    report.detail("nearest distance", spread(over(system.spacing()), "m"))?;
+    report.detail("nearest distance", spread(over(&system.spacing), "m"))?;
     report.entry("horizon", spread(over(&fixed.horizon), "m"))?;
     let Spread { min, mean, max } = family(model);
     let of_points = format!("{min} to {max}, mean {mean:.1}");

@@ -95,7 +95,7 @@ fn write_waves(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     let (Some(time), Some(speed)) = (shortest, slowest) else {
         return Ok(());
     };
-    let spacing = model.system.spacing().iter().copied().fold(0.0, f64::max);
+    let spacing = model.system.spacing.iter().copied().fold(0.0, f64::max);
     let points = time * speed / spacing;
     let length = quantity(time * speed, "m");
     report.entry(

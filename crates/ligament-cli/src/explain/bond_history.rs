@@ -1,8 +1,7 @@
 //! Deformation and breakage of bonds over a run.
 
 use ligament_model::element::BondDeformation;
-use ligament_model::element::beam::BeamBond;
-use ligament_model::element::pair::measured;
+use ligament_model::element::pair::Pair;
 use ligament_model::failure::hooke::Moduli;
 use ligament_model::failure::{AfterLimit, Measure, Softened};
 use ligament_model::stress::point_strain::StrainAround;
@@ -215,13 +214,13 @@ impl BondHistory {
             .then(|| motions.thermal_strain.times(1.0).of_bond::<3>(self.ends));
         let [x, y, z] = self.direction;
         if run.model.in_space {
-            let bond = BeamBond::without_stiffness(self.length, [x, y, z]);
+            let bond = Pair::<3, 6>::without_stiffness(self.length, [x, y, z]);
             let ends = moved.map(|([u, v, w], [a, b, c])| [u, v, w, a, b, c]);
-            measured(&bond, ends, free.as_ref())
+            bond.measured(ends, free.as_ref())
         } else {
-            let bond = BeamBond::without_stiffness(self.length, [x, y]);
+            let bond = Pair::<2, 3>::without_stiffness(self.length, [x, y]);
             let ends = moved.map(|([u, v, _], [.., turn])| [u, v, turn]);
-            measured(&bond, ends, free.map(|it| it.resized()).as_ref())
+            bond.measured(ends, free.map(|it| it.resized()).as_ref())
         }
     }
 

@@ -10,6 +10,8 @@ pub(crate) mod retained;
 mod search;
 pub mod star;
 
+use std::sync::Arc;
+
 use crate::cloud::PointCloud;
 pub use composition::Composition;
 use parts::Parts;
@@ -21,15 +23,15 @@ use retained::retained;
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondSet<const D: usize = 2> {
     /// Points A < B of each bond, shape (n_bonds).
-    pub ends: Vec<[u32; 2]>,
+    pub ends: Arc<[[u32; 2]]>,
     /// Lengths l, shape (n_bonds), m.
     pub length: Vec<f64>,
     /// Direction cosines from A to B, shape (n_bonds).
     pub direction: Vec<[f64; D]>,
     /// Bond horizons H, shape (n_bonds), m.
-    pub horizon: Vec<f64>,
+    pub horizon: Arc<[f64]>,
     /// Bonds of each point.
-    pub incidence: Incidence,
+    pub incidence: Arc<Incidence>,
     /// Composition of the bonds that cross an interface; empty until they are traced through the body.
     pub composition: Composition,
 }
@@ -75,14 +77,14 @@ impl<const D: usize> BondSet<D> {
 
     /// The set of the bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
-        let ends = retained(self.ends, keep);
+        let ends: Arc<[[u32; 2]]> = retained(self.ends.to_vec(), keep).into();
         let incidence = Incidence::new(&ends, self.incidence.n_points());
         Self {
             ends,
             length: retained(self.length, keep),
             direction: retained(self.direction, keep),
-            horizon: retained(self.horizon, keep),
-            incidence,
+            horizon: retained(self.horizon.to_vec(), keep).into(),
+            incidence: incidence.into(),
             composition: self.composition.retained(keep),
         }
     }

@@ -62,11 +62,11 @@ impl<const D: usize> BondSet<D> {
             });
         let incidence = Incidence::new(&ends, cloud.len());
         Self {
-            ends,
+            ends: ends.into(),
             length,
             direction,
-            horizon,
-            incidence,
+            horizon: horizon.into(),
+            incidence: incidence.into(),
             composition: Composition::default(),
         }
     }

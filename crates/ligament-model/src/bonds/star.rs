@@ -19,11 +19,11 @@ pub fn star(
     let cloud = PointCloud::from_points(&positions, &volumes, thickness, &materials, n_materials);
     let ends: Vec<[u32; 2]> = (0..angles.len() as u32).map(|it| [0, it + 1]).collect();
     let bonds = BondSet {
-        incidence: Incidence::new(&ends, positions.len()),
-        ends,
+        incidence: Incidence::new(&ends, positions.len()).into(),
+        ends: ends.into(),
         length: vec![length; angles.len()],
         direction: directions,
-        horizon: vec![horizon; angles.len()],
+        horizon: vec![horizon; angles.len()].into(),
         composition: Composition::default(),
     };
     (cloud, bonds)

@@ -1,5 +1,7 @@
 //! A regular lattice: points at the centres of the cells of a rectangle or a box, some of which may be removed.
 
+use std::sync::Arc;
+
 use ligament_mesh::{Numbering, along_hilbert_curve};
 
 use super::PointCloud;
@@ -316,8 +318,8 @@ impl<const D: usize> PointCloud<D> {
             precision: 0.0,
             origin: lattice.middle(),
             thickness,
-            volumes: Vec::new(),
-            spacing: vec![lattice.shortest_side(); n_points],
+            volumes: Arc::default(),
+            spacing: vec![lattice.shortest_side(); n_points].into(),
             lattice_cell: Some(lattice.spacing),
             n_materials,
             material_shares: Vec::new(),
@@ -332,7 +334,7 @@ impl<const D: usize> PointCloud<D> {
         let volume = sides.iter().product::<f64>() * self.thickness;
         Self {
             curve: along_hilbert_curve(&self.positions),
-            volumes: vec![volume; self.len()],
+            volumes: vec![volume; self.len()].into(),
             material_shares: whole_shares(material_of_cell, self.n_materials),
             ..self
         }

@@ -30,7 +30,7 @@ impl<const D: usize> PointCloud<D> {
         let numbered = material_volumes.iter().enumerate();
         let share = |(k, volume): (usize, &f64)| volume / cloud.volumes[k / n_materials];
         cloud.material_shares = numbered.map(share).collect();
-        cloud.spacing = nearest_neighbour_distances(&cloud, &mesh.cells);
+        cloud.spacing = nearest_neighbour_distances(&cloud, &mesh.cells).into();
         cloud
     }
 }
@@ -105,9 +105,9 @@ mod tests {
             &[[11.0, 1.5, 10.0]],
         );
         let expected = [3.0, 3.0, 3.0, 3.0, 5.25, 5.25, 5.25, 5.25, 3.0];
-        assert_eq!(cloud.volumes, expected);
+        assert_eq!(*cloud.volumes, expected);
         let moment = |axis: usize| -> f64 {
-            let terms = cloud.positions.iter().zip(&cloud.volumes);
+            let terms = cloud.positions.iter().zip(&*cloud.volumes);
             terms
                 .map(|(p, volume)| (p[axis] + cloud.origin[axis]) * volume)
                 .sum()

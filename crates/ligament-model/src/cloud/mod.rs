@@ -34,9 +34,9 @@ pub struct PointCloud<const D: usize = 2> {
     /// Thickness t, m; 1 in space.
     pub thickness: f64,
     /// Volumes V_i, shape (n_points), m^3.
-    pub volumes: Vec<f64>,
+    pub volumes: Arc<[f64]>,
     /// Distance to the nearest point dmin_i, shape (n_points), m.
-    pub spacing: Vec<f64>,
+    pub spacing: Arc<[f64]>,
     /// Sides of the points' cells on a lattice, where they are equal, m; `None` on a mesh.
     pub lattice_cell: Option<[f64; D]>,
     /// Number of materials.
@@ -257,7 +257,7 @@ impl<const D: usize> PointCloud<D> {
         let [volumes, material_shares] = self.volumes_at(points);
         Self {
             positions: indices().map(|it| self.positions[it]).collect(),
-            volumes,
+            volumes: volumes.into(),
             spacing: indices().map(|it| self.spacing[it]).collect(),
             material_shares,
             curve: curve.map(|point| point as u32).collect(),

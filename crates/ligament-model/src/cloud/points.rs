@@ -1,5 +1,7 @@
 //! Clouds of points that are given one by one, with their volumes.
 
+use std::sync::Arc;
+
 use ligament_mesh::{Numbering, along_hilbert_curve};
 
 use super::precision::precision_of_coordinates;
@@ -19,12 +21,12 @@ impl<const D: usize> PointCloud<D> {
         n_materials: usize,
     ) -> Self {
         let mut cloud = Self {
-            volumes: volumes.to_vec(),
+            volumes: volumes.into(),
             material_shares: whole_shares(material_of_point, n_materials),
             ..Self::at(positions, thickness, n_materials)
         };
         let tree = search_tree(&cloud.positions);
-        cloud.spacing = cloud.over_points(|point| {
+        let spacing = cloud.over_points(|point| {
             let position = cloud.positions[point as usize];
             (tree.nearest_neighbor_iter_with_distance_2(position))
                 .find(|(neighbour, _)| neighbour.data != point)
@@ -32,6 +34,7 @@ impl<const D: usize> PointCloud<D> {
                     distance(position, *neighbour.geom())
                 })
         });
+        cloud.spacing = spacing.into();
         cloud
     }
 
@@ -51,8 +54,8 @@ impl<const D: usize> PointCloud<D> {
             precision,
             origin,
             thickness,
-            volumes: Vec::new(),
-            spacing: Vec::new(),
+            volumes: Arc::default(),
+            spacing: Arc::default(),
             lattice_cell: None,
             n_materials,
             material_shares: Vec::new(),

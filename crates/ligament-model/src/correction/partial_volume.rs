@@ -22,7 +22,7 @@ pub fn partial_volume_factors<const D: usize>(
             if D == 2 { size.sqrt() } else { size.cbrt() }
         }
     };
-    (&bonds.ends, &bonds.length, &bonds.horizon)
+    (&*bonds.ends, &bonds.length, &*bonds.horizon)
         .into_par_iter()
         .map(|(&[a, b], length, horizon)| {
             let dx = 0.5 * (side(a) + side(b));

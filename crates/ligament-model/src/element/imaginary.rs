@@ -18,19 +18,19 @@
 //! A neighbour counts while the bond of one spacing to it is unbroken; where one of the two is missing, the difference is taken to the end
 //! itself. A corner of the rectangle of an S bond counts while one of its two edges is unbroken. A bond without support for one of its
 //! derivatives drops out: it has no stiffness and no strain.
-//! derivatives drops out: it has no stiffness and no strain.
 
 mod class;
 mod quotients;
 mod stored;
 mod surroundings;
 
-use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+use std::sync::Arc;
 
-pub use super::strain_stiffness::{StrainStiffness, SymmetricEntries};
-use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
+use nalgebra::{SymmetricEigen, Vector3};
+
+pub use super::strain_stiffness::{StrainStiffness, SymmetricEntries, entries, matrix};
+use super::{Block, BondDeformation, Element, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
-use crate::layout::Component;
 use crate::tensor::SymTensor;
 pub use class::BondClass;
 pub(super) use quotients::{Axis, Quotient, Quotients};
@@ -48,9 +48,9 @@ pub struct ImaginaryElements {
     /// The bonds that support the element of each bond.
     pub surroundings: Surroundings,
     /// Bonds whose elements couple each point, ascending.
-    pub couplings: Incidence,
+    pub couplings: Arc<Incidence>,
     /// Other points that some element couples with each point, ascending.
-    pub neighbours: Incidence,
+    pub neighbours: Arc<Incidence>,
 }
 
 impl ImaginaryElements {
@@ -77,73 +77,12 @@ impl ImaginaryElements {
             others.into_iter().map(move |other| (point, other))
         });
         Self {
-            neighbours: Incidence::from_pairs(of_points, positions.len()),
-            couplings,
+            neighbours: Incidence::from_pairs(of_points, positions.len()).into(),
+            couplings: couplings.into(),
             surroundings,
             positions,
         }
     }
-}
-
-impl Elements<2, 2> for ImaginaryElements {
-    const COMPONENTS: [Component; 2] = [Component::X, Component::Y];
-
-    type Element = ImaginaryElement;
-
-    #[inline]
-    fn element(
-        &self,
-        bonds: &BondSet,
-        rigidities: &Rigidities,
-        intact: &[bool],
-        bond: usize,
-    ) -> ImaginaryElement {
-        let gradient = Gradient::for_bond(bonds, &self.surroundings, &self.positions, intact, bond);
-        let is_supported = gradient.count > 0;
-        ImaginaryElement {
-            gradient,
-            stiffness: if is_supported {
-                rigidities.strain[bond].entries
-            } else {
-                [0.0; 6]
-            },
-        }
-    }
-
-    fn rotates_freely(&self) -> bool {
-        true
-    }
-
-    fn some_negative(&self, rigidities: &Rigidities) -> bool {
-        let mut matrices = rigidities.strain.iter().map(|it| matrix(it.entries));
-        matrices.any(|matrix| matrix.cholesky().is_none())
-    }
-
-    fn share(&self, bonds: &BondSet, rigidities: &Rigidities, bond: u32, point: u32) -> f64 {
-        rigidities.strain[bond as usize].share(bonds.ends[bond as usize][0] == point)
-    }
-
-    fn dependent_bonds(&self, bonds: &[u32]) -> Vec<u32> {
-        let of_bonds = (bonds.iter()).flat_map(|&bond| self.surroundings.dependents(bond));
-        let mut dependent_bonds: Vec<u32> = of_bonds.copied().collect();
-        dependent_bonds.sort_unstable();
-        dependent_bonds.dedup();
-        dependent_bonds
-    }
-
-    fn couplings(&self) -> Option<[&Incidence; 2]> {
-        Some([&self.couplings, &self.neighbours])
-    }
-}
-
-/// The symmetric matrix of given entries.
-pub fn matrix([d11, d12, d16, d22, d26, d66]: SymmetricEntries) -> Matrix3<f64> {
-    Matrix3::new(d11, d12, d16, d12, d22, d26, d16, d26, d66)
-}
-
-/// The entries of a symmetric matrix.
-pub fn entries(matrix: &Matrix3<f64>) -> SymmetricEntries {
-    [(0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2)].map(|place| matrix[place])
 }
 
 /// The imaginary element of one bond with its remaining surroundings.
@@ -276,6 +215,46 @@ impl ImaginaryElement {
 
 impl Element<2, 2> for ImaginaryElement {
     type Deformation = BondDeformation;
+
+    type Lattice = ImaginaryElements;
+
+    #[inline]
+    fn new(
+        lattice: &ImaginaryElements,
+        bonds: &BondSet,
+        rigidities: &Rigidities,
+        intact: &[bool],
+        bond: usize,
+    ) -> Self {
+        let gradient = Gradient::for_bond(
+            bonds,
+            &lattice.surroundings,
+            &lattice.positions,
+            intact,
+            bond,
+        );
+        let is_supported = gradient.count > 0;
+        Self {
+            gradient,
+            stiffness: if is_supported {
+                rigidities.strain[bond].entries
+            } else {
+                [0.0; 6]
+            },
+        }
+    }
+
+    fn couplings(lattice: &ImaginaryElements) -> Option<[&Arc<Incidence>; 2]> {
+        Some([&lattice.couplings, &lattice.neighbours])
+    }
+
+    fn dependent_bonds(lattice: &ImaginaryElements, bonds: &[u32]) -> Vec<u32> {
+        let of_bonds = (bonds.iter()).flat_map(|&bond| lattice.surroundings.dependents(bond));
+        let mut dependent_bonds: Vec<u32> = of_bonds.copied().collect();
+        dependent_bonds.sort_unstable();
+        dependent_bonds.dedup();
+        dependent_bonds
+    }
 
     #[inline]
     fn weakened(self, remaining: &StiffnessFactors) -> Self {

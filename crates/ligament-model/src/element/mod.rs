@@ -2,8 +2,8 @@
 //!
 //! | element | a point has | couples | deformation of a bond | laws |
 //! |---|---|---|---|---|
-//! | [`beam`] | displacements and rotations | its two ends | stretch, shear less the mean rotation, relative rotation | micropolar ones |
-//! | [`spring`] | displacements | its two ends | stretch, shear | `bbpd`, `pds` |
+//! | [`pair`]: beam | displacements and rotations | its two ends | stretch, shear less the mean rotation, relative rotation | micropolar ones |
+//! | [`pair`]: spring | displacements | its two ends | stretch, shear | `bbpd`, `pds` |
 //! | [`imaginary`] | two displacements | up to six points of a lattice | the strains of a small rectangle around it | `mbb-pd` |
 //! | [`true_strain`] | the same | the same | the same, over distances after the deformation | `mbb-pd` |
 //! | [`pairwise`] | the same | the same, with forces on two ends | the same as the first | `mbb-pd` as printed |
@@ -13,14 +13,14 @@
 //! A law gives the rigidities, independently of the kinematics; an element gives the kinematics, independently of the law. Elements have the
 //! number M of components of the motion of a point as a type parameter; arrays over degrees of freedom have M entries a point.
 
-pub mod beam;
 pub mod bond_deformation;
 pub mod imaginary;
 pub mod pair;
 pub mod pairwise;
-pub mod spring;
 pub mod strain_stiffness;
 pub mod true_strain;
+
+use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +28,7 @@ use crate::bonds::{BondSet, Incidence};
 use crate::communicator::Wire;
 use crate::deformation::Deformation;
 use crate::ghosts::Ghosts;
-use crate::layout::{Component, Layout};
+use crate::layout::Layout;
 use crate::subdomain::Subdomain;
 use crate::tensor::SymTensor;
 
@@ -38,9 +38,9 @@ use strain_stiffness::StrainStiffness;
 /// Kinematics of the bonds of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ElementKind {
-    /// Bonds between points with rotations: [`beam`].
+    /// Bonds between points with rotations: [`pair`].
     Beam,
-    /// Bonds between points without rotations: [`spring`].
+    /// Bonds between points without rotations: [`pair`].
     Spring,
     /// Bonds without rotations that couple points beside their ends: [`imaginary`].
     Imaginary,
@@ -57,6 +57,22 @@ impl ElementKind {
             Self::Beam | Self::Spring => false,
             Self::Imaginary | Self::TrueStrain | Self::Pairwise => true,
         }
+    }
+
+    /// Whether forces are linear in the displacements.
+    pub fn is_linear(self) -> bool {
+        self != Self::TrueStrain
+    }
+
+    /// Whether forces derive from an energy, so that the stiffness is symmetric.
+    pub fn has_energy(self) -> bool {
+        self != Self::Pairwise
+    }
+
+    /// Whether a rotation of the whole body costs no energy, although bonds resist shear: without rotations of the points it is a shear of
+    /// bonds of two points.
+    pub(crate) fn rotates_freely(self) -> bool {
+        self != Self::Spring
     }
 
     /// Names of the strains of a [`BondDeformation`] in results, in their order.
@@ -89,18 +105,39 @@ impl Rigidities {
         self.axial.iter().chain(&self.shear)
     }
 
+    /// Whether every bond resists stretch and shear, so that the stiffness is definite; collective.
+    pub fn all_positive(&self, subdomain: &Subdomain) -> bool {
+        !subdomain.any(!self.of_springs().all(|&rigidity| rigidity > 0.0))
+    }
+
+    /// Whether some bond has a negative stiffness, so that the stiffness of the body may be indefinite; collective.
+    pub fn some_negative(&self, subdomain: &Subdomain) -> bool {
+        let is_negative = if self.strain.is_empty() {
+            self.of_springs().any(|&rigidity| rigidity < 0.0)
+        } else {
+            !self.strain.iter().all(StrainStiffness::is_positive)
+        };
+        subdomain.any(is_negative)
+    }
+
+    /// Whether some bond has a negative shear stiffness; collective.
+    pub fn some_negative_shear(&self, subdomain: &Subdomain) -> bool {
+        subdomain.any(self.shear.iter().any(|&rigidity| rigidity < 0.0))
+    }
+
+    /// Fraction of the energy of a bond that belongs to its first or its second end: mostly a half.
+    pub fn share(&self, bond: u32, is_first: bool) -> f64 {
+        let of_strain = self.strain.get(bond as usize);
+        of_strain.map_or(0.5, |it| it.share(is_first))
+    }
+
     /// Whether a bond resists rotations of its ends, if these have rotations.
     pub(crate) fn resist_rotations(&self, bond: usize) -> bool {
         self.shear[bond] != 0.0 || self.rotational[bond] != 0.0
     }
 
     /// Degrees of freedom that bonds may resist: all displacements, and rotations where a bond resists them, shape (n_degrees_of_freedom).
-    pub(crate) fn resisted(
-        &self,
-        ends: &[[u32; 2]],
-        layout: Layout,
-        subdomain: &Subdomain,
-    ) -> Vec<bool> {
+    pub fn resisted(&self, ends: &[[u32; 2]], layout: Layout, subdomain: &Subdomain) -> Vec<bool> {
         let all = 0..layout.n_degrees_of_freedom();
         let mut resisted: Vec<bool> = all
             .map(|dof| !layout.component(dof).is_rotation())
@@ -180,69 +217,35 @@ impl StiffnessFactors {
     }
 }
 
-/// Elements of all bonds in D dimensions, between points with M components: gives the element of a bond while some bonds are unbroken.
-pub trait Elements<const D: usize, const M: usize>:
-    std::fmt::Debug + Send + Sync + 'static
-{
-    /// Components of the motion of a point.
-    const COMPONENTS: [Component; M];
-
-    /// Element of a bond.
-    type Element: Element<D, M>;
-
-    /// The element of a bond while the bonds marked in `intact` (n_bonds) are unbroken.
-    fn element(
-        &self,
-        bonds: &BondSet<D>,
-        rigidities: &Rigidities,
-        intact: &[bool],
-        bond: usize,
-    ) -> Self::Element;
-
-    /// Whether a rotation of the whole body costs no energy, although bonds resist shear.
-    fn rotates_freely(&self) -> bool;
-
-    /// Whether forces are linear in the displacements.
-    fn is_linear(&self) -> bool {
-        true
-    }
-
-    /// Whether forces derive from an energy, so that the stiffness is symmetric.
-    fn has_energy(&self) -> bool {
-        true
-    }
-
-    /// Whether some bond has a negative stiffness, so that the stiffness of the body may be indefinite.
-    fn some_negative(&self, rigidities: &Rigidities) -> bool {
-        rigidities.of_springs().any(|&rigidity| rigidity < 0.0)
-    }
-
-    /// Fraction of the energy of a bond that belongs to one of its ends.
-    fn share(&self, _bonds: &BondSet<D>, _rigidities: &Rigidities, _bond: u32, _point: u32) -> f64 {
-        0.5
-    }
-
-    /// Bonds whose elements may change when some bonds break, these left out, ascending.
-    fn dependent_bonds(&self, _bonds: &[u32]) -> Vec<u32> {
-        Vec::new()
-    }
-
-    /// Bonds whose elements couple each point, and the other points that these elements couple; `None` where bonds couple their ends alone.
-    fn couplings(&self) -> Option<[&Incidence; 2]> {
-        None
-    }
-}
-
-/// Deformation of the element of a bond.
-pub type DeformationOf<const D: usize, const M: usize, E> =
-    <<E as Elements<D, M>>::Element as Element<D, M>>::Deformation;
-
-/// Interface of all elements. Loops over all bonds have the element as a type parameter, so that it is resolved once, not bond by bond.
+/// Element of a bond in D dimensions, between points with M components of motion: its kinematics with its rigidities. Loops over all bonds
+/// have the element as a type parameter, so that it is resolved once, not bond by bond.
 pub trait Element<const D: usize, const M: usize>:
     Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
 {
     /// Deformation of the bond.
     type Deformation: Deformation;
+
+    /// What the elements of a body share beside its bonds and rigidities: the lattice of imaginary elements, nothing for pairs.
+    type Lattice: std::fmt::Debug + Send + Sync + 'static;
+
+    /// The element of a bond with its whole stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
+    fn new(
+        lattice: &Self::Lattice,
+        bonds: &BondSet<D>,
+        rigidities: &Rigidities,
+        intact: &[bool],
+        bond: usize,
+    ) -> Self;
+
+    /// Bonds whose elements couple each point, and the other points that these elements couple; `None` where bonds couple their ends alone.
+    fn couplings(_lattice: &Self::Lattice) -> Option<[&Arc<Incidence>; 2]> {
+        None
+    }
+
+    /// Bonds whose elements may change when some bonds break, these left out, ascending.
+    fn dependent_bonds(_lattice: &Self::Lattice, _bonds: &[u32]) -> Vec<u32> {
+        Vec::new()
+    }
 
     /// The element with its rigidities times the remaining factors.
     fn weakened(self, remaining: &StiffnessFactors) -> Self;

@@ -1,46 +1,50 @@
-//! Bonds that couple their two ends alone.
+//! Bonds that couple their two ends alone: springs and beams.
+//!
+//! A spring bond has an axial and a shear spring between points without rotations (PDS; MPPD section 2.1). Its shear deformation does not
+//! distinguish a rotation of the whole body from a shear: where the shear rigidity is not zero, a rigid rotation costs energy. A beam bond
+//! lies between points with rotations and has a spring against their relative rotation beside the two (in the plane NHPD eqs 2, 3 and 9).
 
-use std::marker::PhantomData;
+mod plane;
+mod space;
 
-use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
+use super::{Block, BondDeformation, Element, Rigidities, StiffnessFactors, Term};
 use crate::bonds::BondSet;
 use crate::deformation::Deformation;
-use crate::layout::Component;
 use crate::tensor::SymTensor;
 
-/// Geometry and rigidities of a bond of two points in D dimensions.
-pub trait PairBond<const D: usize>:
-    Copy + PartialEq + std::fmt::Debug + Send + Sync + 'static
-{
-    /// The bond with a given number.
-    fn new(bonds: &BondSet<D>, rigidities: &Rigidities, bond: usize) -> Self;
-
-    /// The bond with its rigidities times the remaining factors.
-    fn weakened(self, remaining: &StiffnessFactors) -> Self;
-
-    /// Length l, m, and unit vector n from A to B.
-    fn geometry(&self) -> (f64, [f64; D]);
+/// A bond of two points in D dimensions with M components of motion each: a spring with M = D, a beam where points also have rotations.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair<const D: usize, const M: usize> {
+    /// Points A and B.
+    pub ends: [u32; 2],
+    /// Length l, m.
+    pub length: f64,
+    /// Unit vector n from A to B; in the plane the direction cosines (a, b).
+    pub direction: [f64; D],
+    /// Omega alpha V_A V_B k_n l, J: energy 1/2 (...) s^2.
+    pub axial_rigidity: f64,
+    /// Omega alpha V_A V_B k_t l, J: energy 1/2 (...) |gamma|^2.
+    pub shear_rigidity: f64,
+    /// Omega alpha V_A V_B k_theta, J: energy 1/2 (...) |theta_rel|^2; 0 between points without rotations.
+    pub rotational_rigidity: f64,
 }
 
-/// Kinematics of a bond in D dimensions between two points with M components.
-pub trait PairKinematics<const D: usize, const M: usize>: PairBond<D> {
-    /// Components of the motion of a point.
-    const COMPONENTS: [Component; M];
-
+/// Kinematics and stiffness of a [`Pair`] in the plane or in space, from the motions of its ends alone.
+pub trait PairMechanics<const D: usize, const M: usize> {
     /// Deformation of the bond.
     type Deformation: Deformation;
 
     /// Deformation for the motions of the ends A and B, shape (M) each.
-    fn deformation(&self, end_a: &[f64], end_b: &[f64]) -> Self::Deformation;
+    fn between(&self, end_a: &[f64], end_b: &[f64]) -> Self::Deformation;
 
     /// Deformation in a uniform strain eps without rotations: s = n . eps n; the shear deformation is the rest of eps n.
-    fn deformation_in(&self, strain: &SymTensor<D>) -> Self::Deformation;
+    fn in_strain(&self, strain: &SymTensor<D>) -> Self::Deformation;
 
     /// 1/2 u^T K u', J, for two deformations of the same bond.
-    fn mutual_energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64;
+    fn energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64;
 
     /// Internal forces and moments K u at the ends A and B, N and N m.
-    fn end_forces(&self, deformation: &Self::Deformation) -> [[f64; M]; 2];
+    fn forces_at_ends(&self, deformation: &Self::Deformation) -> [[f64; M]; 2];
 
     /// Modes of the bond: K as a sum of rigidity g g^T over stretch, shear and relative rotation; the rows g take the motions of A and B to
     /// the size of the mode.
@@ -60,108 +64,98 @@ pub trait PairKinematics<const D: usize, const M: usize>: PairBond<D> {
     }
 }
 
-/// Deformation that criteria measure, for the motions of the ends A and B of a bond, less that of a thermal strain.
-pub fn measured<const D: usize, const M: usize>(
-    bond: &impl PairKinematics<D, M>,
-    ends: [[f64; M]; 2],
-    free: Option<&SymTensor<D>>,
-) -> BondDeformation {
-    let [a, b] = &ends;
-    let whole = bond.deformation(a, b);
-    let free = free.map(|strain| bond.deformation_in(strain));
-    free.map_or(whole, |free| whole.less(&free)).measured()
-}
-
-/// Elements of bonds that couple their ends alone.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Pairs<B>(PhantomData<B>);
-
-impl<B> Default for Pairs<B> {
-    fn default() -> Self {
-        Self(PhantomData)
-    }
-}
-
-impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Elements<D, M> for Pairs<B> {
-    const COMPONENTS: [Component; M] = B::COMPONENTS;
-
-    type Element = Pair<B>;
-
-    #[inline(always)]
-    fn element(
-        &self,
-        bonds: &BondSet<D>,
-        rigidities: &Rigidities,
-        _: &[bool],
-        bond: usize,
-    ) -> Pair<B> {
-        Pair {
-            ends: bonds.ends[bond],
-            bond: B::new(bonds, rigidities, bond),
+impl<const D: usize, const M: usize> Pair<D, M> {
+    /// A bond of a length (m) and a direction without stiffness, for its deformations.
+    pub fn without_stiffness(length: f64, direction: [f64; D]) -> Self {
+        Self {
+            ends: [0, 1],
+            length,
+            direction,
+            axial_rigidity: 0.0,
+            shear_rigidity: 0.0,
+            rotational_rigidity: 0.0,
         }
     }
 
-    fn rotates_freely(&self) -> bool {
-        // Without rotations of the points a rotation of the body is a shear of its bonds.
-        B::COMPONENTS.iter().any(|it| it.is_rotation())
+    /// Deformation that criteria measure, for the motions of the ends A and B, less that of a thermal strain.
+    pub fn measured(&self, ends: [[f64; M]; 2], free: Option<&SymTensor<D>>) -> BondDeformation
+    where
+        Self: PairMechanics<D, M>,
+    {
+        let [a, b] = &ends;
+        let whole = self.between(a, b);
+        let free = free.map(|strain| self.in_strain(strain));
+        free.map_or(whole, |free| whole.less(&free)).measured()
     }
 }
 
-/// A bond of two points: its ends and its kinematics.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pair<B> {
-    /// Points A and B.
-    pub ends: [u32; 2],
-    /// Kinematics and rigidities.
-    pub bond: B,
-}
-
 // These functions are the sweeps over all bonds: the compiler left some as calls, which cost the sweeps a fifth more time.
-impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Element<D, M> for Pair<B> {
-    type Deformation = B::Deformation;
+impl<const D: usize, const M: usize> Element<D, M> for Pair<D, M>
+where
+    Self: PairMechanics<D, M>,
+{
+    type Deformation = <Self as PairMechanics<D, M>>::Deformation;
+
+    type Lattice = ();
+
+    #[inline(always)]
+    fn new((): &(), bonds: &BondSet<D>, rigidities: &Rigidities, _: &[bool], bond: usize) -> Self {
+        Self {
+            ends: bonds.ends[bond],
+            length: bonds.length[bond],
+            direction: bonds.direction[bond],
+            axial_rigidity: rigidities.axial[bond],
+            shear_rigidity: rigidities.shear[bond],
+            rotational_rigidity: if M > D {
+                rigidities.rotational[bond]
+            } else {
+                0.0
+            },
+        }
+    }
 
     #[inline(always)]
     fn weakened(self, remaining: &StiffnessFactors) -> Self {
         Self {
-            bond: self.bond.weakened(remaining),
+            axial_rigidity: remaining.axial * self.axial_rigidity,
+            shear_rigidity: remaining.shear * self.shear_rigidity,
+            rotational_rigidity: remaining.rotational * self.rotational_rigidity,
             ..self
         }
     }
 
     #[inline(always)]
-    fn deformation(&self, motions: &[f64]) -> B::Deformation {
+    fn deformation(&self, motions: &[f64]) -> Self::Deformation {
         let [a, b] = self.ends.map(|end| M * end as usize);
-        self.bond
-            .deformation(&motions[a..a + M], &motions[b..b + M])
+        self.between(&motions[a..a + M], &motions[b..b + M])
     }
 
     #[inline(always)]
-    fn deformation_in(&self, strain: &SymTensor<D>) -> B::Deformation {
-        self.bond.deformation_in(strain)
+    fn deformation_in(&self, strain: &SymTensor<D>) -> Self::Deformation {
+        self.in_strain(strain)
     }
 
     #[inline(always)]
-    fn mutual_energy(&self, one: &B::Deformation, other: &B::Deformation) -> f64 {
-        self.bond.mutual_energy(one, other)
+    fn mutual_energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64 {
+        self.energy(one, other)
     }
 
     #[inline(always)]
-    fn forces(&self, deformation: &B::Deformation, mut add: impl FnMut(u32, [f64; M])) {
-        let [at_a, at_b] = self.bond.end_forces(deformation);
+    fn forces(&self, deformation: &Self::Deformation, mut add: impl FnMut(u32, [f64; M])) {
+        let [at_a, at_b] = self.forces_at_ends(deformation);
         add(self.ends[0], at_a);
         add(self.ends[1], at_b);
     }
 
     #[inline(always)]
-    fn end_forces(&self, deformation: &B::Deformation) -> Option<[[f64; M]; 2]> {
-        Some(self.bond.end_forces(deformation))
+    fn end_forces(&self, deformation: &Self::Deformation) -> Option<[[f64; M]; 2]> {
+        Some(self.forces_at_ends(deformation))
     }
 
-    fn dyad(&self, deformation: &B::Deformation) -> SymTensor<D> {
-        let (length, direction) = self.bond.geometry();
-        let [_, at_b] = self.bond.end_forces(deformation);
+    fn dyad(&self, deformation: &Self::Deformation) -> SymTensor<D> {
+        let [_, at_b] = self.forces_at_ends(deformation);
         let force = std::array::from_fn(|axis| at_b[axis]);
-        SymTensor::dyad(force, direction.map(|cosine| cosine * length))
+        SymTensor::dyad(force, self.direction.map(|cosine| cosine * self.length))
     }
 
     fn terms(&self) -> Vec<Term> {
@@ -171,7 +165,7 @@ impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Element<D, M> for 
             let entries = entries.filter(|(_, value)| *value != 0.0);
             (rigidity, entries.collect())
         };
-        self.bond.modes().map(term).collect()
+        self.modes().map(term).collect()
     }
 
     /// Blocks of K = Omega alpha V_A V_B R^T B L D B^T R (NHPD eq. 9).
@@ -179,8 +173,11 @@ impl<const D: usize, const M: usize, B: PairKinematics<D, M>> Element<D, M> for 
         let columns = usize::from(self.ends[1] == point);
         for (rows, &other) in self.ends.iter().enumerate() {
             if other <= point {
-                add(other, self.bond.block(rows, columns));
+                add(other, self.block(rows, columns));
             }
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

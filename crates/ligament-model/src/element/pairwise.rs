@@ -12,10 +12,11 @@
 //! direction. Eq. 17 has no meaning for H and V bonds. These forces do not derive from an energy: the stiffness is not symmetric. The
 //! element exists to show the results of the printed equations.
 
+use std::sync::Arc;
+
 use super::imaginary::{BondClass, ImaginaryElement, ImaginaryElements};
-use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
+use super::{Block, BondDeformation, Element, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
-use crate::layout::Component;
 use crate::tensor::SymTensor;
 
 /// Elements of a lattice with the printed forces.
@@ -27,57 +28,6 @@ pub struct PairwiseElements {
     pub row_factors: Vec<[f64; 3]>,
     /// Distances between the columns and between the rows of the lattice, m.
     pub spacing: [f64; 2],
-}
-
-impl Elements<2, 2> for PairwiseElements {
-    const COMPONENTS: [Component; 2] = ImaginaryElements::COMPONENTS;
-
-    type Element = PairwiseElement;
-
-    fn element(
-        &self,
-        bonds: &BondSet,
-        rigidities: &Rigidities,
-        intact: &[bool],
-        bond: usize,
-    ) -> PairwiseElement {
-        let offset = bonds.direction[bond].map(|cosine| cosine * bonds.length[bond]);
-        PairwiseElement {
-            strains: self.lattice.element(bonds, rigidities, intact, bond),
-            ends: bonds.ends[bond],
-            offset,
-            row_factors: self.row_factors[bond],
-            of_rows: of_rows(
-                offset,
-                self.spacing,
-                BondClass::from_direction(bonds.direction[bond]),
-            ),
-        }
-    }
-
-    fn rotates_freely(&self) -> bool {
-        self.lattice.rotates_freely()
-    }
-
-    fn has_energy(&self) -> bool {
-        false
-    }
-
-    fn some_negative(&self, rigidities: &Rigidities) -> bool {
-        self.lattice.some_negative(rigidities)
-    }
-
-    fn share(&self, bonds: &BondSet, rigidities: &Rigidities, bond: u32, point: u32) -> f64 {
-        self.lattice.share(bonds, rigidities, bond, point)
-    }
-
-    fn dependent_bonds(&self, bonds: &[u32]) -> Vec<u32> {
-        self.lattice.dependent_bonds(bonds)
-    }
-
-    fn couplings(&self) -> Option<[&Incidence; 2]> {
-        self.lattice.couplings()
-    }
 }
 
 /// The element of one bond with its surroundings.
@@ -145,6 +95,37 @@ fn greatest_common_divisor(one: u32, other: u32) -> u32 {
 
 impl Element<2, 2> for PairwiseElement {
     type Deformation = BondDeformation;
+
+    type Lattice = PairwiseElements;
+
+    fn new(
+        elements: &PairwiseElements,
+        bonds: &BondSet,
+        rigidities: &Rigidities,
+        intact: &[bool],
+        bond: usize,
+    ) -> Self {
+        let offset = bonds.direction[bond].map(|cosine| cosine * bonds.length[bond]);
+        Self {
+            strains: ImaginaryElement::new(&elements.lattice, bonds, rigidities, intact, bond),
+            ends: bonds.ends[bond],
+            offset,
+            row_factors: elements.row_factors[bond],
+            of_rows: of_rows(
+                offset,
+                elements.spacing,
+                BondClass::from_direction(bonds.direction[bond]),
+            ),
+        }
+    }
+
+    fn couplings(elements: &PairwiseElements) -> Option<[&Arc<Incidence>; 2]> {
+        ImaginaryElement::couplings(&elements.lattice)
+    }
+
+    fn dependent_bonds(elements: &PairwiseElements, bonds: &[u32]) -> Vec<u32> {
+        ImaginaryElement::dependent_bonds(&elements.lattice, bonds)
+    }
 
     fn weakened(self, remaining: &StiffnessFactors) -> Self {
         Self {

@@ -1,24 +1,24 @@
 //! What every element must keep, over a table of all of them.
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
-use super::beam::BeamBond;
-use super::imaginary::{ImaginaryElements, StrainStiffness};
-use super::pair::Pairs;
-use super::pairwise::PairwiseElements;
-use super::spring::SpringBond;
-use super::true_strain::TrueStrainElements;
+use super::imaginary::{ImaginaryElement, ImaginaryElements, StrainStiffness};
+use super::pair::Pair;
+use super::pairwise::{PairwiseElement, PairwiseElements};
+use super::true_strain::TrueStrainElement;
 use super::*;
+use crate::bonds::Incidence;
+use crate::layout::Component;
 use crate::tensor::{minus, norm};
 
 /// Points of a square lattice with four a side, which stands turned and off the origin only where elements may.
 const SIDE: usize = 4;
 
 /// A set of elements with its bonds: every pair up to two spacings apart.
-struct Body<const D: usize, const M: usize, E> {
+struct Body<const D: usize, const M: usize, E: Element<D, M>> {
     positions: Vec<[f64; D]>,
     bonds: BondSet<D>,
     rigidities: Rigidities,
-    elements: E,
+    lattice: E::Lattice,
 }
 
 fn positions<const D: usize>(angle: f64) -> Vec<[f64; D]> {
@@ -44,21 +44,21 @@ fn bonds<const D: usize>(positions: &[[f64; D]]) -> BondSet<D> {
     let length: Vec<f64> = near.iter().map(|&pair| norm(offset(pair))).collect();
     let direction = near.iter().zip(&length);
     BondSet {
-        incidence: Incidence::new(&ends, positions.len()),
+        incidence: Incidence::new(&ends, positions.len()).into(),
         direction: direction
             .map(|(&pair, l)| offset(pair).map(|it| it / l))
             .collect(),
-        horizon: vec![0.8; ends.len()],
+        horizon: vec![0.8; ends.len()].into(),
         composition: Default::default(),
         length,
-        ends,
+        ends: ends.into(),
     }
 }
 
-fn body<const D: usize, const M: usize, E: Elements<D, M>>(
+fn body<const D: usize, const M: usize, E: Element<D, M>>(
     angle: f64,
     shear_sign: f64,
-    elements: impl Fn(&BondSet<D>, &[[f64; D]]) -> E,
+    lattice: impl Fn(&BondSet<D>, &[[f64; D]]) -> E::Lattice,
 ) -> Body<D, M, E> {
     let positions = positions(angle);
     let bonds = bonds(&positions);
@@ -78,7 +78,7 @@ fn body<const D: usize, const M: usize, E: Elements<D, M>>(
             rotational: varied(0.2 * shear_sign),
             strain: vec![strain; bonds.len()],
         },
-        elements: elements(&bonds, &positions),
+        lattice: lattice(&bonds, &positions),
         positions,
         bonds,
     }
@@ -86,6 +86,13 @@ fn body<const D: usize, const M: usize, E: Elements<D, M>>(
 
 fn lattice(bonds: &BondSet, positions: &[[f64; 2]]) -> ImaginaryElements {
     ImaginaryElements::new(bonds, positions.to_vec())
+}
+
+fn pairs<const D: usize, const M: usize>(angle: f64, shear_sign: f64) -> Body<D, M, Pair<D, M>>
+where
+    Pair<D, M>: Element<D, M, Lattice = ()>,
+{
+    body(angle, shear_sign, |_, _| ())
 }
 
 /// What an element promises beside symmetry and translations.
@@ -111,27 +118,22 @@ fn for_every_element(mut check: impl Check) {
         turns: false,
         ..ALL
     };
-    let pairs = |_: &BondSet, _: &[[f64; 2]]| Pairs::<BeamBond>::default();
-    check.check("beam", &body(0.6, 1.0, pairs), ALL);
-    check.check("beam, negative shear", &body(0.6, -1.0, pairs), ALL);
-    let springs = |_: &BondSet, _: &[[f64; 2]]| Pairs::<SpringBond>::default();
-    check.check("spring", &body(0.6, 1.0, springs), springs_turn);
-    check.check("central spring", &body(0.6, 0.0, springs), ALL);
-    let pairs = |_: &BondSet<3>, _: &[[f64; 3]]| Pairs::<BeamBond<3>>::default();
-    check.check("beam in space", &body(0.6, 1.0, pairs), ALL);
-    let springs = |_: &BondSet<3>, _: &[[f64; 3]]| Pairs::<SpringBond<3>>::default();
-    check.check("spring in space", &body(0.6, 1.0, springs), springs_turn);
-    check.check("central spring in space", &body(0.6, 0.0, springs), ALL);
-    check.check("imaginary", &body(0.0, 1.0, lattice), ALL);
-    let true_strains = |bonds: &BondSet, positions: &[[f64; 2]]| TrueStrainElements {
-        lattice: lattice(bonds, positions),
-    };
+    check.check("beam", &pairs::<2, 3>(0.6, 1.0), ALL);
+    check.check("beam, negative shear", &pairs::<2, 3>(0.6, -1.0), ALL);
+    check.check("spring", &pairs::<2, 2>(0.6, 1.0), springs_turn);
+    check.check("central spring", &pairs::<2, 2>(0.6, 0.0), ALL);
+    check.check("beam in space", &pairs::<3, 6>(0.6, 1.0), ALL);
+    check.check("spring in space", &pairs::<3, 3>(0.6, 1.0), springs_turn);
+    check.check("central spring in space", &pairs::<3, 3>(0.6, 0.0), ALL);
+    let imaginary = body::<2, 2, ImaginaryElement>(0.0, 1.0, lattice);
+    check.check("imaginary", &imaginary, ALL);
     let promise = Promise {
         energy: false,
         linear: false,
         ..ALL
     };
-    check.check("true strain", &body(0.0, 1.0, true_strains), promise);
+    let true_strains = body::<2, 2, TrueStrainElement>(0.0, 1.0, lattice);
+    check.check("true strain", &true_strains, promise);
     let pairwise = |bonds: &BondSet, positions: &[[f64; 2]]| PairwiseElements {
         lattice: lattice(bonds, positions),
         row_factors: vec![[1.2, 0.9, 1.1]; bonds.len()],
@@ -141,11 +143,12 @@ fn for_every_element(mut check: impl Check) {
         energy: false,
         ..ALL
     };
-    check.check("pairwise", &body(0.0, 1.0, pairwise), promise);
+    let pairwise = body::<2, 2, PairwiseElement>(0.0, 1.0, pairwise);
+    check.check("pairwise", &pairwise, promise);
 }
 
 trait Check {
-    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
+    fn check<const D: usize, const M: usize, E: Element<D, M>>(
         &mut self,
         name: &str,
         body: &Body<D, M, E>,
@@ -153,11 +156,10 @@ trait Check {
     );
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> Body<D, M, E> {
-    fn element(&self, bond: usize) -> E::Element {
+impl<const D: usize, const M: usize, E: Element<D, M>> Body<D, M, E> {
+    fn element(&self, bond: usize) -> E {
         let intact = vec![true; self.bonds.len()];
-        self.elements
-            .element(&self.bonds, &self.rigidities, &intact, bond)
+        E::new(&self.lattice, &self.bonds, &self.rigidities, &intact, bond)
     }
 
     fn n(&self) -> usize {
@@ -172,9 +174,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> Body<D, M, E> {
 
     /// A rigid motion moves a point by translation + rotation x position, and turns it by the rotation.
     fn rigid(&self, translation: [f64; 2], rotation: f64) -> Vec<f64> {
-        let at = |p: &[f64; D]| {
+        let at = |p: &[f64; D]| -> [f64; M] {
             let [x, y] = translation;
-            E::COMPONENTS.map(|component| match component {
+            std::array::from_fn(|place| match Component::in_dimensions(D)[place] {
                 Component::X => x - rotation * p[1],
                 Component::Y => y + rotation * p[0],
                 Component::Z | Component::RotationX | Component::RotationY => 0.0,
@@ -214,7 +216,7 @@ struct RigidMotions;
 
 impl Check for RigidMotions {
     /// Rounding of forces of size 50 bounds a zero at 1e-12.
-    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
+    fn check<const D: usize, const M: usize, E: Element<D, M>>(
         &mut self,
         name: &str,
         body: &Body<D, M, E>,
@@ -246,7 +248,7 @@ fn rigid_motions_cost_nothing() {
 struct Balance;
 
 impl Check for Balance {
-    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
+    fn check<const D: usize, const M: usize, E: Element<D, M>>(
         &mut self,
         name: &str,
         body: &Body<D, M, E>,
@@ -272,7 +274,7 @@ fn forces_are_in_balance() {
 struct Derivatives;
 
 impl Check for Derivatives {
-    fn check<const D: usize, const M: usize, E: Elements<D, M>>(
+    fn check<const D: usize, const M: usize, E: Element<D, M>>(
         &mut self,
         name: &str,
         body: &Body<D, M, E>,
@@ -312,10 +314,10 @@ impl Check for Derivatives {
 }
 
 /// The blocks of the assembly are those of the stiffness.
-fn assert_blocks<const D: usize, const M: usize, E: Elements<D, M>>(
+fn assert_blocks<const D: usize, const M: usize, E: Element<D, M>>(
     name: &str,
     body: &Body<D, M, E>,
-    element: &E::Element,
+    element: &E,
     stiffness: &[Vec<f64>],
 ) {
     let mut seen = 0.0_f64;
@@ -350,8 +352,8 @@ fn energy_does_not_depend_on_the_orientation() {
     let energies = |angle: f64| {
         let (sin, cos) = f64::sin_cos(angle - 0.4);
         let both = |turn: &dyn Fn(&[f64]) -> Vec<f64>| {
-            let beams = body(angle, 1.0, |_, _: &[[f64; 2]]| Pairs::<BeamBond>::default());
-            let springs = body(angle, 1.0, |_, _| Pairs::<SpringBond>::default());
+            let beams = pairs::<2, 3>(angle, 1.0);
+            let springs = pairs::<2, 2>(angle, 1.0);
             let u = turn(&beams.unknowns());
             let beam = beams.element(7);
             let spring = springs.element(7);
@@ -379,7 +381,7 @@ fn energy_does_not_depend_on_the_orientation() {
 /// A spring bond does not know a rotation of the body from a shear.
 #[test]
 fn a_rotation_shears_a_spring() {
-    let springs = body(0.6, 1.0, |_, _| Pairs::<SpringBond>::default());
+    let springs = pairs::<2, 2>(0.6, 1.0);
     let element = springs.element(7);
     let turned = element.deformation(&springs.rigid([0.3, -0.2], 1.0));
     assert!((turned.shear() - 1.0).abs() < 1e-14);

@@ -9,10 +9,11 @@
 //! The forces are not linear in the displacements. The stiffness of small strains is used in all iterations: each reduces the error by about
 //! a factor of the strain.
 
+use std::sync::Arc;
+
 use super::imaginary::{Axis, ImaginaryElement, ImaginaryElements, Quotients};
-use super::{Block, BondDeformation, Element, Elements, Rigidities, StiffnessFactors, Term};
+use super::{Block, BondDeformation, Element, Rigidities, StiffnessFactors, Term};
 use crate::bonds::{BondSet, Incidence};
-use crate::layout::Component;
 use crate::tensor::SymTensor;
 
 /// The true-strain element of one bond with its remaining surroundings.
@@ -24,65 +25,38 @@ pub struct TrueStrainElement {
     distances: [f64; 4],
 }
 
-/// Elements of a lattice with true strains.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TrueStrainElements {
-    /// Elements with small strains.
-    pub lattice: ImaginaryElements,
-}
+impl Element<2, 2> for TrueStrainElement {
+    type Deformation = BondDeformation;
 
-impl Elements<2, 2> for TrueStrainElements {
-    const COMPONENTS: [Component; 2] = ImaginaryElements::COMPONENTS;
-
-    type Element = TrueStrainElement;
+    type Lattice = ImaginaryElements;
 
     #[inline]
-    fn element(
-        &self,
+    fn new(
+        lattice: &ImaginaryElements,
         bonds: &BondSet,
         rigidities: &Rigidities,
         intact: &[bool],
         bond: usize,
-    ) -> TrueStrainElement {
-        let quotients = Quotients::for_bond(bonds, &self.lattice.surroundings, intact, bond);
+    ) -> Self {
+        let quotients = Quotients::for_bond(bonds, &lattice.surroundings, intact, bond);
         let mut distances = [0.0; 4];
         for (distance, quotient) in distances.iter_mut().zip(quotients.iter()) {
-            *distance = quotient.distance(&self.lattice.positions);
+            *distance = quotient.distance(&lattice.positions);
         }
-        TrueStrainElement {
-            small: self.lattice.element(bonds, rigidities, intact, bond),
+        Self {
+            small: ImaginaryElement::new(lattice, bonds, rigidities, intact, bond),
             quotients,
             distances,
         }
     }
 
-    fn rotates_freely(&self) -> bool {
-        self.lattice.rotates_freely()
+    fn couplings(lattice: &ImaginaryElements) -> Option<[&Arc<Incidence>; 2]> {
+        ImaginaryElement::couplings(lattice)
     }
 
-    fn is_linear(&self) -> bool {
-        false
+    fn dependent_bonds(lattice: &ImaginaryElements, bonds: &[u32]) -> Vec<u32> {
+        ImaginaryElement::dependent_bonds(lattice, bonds)
     }
-
-    fn some_negative(&self, rigidities: &Rigidities) -> bool {
-        self.lattice.some_negative(rigidities)
-    }
-
-    fn share(&self, bonds: &BondSet, rigidities: &Rigidities, bond: u32, point: u32) -> f64 {
-        self.lattice.share(bonds, rigidities, bond, point)
-    }
-
-    fn dependent_bonds(&self, bonds: &[u32]) -> Vec<u32> {
-        self.lattice.dependent_bonds(bonds)
-    }
-
-    fn couplings(&self) -> Option<[&Incidence; 2]> {
-        self.lattice.couplings()
-    }
-}
-
-impl Element<2, 2> for TrueStrainElement {
-    type Deformation = BondDeformation;
 
     #[inline]
     fn weakened(self, remaining: &StiffnessFactors) -> Self {

@@ -63,7 +63,7 @@ impl<const D: usize> Basis<'_, D> {
         let Some(factors) = self.factors(of) else {
             return;
         };
-        for (value, &ends) in values.iter_mut().zip(&self.system.bonds.ends) {
+        for (value, &ends) in values.iter_mut().zip(&*self.system.bonds.ends) {
             *value *= share(factors.of_bond(ends));
         }
     }

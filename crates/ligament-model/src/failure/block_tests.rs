@@ -10,8 +10,7 @@ use super::*;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::deformation::Deformation;
-use crate::element::beam::BeamBond;
-use crate::element::pair::PairKinematics;
+use crate::element::pair::{Pair, PairMechanics};
 use crate::element::{BondDeformation, ElementKind};
 use crate::horizon::Horizons;
 use crate::law::Law;
@@ -295,8 +294,8 @@ fn fibres_of_a_bond_that_bends() {
                 let moved = n.map(|it| side * stretch * length * it);
                 [moved, turned.map(|it| side * length / radius * it)].concat()
             };
-            let element = BeamBond::without_stiffness(length, n);
-            let deformation = element.deformation(&end(-0.5), &end(0.5));
+            let element = Pair::<3, 6>::without_stiffness(length, n);
+            let deformation = element.between(&end(-0.5), &end(0.5));
             criterion.measure(bond, &deformation.measured())
         };
         for (twist, factor) in [(0.0, 1.0), (1.0, 2.0_f64.sqrt())] {

@@ -1,5 +1,7 @@
 //! Critical stretches of the points of a lattice, from the bonds that they have left (MBB-PD eqs 21 to 23, C.4, C.7, C.9).
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::basis::Basis;
@@ -27,8 +29,8 @@ pub enum Mode {
 /// stretch grows with the damage.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CrackAtPoints {
-    ends: Vec<[u32; 2]>,
-    incidence: Incidence,
+    ends: Arc<[[u32; 2]]>,
+    incidence: Arc<Incidence>,
     /// Share of each bond in the energy of the crack beside each of its ends over the square of s_c, shape (n_bonds), J/m^2.
     energies: Vec<f64>,
     /// G_Ic, G_IIc and eta of each point, shape (n_points).
@@ -109,7 +111,7 @@ impl CrackAtPoints {
                 a.min(b)
             }
         };
-        sound.par_iter().zip(&self.ends).map(of_bond).collect()
+        sound.par_iter().zip(&*self.ends).map(of_bond).collect()
     }
 
     /// Critical stretch s_c of a point: sqrt(G/e), with the fracture energy G of the mode and the energy e of the crack over the

@@ -70,7 +70,7 @@ impl CrackEnergy {
                 None => unbroken += met,
             }
         }
-        let marked = among.iter().zip(&system.cloud.volumes);
+        let marked = among.iter().zip(&*system.cloud.volumes);
         let volume: f64 = marked
             .filter(|(is, _)| **is)
             .map(|(_, volume)| volume)

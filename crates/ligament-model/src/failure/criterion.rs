@@ -66,7 +66,7 @@ impl Criterion {
     }
 
     /// Energy of a bond at a limit of the measure, J; zero without a limit.
-    pub(crate) fn energy_at(&self, limit: f64, rigidities: &Rigidities, bond: usize) -> f64 {
+    pub fn energy_at(&self, limit: f64, rigidities: &Rigidities, bond: usize) -> f64 {
         let rigidity = match self.measure.weakens() {
             Weakened::Opening | Weakened::Crushing | Weakened::Whole => rigidities.axial[bond],
             Weakened::Sliding => rigidities.shear[bond],

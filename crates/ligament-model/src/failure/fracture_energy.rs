@@ -127,7 +127,7 @@ pub(super) fn critical_stretches_for<const D: usize>(
     let moduli = basis.each(|constants, _| Some(opening_modulus(constants, basis.space)));
     let lengths = mean_lengths(system);
     let modulus = |end: u32| system.cloud.mean_property(end as usize, &moduli);
-    let of_bonds = energy.into_iter().zip(&system.bonds.ends);
+    let of_bonds = energy.into_iter().zip(&*system.bonds.ends);
     of_bonds
         .map(|(energy, &[a, b])| {
             let modulus = 0.5 * (modulus(a) + modulus(b));

@@ -4,10 +4,8 @@ use super::*;
 use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
 use crate::deformation::SpaceDeformation;
-use crate::element::beam::BeamBond;
-use crate::element::pair::PairKinematics;
-use crate::element::spring::SpringBond;
-use crate::element::{Rigidities, StiffnessFactors};
+use crate::element::pair::{Pair, PairMechanics};
+use crate::element::{Element, Rigidities, StiffnessFactors};
 use crate::law::BondStiffness;
 use crate::material::{Elasticity, Isotropic, Space};
 use crate::tensor::SymTensor;
@@ -49,9 +47,9 @@ fn ball() -> (BondSet<3>, PointCloud<3>) {
     }
     let materials = vec![0; positions.len()];
     let bonds = BondSet {
-        incidence: Incidence::new(&ends, positions.len()),
-        horizon: vec![HORIZON; ends.len()],
-        ends,
+        incidence: Incidence::new(&ends, positions.len()).into(),
+        horizon: vec![HORIZON; ends.len()].into(),
+        ends: ends.into(),
         length,
         direction,
         composition: Default::default(),
@@ -61,10 +59,10 @@ fn ball() -> (BondSet<3>, PointCloud<3>) {
 }
 
 /// Energy density of the middle of the ball, whose bonds count by alpha, for deformations.
-fn energy<const M: usize, B: PairKinematics<3, M, Deformation = SpaceDeformation>>(
+fn energy<const M: usize>(
     stiffness: &BondStiffness,
     alpha: impl Fn(f64) -> f64,
-    deformation: impl Fn(&B) -> SpaceDeformation,
+    deformation: impl Fn(&Pair<3, M>) -> SpaceDeformation,
 ) -> f64 {
     let (bonds, cloud) = ball();
     let factor = |bond: usize| alpha(bonds.length[bond] / HORIZON) * cloud.volumes[bond + 1];
@@ -83,7 +81,8 @@ fn energy<const M: usize, B: PairKinematics<3, M, Deformation = SpaceDeformation
         strain: Vec::new(),
     };
     let of_bond = |bond: usize| {
-        let element = B::new(&bonds, &rigidities, bond).weakened(&StiffnessFactors::WHOLE);
+        let element =
+            Pair::new(&(), &bonds, &rigidities, &[], bond).weakened(&StiffnessFactors::WHOLE);
         let deformation = deformation(&element);
         0.5 * element.mutual_energy(&deformation, &deformation)
     };
@@ -132,13 +131,13 @@ fn energies_are_those_of_the_isotropic_body() {
         let spring = energy(
             &pds,
             |_| 1.0,
-            |it: &SpringBond<3>| it.deformation_in(&tensor(strain)),
+            |it: &Pair<3, 3>| it.deformation_in(&tensor(strain)),
         );
         let beam = |stiffness| {
             energy(
                 stiffness,
                 |_| 1.0,
-                |it: &BeamBond<3>| it.deformation_in(&tensor(strain)),
+                |it: &Pair<3, 6>| it.deformation_in(&tensor(strain)),
             )
         };
         for found in [spring, beam(&constant), beam(&falling), beam(&mppd)] {
@@ -155,7 +154,7 @@ fn central_forces_have_a_poisson_s_ratio_of_a_quarter() {
     let conical = Law::BBPD_CONICAL.densities(&bonds, &cloud, &[MATERIAL.into()], SOLID);
     for strain in STRAINS {
         let expected = elastic(&MATERIAL.with_central_forces(SOLID), strain);
-        let in_strain = |it: &SpringBond<3>| it.deformation_in(&tensor(strain));
+        let in_strain = |it: &Pair<3, 3>| it.deformation_in(&tensor(strain));
         let error = energy(&conical, |_| 1.0, in_strain) / expected - 1.0;
         assert!(error.abs() < OF_GAUSS, "{strain:?}: {error:e}");
     }
@@ -165,7 +164,7 @@ fn central_forces_have_a_poisson_s_ratio_of_a_quarter() {
         let found = energy(
             &bbpd,
             |_| 1.0,
-            |it: &SpringBond<3>| it.deformation_in(&tensor(strain)),
+            |it: &Pair<3, 3>| it.deformation_in(&tensor(strain)),
         );
         assert!((found / expected - 1.0).abs() < ROUNDING, "{strain:?}");
     }
@@ -194,9 +193,9 @@ fn rotations_cost_springs_what_they_should() {
     let found = energy(
         &pds,
         |_| 1.0,
-        |it: &SpringBond<3>| {
+        |it: &Pair<3, 3>| {
             let end = turned(it.direction).map(|component| it.length * component);
-            it.deformation(&[0.0; 3], &end)
+            it.between(&[0.0; 3], &end)
         },
     );
     let expected = 2.0 * (mu - lambda) * square;
@@ -212,10 +211,10 @@ fn curvatures_cost_chi_chi() {
     let found = energy(
         &nhpd,
         |_| 1.0,
-        |it: &BeamBond<3>| SpaceDeformation {
+        |it: &Pair<3, 6>| SpaceDeformation {
             rotation: chi.map(|row| {
-                let products = row.iter().zip(it.springs.direction);
-                it.springs.length * products.map(|(a, b)| a * b).sum::<f64>()
+                let products = row.iter().zip(it.direction);
+                it.length * products.map(|(a, b)| a * b).sum::<f64>()
             }),
             ..SpaceDeformation::default()
         },

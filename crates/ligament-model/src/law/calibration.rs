@@ -96,7 +96,7 @@ fn scaled_to<const D: usize>(
             }
         })
     });
-    (&mut axial, &mut shear, &mut rotational, &bonds.ends)
+    (&mut axial, &mut shear, &mut rotational, &*bonds.ends)
         .into_par_iter()
         .for_each(|(axial, shear, rotational, ends)| {
             let [a, b] = ends.map(|end| factors[end as usize]);

@@ -82,7 +82,7 @@ impl BondStiffness {
         };
         let mut series = materials::series_factors(bonds, cloud, &axial_constants);
         let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
-        (&bonds.ends, &mut axial, &mut shear, &mut rotational)
+        (&*bonds.ends, &mut axial, &mut shear, &mut rotational)
             .into_par_iter()
             .enumerate()
             .for_each(|(bond, (&ends, axial, shear, rotational))| {

@@ -120,7 +120,7 @@ impl BondStiffness {
             });
             Exchange { lost, gained }
         };
-        self.exchange = (&self.held, &bonds.ends)
+        self.exchange = (&self.held, &*bonds.ends)
             .into_par_iter()
             .map(of_bond)
             .collect();

@@ -167,7 +167,7 @@ mod tests {
     fn ends_in_a_stiffer_material_hold_a_bond() {
         let cloud = cloud();
         let bonds = BondSet::<2>::search(&cloud, &Horizons::unified(2.5, 3));
-        assert_eq!(bonds.ends, [[0, 1], [0, 2], [1, 2]]);
+        assert_eq!(*bonds.ends, [[0, 1], [0, 2], [1, 2]]);
         let of_material = |material: usize, _| [1.0, 9.0][material];
         let found = held(&bonds, &cloud, &[1.0, 1.0, 9.0], of_material);
         let soft = |ends| Restraint {

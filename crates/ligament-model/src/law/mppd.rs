@@ -32,7 +32,7 @@ impl Law {
 /// Stiffness densities of every bond: k_n and k_t of [`pds`], and a chosen k_theta.
 fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
     let (non_polar, bonds) = (pds::densities(input), input.bonds);
-    let rotational = (&non_polar.shear, &bonds.length, &bonds.horizon)
+    let rotational = (&non_polar.shear, &bonds.length, &*bonds.horizon)
         .into_par_iter()
         .map(|(&shear, &length, &horizon)| input.rotational().density(shear, length, horizon))
         .collect();

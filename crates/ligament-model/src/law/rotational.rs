@@ -174,7 +174,7 @@ pub fn calibrated<const D: usize>(
             [4.0 * cloud.mean_property(point as usize, moduli) / sum]
         }
     });
-    for (rotational, ends) in stiffness.rotational.iter_mut().zip(&bonds.ends) {
+    for (rotational, ends) in stiffness.rotational.iter_mut().zip(&*bonds.ends) {
         let [[a], [b]] = ends.map(|end| factors[end as usize]);
         *rotational *= 0.5 * (a + b);
     }

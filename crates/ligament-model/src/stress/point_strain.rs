@@ -256,7 +256,10 @@ impl<const D: usize> BondSystem<D> {
         motion: Motion<'a>,
         point: u32,
     ) -> impl Iterator<Item = Neighbour<D>> + 'a {
-        let others = self.far.iter().flat_map(move |far| far.neighbours(point));
+        let others = self
+            .far
+            .iter()
+            .flat_map(move |far| far.neighbours.at(point));
         others.map(move |other| {
             let [from, to] = [point, other].map(|it| self.cloud.positions[it as usize]);
             let along = minus(to, from);
@@ -273,7 +276,7 @@ impl<const D: usize> BondSystem<D> {
     /// Factor exp(-l/H)/l of each bond on the volumes of its ends, shape (n_bonds).
     pub(super) fn closeness(&self) -> &[f64] {
         self.closeness.get_or_init(|| {
-            let both = self.bonds.length.par_iter().zip(&self.bonds.horizon);
+            let both = self.bonds.length.par_iter().zip(&*self.bonds.horizon);
             both.map(|(length, horizon)| closeness(*length, *horizon))
                 .collect()
         })

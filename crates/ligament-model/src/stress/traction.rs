@@ -8,7 +8,7 @@ use rstar::{AABB, RTree};
 
 use crate::cloud::PointCloud;
 use crate::contact::ClosedPair;
-use crate::element::{DeformationOf, Element, Elements};
+use crate::element::Element;
 use crate::system::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::tensor::minus;
 
@@ -21,7 +21,7 @@ pub fn names<const D: usize>() -> &'static [&'static str] {
     }
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Traction at every point on the planes with a normal along each axis, shape (n_points, D D), in the order of [`names`], Pa.
     ///
     /// The planes of a point are segments, in space squares, of width w_i = (V_i/t)^(1/D), the point in their middle, and the mean is taken of those
@@ -41,7 +41,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
     pub(crate) fn tractions(
         &self,
         bonds: UnbrokenBonds<'_>,
-        deformations: &[DeformationOf<D, M, E>],
+        deformations: &[E::Deformation],
     ) -> Vec<f64> {
         let pull = |bond: usize| {
             let element = self.left(bonds, bond)?;
@@ -158,7 +158,7 @@ impl<'a, const D: usize> Planes<'a, D> {
     fn tractions(&self) -> Vec<[f64; D]> {
         let over_volume = |(sum, volume): (&[f64; D], &f64)| sum.map(|value| value / volume);
         let sums = self.sums.iter();
-        sums.zip(&self.cloud.volumes).map(over_volume).collect()
+        sums.zip(&*self.cloud.volumes).map(over_volume).collect()
     }
 }
 

@@ -3,12 +3,11 @@
 use rayon::prelude::*;
 
 use crate::deformation::{Deformation, Deformations};
-use crate::element::{DeformationOf, Element, Elements};
-use crate::interface::BondTopology;
+use crate::element::Element;
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Virial stress of every point, shape (n_points).
     pub(crate) fn virial_stresses(
         &self,
@@ -38,15 +37,18 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         deformations: &Deformations,
         point: u32,
     ) -> SymTensor<D> {
-        let elements = self.system.elements_at(self.layout(), deformations, point);
+        let elements = self
+            .system
+            .elements_at(self.topology.layout, deformations, point);
         let mut sum = elements.map_or(SymTensor::ZERO, |it| it.stress.scaled(it.volume));
-        let deformations: &[DeformationOf<D, M, E>] = Deformation::of_bonds(deformations);
+        let deformations: &[E::Deformation] = Deformation::of_bonds(deformations);
         for &bond in self.system.bonds.incidence.at(point) {
             let Some(element) = self.left(bonds, bond as usize) else {
                 continue;
             };
             let dyad = element.dyad(&deformations[bond as usize]);
-            sum = sum.plus(&dyad.scaled(self.share(bond, point)));
+            let is_first = self.topology.ends[bond as usize][0] == point;
+            sum = sum.plus(&dyad.scaled(self.system.rigidities.share(bond, is_first)));
         }
         let volume = self.system.cloud.volumes[point as usize];
         sum.map(|value| value / volume)

@@ -6,8 +6,8 @@ use super::{Corners, area_vector};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::contact::CutBond;
-use crate::interface::Topology;
 use crate::tensor::{dot, minus};
+use crate::topology::Families;
 
 /// A part of the face between the cells of two points: a segment, or a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,7 +44,7 @@ pub struct CrackFaces<const D: usize> {
 #[derive(Debug, Clone, Copy)]
 pub struct Bonded<'a> {
     /// Ends and families of all bonds.
-    pub topology: Topology<'a>,
+    pub families: Families<'a>,
     /// Whether each bond is unbroken, shape (n_bonds).
     pub intact: &'a [bool],
 }
@@ -52,14 +52,14 @@ pub struct Bonded<'a> {
 impl Bonded<'_> {
     /// Whether an unbroken bond connects two points.
     pub(super) fn joins(&self, one: u32, other: u32) -> bool {
-        bond_between(self.topology, [one, other]).is_some_and(|it| self.intact[it as usize])
+        bond_between(self.families, [one, other]).is_some_and(|it| self.intact[it as usize])
     }
 }
 
 /// The bond between two points; the neighbours of a point ascend in its list.
-fn bond_between(topology: Topology<'_>, [one, other]: [u32; 2]) -> Option<u32> {
-    let own = topology.incidence.at(one);
-    let place = own.binary_search_by_key(&other, |&bond| topology.neighbour(bond, one));
+fn bond_between(families: Families<'_>, [one, other]: [u32; 2]) -> Option<u32> {
+    let own = families.incidence.at(one);
+    let place = own.binary_search_by_key(&other, |&bond| families.neighbour(bond, one));
     place.ok().map(|place| own[place])
 }
 
@@ -92,14 +92,14 @@ impl<const D: usize> Boundaries<D> {
         cut: &[CutBond<D>],
     ) -> Self {
         faces.sort_by_key(|it| it.points);
-        let topology = Topology {
+        let families = Families {
             ends: &bonds.ends,
             incidence: &bonds.incidence,
-            far: None,
+            far_field: None,
         };
         let numbered = || (0..).zip(&faces);
         let bonded =
-            numbered().filter_map(|(face, it)| Some((bond_between(topology, it.points)?, face)));
+            numbered().filter_map(|(face, it)| Some((bond_between(families, it.points)?, face)));
         let mut of_bonds: Vec<(u32, u32)> = bonded.collect();
         of_bonds.sort_unstable();
         let mut parted: Vec<[u32; 2]> = cut.iter().map(|it| it.ends).collect();

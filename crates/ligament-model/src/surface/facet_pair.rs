@@ -788,8 +788,8 @@ mod tests {
     use super::super::facet::Corner;
     use super::*;
     use crate::bonds::Incidence;
-    use crate::interface::Topology;
     use crate::layout::{Component, Layout};
+    use crate::topology::Families;
 
     /// Facets of two sides, of all sizes up to 1 m and in all directions, in a box of 3 m.
     fn two_sides<const D: usize>() -> FacetPair<D> {
@@ -851,10 +851,10 @@ mod tests {
             now: &still,
             rigid: [Pose::default(); 2],
             bonds: Bonded {
-                topology: Topology {
+                families: Families {
                     ends: &[],
                     incidence: &incidence,
-                    far: None,
+                    far_field: None,
                 },
                 intact: &[],
             },

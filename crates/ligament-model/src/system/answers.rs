@@ -1,21 +1,15 @@
 //! Implementation of the interface to the equations for a bond system.
 
-use ligament_mesh::Numbering;
-
 use super::contact::Moved;
 use super::{BondSystem, ElementSystem, UnbrokenBonds};
-use crate::bonds::Incidence;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
 use crate::deformation::{Deformation, Deformations};
-use crate::element::{BondDeformation, DeformationOf, Element, Elements, StiffnessFactors, Term};
-use crate::failure::Criterion;
+use crate::element::{BondDeformation, Element, Rigidities, StiffnessFactors, Term};
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
-use crate::far_field::FarField;
 use crate::interface::{
-    BondContact, BondKinetics, BondReadings, BondTopology, CentralMotions, CoupledPoints,
-    FreeShapes, PointStiffness, StressReading, Stresses,
+    Bonds, CentralMotions, FreeShapes, PointStiffness, StressReading, Stresses,
 };
 use crate::layout::Component;
 use crate::product::NearLimits;
@@ -24,84 +18,18 @@ use crate::stress::carried::StrainReading;
 use crate::stress::point_strain::Motion;
 use crate::stress::stored::StoredMotions;
 use crate::stress::traction;
-use crate::subdomain::Subdomain;
 use crate::sweep::BondSweep;
 use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
+use crate::topology::Topology;
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for ElementSystem<D, M, E> {
-    fn n_points(&self) -> usize {
-        self.system.cloud.len()
+impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D, M, E> {
+    fn topology(&self) -> &Topology {
+        &self.topology
     }
 
-    fn numbering(&self) -> &Numbering {
-        &self.system.cloud.numbering
-    }
-
-    fn subdomain(&self) -> &Subdomain {
-        &self.system.cloud.subdomain
-    }
-
-    fn components(&self) -> &'static [Component] {
-        &E::COMPONENTS
-    }
-
-    fn strain_names(&self) -> &'static [&'static str] {
-        self.system.element.strain_names()
-    }
-
-    fn ends(&self) -> &[[u32; 2]] {
-        &self.system.bonds.ends
-    }
-
-    fn incidence(&self) -> &Incidence {
-        &self.system.bonds.incidence
-    }
-
-    fn elements_at_points(&self) -> &Incidence {
-        self.reach().bonds
-    }
-
-    fn coupled_points(&self) -> CoupledPoints<'_> {
-        if let Some(far) = &self.system.far {
-            return far.coupled_points();
-        }
-        let of_elements = self.elements.couplings().map(|[_, points]| points);
-        match of_elements.or(self.system.faces.coupled()) {
-            Some(points) => CoupledPoints {
-                lists: points,
-                ends: None,
-            },
-            None => CoupledPoints {
-                lists: &self.system.bonds.incidence,
-                ends: Some(&self.system.bonds.ends),
-            },
-        }
-    }
-
-    fn far_field(&self) -> Option<CoupledPoints<'_>> {
-        self.system.far.as_ref().map(FarField::neighbours_of_points)
-    }
-
-    fn volumes(&self) -> &[f64] {
-        &self.system.cloud.volumes
-    }
-
-    fn spacing(&self) -> &[f64] {
-        &self.system.cloud.spacing
-    }
-
-    fn horizons(&self) -> &[f64] {
-        &self.system.bonds.horizon
-    }
-
-    fn weights(&self) -> &[f64] {
-        &self.system.weight
-    }
-
-    fn share(&self, bond: u32, point: u32) -> f64 {
-        self.elements
-            .share(&self.system.bonds, &self.system.rigidities, bond, point)
+    fn rigidities(&self) -> &Rigidities {
+        &self.system.rigidities
     }
 
     fn extent(&self) -> f64 {
@@ -111,46 +39,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondTopology for Element
     fn halve(&self, points: &mut [u32]) {
         self.system.cloud.halve(points);
     }
-}
-
-impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for ElementSystem<D, M, E> {
-    fn is_linear(&self) -> bool {
-        self.elements.is_linear()
-    }
-
-    fn has_energy(&self) -> bool {
-        self.elements.has_energy()
-    }
-
-    fn all_positive(&self) -> bool {
-        let mut of_springs = self.system.rigidities.of_springs();
-        !self
-            .subdomain()
-            .any(!of_springs.all(|&rigidity| rigidity > 0.0))
-    }
-
-    fn some_negative(&self) -> bool {
-        let here = self.elements.some_negative(&self.system.rigidities);
-        self.subdomain().any(here)
-    }
-
-    fn some_negative_shear(&self) -> bool {
-        let mut shear = self.system.rigidities.shear.iter();
-        self.subdomain().any(shear.any(|&rigidity| rigidity < 0.0))
-    }
-
-    fn resisted(&self) -> Vec<bool> {
-        let (layout, subdomain) = (self.layout(), self.subdomain());
-        self.system
-            .rigidities
-            .resisted(&self.system.bonds.ends, layout, subdomain)
-    }
 
     fn point_stiffness(&self) -> Vec<PointStiffness> {
         let BondSystem {
             rigidities, bonds, ..
         } = &self.system;
-        let mut all = PointStiffness::of_bonds(rigidities, bonds, self.subdomain());
+        let mut all = PointStiffness::of_bonds(rigidities, bonds, &self.topology.subdomain);
         if let Some(far) = &self.system.far {
             for (point, of_point) in (0..).zip(&mut all) {
                 of_point.force += far.stiffness_at(point);
@@ -190,7 +84,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
     }
 
     fn rigid_shapes(&self, points: &[u32]) -> Vec<Vec<f64>> {
-        let (layout, positions) = (self.layout(), &self.system.cloud.positions);
+        let (layout, positions) = (self.topology.layout, &self.system.cloud.positions);
         RigidMotions::new(layout, positions, points, Turn::OfPointsAlong).shapes(points)
     }
 
@@ -209,12 +103,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
             centre: (middle.iter().zip(cloud.origin))
                 .map(|(middle, origin)| middle + origin)
                 .collect(),
-            motions: rigid_motions::columns(self.layout(), &cloud.positions, middle),
+            motions: rigid_motions::columns(self.topology.layout, &cloud.positions, middle),
         }
     }
 
     fn motions_of_strain(&self) -> Vec<Vec<f64>> {
-        self.system.cloud.motions_of_strain(self.components().len())
+        self.system.cloud.motions_of_strain(M)
     }
 
     fn deformations(
@@ -253,7 +147,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
     }
 
     fn add_blocks(&self, bonds: UnbrokenBonds<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
-        for &bond in self.elements_at_points().at(point) {
+        for &bond in self.topology.elements_at_points.at(point) {
             let Some(element) = self.left(bonds, bond as usize) else {
                 continue;
             };
@@ -306,9 +200,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondKinetics for Element
     ) -> Box<dyn ChangedElements> {
         self.changed(left, displacement, expansion, bonds)
     }
-}
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for ElementSystem<D, M, E> {
     fn mutual_energy(
         &self,
         intact: &[bool],
@@ -338,15 +230,18 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         deformations: &Deformations,
         point: u32,
     ) -> f64 {
-        let elements = self.system.elements_at(self.layout(), deformations, point);
+        let elements = self
+            .system
+            .elements_at(self.topology.layout, deformations, point);
         let of_elements = elements.map_or(0.0, |it| it.energy());
-        let deformations: &[DeformationOf<D, M, E>] = of_bonds(deformations);
+        let deformations: &[E::Deformation] = of_bonds(deformations);
         let family = self.system.bonds.incidence.at(point).iter();
         let shares = family.filter_map(|&bond| {
             let element = self.left(bonds, bond as usize)?;
             let deformation = &deformations[bond as usize];
             let energy = element.mutual_energy(deformation, deformation);
-            Some(self.share(bond, point) * energy)
+            let is_first = self.topology.ends[bond as usize][0] == point;
+            Some(self.system.rigidities.share(bond, is_first) * energy)
         });
         (shares.sum::<f64>() + of_elements) / self.system.cloud.volumes[point as usize]
     }
@@ -383,7 +278,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
     }
 
     fn stresses_by_material(&self, reading: StrainReading<'_>) -> Stresses {
-        let stresses = self.system.stresses_by_material(self.layout(), reading);
+        let stresses = self
+            .system
+            .stresses_by_material(self.topology.layout, reading);
         Stresses {
             names: SymTensor::<D>::NAMES,
             values: stresses.iter().flat_map(components_or_nan).collect(),
@@ -391,7 +288,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
     }
 
     fn stress_by_material(&self, reading: StrainReading<'_>, point: u32) -> Vec<f64> {
-        let strain = self.system.strain_by(self.layout(), reading, point);
+        let strain = self.system.strain_by(self.topology.layout, reading, point);
         let stress = strain.and_then(|it| self.system.stress_of(point, &it));
         components_or_nan(&stress)
     }
@@ -402,12 +299,12 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         deformations: &[BondDeformation],
         moduli: &(dyn Fn(usize) -> Moduli + Sync),
     ) -> Vec<StressAcross> {
-        let (system, layout) = (&self.system, self.layout());
+        let (system, layout) = (&self.system, self.topology.layout);
         system.stresses_across(layout, motion, deformations, moduli)
     }
 
     fn stored_motions(&self) -> Option<Box<dyn StoredMotions + '_>> {
-        self.system.stored_motions(self.layout())
+        self.system.stored_motions(self.topology.layout)
     }
 
     fn utilisations(
@@ -416,7 +313,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         deformations: &[BondDeformation],
         starting: &Starting,
     ) -> Vec<f64> {
-        let (system, layout) = (&self.system, self.layout());
+        let (system, layout) = (&self.system, self.topology.layout);
         system.utilisations(layout, motion, deformations, starting)
     }
 
@@ -427,8 +324,14 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         crossing: &[(u32, bool)],
         component: Component,
     ) -> f64 {
-        let deformations: &[DeformationOf<D, M, E>] = of_bonds(deformations);
-        let Some(place) = E::COMPONENTS.iter().position(|it| *it == component) else {
+        let deformations: &[E::Deformation] = of_bonds(deformations);
+        let Some(place) = self
+            .topology
+            .layout
+            .components
+            .iter()
+            .position(|it| *it == component)
+        else {
             return 0.0;
         };
         let pulls = crossing.iter().filter_map(|&(bond, first_is_near)| {
@@ -440,22 +343,13 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondReadings for Element
         pulls.sum()
     }
 
-    fn energy_at(&self, criterion: &Criterion, limit: f64, bond: usize) -> f64 {
-        criterion.energy_at(limit, &self.system.rigidities, bond)
-    }
-}
-
-impl<const D: usize, const M: usize, E: Elements<D, M>> BondContact for ElementSystem<D, M, E> {
-    fn faces_close(&self) -> bool {
-        self.system.faces.close()
-    }
-
     fn contact_pairs(&self, intact: &[bool]) -> Vec<ContactPair> {
-        self.system.contact_pairs(self.layout(), intact)
+        self.system.contact_pairs(self.topology.layout, intact)
     }
 
     fn changed_pairs(&self, intact: &[bool], broken: &[u32]) -> Vec<(u32, Option<ContactPair>)> {
-        self.system.changed_pairs(self.layout(), intact, broken)
+        self.system
+            .changed_pairs(self.topology.layout, intact, broken)
     }
 
     fn overlap(
@@ -466,11 +360,11 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> BondContact for ElementS
         beyond: f64,
         asked: &[bool],
     ) -> Option<Overlap> {
-        if self.faces_close() {
+        if self.topology.faces_close {
             return None;
         }
         let moved = Moved {
-            layout: self.layout(),
+            layout: self.topology.layout,
             motions: displacement,
             expansion,
         };

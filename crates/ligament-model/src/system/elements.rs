@@ -5,27 +5,20 @@ use std::sync::Arc;
 
 use super::{BondSystem, ElementSystem};
 use crate::dimension::cast;
-use crate::element::beam::BeamBond;
-use crate::element::imaginary::ImaginaryElements;
-use crate::element::pair::Pairs;
-use crate::element::pairwise::PairwiseElements;
-use crate::element::spring::SpringBond;
-use crate::element::true_strain::TrueStrainElements;
-use crate::element::{ElementKind, Elements};
+use crate::element::imaginary::{ImaginaryElement, ImaginaryElements};
+use crate::element::pair::Pair;
+use crate::element::pairwise::{PairwiseElement, PairwiseElements};
+use crate::element::true_strain::TrueStrainElement;
+use crate::element::{Element, ElementKind};
 use crate::interface::Bonds;
 use crate::law::mbb_pd;
 
 impl<const D: usize> BondSystem<D> {
-    /// The system with elements of a given type.
-    pub fn typed<const M: usize, E: Elements<D, M>>(self, elements: E) -> Arc<dyn System<D>> {
-        Arc::new(ElementSystem {
-            system: self,
-            elements,
-        })
+    /// The system with elements of a given type and what these share.
+    fn typed<const M: usize, E: Element<D, M>>(self, lattice: E::Lattice) -> Arc<dyn System<D>> {
+        Arc::new(ElementSystem::<D, M, E>::new(self, lattice))
     }
-}
 
-impl<const D: usize> BondSystem<D> {
     /// The system with the elements of its kind.
     ///
     /// # Panics
@@ -43,15 +36,15 @@ impl<const D: usize> BondSystem<D> {
 fn in_plane(system: BondSystem) -> Option<Arc<dyn System<2>>> {
     let lattice = || ImaginaryElements::new(&system.bonds, system.cloud.positions.clone());
     Some(match system.element {
-        ElementKind::Beam => system.typed(Pairs::<BeamBond<2>>::default()),
-        ElementKind::Spring => system.typed(Pairs::<SpringBond<2>>::default()),
+        ElementKind::Beam => system.typed::<3, Pair<2, 3>>(()),
+        ElementKind::Spring => system.typed::<2, Pair<2, 2>>(()),
         ElementKind::Imaginary => {
             let lattice = lattice();
-            system.typed(lattice)
+            system.typed::<2, ImaginaryElement>(lattice)
         }
         ElementKind::TrueStrain => {
             let lattice = lattice();
-            system.typed(TrueStrainElements { lattice })
+            system.typed::<2, TrueStrainElement>(lattice)
         }
         ElementKind::Pairwise => {
             let elements = PairwiseElements {
@@ -59,7 +52,7 @@ fn in_plane(system: BondSystem) -> Option<Arc<dyn System<2>>> {
                 row_factors: mbb_pd::pairwise::row_factors(&system.bonds, &system.cloud),
                 spacing: system.cloud.cell_size(0),
             };
-            system.typed(elements)
+            system.typed::<2, PairwiseElement>(elements)
         }
     })
 }
@@ -67,8 +60,8 @@ fn in_plane(system: BondSystem) -> Option<Arc<dyn System<2>>> {
 /// Returns `None` for imaginary elements, which exist in the plane only.
 fn in_space(system: BondSystem<3>) -> Option<Arc<dyn System<3>>> {
     match system.element {
-        ElementKind::Beam => Some(system.typed(Pairs::<BeamBond<3>>::default())),
-        ElementKind::Spring => Some(system.typed(Pairs::<SpringBond<3>>::default())),
+        ElementKind::Beam => Some(system.typed::<6, Pair<3, 6>>(())),
+        ElementKind::Spring => Some(system.typed::<3, Pair<3, 3>>(())),
         ElementKind::Imaginary | ElementKind::TrueStrain | ElementKind::Pairwise => None,
     }
 }
@@ -90,7 +83,7 @@ impl<const D: usize> Deref for dyn System<D> + '_ {
     }
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> System<D> for ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> System<D> for ElementSystem<D, M, E> {
     fn parts(&self) -> &BondSystem<D> {
         &self.system
     }

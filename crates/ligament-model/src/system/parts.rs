@@ -1,8 +1,8 @@
 //! Connected parts of a body whose points belong to several processes, as all of these know them.
 
 use super::ElementSystem;
-use crate::element::Elements;
-use crate::interface::{BondTopology, FreeShapes};
+use crate::element::Element;
+use crate::interface::FreeShapes;
 use crate::layout::Layout;
 use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
 
@@ -30,7 +30,7 @@ pub(super) struct Part<const D: usize> {
     given: Vec<Given>,
 }
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// The part of which this process owns some points, or none where its fixed degrees of freedom prevent all rigid motions: several processes
     /// then exchange no other points. Collective.
     pub(super) fn free_part(
@@ -46,8 +46,8 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
             force: 0.0,
         };
         let turn = self.turn(points);
-        if !self.subdomain().is_whole() {
-            let layout = self.layout();
+        if !self.topology.subdomain.is_whole() {
+            let layout = self.topology.layout;
             let has_fixed = |point: &u32| layout.range(*point).any(|dof| given(dof).is_fixed);
             let fixed: Vec<u32> = points.iter().copied().filter(has_fixed).collect();
             let of_fixed = self.part(&fixed, turn, given);
@@ -76,7 +76,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
 
     /// The part of which this process owns some points, with values at their degrees of freedom; collective.
     fn part(&self, points: &[u32], turn: Turn, given: &dyn Fn(usize) -> Given) -> Part<D> {
-        let (cloud, layout) = (&self.system.cloud, self.layout());
+        let (cloud, layout) = (&self.system.cloud, self.topology.layout);
         let row = |&point: &u32| {
             let at_point = layout.range(point).flat_map(|dof| {
                 let Given {

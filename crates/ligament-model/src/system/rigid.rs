@@ -1,17 +1,16 @@
 //! Rigid motions that the bonds of a system do not resist.
 
 use super::{BondSystem, ElementSystem};
-use crate::element::Elements;
-use crate::interface::BondTopology;
+use crate::element::Element;
 use crate::rigid_motions::{RigidMotions, Turn};
 
-impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
+impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Whether a fixed degree of freedom holds its point: the rotation of a point of the far field alone has no effect.
     pub(super) fn resisting<'a>(
         &'a self,
         is_fixed: &'a dyn Fn(usize) -> bool,
     ) -> impl Fn(usize) -> bool + use<'a, D, M, E> {
-        let layout = self.layout();
+        let layout = self.topology.layout;
         let has_bonds = move |dof| !self.system.bonds.incidence.at(layout.point(dof)).is_empty();
         let has_effect = move |dof| {
             self.system.far.is_none() || !layout.component(dof).is_rotation() || has_bonds(dof)
@@ -24,7 +23,7 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         let cloud = &self.system.cloud;
         let owned: Vec<u32> = cloud.subdomain.owned().collect();
         let all: Vec<u32> = (0..cloud.len() as u32).collect();
-        let (layout, subdomain) = (self.layout(), &cloud.subdomain);
+        let (layout, subdomain) = (self.topology.layout, &cloud.subdomain);
         RigidMotions::of_body(layout, &cloud.positions, &owned, subdomain).shapes(&all)
     }
 
@@ -35,10 +34,9 @@ impl<const D: usize, const M: usize, E: Elements<D, M>> ElementSystem<D, M, E> {
         } = &self.system;
         let mut bonds = (points.iter()).flat_map(|&point| bonds.incidence.at(point));
         let resist = bonds.any(|&bond| rigidities.resist_rotations(bond as usize));
-        let resist = self.subdomain().any(resist);
-        let turn_points = E::COMPONENTS.iter().any(|it| it.is_rotation());
-        match (resist, self.elements.rotates_freely()) {
-            (true, true) if turn_points => Turn::OfPointsAlong,
+        let resist = self.topology.subdomain.any(resist);
+        match (resist, self.topology.element.rotates_freely()) {
+            (true, true) if M > D => Turn::OfPointsAlong,
             (true, false) => Turn::Costly,
             (false, _) | (true, true) => Turn::OfPositions,
         }

@@ -110,8 +110,8 @@ impl<'a> ResultWriter<'a> {
             model_file::write(folder.path(), grid, fixed, problem, None)?;
         }
         // Where the body is divided, each process would have the largest utilisations of its own bonds only.
-        let can_fail = !problem.criteria.list.is_empty() && problem.system.subdomain().is_whole();
-        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends().len()));
+        let can_fail = !problem.criteria.list.is_empty() && problem.system.subdomain.is_whole();
+        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends.len()));
         let mut writer = Self {
             folder,
             grid,
@@ -156,7 +156,7 @@ impl<'a> ResultWriter<'a> {
             whole,
         } = so_far;
         // Where the body is divided, this process does not have all bonds.
-        let is_whole = problem.system.subdomain().is_whole();
+        let is_whole = problem.system.subdomain.is_whole();
         let (softening, largest) = (softening.filter(|_| is_whole), largest.filter(|_| is_whole));
         if rule.model {
             model_file::write(folder.path(), grid, fixed, problem, None)?;
@@ -247,7 +247,7 @@ impl<'a> ResultWriter<'a> {
         let intact = view.state.intact.iter();
         let state: Vec<i64> = intact.map(|&intact| i64::from(intact)).collect();
         let displacement = displacements(view);
-        let lines = Lines::new(self.grid, system.ends(), &[]);
+        let lines = Lines::new(self.grid, &system.ends, &[]);
         let mut cell_fields = vec![
             Field::integer("intact", &state),
             Field::scalar("utilisation", &utilisation),
@@ -265,7 +265,7 @@ impl<'a> ResultWriter<'a> {
             &self.folder.file(&name),
             self.grid,
             [&displacement, &cell_fields],
-            (system.subdomain(), &rule::field_data(record)),
+            (&system.subdomain, &rule::field_data(record)),
         )?;
         self.keep(&name)?;
         self.bonds_collection.append(rule::time(record), name)
@@ -337,7 +337,7 @@ impl Observer for ResultWriter<'_> {
 
 /// Sets the steps of breaking of the bonds on this process.
 fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u32)]) {
-    let (ends, subdomain) = (problem.system.ends(), problem.system.subdomain());
+    let (ends, subdomain) = (&problem.system.ends, &problem.system.subdomain);
     for (of_bond, step) in breaks {
         let [a, b] = of_bond.map(|end| subdomain.point(end));
         let bond = a.zip(b).map(|(a, b)| ends.binary_search(&[a, b]));
@@ -350,7 +350,7 @@ fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u3
 /// Name of the field file of a state.
 fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
     let stem = format!("fields_{:04}", record.step);
-    vtu::file_name(&stem, view.system.subdomain())
+    vtu::file_name(&stem, &view.system.subdomain)
 }
 
 fn failed(result: Result<(), Error>) -> Result<(), ObserverError> {

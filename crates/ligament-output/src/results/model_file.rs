@@ -69,17 +69,17 @@ pub(super) fn write(
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
     let of_absent: Vec<[u32; 2]> = absent.iter().map(|pair| pair.ends).collect();
-    let lines = Lines::new(grid, system.ends(), &of_absent);
+    let lines = Lines::new(grid, &system.ends, &of_absent);
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
-    let absence: Vec<i64> = std::iter::repeat_n(0, system.ends().len())
+    let absence: Vec<i64> = std::iter::repeat_n(0, system.ends.len())
         .chain(absent.iter().map(|pair| pair.absence.number()))
         .collect();
-    let horizon: Vec<f32> = (system.horizons().iter())
+    let horizon: Vec<f32> = (system.horizons.iter())
         .chain(absent.iter().map(|pair| &pair.horizon))
         .map(|&horizon| horizon as f32)
         .collect();
     let nothing = std::iter::repeat_n(f32::NAN, n_absent);
-    let alpha: Vec<f32> = (system.weights().iter().zip(&fixed.domain_factor))
+    let alpha: Vec<f32> = (system.weights.iter().zip(&fixed.domain_factor))
         .map(|(weight, omega)| (weight / omega) as f32)
         .chain(nothing.clone())
         .collect();
@@ -106,13 +106,13 @@ pub(super) fn write(
     cell_fields.extend(dissipated.map(|it| Field::scalar(DISSIPATED_ENERGY, it)));
     let groups = groups(problem);
     let mut point_fields = vec![
-        Field::scalar(VOLUME.name, system.volumes()),
+        Field::scalar(VOLUME.name, &system.volumes),
         Field::scalar(HORIZON.name, &fixed.horizon),
         Field::integer("no_fail", &no_fail),
         Field::integer(grid.tagged, &grid.tags),
     ];
     point_fields.extend(groups.iter().map(|(name, at)| Field::integer(name, at)));
-    let subdomain = system.subdomain();
+    let subdomain = &system.subdomain;
     let path = folder.join(vtu::file_name(MODEL, subdomain));
     let fields = [&point_fields[..], &cell_fields];
     lines.write(&path, grid, fields, (subdomain, &[]))
@@ -120,7 +120,7 @@ pub(super) fn write(
 
 /// Fields of the supported and loaded points: a name and 1 at its points for each group.
 fn groups(problem: &Problem) -> Vec<(String, Vec<i64>)> {
-    let n_points = problem.system.volumes().len();
+    let n_points = problem.system.volumes.len();
     let field = |group: &BoundaryGroup| {
         let mut at = vec![0; n_points];
         for &point in &group.points {

@@ -29,12 +29,12 @@ pub fn write_modes(
     fixed: &ConstantFields,
     outcome: &ModalOutcome,
 ) -> Result<(), Error> {
-    let layout = system.layout();
+    let layout = system.layout;
     let columns = names(MODES, layout.is_in_space());
     let model = ModelPoints {
         fixed,
-        volumes: system.volumes(),
-        spacing: system.spacing(),
+        volumes: &system.volumes,
+        spacing: &system.spacing,
     };
     let mut table = Table::create(folder.file("modes.csv"), &columns)?;
     let mut collection = Collection::new(folder.file("modes.pvd"));
@@ -72,7 +72,7 @@ pub fn write_modes(
         let fields: Vec<Field<'_>> = fields.chain([tags]).chain(fixed_fields(model)).collect();
         let time = f64::from(number);
         let field_data = [(TIME_VALUE, time), ("frequency_hz", mode.frequency())];
-        let whole = (system.subdomain(), &field_data[..]);
+        let whole = (&system.subdomain, &field_data[..]);
         write_grid(&folder.file(&name), grid, &fields, whole)?;
         collection.append(time, name)?;
     }

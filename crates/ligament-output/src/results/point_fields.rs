@@ -28,9 +28,9 @@ pub(super) fn write(
     (record, view): (&StepRecord, &View<'_>),
 ) -> Result<(), Error> {
     let system = view.system;
-    let in_space = system.layout().is_in_space();
+    let in_space = system.layout.is_in_space();
     let mut values = point_fields(rule, view);
-    let ghosts = corners(grid, system.subdomain());
+    let ghosts = corners(grid, &system.subdomain);
     for (field, values) in &mut values {
         // Only the owner of a point has all of its bonds.
         if let FieldValues::Numbers(values) = values {
@@ -46,10 +46,10 @@ pub(super) fn write(
     }
     fields.extend(fixed_fields(ModelPoints {
         fixed,
-        volumes: system.volumes(),
-        spacing: system.spacing(),
+        volumes: &system.volumes,
+        spacing: &system.spacing,
     }));
-    let whole = (system.subdomain(), &field_data(record)[..]);
+    let whole = (&system.subdomain, &field_data(record)[..]);
     write_grid(path, grid, &fields, whole)
 }
 

@@ -30,12 +30,12 @@ pub struct OutputState {
 impl OutputState {
     /// Whether the state matches a problem.
     pub fn fits(&self, problem: &Problem) -> bool {
-        let (n_bonds, n_criteria) = (problem.system.ends().len(), problem.criteria.list.len());
-        let n_points = problem.system.subdomain().n_all() as u32;
+        let (n_bonds, n_criteria) = (problem.system.ends.len(), problem.criteria.list.len());
+        let n_points = problem.system.subdomain.n_all() as u32;
         let is_bond = |ends: &[u32; 2]| ends.iter().all(|&end| end < n_points);
         let mut bonds = self.breaks.iter();
         // The number of processes may change between checkpoint and resumption.
-        let n_bonds = problem.system.subdomain().is_whole().then_some(n_bonds);
+        let n_bonds = problem.system.subdomain.is_whole().then_some(n_bonds);
         let mut largest = self.largest.iter();
         let mut first = [self.first.broken, self.first.softened]
             .into_iter()

@@ -104,7 +104,7 @@ impl SofteningTable {
         problem: &Problem,
         tagged: &str,
     ) -> Result<Option<Self>, Error> {
-        if !problem.criteria.soften() || !problem.system.subdomain().is_whole() {
+        if !problem.criteria.soften() || !problem.system.subdomain.is_whole() {
             return Ok(None);
         }
         let columns: Vec<&str> = (names(SOFTENING, false).into_iter())
@@ -114,7 +114,7 @@ impl SofteningTable {
         Ok(Some(Self {
             table: Table::create(folder.file(FILE), &columns)?,
             criteria: labels_of(problem),
-            softened: SoftenedBonds::new(problem.system.ends().len()),
+            softened: SoftenedBonds::new(problem.system.ends.len()),
         }))
     }
 
@@ -150,7 +150,7 @@ impl SofteningTable {
         grid: &BodyGrid,
     ) -> Result<(), Error> {
         for it in self.softened.step(view) {
-            let ends = grid.tags_of(view.system.ends()[it.bond]);
+            let ends = grid.tags_of(view.system.ends[it.bond]);
             for event in &EVENTS[usize::from(it.before)..usize::from(it.now)] {
                 self.table.append(&[
                     record.step.into(),
@@ -211,7 +211,7 @@ impl SoftenedBonds {
                 }
             }
         }
-        let (numbering, ends) = (view.system.numbering(), view.system.ends());
+        let (numbering, ends) = (&view.system.numbering, &view.system.ends);
         let in_file = |bond: usize| numbering.ends_in_file(ends[bond]);
         changed.sort_by(|one, other| {
             let tied = || in_file(one.1).cmp(&in_file(other.1));

@@ -99,7 +99,7 @@ pub(super) struct Tables {
 
 /// Names of the components of a bond's deformation in results, without the relative rotation of the ends, which enters no criterion.
 pub(super) fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
-    told(system.strain_names())
+    told(system.element.strain_names())
 }
 
 /// Names of the stored components of a bond's deformation: all names but a last `rotation`.
@@ -122,15 +122,15 @@ fn named<R>(columns: &'static [Reading<R>], name: &str, in_space: bool) -> Vec<S
 /// Names of the columns of the history of a problem.
 pub fn history_columns(problem: &Problem) -> Vec<String> {
     let groups = problem.loads.groups().iter();
-    let of_body = problem.system.layout().of_body();
+    let of_body = problem.system.layout.of_body();
     let of_groups = groups.flat_map(|group| {
         let names = of_body.iter().map(|it| it.force_name());
         names.map(|it| format!("{}.{it}", group.name))
     });
-    let closing = CLOSING.iter().filter(|_| problem.system.faces_close());
+    let closing = CLOSING.iter().filter(|_| problem.system.faces_close);
     let contact = CONTACT.iter().filter(|_| problem.has_contact_at_rest());
     let motion = MOTION.iter().filter(|_| problem.loads.is_in_time());
-    let in_space = problem.system.layout().is_in_space();
+    let in_space = problem.system.layout.is_in_space();
     let contacts = problem.contact.contacts.iter().map(|it| &it.name);
     let contacts = contacts.flat_map(|it| named(CONTACTS, it, in_space));
     let rigid = problem.contact.rigid_bodies.iter().map(|it| &it.name);
@@ -155,7 +155,7 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
         row.push(stage.into());
         row.extend(record.factors.iter().map(|&factor| Value::from(factor)));
     }
-    let closing = CLOSING.iter().filter(|_| view.system.faces_close());
+    let closing = CLOSING.iter().filter(|_| view.system.faces_close);
     row.extend(closing.map(|column| column.1(record)));
     if let Some(contact) = &record.contact {
         row.extend(CONTACT.iter().map(|column| column.1(contact)));
@@ -164,7 +164,7 @@ pub fn history_row<'a>(record: &StepRecord, view: &View<'a>) -> Vec<Value<'a>> {
         let moment = (record.load_factor, *motion);
         row.extend(MOTION.iter().map(|column| column.1(&moment)));
     }
-    let layout = view.system.layout();
+    let layout = view.system.layout;
     let of_groups = record.group_forces.iter().flat_map(|force| {
         // The resultant of a group has the layout of one point.
         let of_body = layout.of_body().iter();

@@ -34,7 +34,7 @@ pub(crate) fn certificate(
         return Ok(None);
     };
     let is_cracked = last.broken_bonds > 0 || outcome.softened_bonds > 0;
-    let is_traced = model.system.subdomain().is_whole() && model.system.n_points() <= MOST_POINTS;
+    let is_traced = model.system.subdomain.is_whole() && model.system.n_points() <= MOST_POINTS;
     let area = match is_cracked && is_traced {
         // A body whose points have no cells has no faces along which a crack could be traced.
         true => crack_area(folder, last.step)

@@ -34,9 +34,9 @@ pub struct OfPoints {
 impl OfPoints {
     /// Sums and extremes over the points of all processes; collective.
     pub fn new(model: &Model) -> Self {
-        let subdomain = model.system.subdomain();
+        let subdomain = &model.system.subdomain;
         let owned = || subdomain.owned().map(|point| point as usize);
-        let (volumes, no_fail) = (model.system.volumes(), &model.fixed.no_fail);
+        let (volumes, no_fail) = (&model.system.volumes, &model.fixed.no_fail);
         let spread = |values: &[f64]| Spread::over_points(subdomain, values);
         let ratios = model.fixed.energy_ratios.iter();
         Self {
@@ -56,7 +56,7 @@ pub(super) fn model_summary(case: &CaseFile, model: &Model, of_points: OfPoints)
         version: env!("CARGO_PKG_VERSION").into(),
         analysis: analysis_words(&model.setup),
         formulation: formulation_words(model),
-        points: model.system.subdomain().n_all(),
+        points: model.system.subdomain.n_all(),
         bonds: model.counts.bonds,
         cut_bonds: model.cut_bonds(),
         far_points: model.counts.far_points,
@@ -83,7 +83,7 @@ fn first_with_others(all: Vec<ScatterSummary>) -> Option<ScatterSummary> {
 pub fn scatter(model: &Model) -> Vec<ScatterSummary> {
     let factors = model.fixed.scatter.iter().enumerate();
     let seed = |place| seed_at(&model.setup.scatter, place);
-    let subdomain = model.system.subdomain();
+    let subdomain = &model.system.subdomain;
     factors
         .map(|(place, it)| scatter_of(subdomain, it, seed(place)))
         .collect()
@@ -141,7 +141,7 @@ fn formulation_words(model: &Model) -> String {
 /// Smallest, mean and largest number of bonds of a point.
 pub fn family(model: &Model) -> Spread {
     let [min, max] = model.counts.of_points.map(|it| it as f64);
-    let n_points = model.system.subdomain().n_all() - model.counts.far_points;
+    let n_points = model.system.subdomain.n_all() - model.counts.far_points;
     Spread {
         min,
         mean: (2 * model.counts.bonds) as f64 / n_points.max(1) as f64,

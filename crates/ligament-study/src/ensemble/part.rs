@@ -48,7 +48,7 @@ impl Counts {
         for point in first.collect::<BTreeSet<u32>>() {
             self.first_break[point as usize] += 1;
         }
-        let bonds = ensemble.problem().system.ends().iter();
+        let bonds = ensemble.problem().system.ends.iter();
         let bonds = bonds.zip(&sample.path.outcome.state.intact);
         let broken = bonds.filter(|(_, intact)| !**intact);
         for point in broken

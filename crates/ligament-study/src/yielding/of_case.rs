@@ -24,7 +24,7 @@ pub(super) fn criteria(
     request: &Request,
     model: &Model,
 ) -> anyhow::Result<Vec<(String, Criteria)>> {
-    let n_bonds = model.system.ends().len();
+    let n_bonds = model.system.ends.len();
     if !request.combinations.is_empty() {
         let values = poisson(request, model)?;
         let first = values[0];

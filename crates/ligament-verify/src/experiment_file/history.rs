@@ -110,7 +110,7 @@ impl Watch {
             other => bail!("no velocity of `{other}`"),
         };
         let body = solution.model.plane();
-        let (layout, cloud) = (body.layout(), &body.cloud);
+        let (layout, cloud) = (body.topology().layout, &body.cloud);
         let x = |point: u32| cloud.positions[point as usize][0] + cloud.origin[0];
         let sum = |velocities: &Vec<f64>| {
             let points = (0..cloud.len() as u32).filter(|&point| x(point) > from);

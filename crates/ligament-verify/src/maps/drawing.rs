@@ -43,7 +43,7 @@ pub(super) enum Quantity {
 impl Motion {
     /// The motion of a lattice by the values of all its degrees of freedom.
     pub(super) fn of_lattice(system: &dyn System<2>, of_all: &[f64]) -> anyhow::Result<Self> {
-        let (cloud, layout) = (&system.cloud, system.layout());
+        let (cloud, layout) = (&system.cloud, system.topology().layout);
         let [spacing, _] = cloud.lattice_cell.context("the body is no lattice")?;
         let points = 0..cloud.len() as u32;
         let value = |point, component| layout.value(point, component, of_all);

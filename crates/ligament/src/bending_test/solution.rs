@@ -112,7 +112,7 @@ struct Solver {
 
 impl Solver {
     fn new<const D: usize>(system: Arc<dyn Bonds>, strip: &Strip<D>) -> Result<Self, Untested> {
-        let layout = system.layout();
+        let layout = system.layout;
         let state = State::fresh(&*system);
         let problem = Problem {
             solver: strip.setup.solver.for_few_solutions(&*system),

@@ -99,7 +99,8 @@ pub(super) fn require_rotational_stiffness<const D: usize>(
     let Some(load) = setup.loads.iter().position(is_couple) else {
         return Ok(());
     };
-    let (bonds, resisted) = (system.layout(), system.resisted());
+    let (bonds, subdomain) = (system.layout, &system.subdomain);
+    let resisted = (system.rigidities()).resisted(&system.ends, bonds, subdomain);
     let rotations = || {
         Component::in_dimensions(D)
             .iter()

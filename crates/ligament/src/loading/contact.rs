@@ -159,8 +159,8 @@ impl<'a, const D: usize> Outline<'a, D> {
             return Arc::new(FacetPair::new(surface, opposite, law.friction));
         }
         let bonds = Bonded {
-            topology: self.system.topology(),
-            intact: &vec![true; self.system.ends().len()],
+            families: self.system.topology().families(),
+            intact: &vec![true; self.system.topology().ends.len()],
         };
         Arc::new(UndeformedPair::new(surface, opposite, bonds))
     }
@@ -174,7 +174,7 @@ impl<'a, const D: usize> Outline<'a, D> {
             let mean = facet.points().map(of_point).sum::<f64>() / count;
             Some((*facet, (*side)?, law.stiffness * mean))
         });
-        let mut surface = Surface::new(self.system.layout(), facets.collect());
+        let mut surface = Surface::new(self.system.topology().layout, facets.collect());
         if let Some(boundaries) = &self.boundaries {
             let points = sides.of_points.iter().zip(&self.stiffness);
             let of_point = |(side, stiffness): (&Option<u32>, &f64)| {

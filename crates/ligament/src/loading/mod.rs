@@ -86,7 +86,7 @@ impl Loading {
         let (in_time, inertia) = match setup.analysis.is_motion() {
             true => (
                 Some(in_time(setup, system)?),
-                Some(inertia(setup, system.layout(), cloud)?),
+                Some(inertia(setup, system.topology().layout, cloud)?),
             ),
             false => (None, None),
         };
@@ -148,7 +148,7 @@ fn require_crossed_sections<const D: usize>(
             return Err(field.error(Fault::ThroughElements));
         }
         if let Reading::SectionForce { bonds, .. } = &probe.reading
-            && !system.subdomain().any(!bonds.is_empty())
+            && !system.topology().subdomain.any(!bonds.is_empty())
         {
             return Err(field.error(Fault::NothingCrossed));
         }

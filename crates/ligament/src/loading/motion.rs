@@ -47,7 +47,7 @@ pub(super) fn in_time<const D: usize>(
     if loads.is_empty() {
         loads.push(load(ActiveLoads::All)?);
     }
-    refuse_shared_motions(setup, system.layout(), &loads)?;
+    refuse_shared_motions(setup, system.topology().layout, &loads)?;
     let courses = setup.loads.iter().map(|it| LoadInTime {
         amplitude: it.amplitude.clone().unwrap_or_else(Amplitude::constant),
         timed: it.action.timed(),

@@ -55,13 +55,13 @@ pub(super) fn staged<const D: usize>(
             restrained(setup, system, loading, acting)
         })
         .collect::<Result<_, SetupError>>()?;
-    refuse_shared_motions(setup, system.layout(), &loads)?;
+    refuse_shared_motions(setup, system.topology().layout, &loads)?;
     let programme = Programme {
         control: setup.curve_load().or(temperature).unwrap_or(0),
         temperature,
         stages: setup.stages.iter().map(|it| it.name.clone()).collect(),
         names,
-        parts: controlled_parts(setup, system.layout(), probes),
+        parts: controlled_parts(setup, system.topology().layout, probes),
     };
     let start = vec![0.0; programme.names.len()];
     let course = LoadCourse::new(Arc::new(programme), 0, &start);

@@ -21,7 +21,7 @@ pub(super) fn restrained<const D: usize>(
     loading: ProportionalLoading,
     acting: ActiveLoads,
 ) -> Result<ProportionalLoading, SetupError> {
-    let loading = loading.reduced(system.layout());
+    let loading = loading.reduced(system.topology().layout);
     let is_restrained = setup.supports.iter().any(Support::is_restraint);
     if !is_restrained && !setup.loads.iter().any(Load::is_restraint) {
         return Ok(loading);
@@ -34,7 +34,7 @@ pub(super) fn restrained<const D: usize>(
             .map(|it| RIGID * it.force)
             .collect(),
         list: Vec::new(),
-        driving: vec![0.0; system.layout().n_degrees_of_freedom()],
+        driving: vec![0.0; system.topology().layout.n_degrees_of_freedom()],
     };
     for (index, support) in setup.supports.iter().enumerate() {
         if support.is_restraint() {
@@ -48,7 +48,7 @@ pub(super) fn restrained<const D: usize>(
         }
     }
     Ok(ProportionalLoading {
-        restraints: Restraints::new(system.layout(), restraining.list).into(),
+        restraints: Restraints::new(system.topology().layout, restraining.list).into(),
         driving: restraining.driving,
         ..loading
     })
@@ -71,7 +71,11 @@ impl<const D: usize> RestraintBuilder<'_, D> {
         let shares = self.places.shares(&support.place, &points);
         for (component, total) in support.stiffness.along_axes().components() {
             for &(point, share) in &shares {
-                let dof = self.system.layout().degree_of_freedom(point, component);
+                let dof = self
+                    .system
+                    .topology()
+                    .layout
+                    .degree_of_freedom(point, component);
                 let along = dof.map(|dof| (dof as u32, 1.0));
                 self.list
                     .extend(along.map(|it| Restraint::spring(&[it], share * total)));
@@ -211,7 +215,7 @@ impl<const D: usize> RestraintBuilder<'_, D> {
 
     /// Moves the far ends of the restraints from index `first` on, at each of some points by a motion times the point's factor.
     fn drive(&mut self, first: usize, (points, factors): (&[u32], &[f64]), motion: [f64; D]) {
-        let layout = self.system.layout();
+        let layout = self.system.topology().layout;
         let mut far_ends = vec![0.0; self.driving.len()];
         for (&point, factor) in points.iter().zip(factors) {
             for (component, value) in Component::in_dimensions(D).iter().zip(motion) {
@@ -231,7 +235,7 @@ impl<const D: usize> RestraintBuilder<'_, D> {
 
     /// The displacement of a point along a direction times a factor, as degrees of freedom with weights.
     fn along(&self, direction: [f64; D], point: u32, factor: f64) -> Vec<(u32, f64)> {
-        let layout = self.system.layout();
+        let layout = self.system.topology().layout;
         let parts = Component::in_dimensions(D).iter().copied().zip(direction);
         let parts = parts.filter(|(_, cosine)| *cosine != 0.0);
         let part = |(component, cosine)| {

@@ -59,7 +59,7 @@ impl Vibration {
 fn supports<const D: usize>(setup: &Setup, system: &dyn System<D>) -> Result<Supports, SetupError> {
     let cloud = &system.cloud;
     let places = Places { setup, cloud };
-    let mut supports = Supports::none(system.layout());
+    let mut supports = Supports::none(system.topology().layout);
     for (index, support) in setup.supports.iter().enumerate() {
         let points = places.points(Field::element("supports", index), &support.place)?;
         let components: Vec<Component> = support.components().collect();

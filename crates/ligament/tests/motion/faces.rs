@@ -32,7 +32,7 @@ fn parted(name: &str, mut setup: Setup) -> Setup {
 
 /// Velocities with which the halves of a body fly against each other and past each other.
 fn against(model: &Model) -> Vec<f64> {
-    let layout = model.system.to_bonds().layout();
+    let layout = model.system.to_bonds().layout;
     let n = layout.n_points as u32;
     let mut velocity = vec![0.0; layout.n_degrees_of_freedom()];
     for point in 0..n {

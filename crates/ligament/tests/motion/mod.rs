@@ -90,7 +90,7 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
         shape: Vec::new(),
         magnitude: 0.0,
     };
-    let mut loads = ProportionalLoading::new(system.layout(), nothing);
+    let mut loads = ProportionalLoading::new(system.layout, nothing);
     for (dof, held) in supports.held.iter().enumerate() {
         loads.prescribed[dof] = held.then_some(0.0);
     }
@@ -208,12 +208,12 @@ fn wavy(n: usize) -> Vec<f64> {
 fn a_free_body_keeps_momentum_and_energy() {
     for (name, setup) in [("plane", plate(Law::NHPD)), ("space", block(Law::NHPD))] {
         let problem = motion_of(&setup, |model| {
-            wavy(model.system.to_bonds().layout().n_degrees_of_freedom())
+            wavy(model.system.to_bonds().layout.n_degrees_of_freedom())
         });
         let critical = critical_step(&problem, &settings(1.0, 1)).unwrap().step;
         let (outcome, states) = followed(&problem, &settings(9000.0 * critical, 10));
         assert!(outcome.history[10].motion.unwrap().time_steps >= 10_000);
-        let layout = problem.problem.system.layout();
+        let layout = problem.problem.system.layout;
         let masses = problem.masses(1.0);
         for axis in [Component::X, Component::Y] {
             let dofs: Vec<usize> = (0..layout.n_points as u32)
@@ -253,7 +253,7 @@ fn a_breaking_bar_balances_and_repeats_its_bits() {
         setup.criteria = vec![STRENGTH.into()];
         let problem = motion_of(&setup, |model| {
             // The halves fly apart.
-            let layout = model.system.to_bonds().layout();
+            let layout = model.system.to_bonds().layout;
             let mut velocity = vec![0.0; layout.n_degrees_of_freedom()];
             for point in 0..layout.n_points as u32 {
                 let dof = layout.degree_of_freedom(point, Component::X).unwrap();

@@ -72,7 +72,7 @@ fn every_law_vibrates_in_its_modes() {
         );
         assert!(explicit < 1e-8, "{name}: {explicit:.1e}");
         assert!(imbalance(&outcome) < 1e-10, "{name}");
-        if problem.problem.system.has_energy() {
+        if problem.problem.system.element.has_energy() {
             assert!(of_rule < 1e-8, "{name}: {of_rule:.1e}");
             assert!(imbalance(&whole) < 1e-8, "{name}");
         }
@@ -127,7 +127,7 @@ fn damped_modes_decay() {
                     > 0.1 * outcome.history[0].motion.unwrap().initial_energy
             );
         }
-        let n = problem.problem.system.layout().n_points as u32;
+        let n = problem.problem.system.layout.n_points as u32;
         const DAMPING: [[f64; 3]; 3] =
             [[900.0, 200.0, 0.0], [200.0, 600.0, 0.0], [0.0, 0.0, 500.0]];
         let dashpot = |point: u32| Dashpot::new(point, |row, column| DAMPING[row][column]);
@@ -162,7 +162,7 @@ fn a_motion_that_grows_without_cause_ends() {
         thickness: 1.0,
     };
     let problem = motion_of(&setup, |model| {
-        wavy(model.system.to_bonds().layout().n_degrees_of_freedom())
+        wavy(model.system.to_bonds().layout.n_degrees_of_freedom())
     });
     let (outcome, _) = followed(&problem, &settings(2e-3, 20));
     println!("{:?}", outcome.termination);
@@ -181,7 +181,7 @@ fn a_motion_that_grows_without_cause_ends() {
 fn damping_by_mass_decays_or_is_refused() {
     let n_components = 3;
     let problem = motion_of(&plate(Law::NHPD), |model| {
-        let n = model.system.to_bonds().layout().n_degrees_of_freedom();
+        let n = model.system.to_bonds().layout.n_degrees_of_freedom();
         let along_x = |dof: usize| f64::from(u8::from(dof.is_multiple_of(n_components)));
         (0..n).map(along_x).collect()
     });
@@ -219,7 +219,7 @@ fn damping_by_mass_decays_or_is_refused() {
 fn velocities_beyond_all_numbers_end_a_motion() {
     for settings in [settings(1e-3, 10), implicit(1e-3, 10, 5, 0.0)] {
         let problem = motion_of(&plate(Law::NHPD), |model| {
-            vec![1e300; model.system.to_bonds().layout().n_degrees_of_freedom()]
+            vec![1e300; model.system.to_bonds().layout.n_degrees_of_freedom()]
         });
         let (outcome, _) = followed(&problem, &settings);
         assert!(matches!(
@@ -236,7 +236,7 @@ fn velocities_beyond_all_numbers_end_a_motion() {
 #[test]
 fn steps_without_end_are_refused() {
     let problem = motion_of(&plate(Law::NHPD), |model| {
-        wavy(model.system.to_bonds().layout().n_degrees_of_freedom())
+        wavy(model.system.to_bonds().layout.n_degrees_of_freedom())
     });
     for duration in [1e9, 1e300] {
         for settings in [settings(duration, 10), implicit(duration, 10, 1 << 50, 0.0)] {

@@ -80,7 +80,7 @@ impl EquilibriumLine for Affine {
         };
         let deformations = [&line.deformations, &slopes];
         let admissible = criteria.admissible(&rates, intact, deformations, reach);
-        let goal = match on_all_processes(run.problem.system.subdomain(), admissible) {
+        let goal = match on_all_processes(&run.problem.system.subdomain, admissible) {
             None => held(self.tie_tolerance, line, &criteria, run),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,

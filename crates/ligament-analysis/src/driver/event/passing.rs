@@ -52,7 +52,7 @@ pub(super) fn may_pass(run: &Run<'_>, step: usize) -> bool {
 /// Whether updates of the body may be delayed with its added supports: these may fix only detached parts that are not observed.
 pub(super) fn may_wait(run: &Run<'_>, body: &Body) -> bool {
     let fragments = run.equations.fragments();
-    let layout = run.problem.system.layout();
+    let layout = run.problem.system.layout;
     let fragment = |point: u32| fragments.of_point[point as usize] as usize;
     let mut is_asked_for = vec![false; fragments.len()];
     for &point in body.wanted() {
@@ -184,7 +184,7 @@ impl Passing<'_, '_> {
         let Run {
             equations, state, ..
         } = &mut *self.run;
-        let ends = self.problem.system.ends();
+        let ends = &self.problem.system.ends;
         let points = breakage.bonds.iter().flat_map(|&bond| ends[bond as usize]);
         let mut points: Vec<u32> = points.collect();
         points.sort_unstable();
@@ -219,7 +219,7 @@ impl Passing<'_, '_> {
     fn know(&mut self, bonds: &[u32]) {
         let factor = self.factor();
         let system = &self.problem.system;
-        let (layout, ends) = (system.layout(), system.ends());
+        let (layout, ends) = (system.layout, &system.ends);
         let ends = bonds.iter().flat_map(|&bond| ends[bond as usize]);
         for point in self.body.wanted().iter().copied().chain(ends) {
             for dof in layout.range(point) {
@@ -231,12 +231,12 @@ impl Passing<'_, '_> {
     /// Sums the forces of the bonds on the observed points.
     fn add_up_forces(&mut self) {
         let system = &self.problem.system;
-        let (layout, intact) = (system.layout(), &self.run.state.intact);
+        let (layout, intact) = (system.layout, &self.run.state.intact);
         let (motions, forces) = (&self.lagging.displacement, &mut self.line.internal.values);
         for &point in self.body.wanted() {
             let dofs = layout.range(point);
             forces[dofs.clone()].fill(0.0);
-            let bonds = system.incidence().at(point).iter();
+            let bonds = system.incidence.at(point).iter();
             for &bond in bonds.filter(|&&bond| intact[bond as usize]) {
                 for (rigidity, entries) in
                     system.terms(intact, bond as usize, &StiffnessFactors::WHOLE)

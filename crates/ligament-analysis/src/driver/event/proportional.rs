@@ -83,10 +83,10 @@ impl EquilibriumLine for Proportional {
         state.load_factor = load_factor;
         let fragments = run.equations.fragments();
         // A temperature strains all parts, and where faces close any part may press on another.
-        let faces_close = run.problem.system.faces_close();
+        let faces_close = run.problem.system.faces_close;
         let is_heated = !run.problem.loads.thermal_strain(load_factor).is_none();
         let mut is_loaded = vec![is_heated || faces_close; fragments.len()];
-        let layout = run.problem.system.layout();
+        let layout = run.problem.system.layout;
         for &dof in &self.loaded {
             let point = layout.point(dof as usize);
             is_loaded[fragments.of_point[point as usize] as usize] = true;

@@ -103,7 +103,7 @@ pub(super) fn begin<'a>(
     let of_body = &problem.problem;
     let system = &*of_body.system;
     let state = State {
-        softening: Softening::of_sound_bonds(&of_body.criteria, system.ends().len()),
+        softening: Softening::of_sound_bonds(&of_body.criteria, system.ends.len()),
         ..State::fresh(system)
     };
     let numbered = (BondNumbers::new(system)?, state);
@@ -139,7 +139,7 @@ pub(super) fn restore(
             if *clock_then != clock {
                 return Err(CheckpointError::OtherTimes.into());
             }
-            let n = problem.system.layout().n_degrees_of_freedom();
+            let n = problem.system.layout.n_degrees_of_freedom();
             let of_motion = [&velocities.half, &velocities.acceleration, internal];
             let fits = of_motion.iter().all(|it| it.len() == n);
             if !fits || velocities.rigid.len() != n_rigid {
@@ -169,10 +169,10 @@ pub(super) fn chosen(
     settings: &MotionSettings,
 ) -> Result<(Clock, ExplicitChoice), SetupError> {
     let system = &problem.problem.system;
-    if !system.subdomain().is_whole() {
+    if !system.subdomain.is_whole() {
         return Err(MotionError::SeveralProcesses.into());
     }
-    if settings.damping.stiffness > 0.0 && !system.is_linear() {
+    if settings.damping.stiffness > 0.0 && !system.element.is_linear() {
         return Err(MotionError::StiffnessDamping.into());
     }
     let critical = critical_step(problem, settings)?;
@@ -247,7 +247,7 @@ impl MovingBonds {
     ) -> Result<(Self, State, Balanced), SetupError> {
         let system = &*problem.system;
         let (state, contact) = (&numbered.1, &problem.contact);
-        let fits = state.fits(system, system.ends().len(), &problem.criteria);
+        let fits = state.fits(system, system.ends.len(), &problem.criteria);
         if !fits || !state.surfaces.fits(contact) {
             return Err(CheckpointError::OtherModel.into());
         }
@@ -272,7 +272,7 @@ impl MovingBonds {
         let deformations = mem::take(&mut balanced.deformations);
         let mut swept = (problem.system).forces(state.bonds(), deformations, expansion);
         balanced.closed = self.contact.closed(state, expansion).1;
-        let layout = problem.system.layout();
+        let layout = problem.system.layout;
         faces::add_to(&mut swept, &balanced.closed, layout, expansion);
         balanced.deformations = swept.deformations;
         balanced.internal = swept.internal;
@@ -308,7 +308,7 @@ fn in_one_sweep(problem: &Problem) -> bool {
     let is_plain = |it: &Criterion| it.after.is_brittle() && it.surroundings.is_none();
     let are_plain = criteria.list.iter().all(is_plain);
     let is_cold = loads.temperature_change(0.0).is_empty();
-    let is_linear = system.is_linear() && !system.faces_close();
+    let is_linear = system.element.is_linear() && !system.faces_close;
     are_plain && is_cold && is_linear
 }
 

@@ -586,7 +586,7 @@ pub(super) fn check(problem: &MotionProblem, settings: &MotionSettings) -> Resul
         loads,
         ..
     } = &problem.problem;
-    if !system.subdomain().is_whole() {
+    if !system.subdomain.is_whole() {
         return Err(MotionError::SeveralProcesses);
     }
     let is_free = |it: &RigidBody| matches!(it.motion, RigidMotion::Free { .. });
@@ -601,8 +601,10 @@ pub(super) fn check(problem: &MotionProblem, settings: &MotionSettings) -> Resul
         return Err(MotionError::FreeRigidBody);
     }
     let is_heated = !loads.temperature_change(0.0).is_empty();
-    let is_plain =
-        system.is_linear() && !problem.problem.may_press() && !criteria.soften() && !is_heated;
+    let is_plain = system.element.is_linear()
+        && !problem.problem.may_press()
+        && !criteria.soften()
+        && !is_heated;
     if settings.damping.stiffness > 0.0 && !is_plain {
         return Err(MotionError::StiffnessDamping);
     }

@@ -71,7 +71,7 @@ impl Velocities {
 impl Inertia {
     pub(super) fn new(problem: &MotionProblem, rotary_inertia: f64, alpha: f64, step: f64) -> Self {
         let mass = problem.masses(rotary_inertia);
-        let layout = problem.problem.system.layout();
+        let layout = problem.problem.system.layout;
         let mut dampings = BTreeMap::<u32, Matrix3<f64>>::new();
         for it in problem.dashpots.iter() {
             *dampings.entry(it.point).or_default() += it.damping;

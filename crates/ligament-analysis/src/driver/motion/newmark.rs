@@ -61,7 +61,7 @@ impl Newmark {
 
     /// Restraints of a step for the masses of the degrees of freedom: those of the loads, the dashpots, and the inertia.
     pub(super) fn restraints(&self, problem: &MotionProblem, masses: &[f64]) -> Restraints {
-        let layout = problem.problem.system.layout();
+        let layout = problem.problem.system.layout;
         let factor = 1.0 / self.of_stiffness();
         let loads = &problem.problem.loads;
         let mut list = loads.restraints().scaled(factor);

@@ -58,7 +58,7 @@ pub(super) fn slips(problem: &Problem, size: f64, [before, after]: [&State; 2]) 
     if problem.contact.is_empty() || !after.held.contains(&true) {
         return false;
     }
-    let layout = problem.system.layout();
+    let layout = problem.system.layout;
     let way = |dof: usize| (after.displacement[dof] - before.displacement[dof]).abs();
     let moved = (0..after.displacement.len()).filter(|&dof| !layout.component(dof).is_rotation());
     let prescribed = moved

@@ -123,7 +123,7 @@ impl MassAndDamping {
         for ((force, mass), velocity) in forces.iter_mut().zip(&self.masses).zip(velocity) {
             *force += alpha * mass * velocity;
         }
-        let layout = problem.system.layout();
+        let layout = problem.system.layout;
         for it in dashpots.iter() {
             let displacements = layout.range(it.point);
             let dofs: Vec<usize> = displacements

@@ -114,7 +114,7 @@ impl<E: Equations> Run<'_, E> {
         let is_stored = is_heated || record.stored_energy >= -GROWN * scale;
         let is_moving = motion.kinetic_energy >= -(below_zero + GROWN) * scale;
         let error = record.energy_error();
-        let has_energy = self.problem.system.has_energy();
+        let has_energy = self.problem.system.element.has_energy();
         let balances = error.is_finite() && (error.abs() <= GROWN || !has_energy);
         let grown = [
             (!error.is_finite(), Growth::NoNumber),

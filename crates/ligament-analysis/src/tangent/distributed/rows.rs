@@ -43,7 +43,7 @@ impl OwnRows<'_> {
 
     fn lower(&self, point: u32) -> Vec<u32> {
         let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
-        restraints.lower_points(layout, self.system.coupled_points(), point as usize)
+        restraints.lower_points(layout, &self.system.coupled_points, point as usize)
     }
 
     pub(super) fn is_own(&self, point: u32) -> bool {
@@ -79,8 +79,8 @@ impl OwnRows<'_> {
 
     /// Largest number of points coupled by an element or a restraint, as far as known on this rank.
     pub(super) fn most_coupled(&self) -> usize {
-        let elements = self.system.elements_at_points();
-        let mut n_points = vec![0; self.system.ends().len()];
+        let elements = &self.system.elements_at_points;
+        let mut n_points = vec![0; self.system.ends.len()];
         for point in 0..self.system.n_points() as u32 {
             for &element in elements.at(point) {
                 n_points[element as usize] += 1;

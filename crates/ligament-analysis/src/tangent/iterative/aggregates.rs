@@ -46,7 +46,7 @@ impl Aggregates {
         for &point in points {
             self.of_point[point as usize] = OPEN;
         }
-        let topology = system.topology();
+        let families = system.families();
         for &start in points {
             if self.of_point[start as usize] != OPEN {
                 continue;
@@ -57,7 +57,7 @@ impl Aggregates {
             let mut next = 0;
             while let Some(&point) = part.get(next) {
                 next += 1;
-                for neighbour in topology.connected(point, intact) {
+                for neighbour in families.connected(point, intact) {
                     if self.of_point[neighbour as usize] == OPEN {
                         self.of_point[neighbour as usize] = number;
                         part.push(neighbour);

@@ -43,7 +43,7 @@ impl Operator<'_> {
 
     /// Points of smaller number that are coupled with a point, ascending.
     pub(super) fn lower_points(&self, point: u32) -> Vec<u32> {
-        let coupled = self.system.coupled_points();
+        let coupled = &self.system.coupled_points;
         let (restraints, layout) = (self.unknowns.restraints(), self.unknowns.layout());
         restraints.lower_points(layout, coupled, point as usize)
     }

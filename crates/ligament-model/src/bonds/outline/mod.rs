@@ -173,7 +173,7 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
     cloud: &PointCloud<D>,
 ) -> Vec<f64> {
     let shortest = shortest_edges(cloud, cells);
-    let mut spacing = cloud.spacing.clone();
+    let mut spacing = cloud.spacing.to_vec();
     // Nodes nearer than the ends of all edges of cells may lie behind a void.
     let may_be_parted: Vec<u32> = (0..cloud.len() as u32)
         .filter(|&point| {

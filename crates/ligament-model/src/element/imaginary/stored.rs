@@ -1,8 +1,8 @@
 //! Strains of the bonds of a stored lattice, from positions, ends and motions alone.
 
-use super::{ImaginaryElements, StrainStiffness};
+use super::{ImaginaryElement, ImaginaryElements, StrainStiffness};
 use crate::bonds::{BondSet, Composition, Incidence};
-use crate::element::{BondDeformation, Element, Elements, Rigidities};
+use crate::element::{BondDeformation, Element, Rigidities};
 use crate::tensor::{SymTensor, minus, norm};
 
 /// Bonds of a lattice with the strains of their elements, without a stiffness.
@@ -22,13 +22,13 @@ impl LatticeStrains {
         let of_ends = (0..).zip(&ends);
         let of_ends = of_ends.flat_map(|(bond, ends)| ends.map(|end| (end, bond)));
         let bonds = BondSet {
-            incidence: Incidence::from_pairs(of_ends, positions.len()),
+            incidence: Incidence::from_pairs(of_ends, positions.len()).into(),
             direction: (offsets.iter().zip(&length))
                 .map(|(offset, length)| offset.map(|it| it / length))
                 .collect(),
-            horizon,
+            horizon: horizon.into(),
             length,
-            ends,
+            ends: ends.into(),
             composition: Composition::default(),
         };
         let none = StrainStiffness {
@@ -59,7 +59,8 @@ impl LatticeStrains {
         intact: &[bool],
         free: Option<&SymTensor<2>>,
     ) -> BondDeformation {
-        let element = (self.elements).element(&self.bonds, &self.rigidities, intact, bond);
+        let (elements, bonds) = (&self.elements, &self.bonds);
+        let element = ImaginaryElement::new(elements, bonds, &self.rigidities, intact, bond);
         let whole = element.deformation(displacements.as_flattened());
         free.map_or(whole, |free| whole.less(&element.deformation_in(free)))
     }

@@ -1,19 +1,17 @@
 use super::*;
 use crate::bonds::Incidence;
-use crate::deformation::Deformation;
-use crate::element::Element;
-use crate::element::pair::Pair;
+use crate::tensor::{cross, dot, tangents};
 
 /// A bond from the origin along a direction, with axial, shear and rotational rigidity.
 fn bond(along: [f64; 3], [axial, shear, rotational]: [f64; 3]) -> (BondSet<3>, Rigidities) {
     let length = dot(along, along).sqrt();
-    let ends = vec![[0, 1]];
+    let ends = [[0, 1]];
     let bonds = BondSet {
-        incidence: Incidence::new(&ends, 2),
-        ends,
+        incidence: Incidence::new(&ends, 2).into(),
+        ends: ends.into(),
         length: vec![length],
         direction: vec![along.map(|it| it / length)],
-        horizon: vec![length],
+        horizon: [length].into(),
         composition: Default::default(),
     };
     let rigidities = Rigidities {
@@ -25,13 +23,13 @@ fn bond(along: [f64; 3], [axial, shear, rotational]: [f64; 3]) -> (BondSet<3>, R
     (bonds, rigidities)
 }
 
-fn beam(along: [f64; 3], rigidities: [f64; 3]) -> BeamBond<3> {
+fn beam(along: [f64; 3], rigidities: [f64; 3]) -> Pair<3, 6> {
     let (bonds, rigidities) = bond(along, rigidities);
-    BeamBond::new(&bonds, &rigidities, 0)
+    Pair::new(&(), &bonds, &rigidities, &[true], 0)
 }
 
 /// K from the blocks, shape (2 M, 2 M).
-fn from_blocks<const M: usize, B: PairKinematics<3, M>>(bond: &B) -> Vec<Vec<f64>> {
+fn from_blocks<const M: usize>(bond: &Pair<3, M>) -> Vec<Vec<f64>> {
     let block = |row: usize, column: usize| bond.block(row / M, column / M);
     let entry = |row: usize, column: usize| block(row, column)[row % M][column % M];
     (0..2 * M)
@@ -40,19 +38,19 @@ fn from_blocks<const M: usize, B: PairKinematics<3, M>>(bond: &B) -> Vec<Vec<f64
 }
 
 /// K from the end forces for motions of size one, shape (2 M, 2 M), transposed.
-fn from_forces<const M: usize, B: PairKinematics<3, M>>(bond: &B) -> Vec<Vec<f64>> {
+fn from_forces<const M: usize>(bond: &Pair<3, M>) -> Vec<Vec<f64>> {
     (0..2 * M)
         .map(|column| {
             let mut motions = vec![0.0; 2 * M];
             motions[column] = 1.0;
-            let deformation = bond.deformation(&motions[..M], &motions[M..]);
-            bond.end_forces(&deformation).as_flattened().to_vec()
+            let deformation = bond.deformation(&motions);
+            bond.forces_at_ends(&deformation).as_flattened().to_vec()
         })
         .collect()
 }
 
 /// K as the sum of its terms, shape (2 M, 2 M).
-fn from_modes<const M: usize, B: PairKinematics<3, M>>(bond: &B) -> Vec<Vec<f64>> {
+fn from_modes<const M: usize>(bond: &Pair<3, M>) -> Vec<Vec<f64>> {
     let mut sum = vec![vec![0.0; 2 * M]; 2 * M];
     for (rigidity, row) in bond.modes() {
         let row = row.as_flattened();
@@ -146,7 +144,7 @@ fn blocks_forces_and_terms_are_one_stiffness() {
         assert_close(&from_blocks(&beam), &from_modes(&beam), 1e-14);
         assert_eq!(beam.modes().count(), 6);
         let (bonds, rigidities) = bond(along, rigidities);
-        let spring = SpringBond::<3>::new(&bonds, &rigidities, 0);
+        let spring = Pair::<3, 3>::new(&(), &bonds, &rigidities, &[true], 0);
         assert_close(&from_blocks(&spring), &from_forces(&spring), 1e-14);
         assert_close(&from_blocks(&spring), &from_modes(&spring), 1e-14);
         assert_eq!(spring.modes().count(), 3);
@@ -163,7 +161,7 @@ fn energies_are_those_of_the_stiffness() {
             .collect()
     };
     let (one, other) = (motions(3), motions(8));
-    let of = |u: &[f64]| beam.deformation(&u[..6], &u[6..]);
+    let of = |u: &[f64]| beam.deformation(u);
     let stiffness = from_blocks(&beam);
     let expected: f64 = (0..144)
         .map(|place| 0.5 * one[place / 12] * stiffness[place / 12][place % 12] * other[place % 12])
@@ -196,12 +194,12 @@ fn rigid_motions_deform_no_beam() {
     };
     let to = [0, 1, 2].map(|k| from[k] + along[k]);
     let (a, b) = (motion(from), motion(to));
-    let deformation = beam(along, [5.0, 2.0, 0.3]).deformation(&a, &b);
+    let deformation = beam(along, [5.0, 2.0, 0.3]).between(&a, &b);
     let size = |it: [f64; 3]| dot(it, it).sqrt();
     assert!(deformation.stretch.abs() < 1e-14 && size(deformation.shear) < 1e-14);
     assert_eq!(deformation.rotation, [0.0; 3]);
     let (bonds, rigidities) = bond(along, [5.0, 2.0, 0.0]);
-    let spring = SpringBond::<3>::new(&bonds, &rigidities, 0).deformation(&a[..3], &b[..3]);
+    let spring = Pair::<3, 3>::new(&(), &bonds, &rigidities, &[true], 0).between(&a[..3], &b[..3]);
     let across = cross(omega, bonds.direction[0]);
     assert!((size(spring.shear) - size(across)).abs() < 1e-14);
 }
@@ -219,15 +217,11 @@ fn uniform_strains() {
         zz * z + 0.5 * (xz * x + yz * y),
     ];
     let end_b = [moved[0], moved[1], moved[2], 0.0, 0.0, 0.0];
-    let expected = beam.deformation(&[0.0; 6], &end_b);
+    let expected = beam.between(&[0.0; 6], &end_b);
     let strain = SymTensor::from_engineering(&[xx, yy, xy, zz, xz, yz]);
     let found = beam.deformation_in(&strain);
     let off = expected.less(&found).measured();
     assert!(off.strains().iter().all(|it| it.abs() < 1e-15), "{off:?}");
-    let pair = Pair {
-        ends: [0, 1],
-        bond: beam,
-    };
-    let work = pair.dyad(&found).contracted(&strain);
+    let work = beam.dyad(&found).contracted(&strain);
     assert!((work / (2.0 * beam.mutual_energy(&found, &found)) - 1.0).abs() < 1e-14);
 }
