@@ -10,7 +10,9 @@ use ligament::run;
 use ligament_analysis::breakage::Breakage;
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
-use ligament_analysis::solver::{DirectChoice, FactorKind, Method, Ordering, SolverChoice, Update};
+use ligament_analysis::solver::{
+    DirectChoice, FactorKind, Factorisation, Method, Ordering, SolverChoice, Update,
+};
 use ligament_analysis::{Attempt, Balanced, Unbalanced};
 use ligament_analysis::{
     ControlKind, Equilibrium, SolverSettings, State, Termination, Unknowns, assembly, dissection,
@@ -720,10 +722,14 @@ fn whatever_the_order_and_the_factorisation() {
     let bench = Bench::new(DISK, &[COARSE]);
     let expected = follow(&bench, anew());
     for (name, ordering, factorisation) in [
-        ("minimum degree", Ordering::MinimumDegree, FactorKind::Llt),
-        ("dissection", Ordering::NestedDissection, FactorKind::Llt),
-        ("L D L^T", Ordering::MinimumDegree, FactorKind::Ldlt),
-        ("both", Ordering::NestedDissection, FactorKind::Ldlt),
+        (
+            "minimum degree",
+            Ordering::MinimumDegree,
+            Factorisation::Llt,
+        ),
+        ("dissection", Ordering::NestedDissection, Factorisation::Llt),
+        ("L D L^T", Ordering::MinimumDegree, Factorisation::Ldlt),
+        ("both", Ordering::NestedDissection, Factorisation::Ldlt),
     ] {
         let solver = SolverSettings {
             ordering: Some(ordering),
@@ -734,7 +740,7 @@ fn whatever_the_order_and_the_factorisation() {
         let choice = factor(&run.0);
         assert_eq!(
             (choice.ordering, choice.factorisation),
-            (ordering, factorisation)
+            (ordering, factorisation.into())
         );
         assert_same(name, &run, &expected);
     }

@@ -414,7 +414,7 @@ load = [{ group = "top", displacement = { y = 1e-5 } }]
 fn a_factor_that_does_not_fit_is_not_taken() {
     let choice = |settings: &[&str], memory: Option<usize>| {
         let mut problem = Bench::new(DISK, settings).problem();
-        problem.solver.memory = memory;
+        problem.solver.factor_memory = memory;
         *Equilibrium::new(&problem, 1e-4).unwrap().choice()
     };
     let problem = Bench::new(DISK, &[]).problem();

@@ -140,7 +140,7 @@ fn assert_part<const D: usize>(
     (model, cloud): (&Model, &PointCloud<D>),
     known: &[&str],
 ) {
-    let ranks = model.setup.solver.communicator.clone();
+    let ranks = model.setup.solver.communicator.0.clone();
     let divided = PointCloud {
         subdomain: all.divided(ranks),
         ..all.clone()

@@ -9,6 +9,7 @@ use ligament::SetupError;
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
 use ligament::system::AnySystem;
+use ligament_analysis::distributed_matrix::Processes;
 use ligament_case::case::CaseFile;
 use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::correction::CorrectionReport;
@@ -99,7 +100,7 @@ fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
     for n_ranks in 1..=3 {
         let known = on_ranks(n_ranks, |together| {
             let mut setup = setup.clone();
-            setup.solver.communicator = together.clone();
+            setup.solver.communicator = Processes(together.clone());
             let model = Model::build(setup, &mut ()).unwrap();
             let subdomain = &model.system.subdomain;
             // Bonds, and pairs that are none, are known to the ranks of their ends and to no others, in the same order.
@@ -281,8 +282,8 @@ fn faults_are_those_of_the_whole_body() {
     ];
     let told = on_ranks(3, |together| {
         let (mut torn, mut soft) = (torn.clone(), soft.clone());
-        torn.solver.communicator = together.clone();
-        soft.solver.communicator = together;
+        torn.solver.communicator = Processes(together.clone());
+        soft.solver.communicator = Processes(together);
         [
             words(Model::build(torn, &mut ()).map(|_| ())),
             words(Model::build(soft, &mut ()).map(|_| ())),
@@ -304,7 +305,7 @@ fn all_points_have_their_names_on_each_rank() {
         let alone: Vec<String> = places(&Model::build(setup.clone(), &mut ()).unwrap());
         let of_ranks = on_ranks(2, |together| {
             let mut setup = setup.clone();
-            setup.solver.communicator = together;
+            setup.solver.communicator = Processes(together);
             let model = Model::build(setup, &mut ()).unwrap();
             assert!(!model.system.subdomain.is_whole());
             let once = match [model.names.point_tags(), model.names.point_tags()].map(|it| it.tags)
@@ -326,7 +327,7 @@ fn memory_is_foreseen_for_the_bonds_of_a_process() {
     assert!(foresee_model(&case, &setup).is_err());
     let fits = on_ranks(2, |together| {
         let mut setup = setup.clone();
-        setup.solver.communicator = together.clone();
+        setup.solver.communicator = Processes(together.clone());
         foresee_model(&case, &setup).is_ok()
     });
     assert_eq!(fits, [true, true]);

@@ -1,6 +1,8 @@
 //! Interface of matrices whose rows are distributed over processes.
 
 use std::fmt::Debug;
+use std::ops::Deref;
+use std::sync::Arc;
 
 pub use ligament_model::communicator::{Communicator, Solo};
 
@@ -11,6 +13,24 @@ pub trait MatrixCommunicator: Communicator {
 
     /// Creates a matrix without values, with rows distributed over the processes; none where there are no such matrices.
     fn matrix(&self, rows: &Rows<'_>) -> Option<Box<dyn DistributedMatrix>>;
+}
+
+/// Processes of a run, as one of them sees them. Equal ones have the same rank among as many processes.
+#[derive(Debug, Clone)]
+pub struct Processes(pub Arc<dyn MatrixCommunicator>);
+
+impl PartialEq for Processes {
+    fn eq(&self, other: &Self) -> bool {
+        [self.rank(), self.size()] == [other.rank(), other.size()]
+    }
+}
+
+impl Deref for Processes {
+    type Target = dyn MatrixCommunicator;
+
+    fn deref(&self) -> &Self::Target {
+        &*self.0
+    }
 }
 
 impl MatrixCommunicator for Solo {

@@ -5,55 +5,92 @@ use std::sync::Arc;
 
 use ligament_linalg::Elimination;
 pub use ligament_linalg::FactorKind;
-use ligament_model::Bonds;
 use ligament_model::communicator::Solo;
+#[cfg(feature = "case")]
+use ligament_model::word::{OpenWord, open};
+use ligament_model::{Bonds, case_type};
 use thiserror::Error;
 
 use crate::critical_step::CriticalStep;
 use crate::dissection;
-use crate::distributed_matrix::MatrixCommunicator;
+use crate::distributed_matrix::Processes;
 
 use crate::unknowns::Unknowns;
 
-/// Settings of the solver; open ones are chosen for the problem.
-#[derive(Debug, Clone)]
-pub struct SolverSettings {
-    /// Method; open: a factor up to [`points_for_iteration`], conjugate gradients beyond where applicable; in the plane, where
-    /// `memory` is known, a factor as long as it fits.
-    pub method: Option<Method>,
-    /// Residual of conjugate gradients after a breakage, relative to the forces that may act at a point. Load steps without a
-    /// breakage are solved to 1e-10, as with a factor.
-    pub tolerance: f64,
-    /// Factorisation; open: L L^T where every shear stiffness is positive, L D L^T otherwise.
-    pub factorisation: Option<FactorKind>,
-    /// Elimination order; open: nested dissection from [`POINTS_FOR_DISSECTION`] on, minimum degree below.
-    pub ordering: Option<Ordering>,
-    /// Treatment of the factor when bonds break; open: update in place.
-    pub update: Option<Update>,
-    /// Interval in the number of broken bonds, counted from the start, at which the factor is computed anew.
-    ///
-    /// A factor that was updated in place depends on all its updates; a resumed run repeats the updates since the factor was last
-    /// computed anew.
-    pub rebuild_every: usize,
-    /// Number of points in space from which conjugate gradients have a third level. The factor of the second takes memory as n^(4/3) and
-    /// time as n^2 for n points: at 47,000 points both levels are made in 1.7 times the time without a third, and at 97,000 a run takes 1.2 times
-    /// the memory (measured).
-    pub clusters_from: usize,
-    /// Whether a run continues where the intact stiffness has more negative eigenvalues than its rotations explain.
-    pub allows_unstable: bool,
-    /// Bytes available for the matrix and its factor; open: unknown.
-    pub memory: Option<usize>,
-    /// Processes that solve the equations.
-    pub communicator: Arc<dyn MatrixCommunicator>,
+/// Largest number of threads: with thousands, waking them takes longer than the work.
+pub const MOST_THREADS: u32 = 1024;
+
+// A factor that was updated in place depends on all its updates: a resumed run repeats those since the factor was last computed anew.
+case_type! {
+    /// How the equations are solved. The results are the same up to rounding.
+    #[derive(Debug, Clone, PartialEq)]
+    #[case(serde(default))]
+    pub struct SolverSettings {
+        /// How the equations are solved: with a factor of the matrix or without a matrix.
+        #[case(serde(with = "open", skip_serializing_if = "Option::is_none"), schemars(with = "OpenWord<Method>"))]
+        pub method: Option<Method>,
+        /// Force that the iteration leaves out of balance after a breakage, relative to the forces that may act at a point: 1e-8. Bonds that
+        /// are nearer to each other than a hundred times this, relatively, break together.
+        #[range("minimum" = 1e-10, "maximum" = 1e-3)]
+        #[case(serde(skip_serializing_if = "is_usual_tolerance"))]
+        pub tolerance: f64,
+        /// The factorisation of the stiffness.
+        #[case(serde(with = "open"), schemars(with = "OpenWord<Factorisation>"))]
+        pub factorisation: Option<Factorisation>,
+        /// The order of elimination.
+        #[case(serde(with = "open"), schemars(with = "OpenWord<Ordering>"))]
+        pub ordering: Option<Ordering>,
+        /// What happens to the factor when bonds break.
+        #[case(serde(with = "open"), schemars(with = "OpenWord<Update>"))]
+        pub update: Option<Update>,
+        /// Broken bonds between two factors that are made anew.
+        #[range("minimum" = 1)]
+        #[case(serde(skip_serializing_if = "is_usual_interval"))]
+        pub rebuild_every: usize,
+        /// Threads; without it one for each processor. Results do not depend on it.
+        #[range("minimum" = 1, "maximum" = MOST_THREADS)]
+        pub threads: Option<u32>,
+        /// Memory that a run may take, GB; without it what the machine has left. A run that would take more is refused; where the method is
+        /// open, bodies in the plane whose factor does not fit are solved without a matrix.
+        #[range("exclusiveMinimum" = 0)]
+        pub memory: Option<f64>,
+        /// Number of points in space from which conjugate gradients have a third level. The factor of the second takes memory as n^(4/3) and
+        /// time as n^2 for n points: at 47,000 points both levels are made in 1.7 times the time without a third, and at 97,000 a run takes 1.2 times
+        /// the memory (measured).
+        #[case(serde(skip))]
+        pub clusters_from: usize,
+        /// Whether a run goes on where the intact stiffness has more negative eigenvalues than its rotations explain.
+        #[case(serde(skip))]
+        pub allows_unstable: bool,
+        /// Bytes available for the matrix and its factor; `None` where they are unknown.
+        #[case(serde(skip))]
+        pub factor_memory: Option<usize>,
+        /// Processes that solve the equations.
+        #[case(serde(skip))]
+        pub communicator: Processes,
+    }
 }
 
-/// Method to solve the equations.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Method {
-    /// Factorisation of the matrix.
-    Direct,
-    /// Conjugate gradients, without a matrix.
-    Iterative,
+#[cfg(feature = "case")]
+fn is_usual_tolerance(tolerance: &f64) -> bool {
+    *tolerance == SolverSettings::default().tolerance
+}
+
+#[cfg(feature = "case")]
+fn is_usual_interval(broken: &usize) -> bool {
+    *broken == SolverSettings::default().rebuild_every
+}
+
+case_type! {
+    /// Method to solve the equations.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[auto("`direct` in the plane as long as the factor fits into memory and in space up to 5,000 points, and where the iteration cannot; `iterative` beyond.")]
+    pub enum Method {
+        /// With a factor of the matrix.
+        Direct,
+        /// By conjugate gradients without a matrix, for positive definite stiffness.
+        Iterative,
+    }
 }
 
 /// Reason for the choice of a method.
@@ -132,22 +169,49 @@ pub enum Unfit {
     Modes,
 }
 
-/// Elimination order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ordering {
-    /// Nested dissection of the points.
-    NestedDissection,
-    /// Approximate minimum degree of the unknowns.
-    MinimumDegree,
+case_type! {
+    /// Factorisation of the stiffness.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[auto("`llt` where every bond has a positive shear stiffness, `ldlt` otherwise.")]
+    pub enum Factorisation {
+        /// L L^T, for positive definite stiffness.
+        Llt,
+        /// L D L^T, also for indefinite stiffness.
+        Ldlt,
+    }
 }
 
-/// Treatment of the factor when bonds break.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Update {
-    /// The factor is updated in place.
-    Incremental,
-    /// The factor is computed anew.
-    Refactor,
+impl From<Factorisation> for FactorKind {
+    fn from(factorisation: Factorisation) -> Self {
+        match factorisation {
+            Factorisation::Llt => Self::Llt,
+            Factorisation::Ldlt => Self::Ldlt,
+        }
+    }
+}
+
+case_type! {
+    /// Elimination order.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[auto("`nested-dissection` from 10,000 points on, `minimum-degree` below.")]
+    pub enum Ordering {
+        /// Nested dissection of the points.
+        NestedDissection,
+        /// Approximate minimum degree of the unknowns.
+        MinimumDegree,
+    }
+}
+
+case_type! {
+    /// Treatment of the factor when bonds break.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[auto("`incremental`.")]
+    pub enum Update {
+        /// The factor is changed in place, unless so many bonds break at once that making it anew costs less.
+        Incremental,
+        /// The factor is made anew every time.
+        Refactor,
+    }
 }
 
 /// Solver chosen for the equations of a problem.
@@ -231,10 +295,12 @@ impl Default for SolverSettings {
             ordering: None,
             update: None,
             rebuild_every: 1000,
+            threads: None,
+            memory: None,
             clusters_from: POINTS_FOR_CLUSTERS,
             allows_unstable: false,
-            memory: None,
-            communicator: Arc::new(Solo),
+            factor_memory: None,
+            communicator: Processes(Arc::new(Solo)),
         }
     }
 }
@@ -306,7 +372,7 @@ impl SolverSettings {
     /// costs less than conjugate gradients for any number of points (`docs/solvers.md`).
     pub(crate) fn bound_of_factor(&self, system: &dyn Bonds) -> Option<usize> {
         let decides = self.method.is_none() && n_axes(system) == 2 && self.unfit(system).is_none();
-        self.memory.filter(|_| decides)
+        self.factor_memory.filter(|_| decides)
     }
 
     /// Settings of conjugate gradients for some bonds.

@@ -64,7 +64,7 @@ impl Stiffness {
             pattern,
             choice: DirectChoice {
                 reason,
-                factorisation: settings.factorisation.unwrap_or(suitable),
+                factorisation: settings.factorisation.map_or(suitable, Into::into),
                 unsymmetric: !system.element.has_energy(),
                 ordering,
                 update: settings.update.unwrap_or(Update::Incremental),

@@ -33,7 +33,7 @@ mod stage;
 pub mod values;
 mod word;
 
-pub use analysis::{Analysis, MOST_MODES, MOST_THREADS, Modal, Output, Solver, StressField};
+pub use analysis::{Analysis, Output, StressField};
 pub use conditions::{Amplitude, InitialVelocity, Load, Profile, Shape, Support, Temperature};
 pub use contact::{Rigid, RigidShape};
 pub use fault::{CaseError, Fault, Location};

@@ -7,7 +7,7 @@ use ligament::processes::partition_communicator;
 use ligament::setup::Setup;
 use ligament::stage::{StageWatcher, stage};
 use ligament_analysis::SetupError;
-use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Processes, Solo};
 use ligament_mesh::AnyMesh;
 
 use crate::case::keys::check_dimensions;
@@ -38,7 +38,7 @@ impl CaseFile {
     ) -> anyhow::Result<Setup> {
         let body = self.read_body_on_first(&*communicator, watcher)?;
         let mut setup = self.setup_on(body)?;
-        setup.solver.communicator = communicator;
+        setup.solver.communicator = Processes(communicator);
         if setup.body.n_cells() == 0 && partition_communicator(&setup).size() == 1 {
             setup.body = self.read_body(watcher)?;
         }

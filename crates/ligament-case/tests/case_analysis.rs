@@ -4,8 +4,8 @@
 
 use std::path::Path;
 
-use ligament_analysis::modal::Rotations;
-use ligament_case::case::{Analysis, CaseFile, Modal, Word};
+use ligament_analysis::modal::{ModalSettings, Rotations};
+use ligament_case::case::{Analysis, CaseFile};
 
 const MODAL: &str = include_str!("data/modal-plate.toml");
 
@@ -40,9 +40,9 @@ fn the_analysis_follows_from_the_sections_or_is_named() {
 #[test]
 fn modes_have_defaults_and_need_no_load() {
     let case = read(MODAL, &[]).unwrap().case;
-    let expected = Modal {
+    let expected = ModalSettings {
         modes: 10,
-        rotations: Word(None),
+        rotations: None,
         tolerance: 1e-10,
     };
     assert_eq!(case.modal, Some(expected));
@@ -52,9 +52,9 @@ fn modes_have_defaults_and_need_no_load() {
         "modal.rotations=massless",
         "modal.tolerance=1e-8",
     ];
-    let expected = Modal {
+    let expected = ModalSettings {
         modes: 3,
-        rotations: Word(Some(Rotations::Massless)),
+        rotations: Some(Rotations::Massless),
         tolerance: 1e-8,
     };
     assert_eq!(read(MODAL, &settings).unwrap().case.modal, Some(expected));

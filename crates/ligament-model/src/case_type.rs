@@ -2,8 +2,10 @@
 
 /// A structure or a list of words that a case file reads as it is. With the feature `case` the type derives what serde and schemars need: its
 /// documentation describes it to users, and `#[case(...)]` adds attributes of the two. A variant is written as its name in kebab case. A number
-/// with a `#[range(...)]` lies within bounds, which stand as keywords of a JSON schema; after a semicolon words of their own may describe them.
-/// The schema has the range, and [`Ranged`] checks it in memory. The unit of a number stands in its documentation.
+/// with a `#[range(...)]` lies within bounds ([`range`](crate::range)).
+/// The schema has the range, and [`Ranged`] checks it in memory. The unit of a number stands in its documentation. A list of words with
+/// `#[auto(...)]` is of choices that may be open: as an `Option` a case file reads it with the word `auto` for `None`, whose meaning the attribute has
+/// ([`Open`](crate::word::Open)).
 ///
 /// ```text
 /// ligament_model::case_type! {
@@ -44,10 +46,62 @@ macro_rules! case_type {
     (
         $(#[doc = $doc:literal])*
         #[derive($($derived:ident),+)]
+        #[auto($auto:literal)]
+        pub enum $name:ident {$(
+            $(#[doc = $meaning:literal])*
+            $word:ident,
+        )+}
+    ) => {
+        $(#[doc = $doc])*
+        #[doc = ""]
+        #[doc = concat!("Where it is open: ", $auto)]
+        #[derive($($derived),+)]
+        #[cfg_attr(feature = "case", derive(serde::Serialize), serde(rename_all = "kebab-case"))]
+        pub enum $name {$(
+            $(#[doc = $meaning])*
+            $word,
+        )+}
+
+        #[cfg(feature = "case")]
+        const _: () = {
+            #[derive(serde::Serialize, serde::Deserialize, schemars::JsonSchema)]
+            #[serde(rename_all = "kebab-case")]
+            pub enum Word {
+                #[doc = $auto]
+                Auto,
+                $($(#[doc = $meaning])* $word,)+
+            }
+
+            impl From<Option<$name>> for Word {
+                fn from(choice: Option<$name>) -> Self {
+                    match choice {
+                        None => Self::Auto,
+                        $(Some($name::$word) => Self::$word,)+
+                    }
+                }
+            }
+
+            impl From<Word> for Option<$name> {
+                fn from(word: Word) -> Self {
+                    match word {
+                        Word::Auto => None,
+                        $(Word::$word => Some($name::$word),)+
+                    }
+                }
+            }
+
+            impl $crate::word::Open for $name {
+                type Word = Word;
+            }
+        };
+    };
+    (
+        $(#[doc = $doc:literal])*
+        #[derive($($derived:ident),+)]
         $(#[case($($of_type:tt)+)])*
         pub struct $name:ident {$(
             $(#[doc = $meaning:literal])*
-            $(#[range($($bound:literal = $limit:expr),+ $(; $words:literal)?)])?
+            $(#[range($($range:tt)+)])?
             $(#[case($($of_key:tt)+)])*
             pub $key:ident: $value:ty,
         )+}
@@ -58,7 +112,7 @@ macro_rules! case_type {
         $(#[cfg_attr(feature = "case", $($of_type)+)])*
         pub struct $name {$(
             $(#[doc = $meaning])*
-            $(#[cfg_attr(feature = "case", schemars(extend($($bound = $limit),+)))])?
+            $(#[cfg_attr(feature = "case", schemars(transform = $crate::range!($($range)+).keywords()))])?
             $(#[cfg_attr(feature = "case", $($of_key)+)])*
             pub $key: $value,
         )+}
@@ -66,12 +120,89 @@ macro_rules! case_type {
         impl $crate::case_type::Ranged for $name {
             fn out_of_range(&self) -> Option<$crate::case_type::OutOfRange> {
                 None$($(.or_else(|| {
-                    let bounds = [$(($bound, f64::from($limit))),+];
-                    $crate::case_type::OutOfRange::check(stringify!($key), &self.$key, &bounds, concat!($($words)?))
+                    $crate::range!($($range)+).check(stringify!($key), &self.$key)
                 }))?)+
             }
         }
     };
+}
+
+/// The [`Range`](crate::case_type::Range) of a number: bounds by their keywords in a JSON schema, and after a semicolon words of their own where
+/// these describe them better; or a range that has a name.
+#[macro_export]
+macro_rules! range {
+    ($($bound:literal = $limit:expr),+ $(; $words:literal)?) => {
+        $crate::case_type::Range {
+            bounds: &[$(($bound, f64::from($limit))),+],
+            words: concat!($($words)?),
+        }
+    };
+    ($range:expr) => {
+        $range
+    };
+}
+
+/// Range of a number.
+#[derive(Debug, Clone, Copy)]
+pub struct Range<'a> {
+    /// Bounds by their keywords in a JSON schema.
+    pub bounds: &'a [(&'static str, f64)],
+    /// Description of the range, where the bounds are not sufficient; otherwise empty.
+    pub words: &'a str,
+}
+
+impl Range<'static> {
+    /// Numbers greater than 0.
+    pub const POSITIVE: Self = Self::new(&[("exclusiveMinimum", 0.0)]);
+
+    /// Numbers from 0.
+    pub const NOT_NEGATIVE: Self = Self::new(&[("minimum", 0.0)]);
+
+    /// Numbers between 0 and 1.
+    pub const SHARE: Self = Self::new(&[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0)]);
+
+    /// The numbers within bounds.
+    pub const fn new(bounds: &'static [(&'static str, f64)]) -> Self {
+        Self { bounds, words: "" }
+    }
+}
+
+impl Range<'_> {
+    /// The fault of the number of a key that is out of the range.
+    pub fn check(&self, key: &'static str, number: &impl Number) -> Option<OutOfRange> {
+        let (number, found) = number.given()?;
+        let bound = |keyword: &str| self.bounds.iter().find(|it| it.0 == keyword).map(|it| it.1);
+        let expected = if number.is_infinite() {
+            "a finite number".to_owned()
+        } else if is_within(number, bound) {
+            return None;
+        } else if self.words.is_empty() {
+            range_in_words(bound).unwrap_or("at least 0".to_owned())
+        } else {
+            self.words.to_owned()
+        };
+        Some(OutOfRange {
+            key,
+            expected,
+            found,
+        })
+    }
+}
+
+#[cfg(feature = "case")]
+impl<'a> Range<'a> {
+    /// The transform of the schema of a key that has the range.
+    pub fn keywords(self) -> impl Fn(&mut schemars::Schema) + 'a {
+        move |schema| {
+            for &(keyword, limit) in self.bounds {
+                let limit = match limit.fract() == 0.0 {
+                    true => (limit as i64).into(),
+                    false => limit.into(),
+                };
+                schema.insert(keyword.to_owned(), limit);
+            }
+        }
+    }
 }
 
 /// A number that is out of the range of its key.
@@ -109,36 +240,15 @@ impl Number for usize {
     }
 }
 
-impl<T: Number> Number for Option<T> {
+impl Number for u32 {
     fn given(&self) -> Option<(f64, String)> {
-        self.as_ref()?.given()
+        Some((f64::from(*self), self.to_string()))
     }
 }
 
-impl OutOfRange {
-    /// The fault of the number of a key that is out of its bounds, which words of their own may describe.
-    pub fn check(
-        key: &'static str,
-        number: &impl Number,
-        bounds: &[(&str, f64)],
-        words: &str,
-    ) -> Option<Self> {
-        let (number, found) = number.given()?;
-        let bound = |keyword: &str| bounds.iter().find(|it| it.0 == keyword).map(|it| it.1);
-        let expected = if number.is_infinite() {
-            "a finite number".to_owned()
-        } else if is_within(number, bound) {
-            return None;
-        } else if words.is_empty() {
-            range_in_words(bound).unwrap_or("at least 0".to_owned())
-        } else {
-            words.to_owned()
-        };
-        Some(Self {
-            key,
-            expected,
-            found,
-        })
+impl<T: Number> Number for Option<T> {
+    fn given(&self) -> Option<(f64, String)> {
+        self.as_ref()?.given()
     }
 }
 

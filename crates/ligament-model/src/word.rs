@@ -1,11 +1,11 @@
-//! Words in case files for values that stand in tables.
+//! Words in case files: of values that stand in tables, and of choices that may be open.
 
 use std::fmt;
 use std::marker::PhantomData;
 
-use schemars::{Schema, json_schema};
-use serde::Deserializer;
-use serde::de::{EnumAccess, Error, VariantAccess, Visitor};
+use schemars::{JsonSchema, Schema, json_schema};
+use serde::de::{DeserializeOwned, EnumAccess, Error, VariantAccess, Visitor};
+use serde::{Deserializer, Serialize};
 
 /// A value that is written as a word.
 pub trait Worded: Copy + 'static {
@@ -26,6 +26,45 @@ pub trait Worded: Copy + 'static {
 /// If the value is no word, or the word is unknown.
 pub fn read<'de, T: Worded, D: Deserializer<'de>>(deserializer: D) -> Result<T, D::Error> {
     deserializer.deserialize_enum("word", T::WORDS, WordVisitor(PhantomData))
+}
+
+/// A choice that may be open, for which a case file has the word `auto`; see [`case_type`](crate::case_type).
+pub trait Open: Copy {
+    /// The words of the choice, and `auto`.
+    type Word: From<Option<Self>> + Into<Option<Self>> + Serialize + DeserializeOwned + JsonSchema;
+}
+
+/// The words of a choice that may be open, for its schema.
+pub type OpenWord<T> = <T as Open>::Word;
+
+/// Reading and writing of choices that may be open, for serde.
+pub mod open {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    use super::{Open, OpenWord};
+
+    /// Writes a choice.
+    ///
+    /// # Errors
+    ///
+    /// If the word cannot be written.
+    pub fn serialize<T: Open, S: Serializer>(
+        choice: &Option<T>,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        OpenWord::<T>::from(*choice).serialize(serializer)
+    }
+
+    /// Reads a choice.
+    ///
+    /// # Errors
+    ///
+    /// If the value is no word, or the word is unknown.
+    pub fn deserialize<'de, T: Open, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<Option<T>, D::Error> {
+        OpenWord::<T>::deserialize(deserializer).map(Into::into)
+    }
 }
 
 struct WordVisitor<T>(PhantomData<T>);

@@ -34,7 +34,7 @@ pub fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading> {
     );
     let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;
-    loading.solver.memory = memory::for_factor(case, &*model.system);
+    loading.solver.factor_memory = memory::for_factor(case, &*model.system);
     Ok(loading)
 }
 

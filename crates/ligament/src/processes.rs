@@ -16,6 +16,6 @@ pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
         || matches!(setup.analysis, Analysis::Modal(_) | Analysis::Motion(_));
     match needs_all {
         true => Arc::new(Solo),
-        false => setup.solver.communicator.clone(),
+        false => setup.solver.communicator.0.clone(),
     }
 }

@@ -40,7 +40,7 @@ impl Setup {
     ///
     /// Where the near field of the setup grows, the observer sees each run from its start.
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
-        let (threads, communicator) = (self.threads, self.solver.communicator.clone());
+        let (threads, communicator) = (self.threads(), self.solver.communicator.clone());
         let solve = || {
             let mut setup = self;
             loop {
@@ -79,7 +79,7 @@ impl Setup {
         let Analysis::Modal(settings) = self.analysis else {
             return Err(other_analysis(&self.analysis, "natural modes"));
         };
-        let (threads, communicator) = (self.threads, self.solver.communicator.clone());
+        let (threads, communicator) = (self.threads(), self.solver.communicator.clone());
         let find = || {
             let model = Model::build(self, &mut ())?;
             let vibration = Vibration::new(&model)?;

@@ -4,7 +4,7 @@
 use ligament::analysis::motion::MotionSettings;
 use ligament::body::PointsError;
 use ligament::prelude::*;
-use ligament::setup::ContactLaw;
+use ligament::setup::SurfaceContact;
 use ligament::suggestion::{hint, nearest};
 use ligament_model::failure::mixed_mode::MIXED_MODE;
 use ligament_model::{Anisotropic, Orthotropic};
@@ -102,9 +102,11 @@ fn numbers_out_of_the_ranges_of_their_keys_are_refused() {
             it.analysis = Analysis::Motion(settings);
         })
     };
-    let law = ContactLaw {
+    let contact = SurfaceContact {
+        between: None,
         friction: -0.1,
-        ..ContactLaw::default()
+        stiffness: 1.0,
+        cracks: false,
     };
     for (found, expected) in [
         (
@@ -151,8 +153,23 @@ fn numbers_out_of_the_ranges_of_their_keys_are_refused() {
             "supports[0].stiffness: must be greater than 0, found -1.0",
         ),
         (
-            error(|it| it.contacts.push(law.into())),
+            error(|it| it.contacts.push(contact)),
             "contacts[0].friction: must be 0 or more, found -0.1",
+        ),
+        (
+            error(|it| it.solver.rebuild_every = 0),
+            "solver.rebuild_every: must be at least 1, found 0",
+        ),
+        (
+            error(|it| {
+                let modes = 0;
+                it.materials[0].material.density = Some(1e3);
+                it.analysis = Analysis::Modal(ModalSettings {
+                    modes,
+                    ..ModalSettings::default()
+                });
+            }),
+            "modal.modes: must be 1 to 1000, found 0",
         ),
     ] {
         assert_eq!(found, expected);

@@ -17,7 +17,9 @@ mod shape;
 use std::sync::Arc;
 
 use ligament_linalg::FactorError;
-use ligament_model::{Bonds, LumpedMass};
+#[cfg(feature = "case")]
+use ligament_model::word::{OpenWord, open};
+use ligament_model::{Bonds, LumpedMass, case_type};
 use thiserror::Error;
 
 use crate::balanced::Stability;
@@ -44,15 +46,34 @@ pub struct ModalProblem {
     pub solver: SolverSettings,
 }
 
-/// Settings of the search for modes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ModalSettings {
-    /// Number of modes, including rigid ones, lowest first.
-    pub modes: usize,
-    /// Inertia of the rotations; open: with inertia where no bond has a negative shear stiffness.
-    pub rotations: Option<Rotations>,
-    /// Largest residual of the iteration, relative to 1/omega^2, of a converged mode.
-    pub tolerance: f64,
+/// Largest number of modes: each needs three vectors of the search in memory.
+pub const MOST_MODES: u32 = 1000;
+
+case_type! {
+    /// Natural modes that are wanted.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    #[case(serde(default))]
+    pub struct ModalSettings {
+        /// Number of modes, rigid ones included, lowest first.
+        #[range("minimum" = 1, "maximum" = MOST_MODES)]
+        pub modes: usize,
+        /// Inertia of the rotations of the points.
+        #[case(serde(with = "open"), schemars(with = "OpenWord<Rotations>"))]
+        pub rotations: Option<Rotations>,
+        /// Residual of the search, relative to 1/omega^2.
+        #[range("exclusiveMinimum" = 0)]
+        pub tolerance: f64,
+    }
+}
+
+impl Default for ModalSettings {
+    fn default() -> Self {
+        Self {
+            modes: 10,
+            rotations: None,
+            tolerance: 1e-10,
+        }
+    }
 }
 
 /// Modes of a body.

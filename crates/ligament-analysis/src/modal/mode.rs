@@ -3,13 +3,16 @@
 /// Residual of a mode above which the user receives a notice.
 pub const RESIDUAL_TOLERANCE: f64 = 1e-8;
 
-/// Inertia of the rotations of the points.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Rotations {
-    /// Rotations have the inertia J_i.
-    Inertia,
-    /// Rotations have no inertia and follow the displacements.
-    Massless,
+ligament_model::case_type! {
+    /// Inertia of the rotations of the points.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    #[auto("`inertia` where no bond has a negative shear stiffness, `massless` otherwise.")]
+    pub enum Rotations {
+        /// Rotations have the inertia of a square with the point's volume.
+        Inertia,
+        /// Rotations have no inertia and follow the displacements.
+        Massless,
+    }
 }
 
 /// A natural mode.

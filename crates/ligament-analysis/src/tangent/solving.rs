@@ -46,7 +46,7 @@ impl Solving {
             let solver = DistributedSolver::new(
                 system.clone(),
                 unknowns.clone(),
-                communicator.clone(),
+                communicator.0.clone(),
                 numbers.clone(),
                 choice.tolerance,
             );

@@ -26,7 +26,7 @@ pub struct Rigid {
     /// Centre of the body at the start, of a wall a point of its surface, m.
     pub centre: Coordinates,
     /// Radius of a circle or sphere, m.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(transform = RigidForm::RADIUS.keywords())]
     pub radius: Option<f64>,
     /// Outward normal of a wall.
     pub normal: Option<Coordinates>,
@@ -39,20 +39,20 @@ pub struct Rigid {
     /// Factor of the velocity as a function of time; without it 1.
     pub amplitude: Option<Amplitude>,
     /// Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(transform = setup::Rigid::MASS.keywords())]
     pub mass: Option<f64>,
     /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(transform = setup::Rigid::INERTIA.keywords())]
     pub inertia: Option<f64>,
     /// Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2.
     pub acceleration: Option<Vector>,
     /// Coefficient of Coulomb's friction.
     #[serde(default)]
-    #[schemars(range(min = 0))]
+    #[schemars(transform = ContactLaw::FRICTION.keywords())]
     pub friction: f64,
     /// Stiffness of the contact over E'/h of the material, with the spacing h of the points.
     #[serde(default = "one")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(transform = ContactLaw::STIFFNESS.keywords())]
     pub stiffness: f64,
     /// Groups whose outlines it meets; without it that of the whole body.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

@@ -216,16 +216,16 @@ pub struct Scatter {
     #[serde(default)]
     pub distribution: Distribution,
     /// Weibull modulus; of `weibull`: 5 scatters by 23 %, 12 by 10 %, 25 by 5 %.
-    #[schemars(range(min = 1, max = 10_000))]
+    #[schemars(transform = scatter::Distribution::MODULUS.keywords())]
     pub modulus: Option<f64>,
     /// Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`.
-    #[schemars(range(max = 10), extend("exclusiveMinimum" = 0))]
+    #[schemars(transform = scatter::Distribution::DEVIATION.keywords())]
     pub deviation: Option<f64>,
     /// Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's.
     pub seed: Option<u64>,
     /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
     #[serde(default)]
-    #[schemars(range(min = 0))]
+    #[schemars(transform = scatter::Scatter::CORRELATION_LENGTH.keywords())]
     pub correlation_length: f64,
 }
 

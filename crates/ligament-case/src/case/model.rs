@@ -1,8 +1,8 @@
 //! `[model]` and `[correction]`: the bond model, and the factors alpha and Omega of its bonds.
 
 use ligament::setup::{
-    self, Alpha, Calibration, CorrectionDomain, Form, Horizon, Iteration, Law, Options, Strains,
-    Surface,
+    self, Alpha, Calibration, CorrectionDomain, Form, Horizon, Iteration, Law, Options, Setup,
+    Strains, Surface,
 };
 use ligament_model::correction::StopRule;
 use ligament_model::correction::patch::{Reference, Settings};
@@ -24,10 +24,10 @@ pub struct ModelSection {
     /// The bond law.
     pub law: Law,
     /// Horizon of each point over the distance to its nearest neighbour, lambda; 3 is usual.
-    #[schemars(range(min = 1))]
+    #[schemars(transform = Horizon::FACTOR.keywords())]
     pub horizon_factor: Option<f64>,
     /// One horizon for all points, m, in the place of `horizon_factor`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(transform = Horizon::LENGTH.keywords())]
     pub horizon: Option<f64>,
     /// Whether bonds run through holes, slots and notches of a mesh, as if these were filled.
     #[serde(default)]
@@ -38,7 +38,7 @@ pub struct ModelSection {
     pub closing: bool,
     /// Coefficient of friction on faces that close; not along the exact path.
     #[serde(default, skip_serializing_if = "is_zero")]
-    #[schemars(range(min = 0), extend("default" = 0.0))]
+    #[schemars(transform = Setup::CLOSING_FRICTION.keywords(), extend("default" = 0.0))]
     pub closing_friction: f64,
     /// Whether a run goes on where the intact model is unstable, with more negative eigenvalues than its rotations explain; its results are
     /// then not to be trusted.
@@ -52,12 +52,12 @@ pub struct ModelSection {
     #[schemars(extend("description" = of_laws("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
     pub rotational_stiffness: Option<RotationalStiffness>,
     /// Stiffness against relative rotation over that of the law; 1 without the key.
-    #[schemars(range(min = 0), extend("description" = of_laws("Stiffness against relative rotation over that of the law; 1 without the \
+    #[schemars(transform = RotationalScale::FACTOR.keywords(), extend("description" = of_laws("Stiffness against relative rotation over that of the law; 1 without the \
         key", |it| it.shear_form.is_some())))]
     pub rotational_factor: Option<f64>,
     /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
     /// `rotational_factor`.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[schemars(transform = RotationalScale::LENGTH.keywords())]
     pub cosserat_length: Option<f64>,
     /// How the bonds of `mbb-pd` resist their strains.
     pub form: Option<Form>,
@@ -160,16 +160,16 @@ pub struct Correction {
     /// The factors that those of the patch correction are the nearest to; without it `body` in the plane and `families` in space.
     pub reference: Option<Reference>,
     /// Smallest factor of the patch correction over the uncorrected one.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = Settings::DEFAULT.lowest))]
+    #[schemars(transform = Settings::LOWEST.keywords(), extend("default" = Settings::DEFAULT.lowest))]
     pub smallest_factor: Option<f64>,
     /// Largest factor of the patch correction over the uncorrected one.
-    #[schemars(extend("exclusiveMinimum" = 1, "default" = Settings::DEFAULT.highest))]
+    #[schemars(transform = Settings::HIGHEST.keywords(), extend("default" = Settings::DEFAULT.highest))]
     pub largest_factor: Option<f64>,
     /// Weight of the equations of moments against those of forces in the patch correction.
-    #[schemars(extend("exclusiveMinimum" = 0, "default" = Settings::DEFAULT.moment_weight))]
+    #[schemars(transform = Settings::MOMENT_WEIGHT.keywords(), extend("default" = Settings::DEFAULT.moment_weight))]
     pub moment_weight: Option<f64>,
     /// Regularisation of the patch correction, which lets go where its equations cannot be met.
-    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 1, "default" = Settings::DEFAULT.regularisation))]
+    #[schemars(transform = Settings::REGULARISATION.keywords(), extend("default" = Settings::DEFAULT.regularisation))]
     pub regularisation: Option<f64>,
     /// The body that the correction sees.
     #[serde(default)]

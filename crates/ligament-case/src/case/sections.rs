@@ -7,13 +7,15 @@ use ligament::body::AnyBody;
 use ligament::near_growth::Growth;
 use ligament::plausibility::{of_angle, without_thickness};
 use ligament::setup::{self, Alpha, QuietEdge, Section, Setup, SurfaceContact};
+use ligament_analysis::SolverSettings;
+use ligament_analysis::modal::ModalSettings;
 use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_mesh::{AnyMesh, Mesh, SolidMesh};
 use ligament_model::Plane;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::analysis::{self, Analysis, Modal, Output, Solver, StressField};
+use super::analysis::{self, Analysis, Output, StressField};
 use super::conditions::{InitialVelocity, Load, Support, Temperature};
 use super::contact::Rigid;
 use super::decode::decode;
@@ -108,13 +110,13 @@ pub struct Case {
     /// How bonds break; without it the case is one linear elastic solution.
     pub fracture: Option<Fracture>,
     /// Natural modes that are wanted, with `analysis = "modal"`.
-    pub modal: Option<Modal>,
+    pub modal: Option<ModalSettings>,
     /// A motion in time under loads that depend on time.
     pub motion: Option<MotionSettings>,
     /// How the equations are solved; nothing need be said.
     #[serde(default, deserialize_with = "analysis::read_solver")]
     #[schemars(schema_with = "analysis::solver_schema")]
-    pub solver: Solver,
+    pub solver: SolverSettings,
     /// What a run writes.
     #[serde(default)]
     pub output: Output,
@@ -328,8 +330,10 @@ impl Case {
                 .unwrap_or_default(),
             probes: each(&at("probe"), &self.probes, Probe::setup)?,
             analysis: self.analysis_of_setup()?,
-            solver: self.solver.setup(self.model.allow_unstable),
-            threads: self.solver.threads.map(|threads| threads as usize),
+            solver: SolverSettings {
+                allows_unstable: self.model.allow_unstable,
+                ..self.solver.clone()
+            },
             remarks: self.remarks(),
         })
     }
@@ -393,7 +397,7 @@ impl Case {
                     ..*motion
                 })
             }
-            (None, Some(modal), _) => setup::Analysis::Modal(modal.setup()),
+            (None, Some(modal), _) => setup::Analysis::Modal(*modal),
             (None, None, Some(fracture)) => {
                 fracture.setup(&at("fracture"), !self.stages.is_empty())?
             }

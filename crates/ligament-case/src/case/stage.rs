@@ -11,9 +11,6 @@ use super::key_path::KeyPath;
 use super::values::{Form, exactly_one, one_of, require_column_name};
 use ligament::setup;
 
-/// Largest number of load steps of a stage: each has a row in the history.
-const MOST_STEPS: usize = 1_000_000;
-
 /// A stage of the loading: loads that go to other factors, each times the load as it is at factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -26,7 +23,7 @@ pub struct Stage {
     #[schemars(extend("minProperties" = 1))]
     pub loads: BTreeMap<String, Factors>,
     /// Equal load steps of the stage; not on the exact path, nor in an elastic analysis.
-    #[schemars(range(min = 1, max = MOST_STEPS))]
+    #[schemars(transform = setup::Stage::STEPS.keywords())]
     pub steps: Option<usize>,
     /// What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
     /// peaks and snap-backs. Without it the factors grow.

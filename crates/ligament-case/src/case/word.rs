@@ -1,10 +1,8 @@
-//! Values of the libraries that are words in a case file, with data or where they may be open.
+//! Values of the libraries with data that are words in a case file.
 
 use std::borrow::Cow;
 
 use ligament::setup::{Iteration, Surface};
-use ligament_analysis::modal::Rotations;
-use ligament_analysis::solver::{FactorKind, Method, Ordering, Update};
 use ligament_model::correction::StopRule;
 use ligament_model::correction::patch::Settings;
 use ligament_model::word::{self, Worded};
@@ -43,36 +41,6 @@ worded! { Option<StopRule>:
     [None] "auto" "`sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.";
     [Some(Iteration::SUM)] in [Some(StopRule::Sum(_))] "sum" "Summed over all bonds (the paper's): grows with the size of the model.";
     [Some(Iteration::MEAN)] in [Some(StopRule::Mean(_))] "mean" "Mean per bond: independent of the size of the model.";
-}
-
-worded! { Option<Method>:
-    [None] "auto" "`direct` in the plane as long as the factor fits into memory and in space up to 5,000 points, and where the iteration cannot; `iterative` beyond.";
-    [Some(Method::Direct)] "direct" "With a factor of the matrix.";
-    [Some(Method::Iterative)] "iterative" "By conjugate gradients without a matrix, for positive definite stiffness.";
-}
-
-worded! { Option<FactorKind>:
-    [None] "auto" "`llt` where every bond has a positive shear stiffness, `ldlt` otherwise.";
-    [Some(FactorKind::Llt)] "llt" "L L^T, for positive definite stiffness.";
-    [Some(FactorKind::Ldlt)] "ldlt" "L D L^T, also for indefinite stiffness.";
-}
-
-worded! { Option<Ordering>:
-    [None] "auto" "`nested-dissection` from 10,000 points on, `minimum-degree` below.";
-    [Some(Ordering::NestedDissection)] "nested-dissection" "Nested dissection of the points.";
-    [Some(Ordering::MinimumDegree)] "minimum-degree" "Approximate minimum degree of the unknowns.";
-}
-
-worded! { Option<Update>:
-    [None] "auto" "`incremental`.";
-    [Some(Update::Incremental)] "incremental" "The factor is changed in place, unless so many bonds break at once that making it anew costs less.";
-    [Some(Update::Refactor)] "refactor" "The factor is made anew every time.";
-}
-
-worded! { Option<Rotations>:
-    [None] "auto" "`inertia` where no bond has a negative shear stiffness, `massless` otherwise.";
-    [Some(Rotations::Inertia)] "inertia" "Rotations have the inertia of a square with the point's volume.";
-    [Some(Rotations::Massless)] "massless" "Rotations have no inertia and follow the displacements.";
 }
 
 /// The word of a value that is written as one.

@@ -34,7 +34,7 @@ pub(super) fn check(
 ) -> anyhow::Result<Foreseen> {
     let loading = Loading::new(model);
     let mut loading = loading.map_err(|it| case.located(it))?;
-    loading.solver.memory = memory::for_factor(case, &*model.system);
+    loading.solver.factor_memory = memory::for_factor(case, &*model.system);
     let problem = loading.problem(model);
     let equilibrium = match extent {
         Extent::Model => None,

@@ -8,7 +8,8 @@ use super::numbers::{number, positive};
 use super::output;
 use crate::build::BUILD;
 use crate::terminal;
-use ligament_case::case::{CaseFile, MOST_THREADS};
+use ligament_analysis::solver::MOST_THREADS;
+use ligament_case::case::CaseFile;
 use ligament_study::calibrate::{Request, calibrate, line};
 
 pub(super) const EXAMPLES: &str = "\

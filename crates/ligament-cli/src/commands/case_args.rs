@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
-use ligament_case::case::{CaseError, CaseFile, MOST_THREADS, unset};
+use ligament_analysis::solver::MOST_THREADS;
+use ligament_case::case::{CaseError, CaseFile, unset};
 
 /// A case and changes to it.
 #[derive(Debug, Args)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use ligament_case::case::MOST_THREADS;
+use ligament_analysis::solver::MOST_THREADS;
 use ligament_run::progress::ProgressMode;
 use ligament_run::resume::Request;
 

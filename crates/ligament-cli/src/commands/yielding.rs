@@ -10,7 +10,7 @@ use super::case_args::CaseArgs;
 use super::numbers::position;
 use super::output;
 use crate::terminal;
-use ligament_case::case::MOST_THREADS;
+use ligament_analysis::solver::MOST_THREADS;
 use ligament_study::yielding::criteria::Combination;
 use ligament_study::yielding::{Families, Place, Request, yielding};
 

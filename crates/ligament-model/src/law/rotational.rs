@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::{BondStiffness, Densities, bulk_stiffness};
 use crate::bonds::BondSet;
+use crate::case_type::Range;
 use crate::cloud::PointCloud;
 use crate::material::{Elasticity, Plane};
 
@@ -34,10 +35,18 @@ crate::case_type! {
 /// Scale of k_theta, which every choice of the form leaves free.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RotationalScale {
-    /// Factor of the k_theta of the law, at least 0.
+    /// Factor of the k_theta of the law.
     Factor(f64),
     /// Characteristic length l_b in bending of a Cosserat continuum, m, whose modulus of curvature is gamma = 4 G l_b^2 (N).
     CosseratLength(f64),
+}
+
+impl RotationalScale {
+    /// Range of a factor.
+    pub const FACTOR: Range<'static> = Range::NOT_NEGATIVE;
+
+    /// Range of a length.
+    pub const LENGTH: Range<'static> = Range::POSITIVE;
 }
 
 /// Dependence of k_theta on the length of bonds.

@@ -2,11 +2,10 @@
 
 use std::f64::consts::SQRT_2;
 
+use crate::case_type::Range;
+
 /// Number of standard deviations beyond which factors of the normal distribution are cut off: one value in 16,000.
 const CUT: f64 = 4.0;
-
-/// Upper bound of the coefficient of variation of the normal distribution, for which all factors are positive.
-pub(super) const LARGEST_DEVIATION: f64 = 1.0 / CUT;
 
 /// Distribution of a factor with the mean 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +17,7 @@ pub enum Distribution {
     },
     /// Normal distribution, cut off at four standard deviations.
     Normal {
-        /// Standard deviation over the mean, less than 0.25.
+        /// Standard deviation over the mean.
         deviation: f64,
     },
     /// Lognormal distribution: ln f is normal with the variance s^2 = ln(1 + c^2) and the mean -s^2/2 (Aitchison and Brown 1957).
@@ -29,8 +28,18 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// Upper bound of the coefficient of variation of a normal distribution, for which no factor is negative.
-    pub const LARGEST_DEVIATION: f64 = LARGEST_DEVIATION;
+    /// Range of a Weibull modulus.
+    pub const MODULUS: Range<'static> = Range::new(&[("minimum", 1.0), ("maximum", 1e4)]);
+
+    /// Range of the standard deviation of a lognormal distribution over the mean.
+    pub const DEVIATION: Range<'static> =
+        Range::new(&[("exclusiveMinimum", 0.0), ("maximum", 10.0)]);
+
+    /// Range of the standard deviation of a normal distribution over the mean, in which no factor is negative.
+    pub const NORMAL: Range<'static> = Range {
+        bounds: &[("exclusiveMinimum", 0.0), ("exclusiveMaximum", 1.0 / CUT)],
+        words: "greater than 0 and less than 0.25, so that no strength is negative",
+    };
 
     /// Factor with the same exceedance probability as a standard normal number.
     pub fn factor(&self, normal: f64) -> f64 {

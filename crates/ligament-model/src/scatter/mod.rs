@@ -14,6 +14,7 @@ use rayon::prelude::*;
 
 pub use distribution::Distribution;
 
+use crate::case_type::Range;
 use waves::RandomWaves;
 
 /// Random variation of a property of the material.
@@ -105,6 +106,9 @@ pub struct Factors {
 }
 
 impl Scatter {
+    /// Range of a correlation length.
+    pub const CORRELATION_LENGTH: Range<'static> = Range::NOT_NEGATIVE;
+
     /// Factors at the positions (n_points), m, of points with a given numbering.
     pub fn factors<const D: usize>(
         &self,

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use ligament_analysis::modal::{ModalOutcome, Mode, Rotations};
+use ligament_analysis::modal::{ModalOutcome, Mode};
 use ligament_analysis::solver::SolverChoice;
 use ligament_output::quantity::{four_digits, quantity};
 use ligament_output::summary::{
@@ -15,7 +15,7 @@ use super::model::{OfPoints, heading, model_summary};
 use super::solver::solver_summary;
 use crate::stability;
 use ligament::Model;
-use ligament_case::case::CaseFile;
+use ligament_case::case::{CaseFile, word_of};
 
 /// Summary of an analysis of natural modes.
 pub fn modal_summary(
@@ -41,10 +41,7 @@ pub fn modal_summary(
         mass: moving.total,
         centre_of_mass: moving.centre.clone(),
         moving: moving.free.clone(),
-        rotations: match outcome.rotations {
-            Rotations::Inertia => "inertia".into(),
-            Rotations::Massless => "massless".into(),
-        },
+        rotations: word_of(&outcome.rotations).into(),
         rigid_motions: outcome.rigid_motions,
         complete: outcome.complete,
         effective_shares: (0..moving.free.len())

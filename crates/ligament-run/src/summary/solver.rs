@@ -2,9 +2,8 @@
 
 use ligament_analysis::costs::Costs;
 use ligament_analysis::critical_step::CriticalStep;
-use ligament_analysis::solver::{
-    DirectChoice, ExplicitChoice, FactorKind, Ordering, SolverChoice, Update,
-};
+use ligament_analysis::solver::{DirectChoice, ExplicitChoice, FactorKind, SolverChoice};
+use ligament_case::case::word_of;
 use ligament_output::summary::{FactorSummary, IterationSummary, SolverSummary};
 
 /// Summary of the choices for a matrix factor.
@@ -15,14 +14,8 @@ fn factor(choice: &DirectChoice) -> FactorSummary {
             FactorKind::Llt => "llt".into(),
             FactorKind::Ldlt => "ldlt".into(),
         },
-        ordering: match choice.ordering {
-            Ordering::NestedDissection => "nested-dissection".into(),
-            Ordering::MinimumDegree => "minimum-degree".into(),
-        },
-        update: match choice.update {
-            Update::Incremental => "incremental".into(),
-            Update::Refactor => "refactor".into(),
-        },
+        ordering: word_of(&choice.ordering).into(),
+        update: word_of(&choice.update).into(),
     }
 }
 

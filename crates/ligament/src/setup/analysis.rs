@@ -77,12 +77,3 @@ pub fn event() -> EventSettings {
         stop: StopRules::NONE,
     }
 }
-
-/// Settings of an analysis of the ten lowest modes, including rigid modes.
-pub fn modal() -> ModalSettings {
-    ModalSettings {
-        modes: 10,
-        rotations: None,
-        tolerance: 1e-10,
-    }
-}

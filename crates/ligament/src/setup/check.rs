@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::fmt::Debug;
 
 use ligament_analysis::Component;
-use ligament_model::case_type::{OutOfRange, Ranged};
+use ligament_model::case_type::{Number, OutOfRange, Range, Ranged};
 use ligament_model::correction::patch;
 use ligament_model::law::{BondLaw, Materials, PaperCorrection, suited};
 use ligament_model::scatter::{Distribution, Scatter, Scattered};
@@ -27,21 +27,21 @@ impl Setup {
     ///
     /// If a field is out of range, missing, or contradicts another.
     pub fn check(&self) -> Checked {
-        match self.horizon {
-            Horizon::Factor(factor) => require(
-                factor >= 1.0 && factor.is_finite(),
-                Field::whole("horizon"),
-                "at least 1",
-                factor,
-            )?,
-            Horizon::Length(length) => positive(Field::whole("horizon"), Some(length))?,
-        }
+        let (range, horizon) = match self.horizon {
+            Horizon::Factor(factor) => (Horizon::FACTOR, factor),
+            Horizon::Length(length) => (Horizon::LENGTH, length),
+        };
+        within(range, Field::whole("horizon"), horizon)?;
         if self.materials.is_empty() {
             let reason = "there is no material: give one, or one for each group";
             return contradiction(Field::whole("materials"), reason);
         }
         for (index, region) in self.materials.iter().enumerate() {
             self.check_material(Field::element("materials", index), &region.material)?;
+        }
+        in_range(&self.solver, |key| Field::whole("solver").part(key))?;
+        if let Analysis::Modal(settings) = &self.analysis {
+            in_range(settings, |key| Field::whole("modal").part(key))?;
         }
         self.check_criteria()?;
         self.check_scatter()?;
@@ -194,27 +194,21 @@ impl Setup {
             let field = Field::whole("correction").part("domain");
             return contradiction(field, Advice::new(text, [whole]));
         }
-        let (lowest, highest) = (settings.lowest, settings.highest);
-        let is_share = |value: f64| value > 0.0 && value < 1.0;
-        let r = settings.regularisation;
-        require(
-            is_share(lowest),
-            field.part("lowest"),
-            "between 0 and 1",
+        use patch::Settings as S;
+        let S {
             lowest,
-        )?;
-        require(
-            highest > 1.0 && highest.is_finite(),
-            field.part("highest"),
-            "greater than 1",
             highest,
-        )?;
-        positive(field.part("moment_weight"), Some(settings.moment_weight))?;
-        require(
-            is_share(r),
+            moment_weight,
+            regularisation,
+            ..
+        } = settings;
+        within(S::LOWEST, field.part("lowest"), lowest)?;
+        within(S::HIGHEST, field.part("highest"), highest)?;
+        within(S::MOMENT_WEIGHT, field.part("moment_weight"), moment_weight)?;
+        within(
+            S::REGULARISATION,
             field.part("regularisation"),
-            "between 0 and 1",
-            r,
+            regularisation,
         )
     }
 
@@ -424,11 +418,20 @@ pub(super) fn require(
 
 /// Refuses numbers out of the ranges of their keys; `field` is the field of a key.
 pub(super) fn in_range(of: &impl Ranged, field: impl Fn(&'static str) -> Field) -> Checked {
+    refuse(of.out_of_range(), field)
+}
+
+/// Refuses a number out of its range; no number passes.
+pub(super) fn within(range: Range<'_>, field: Field, number: impl Number) -> Checked {
+    refuse(range.check("", &number), |_| field)
+}
+
+fn refuse(number: Option<OutOfRange>, field: impl Fn(&'static str) -> Field) -> Checked {
     let Some(OutOfRange {
         key,
         expected,
         found,
-    }) = of.out_of_range()
+    }) = number
     else {
         return Ok(());
     };
@@ -438,15 +441,7 @@ pub(super) fn in_range(of: &impl Ranged, field: impl Fn(&'static str) -> Field) 
 
 /// Refuses a value that is not finite and greater than zero; no value passes.
 pub(super) fn positive(field: Field, value: Option<f64>) -> Checked {
-    let value = value.unwrap_or(1.0);
-    require(!value.is_infinite(), field, "a finite number", value)?;
-    require(value > 0.0, field, "greater than 0", value)
-}
-
-/// Refuses a value that is negative or not finite.
-pub(super) fn not_negative(field: Field, value: f64) -> Checked {
-    let holds = value >= 0.0 && value.is_finite();
-    require(holds, field, "at least 0", value)
+    within(Range::POSITIVE, field, value)
 }
 
 pub(crate) fn contradiction(field: Field, reason: impl Into<Advice<Setting>>) -> Checked {
@@ -555,26 +550,16 @@ impl Setup {
 
 /// Refuses a distribution with factors out of range, and a negative length.
 fn check_range(scatter: &Scatter, field: Field) -> Checked {
-    match scatter.distribution {
-        Distribution::Weibull { modulus } => require(
-            (1.0..=1e4).contains(&modulus),
-            field.part("modulus"),
-            "between 1 and 1e4",
-            modulus,
-        )?,
-        Distribution::Normal { deviation } => require(
-            deviation > 0.0 && deviation < Distribution::LARGEST_DEVIATION,
-            field.part("deviation"),
-            "greater than 0 and less than 0.25, so that no strength is negative",
-            deviation,
-        )?,
-        Distribution::Lognormal { deviation } => require(
-            deviation > 0.0 && deviation <= 10.0,
-            field.part("deviation"),
-            "greater than 0 and at most 10",
-            deviation,
-        )?,
-    }
+    let (range, part, number) = match scatter.distribution {
+        Distribution::Weibull { modulus } => (Distribution::MODULUS, "modulus", modulus),
+        Distribution::Normal { deviation } => (Distribution::NORMAL, "deviation", deviation),
+        Distribution::Lognormal { deviation } => (Distribution::DEVIATION, "deviation", deviation),
+    };
+    within(range, field.part(part), number)?;
     let length = field.part("correlation_length");
-    not_negative(length, scatter.correlation_length)
+    within(
+        Scatter::CORRELATION_LENGTH,
+        length,
+        scatter.correlation_length,
+    )
 }

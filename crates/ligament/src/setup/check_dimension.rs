@@ -8,7 +8,7 @@ use ligament_model::law::{BondLaw, listed, orthotropic, suited};
 use ligament_model::material::Space;
 use ligament_model::{Advice, ElementKind};
 
-use super::check::{Checked, contradiction, not_negative, positive, require};
+use super::check::{Checked, contradiction, positive, require, within};
 use super::setting::Setting;
 use super::{
     Action, Analysis, CorrectionDomain, CrackShape, Displacement, Form, Place, Position, Profile,
@@ -104,9 +104,11 @@ impl Setup {
             _ => {}
         }
         match scale {
-            RotationalScale::Factor(factor) => not_negative(field.part("factor"), factor),
+            RotationalScale::Factor(factor) => {
+                within(RotationalScale::FACTOR, field.part("factor"), factor)
+            }
             RotationalScale::CosseratLength(length) => {
-                positive(field.part("length"), Some(length))?;
+                within(RotationalScale::LENGTH, field.part("length"), length)?;
                 self.check_coupling(field.part("length"))
             }
         }
@@ -131,7 +133,7 @@ impl Setup {
     /// Checks closing faces against law and correction.
     fn check_closing(&self) -> Checked {
         let friction = Field::whole("closing_friction");
-        not_negative(friction, self.closing_friction)?;
+        within(Self::CLOSING_FRICTION, friction, self.closing_friction)?;
         if self.closing_friction > 0.0 && !self.closing {
             let reason =
                 "faces that do not close carry no pressure, and so no friction: let them close";

@@ -3,12 +3,14 @@
 use ligament_analysis::load_program::Amplitude;
 use ligament_analysis::motion::MotionSettings;
 
-use super::check::{Checked, contradiction, in_range, missing, positive, require, require_unique};
+use super::check::{
+    Checked, contradiction, in_range, missing, positive, require, require_unique, within,
+};
 use super::check_dimension::NO_Z;
 use super::stage::TEMPERATURE;
 use super::{
-    Action, Analysis, Control, Course, Load, Place, Quantity, Rigid, RigidForm, Setup, Stage,
-    SurfaceContact,
+    Action, Analysis, ContactLaw, Control, Course, Load, Place, Quantity, Rigid, RigidForm, Setup,
+    Stage, SurfaceContact,
 };
 use crate::error::{Fault, Field};
 
@@ -160,7 +162,7 @@ impl Setup {
                 let reason = "load steps are taken, and this stage has none: give it a number";
                 return contradiction(field, reason);
             };
-            require(steps > 0, field, "at least 1", steps)?;
+            within(Stage::STEPS, field, steps)?;
         }
         Ok(())
     }
@@ -240,9 +242,14 @@ impl Setup {
         )?;
         for (index, body) in self.rigid_bodies.iter().enumerate() {
             let field = Field::element("rigid_bodies", index);
-            in_range(&SurfaceContact::from(body.law), |key| field.part(key))?;
-            positive(field.part("mass"), body.mass)?;
-            positive(field.part("inertia"), body.inertia)?;
+            let ContactLaw {
+                friction,
+                stiffness,
+            } = body.law;
+            within(ContactLaw::FRICTION, field.part("friction"), friction)?;
+            within(ContactLaw::STIFFNESS, field.part("stiffness"), stiffness)?;
+            within(Rigid::MASS, field.part("mass"), body.mass)?;
+            within(Rigid::INERTIA, field.part("inertia"), body.inertia)?;
             self.check_free(field, body)?;
             self.check_rigid_name(field, &body.name)?;
             self.check_form(field, &body.form)?;
@@ -299,7 +306,9 @@ impl Setup {
     fn check_form(&self, field: Field, form: &RigidForm) -> Checked {
         let dimensions = self.body.dimensions();
         match form {
-            RigidForm::Ball { radius, .. } => positive(field.part("radius"), Some(*radius)),
+            RigidForm::Ball { radius, .. } => {
+                within(RigidForm::RADIUS, field.part("radius"), *radius)
+            }
             RigidForm::Wall { normal, .. } => {
                 let is_direction = *normal != [0.0; 3] && normal.iter().all(|it| it.is_finite());
                 let expected = format!("a direction other than {:?}", vec![0; dimensions]);

@@ -2,6 +2,7 @@
 
 use ligament_analysis::load_program::Amplitude;
 use ligament_model::case_type;
+use ligament_model::case_type::Range;
 
 use super::conditions::Position;
 
@@ -12,11 +13,11 @@ case_type! {
         /// Two groups whose outlines meet, `["a", "b"]`; without it all parts that no bond connects at the start.
         pub between: Option<[String; 2]>,
         /// Coefficient of Coulomb's friction.
-        #[range("minimum" = 0; "0 or more")]
+        #[range(ContactLaw::FRICTION)]
         #[case(serde(default))]
         pub friction: f64,
         /// Stiffness of the contact over E'/h of the material, with the spacing h of the points.
-        #[range("exclusiveMinimum" = 0)]
+        #[range(ContactLaw::STIFFNESS)]
         #[case(serde(default = "stiffness"))]
         pub stiffness: f64,
         /// Whether the faces of cracks take part, also those that come about; without `between` all fragments then meet each other.
@@ -43,23 +44,6 @@ impl SurfaceContact {
     }
 }
 
-impl From<ContactLaw> for SurfaceContact {
-    /// The contact between all parts of the body under a law.
-    fn from(
-        ContactLaw {
-            friction,
-            stiffness,
-        }: ContactLaw,
-    ) -> Self {
-        Self {
-            between: None,
-            friction,
-            stiffness,
-            cracks: false,
-        }
-    }
-}
-
 fn stiffness() -> f64 {
     1.0
 }
@@ -67,10 +51,21 @@ fn stiffness() -> f64 {
 /// Penalty and friction of a contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactLaw {
-    /// Coefficient mu of Coulomb's friction, from 0.
+    /// Coefficient mu of Coulomb's friction.
     pub friction: f64,
     /// Factor of the contact stiffness: k is this times E'/h of the material, with the spacing h of the points.
     pub stiffness: f64,
+}
+
+impl ContactLaw {
+    /// Range of a coefficient of friction.
+    pub const FRICTION: Range<'static> = Range {
+        words: "0 or more",
+        ..Range::NOT_NEGATIVE
+    };
+
+    /// Range of the factor of the stiffness.
+    pub const STIFFNESS: Range<'static> = Range::POSITIVE;
 }
 
 /// A rigid body, which turns where it has an inertia.
@@ -101,6 +96,12 @@ pub struct Rigid {
 }
 
 impl Rigid {
+    /// Range of a mass.
+    pub const MASS: Range<'static> = Range::POSITIVE;
+
+    /// Range of a moment of inertia.
+    pub const INERTIA: Range<'static> = Range::POSITIVE;
+
     /// Prescribed motion: in statics the displacement at load factor 1, m, in a motion the velocity, m/s. The other one is zero.
     pub fn motion(&self) -> Position {
         std::array::from_fn(|axis| self.velocity[axis] + self.displacement[axis])
@@ -131,6 +132,11 @@ pub enum RigidForm {
         /// Sides, m.
         size: Position,
     },
+}
+
+impl RigidForm {
+    /// Range of a radius.
+    pub const RADIUS: Range<'static> = Range::POSITIVE;
 }
 
 impl Default for ContactLaw {

@@ -17,6 +17,7 @@ pub mod setting;
 pub mod stage;
 
 use ligament_analysis::{Message, SolverSettings};
+use ligament_model::case_type::Range;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::material::Space;
@@ -24,7 +25,7 @@ use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointClou
 
 use crate::body::AnyBody;
 
-pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, modal, stepped};
+pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, stepped};
 pub use conditions::{
     Action, Axis, Couple, Displacement, FarField, InitialVelocity, Load, Place, Position, Profile,
     QuietEdge, Sample, SpringStiffness, Support, Temperature, TemperatureChange, begins_as_formula,
@@ -99,10 +100,8 @@ pub struct Setup {
     pub probes: Vec<Probe>,
     /// Kind of analysis.
     pub analysis: Analysis,
-    /// Solver of the equations.
+    /// Solver of the equations; a run without files does not look at its `memory`.
     pub solver: SolverSettings,
-    /// Number of threads; by default the caller's threads.
-    pub threads: Option<usize>,
     /// Remarks on the input of the other fields, which become warnings of the model.
     pub remarks: Vec<Message>,
 }
@@ -119,13 +118,16 @@ pub struct MaterialRegion {
 /// Horizon of the points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Horizon {
-    /// The distance of each point to its nearest neighbour times this factor, at least 1; 3 is usual.
+    /// The distance of each point to its nearest neighbour times this factor; 3 is usual.
     Factor(f64),
     /// One length for all points, m.
     Length(f64),
 }
 
 impl Setup {
+    /// Range of the friction on faces that close.
+    pub const CLOSING_FRICTION: Range<'static> = Range::NOT_NEGATIVE;
+
     /// The elastic analysis of a body of one material, with horizon factor 3 and the correction of the law's paper, without supports and
     /// loads. A body in the plane is in plane stress and 1 m thick.
     pub fn new(body: impl Into<AnyBody>, material: Material, law: Law) -> Self {
@@ -161,7 +163,6 @@ impl Setup {
             probes: Vec::new(),
             analysis: Analysis::default(),
             solver: SolverSettings::default(),
-            threads: None,
             remarks: Vec::new(),
         }
     }
@@ -227,9 +228,20 @@ impl Setup {
     pub fn thickness(&self) -> f64 {
         self.section.thickness()
     }
+
+    /// Number of threads; by default the caller's threads.
+    pub(crate) fn threads(&self) -> Option<usize> {
+        self.solver.threads.map(|it| it as usize)
+    }
 }
 
 impl Horizon {
+    /// Range of a factor.
+    pub const FACTOR: Range<'static> = Range::new(&[("minimum", 1.0)]);
+
+    /// Range of a length.
+    pub const LENGTH: Range<'static> = Range::POSITIVE;
+
     /// Horizons of the points of a cloud.
     pub fn of_points<const D: usize>(self, cloud: &PointCloud<D>) -> Horizons {
         match self {

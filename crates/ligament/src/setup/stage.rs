@@ -1,5 +1,7 @@
 //! Successive stages of a loading.
 
+use ligament_model::case_type::Range;
+
 /// A stage of a loading, in which load factors change.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stage {
@@ -12,6 +14,11 @@ pub struct Stage {
     pub steps: Option<usize>,
     /// Control whose quantity grows in equal steps; without it the factors do.
     pub control: Option<Control>,
+}
+
+impl Stage {
+    /// Range of the number of load steps, each of which has a row in the history.
+    pub const STEPS: Range<'static> = Range::new(&[("minimum", 1.0), ("maximum", 1e6)]);
 }
 
 /// Control of a stage by a quantity that grows in equal steps. The factors of the stage's loads change in a fixed proportion from their

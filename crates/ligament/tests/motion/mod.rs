@@ -12,7 +12,7 @@ use std::sync::Arc;
 use ligament::body::{Cells, SolidLatticeBody};
 use ligament::prelude::*;
 use ligament::run::on_threads;
-use ligament::setup::{self, InitialVelocity, modal};
+use ligament::setup::{self, InitialVelocity};
 use ligament::{Loading, Vibration};
 use ligament_analysis::driver::{Outcome, Problem, motion};
 use ligament_analysis::history::{Moment, ObserverError, Onward, StepRecord, Termination, View};
@@ -47,7 +47,7 @@ fn setup_of(body: impl Into<AnyBody>, law: Law) -> Setup {
     material.density = Some(DENSITY);
     let mut setup = Setup::new(body, material, law);
     setup.horizon = Horizon::Factor(2.5);
-    setup.analysis = Analysis::Modal(modal());
+    setup.analysis = Analysis::Modal(ModalSettings::default());
     setup
 }
 

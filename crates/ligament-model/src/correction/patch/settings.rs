@@ -1,6 +1,7 @@
 //! Settings of the patch correction.
 
 use super::reference::Reference;
+use crate::case_type::Range;
 
 /// Settings of the patch correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,6 +19,18 @@ pub struct Settings {
 }
 
 impl Settings {
+    /// Range of the smallest ratio.
+    pub const LOWEST: Range<'static> = Range::SHARE;
+
+    /// Range of the largest ratio.
+    pub const HIGHEST: Range<'static> = Range::new(&[("exclusiveMinimum", 1.0)]);
+
+    /// Range of the weight of the moments.
+    pub const MOMENT_WEIGHT: Range<'static> = Range::POSITIVE;
+
+    /// Range of the regularisation.
+    pub const REGULARISATION: Range<'static> = Range::SHARE;
+
     /// Settings that satisfy the equations best on meshes of all kinds.
     pub const DEFAULT: Self = Self {
         lowest: 0.02,
