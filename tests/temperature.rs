@@ -192,7 +192,7 @@ fn bodies_held_everywhere_store_the_energy_of_the_continuum() {
             };
             let biaxial = &bench.model.fixed.energy_ratios[2].at_points;
             let volumes = &bench.model.plane().cloud.volumes;
-            let expected: f64 = (biaxial.iter().zip(volumes))
+            let expected: f64 = (biaxial.iter().zip(volumes.iter()))
                 .map(|(ratio, volume)| ratio * volume * density)
                 .sum();
             let last = run.last();
