@@ -9,6 +9,8 @@
 //! | [`checkpoint`] | the state of a run, from which it can be resumed |
 //! | [`folder`] | the folder of results, without loss of earlier files |
 //! | [`summary`] | a run in numbers |
+//! | [`quantity`] | numbers with their units, as text |
+//! | [`terminal`] | texts without control characters |
 //! | [`remedy`] | nothing: what the user can do about an error |
 //! | [`results`] | all of these files from a run, as its observer |
 //!

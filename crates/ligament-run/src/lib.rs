@@ -2,17 +2,18 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`run`] | the run of a case under loads, or of natural modes |
+//! | [`run`], `modes` | the run of a case under loads, or of natural modes |
 //! | [`resume`] | resuming a stopped run from its checkpoint |
-//! | [`repeat`] | repeating a run from its record, and comparing both bitwise |
+//! | [`repeat`], `comparison` | repeating a run from its record, and comparing both bitwise |
 //! | [`inputs`] | the inputs that determine the results of a run |
-//! | [`provenance`] | the origin of results: program, processor, files |
+//! | [`provenance`], `origin` | the origin of results: program, processor, files |
 //! | [`model`] | the discrete model of a case, with its stages timed and shown |
 //! | [`loading`] | a body under loads, and the rule by which its results are written |
 //! | [`end`] | the end of a run and its exit code |
 //! | [`stability`] | advice about a model that is unstable |
 //! | [`messages`] | the messages of a run as the user reads them |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
+//! | `destination`, `checkpoints`, `pace` | the result folder while results are written, its checkpoints and their times |
 //! | [`watch`], [`progress`] | the observer that writes results, and the display of progress |
 //! | `processes`, `pieces` | the communication of processes, and the output of ranks other than 0 |
 //! | [`stages`], [`memory`], [`disk`] | time, memory and disk space that a run needs |
