@@ -190,11 +190,8 @@ fn stability(
     state: &State,
     observer: &mut dyn Observer,
 ) -> Result<Option<Stability>, SetupError> {
-    if !problem
-        .system
-        .rigidities()
-        .some_negative(&problem.system.subdomain)
-    {
+    let system = &problem.system;
+    if !system.rigidities().some_negative(&system.subdomain) {
         return Ok(None);
     }
     let stability = equilibrium.stability(state)?;

@@ -229,12 +229,14 @@ impl Equations {
             accuracy: &self.accuracy,
             unknowns: &self.unknowns,
             subdomain: self.subdomain(),
-            some_negative: self
-                .problem
-                .system
-                .rigidities()
-                .some_negative(&self.problem.system.subdomain),
+            some_negative: self.some_negative(),
         }
+    }
+
+    /// Whether some bond has a negative stiffness; collective.
+    fn some_negative(&self) -> bool {
+        let system = &self.problem.system;
+        system.rigidities().some_negative(&system.subdomain)
     }
 
     /// Points and bonds of the body on this process.
@@ -486,12 +488,7 @@ impl Equations {
             let Some(&first) = vanishing.first() else {
                 return Ok(held_now);
             };
-            if self
-                .problem
-                .system
-                .rigidities()
-                .some_negative(&self.problem.system.subdomain)
-            {
+            if self.some_negative() {
                 return Err(self.vanishing_pivot(first));
             }
             let (subdomain, layout) = (self.subdomain(), self.layout());
@@ -509,13 +506,7 @@ impl Equations {
         let place = self.place(dof);
         let stiffness = self.stiffness.as_ref();
         let is_llt = stiffness.is_some_and(|it| it.choice().factorisation == FactorKind::Llt);
-        if is_llt
-            && self
-                .problem
-                .system
-                .rigidities()
-                .some_negative(&self.problem.system.subdomain)
-        {
+        if is_llt && self.some_negative() {
             Unbalanced::NotPositiveDefinite { place }
         } else {
             Unbalanced::VanishingPivot { place }
