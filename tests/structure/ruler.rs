@@ -10,9 +10,9 @@ use super::trees;
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
     ("ligament", 98_062),
-    ("ligament-analysis", 198_863),
+    ("ligament-analysis", 198_895),
     ("ligament-case", 58_673),
-    ("ligament-cli", 54_640),
+    ("ligament-cli", 54_665),
     ("ligament-linalg", 22_638),
     ("ligament-mesh", 36_069),
     ("ligament-model", 200_914),
@@ -35,7 +35,7 @@ const SHORT_FILES: [(&str, usize); 16] = [
     ("ligament-cli", 13),
     ("ligament-linalg", 5),
     ("ligament-mesh", 5),
-    ("ligament-model", 26),
+    ("ligament-model", 25),
     ("ligament-output", 5),
     ("ligament-petsc", 0),
     ("ligament-plot", 2),

@@ -209,8 +209,9 @@ impl<E: Equations> Run<'_, E> {
         bonds: &[u32],
         (criteria, deformation): Judged<'_>,
         internal: &InternalForces,
-        [step, round]: [usize; 2],
+        at: [usize; 2],
     ) -> Result<(), ObserverError> {
+        let [step, round] = at;
         let breaking = Breaking {
             problem: &self.problem,
             numbers: self.equations.numbers(),

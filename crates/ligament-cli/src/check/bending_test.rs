@@ -10,7 +10,7 @@ use ligament::setup::Surface;
 use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
-use super::Extent;
+use super::report::Extent;
 use super::report::Report;
 
 /// Writes the stiffness of the body at its thinnest section over that of the continuum; returns a warning where it is too large.

@@ -15,7 +15,7 @@ use ligament_run::model::Model;
 use ligament_run::stability;
 use ligament_run::stages::Stages;
 
-use super::Extent;
+use super::report::Extent;
 use super::report::Report;
 
 /// Largest number of a factor's multiplications for which the prediction is made by default, some seconds on one processor.

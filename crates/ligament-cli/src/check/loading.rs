@@ -21,8 +21,9 @@ use ligament_run::summary::temperature_change;
 
 use super::body::write_group;
 use super::foresight::Foreseen;
+use super::report::Extent;
 use super::report::{Report, megabytes, spread};
-use super::{Extent, equations, foresight, model, restraints};
+use super::{equations, foresight, model, restraints};
 
 /// Checks supports, loads and equations, and returns what a run would tell before its first load step.
 pub(super) fn check(

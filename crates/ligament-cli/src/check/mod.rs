@@ -36,19 +36,8 @@ use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
 use foresight::Foreseen;
-pub use report::Lines;
+pub use report::{Extent, Lines};
 use report::{Report, megabytes};
-
-/// Extent of a check.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
-    /// Points, bonds and their correction, without a matrix.
-    Model,
-    /// The model, the symbolic analysis of the matrix, and the patch test of a body that is not too large.
-    Matrix,
-    /// The model, the matrix, and the patch test of a body of any size.
-    PatchTest,
-}
 
 /// Name of the file with the fields of the points.
 pub const FIELDS: &str = "points.vtu";

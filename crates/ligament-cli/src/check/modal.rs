@@ -4,8 +4,9 @@ use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::body::write_group;
+use super::report::Extent;
 use super::report::Report;
-use super::{Extent, equations, model};
+use super::{equations, model};
 use ligament_case::case::CaseFile;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;

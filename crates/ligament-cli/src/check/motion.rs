@@ -12,8 +12,9 @@ use ligament_output::quantity::quantity;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
+use super::report::Extent;
 use super::report::Report;
-use super::{Extent, loading, model};
+use super::{loading, model};
 
 /// Fewest points along a wave that is not much slower than the wave of the material.
 const FEWEST_POINTS: f64 = 10.0;

@@ -8,7 +8,7 @@ use ligament_model::tensor::SymTensor;
 use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
-use super::Extent;
+use super::report::Extent;
 use super::report::Report;
 
 /// Largest number of points for which the test is done by default, in the plane and in space: at 10,000 points of thirty bonds it takes a

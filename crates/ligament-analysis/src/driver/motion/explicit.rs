@@ -116,8 +116,13 @@ pub(super) fn begin<'a>(
     };
     let (stop, elastic) = (settings.stop.into(), ElasticAnswer::UNKNOWN);
     let run = Run::new(of_body, (bonds, state), elastic, stop, observer);
-    let at = (clock, velocities, Vec::new());
-    let mut steps = ExplicitSteps::new((problem, settings), run, Balanced::unloaded(system), at);
+    let initial = InitialMotion {
+        clock,
+        velocities,
+        damping_forces: Vec::new(),
+    };
+    let balanced = Balanced::unloaded(system);
+    let mut steps = ExplicitSteps::new((problem, settings), run, balanced, initial);
     steps.begin_to_move(&problem.initial_velocity);
     Ok(steps)
 }
@@ -156,8 +161,12 @@ pub(super) fn restore(
     Ok(Restored::new(restored, move |restored, observer| {
         let (run, balanced, position) = Run::go_on(settings.stop.into(), restored, observer);
         let (clock, velocities, damping_forces, ..) = position;
-        let at = (clock, velocities, damping_forces);
-        let mut steps = ExplicitSteps::new((&problem, &settings), run, balanced, at);
+        let initial = InitialMotion {
+            clock,
+            velocities,
+            damping_forces,
+        };
+        let mut steps = ExplicitSteps::new((&problem, &settings), run, balanced, initial);
         steps.apply_loads();
         Box::new(steps)
     }))
@@ -312,12 +321,19 @@ fn in_one_sweep(problem: &Problem) -> bool {
     are_plain && is_cold && is_linear
 }
 
+/// Clock, velocities and damping forces at the start of a motion, or where it continues.
+struct InitialMotion {
+    clock: Clock,
+    velocities: Velocities,
+    damping_forces: Vec<f64>,
+}
+
 impl<'a> ExplicitSteps<'a> {
     fn new(
         (problem, settings): (&MotionProblem, &MotionSettings),
         run: Run<'a, MovingBonds>,
         balanced: Balanced,
-        (clock, velocities, damping_forces): (Clock, Velocities, Vec<f64>),
+        initial: InitialMotion,
     ) -> Self {
         let step = run.equations.choice.step;
         let loads = &problem.problem.loads;
@@ -338,10 +354,10 @@ impl<'a> ExplicitSteps<'a> {
             damped: vec![0.0; if beta > 0.0 { n } else { 0 }],
             missed: None,
             run,
-            clock,
+            clock: initial.clock,
             balanced,
-            velocities,
-            damping_forces,
+            velocities: initial.velocities,
+            damping_forces: initial.damping_forces,
             beta,
         }
     }
