@@ -232,7 +232,7 @@ fn threads_do_not_change_a_bit_of_the_model() {
             biaxial,
             shear,
         ]
-        .map(|values| bits(values))
+        .map(bits)
     };
     for sweeps in (1..=8).chain([10_000]) {
         let one = model(1, sweeps);
