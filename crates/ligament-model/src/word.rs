@@ -28,7 +28,7 @@ pub fn read<'de, T: Worded, D: Deserializer<'de>>(deserializer: D) -> Result<T, 
     deserializer.deserialize_enum("word", T::WORDS, WordVisitor(PhantomData))
 }
 
-/// A choice that may be open, for which a case file has the word `auto`; see [`case_type`](crate::case_type).
+/// A choice that may be open, for which a case file has the word `auto`; see [`case_type!`](crate::case_type!).
 pub trait Open: Copy {
     /// The words of the choice, and `auto`.
     type Word: From<Option<Self>> + Into<Option<Self>> + Serialize + DeserializeOwned + JsonSchema;
