@@ -44,19 +44,20 @@ def fields(folder, step):
 
 
 def number(text):
-    """A shown number with half of its last digit; the zeros at the end of a large whole number are no digits."""
+    """A shown number with half of its last digit."""
     written = re.match(r"[−-]?[\d.]+", text)[0].replace("−", "-")
-    whole, _, decimals = written.partition(".")
-    zeros = 0 if decimals or not float(whole) else len(whole) - len(whole.rstrip("0"))
-    return float(written), 0.5 * 10.0 ** (zeros - len(decimals))
+    decimals = len(written.partition(".")[2])
+    return float(written), 0.5 * 10.0**-decimals
 
 
 def choose(page, control, value, event="change"):
     page.value(f"{{ const it = document.getElementById('{control}'); it.value = {json.dumps(value)}; it.dispatchEvent(new Event('{event}')); }}")
 
 
-def check_value(text, value, factor, name):
+def check_value(text, value, factor, name, rounded_to=0.0):
+    """Compares a shown number with a value that the page has in whole multiples of `rounded_to`, in the unit of the value."""
     shown, half = number(text)
+    half = max(half, 0.5 * rounded_to * factor)
     # A value between two numbers may go either way by the rounding of the unit.
     assert abs(shown - value * factor) <= half * 1.001 + 1e-12, (name, text, value * factor)
 
@@ -107,9 +108,12 @@ def check_values(page, folder, run):
             seen.append((moved, page.value("document.getElementById('marker').style.transform")))
             for key, (_, text) in rows.items():
                 name, _, component = key.partition(".")
-                parts = next(it["components"] for it in run["fields"] if it["name"] == name)
-                value = np.atleast_1d(stored[name][point])[parts.index(component) if component else 0]
-                check_value(text, value, 10.0 ** shifts[name], key)
+                field = next(it for it in run["fields"] if it["name"] == name)
+                index = field["components"].index(component) if component else 0
+                exponents = field["columns"][index]["exponents"]
+                exponent = exponents[place] if len(exponents) == len(steps) else exponents[0]
+                value = np.atleast_1d(stored[name][point])[index]
+                check_value(text, value, 10.0 ** shifts[name], key, 10.0**exponent)
                 count += 1
         check_marks(seen)
     return count

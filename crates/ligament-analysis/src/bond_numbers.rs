@@ -260,13 +260,13 @@ impl BondNumbers {
     }
 }
 
-/// Appends the number of some values and the values, most of which are `usual`.
+/// Appends a list with its length. The value `usual`, which most entries have, takes one bit.
 fn write_all<T: Serial>(values: &[T], usual: &T, out: &mut dyn Sink) {
     values.len().write(out);
     write_values(values, usual, out);
 }
 
-/// Reads `count` values, most of which are `usual`.
+/// Reads a list of `count` values, as [`write_values`] wrote it.
 fn all<T: Serial + Clone>(count: usize, usual: &T, from: &mut dyn Read) -> Result<Vec<T>, Damaged> {
     let mut values = Vec::new();
     read_values(count, usual, from, |value| values.push(value))?;

@@ -36,7 +36,7 @@ pub fn write_by_index<T, const N: usize>(
     }
 }
 
-/// Reads a list of `count` values, most of which are `usual`, and returns the values with some indices (ascending).
+/// Reads a list of `count` values with a usual value, and returns the values with some indices (ascending).
 ///
 /// # Errors
 ///

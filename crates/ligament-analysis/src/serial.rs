@@ -175,7 +175,7 @@ pub fn write_values<T: Serial>(list: &[T], usual: &T, out: &mut dyn Sink) {
     }
 }
 
-/// Reads `count` values of a long list, most of which are `usual`, and passes them to `each` one by one.
+/// Reads a list of `count` values with a usual value, as [`write_values`] wrote it, and passes them to `each` one by one.
 ///
 /// # Errors
 ///

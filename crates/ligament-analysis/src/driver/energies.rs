@@ -34,7 +34,7 @@ pub(super) struct Energies {
     pub(super) friction: f64,
     /// Energy stored in contacts between surfaces.
     pub(super) in_contact: f64,
-    /// Time steps and energies of a motion, without those of contact; zero in statics.
+    /// Number of time steps and energies of a motion, J; the energies of contact are separate. Zero in statics.
     pub(super) motion: InMotion,
     /// Largest external work so far.
     largest_work: f64,

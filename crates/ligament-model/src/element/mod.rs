@@ -136,7 +136,8 @@ impl Rigidities {
         self.shear[bond] != 0.0 || self.rotational[bond] != 0.0
     }
 
-    /// Degrees of freedom that bonds may resist: all displacements, and rotations where a bond resists them, shape (n_degrees_of_freedom).
+    /// Degrees of freedom that bonds may resist: all displacements, and rotations where a bond resists them, shape (n_degrees_of_freedom);
+    /// collective.
     pub fn resisted(&self, ends: &[[u32; 2]], layout: Layout, subdomain: &Subdomain) -> Vec<bool> {
         let all = 0..layout.n_degrees_of_freedom();
         let mut resisted: Vec<bool> = all

@@ -1,4 +1,4 @@
-//! Times of a motion: equal time steps, of which a fixed number makes a row of the history, and the pace of implicit steps among them.
+//! Times of a motion: equal time steps, a fixed number of them for each row of the history, and the pace of implicit steps.
 
 use serde::{Deserialize, Serialize};
 
@@ -147,7 +147,7 @@ impl Pace {
         }
     }
 
-    /// Number of parts, 2^[`HALVINGS`] of which a step of the clock has, in a step.
+    /// Length of a step, in parts of a step of the clock: 1/2^[`HALVINGS`] of it each.
     pub(super) fn parts(&self, clock: &Clock) -> usize {
         let whole = 1_usize << HALVINGS;
         match self.has_inertia {

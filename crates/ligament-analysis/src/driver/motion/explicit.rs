@@ -56,8 +56,9 @@ const RULE: BreakingRule = BreakingRule {
 
 /// Largest share of the critical step for the bound of the kinetic energy, which is infinite at the critical step.
 ///
-/// An oscillator of central differences with the phase theta a step, sin(theta/2) = omega dt/2, has the energy e = k A^2/2 cos^2(theta/2), of which
-/// 1/2 v- m v+ = k A^2/4 (cos theta - cos 2 n theta) is at least -e tan^2(theta/2): with s = dt/dt_critical that is -e s^2/(1 - s^2).
+/// Bound of the kinetic energy: an oscillator of central differences with the phase theta a step, sin(theta/2) = omega dt/2, has the energy
+/// e = k A^2/2 cos^2(theta/2). Its kinetic energy 1/2 v- m v+ = k A^2/4 (cos theta - cos 2 n theta) is at least -e tan^2(theta/2), which is
+/// -e s^2/(1 - s^2) with s = dt/dt_critical.
 const NEARLY_CRITICAL: f64 = 0.999;
 
 /// Motion in explicit steps.
@@ -391,16 +392,12 @@ impl<'a> ExplicitSteps<'a> {
         }
         self.accelerate();
         let initial_energy = self.kinetic_energy() + self.balanced.stored_energy;
-        let Run {
-            problem,
-            state,
-            energies,
-            ..
-        } = &mut self.run;
-        energies.account(problem, (state, &self.balanced), &Breakage::default());
-        // The first step goes on from the contact at the start, which has no energy.
-        energies.follow_surfaces(problem, state);
-        energies.motion.initial_energy = initial_energy;
+        let run = &mut self.run;
+        let at = (&run.state, &self.balanced);
+        (run.energies).account(&run.problem, at, &Breakage::default());
+        // The first step continues from the contact at the start, which has no energy.
+        run.energies.follow_surfaces(&run.problem, &run.state);
+        run.energies.motion.initial_energy = initial_energy;
         self.damp();
     }
 }
@@ -477,15 +474,10 @@ impl ExplicitSteps<'_> {
         self.touch(self.inertia.step());
         self.apply_loads();
         self.accelerate();
-        let Run {
-            problem,
-            state,
-            energies,
-            ..
-        } = &mut self.run;
-        let at = (&*state, &self.balanced);
-        energies.account(problem, at, &breakage);
-        energies.add_contact_in_motion(problem, at, &breakage.bonds);
+        let run = &mut self.run;
+        let (energies, at) = (&mut run.energies, (&run.state, &self.balanced));
+        energies.account(&run.problem, at, &breakage);
+        energies.add_contact_in_motion(&run.problem, at, &breakage.bonds);
         self.damp();
         Ok(())
     }

@@ -257,15 +257,11 @@ impl ImplicitSteps<'_> {
         let rigid = contact.kinetic_energy(0.0, &motion.rigid);
         let kinetic = motion.kinetic_energy(&body.masses) + rigid;
         self.balance_forces();
-        let Run {
-            problem,
-            state,
-            energies,
-            ..
-        } = &mut self.run;
-        energies.account(problem, (state, &self.balanced), &Breakage::default());
-        energies.motion.initial_energy = kinetic + self.balanced.stored_energy;
-        energies.motion.kinetic_energy = kinetic;
+        let run = &mut self.run;
+        let at = (&run.state, &self.balanced);
+        (run.energies).account(&run.problem, at, &Breakage::default());
+        run.energies.motion.initial_energy = kinetic + self.balanced.stored_energy;
+        run.energies.motion.kinetic_energy = kinetic;
     }
 
     fn balance_forces(&mut self) {
@@ -466,17 +462,12 @@ impl ImplicitSteps<'_> {
         self.run.state = trial.state;
         (self.balanced, self.motion) = (trial.balanced, after);
         self.balance_forces();
-        let Run {
-            problem,
-            state,
-            energies,
-            ..
-        } = &mut self.run;
-        let at = (&*state, &self.balanced);
-        energies.account(problem, at, &breakage);
+        let run = &mut self.run;
+        let (energies, at) = (&mut run.energies, (&run.state, &self.balanced));
+        energies.account(&run.problem, at, &breakage);
         match self.pace.has_inertia {
-            true => energies.add_contact_in_motion(problem, at, &breakage.bonds),
-            false => energies.add_contact(problem, state, &breakage, &self.balanced),
+            true => energies.add_contact_in_motion(&run.problem, at, &breakage.bonds),
+            false => energies.add_contact(&run.problem, &run.state, &breakage, &self.balanced),
         }
         Ok(())
     }
