@@ -107,7 +107,8 @@ fn a_stepped_test_follows_the_envelope() {
         ("nu 0.21", "material.poisson=0.21", vec!["7", "50", "333"]),
         ("nu 0.38", "material.poisson=0.38", vec!["60"]),
     ] {
-        let path = Bench::new(&on_the_exact_path(DISK), &[COARSE, material]).break_up();
+        let by_bonds = "model.poisson=bonds";
+        let path = Bench::new(&on_the_exact_path(DISK), &[COARSE, material, by_bonds]).break_up();
         let events = &path.outcome.history;
         let envelope = path.outcome.envelope();
         println!("{name}: {}", path.outcome.termination);
@@ -117,7 +118,7 @@ fn a_stepped_test_follows_the_envelope() {
         assert!(snaps_back > 50, "the path snaps back");
         for steps in step_settings {
             let steps = format!("fracture.steps={steps}");
-            let settings = [&[COARSE, material, steps.as_str()], &ONE_BY_RATIO[..]].concat();
+            let settings = [&[COARSE, material, by_bonds, &steps], &ONE_BY_RATIO[..]].concat();
             let run = Bench::new(DISK, &settings).break_up();
             let bonds = |run: &Run| run.breaks.iter().map(|it| it.bond).collect::<Vec<u32>>();
             let (of_steps, of_path) = (bonds(&run), bonds(&path));
@@ -518,7 +519,12 @@ fn energies_balance_along_the_path() {
         (
             "indefinite",
             DISK,
-            vec![COARSE, "material.poisson=0.38", "fracture.stop.bonds=200"],
+            vec![
+                COARSE,
+                "material.poisson=0.38",
+                "model.poisson=bonds",
+                "fracture.stop.bonds=200",
+            ],
         ),
     ] {
         let run = Bench::new(&on_the_exact_path(text), &settings).break_up();

@@ -305,6 +305,7 @@ fn two_points_without_a_friction_angle_are_refused() {
         "fracture.criterion.0.kind=frictional",
         "fracture.criterion.0.calibration=two-point",
         "material.poisson=0.34",
+        "model.poisson=bonds",
     ];
     let case = bench::case(PATCH, &settings);
     let quiet = Progress::new(ProgressMode::Quiet);

@@ -403,7 +403,7 @@ fn the_energy_criterion_counts_the_same_in_both_modes() {
 #[test]
 fn the_energy_criterion_leaves_bonds_where_shear_gives_energy() {
     let segment = Segment::period([1.0, 0.0]);
-    let setting = ["material.poisson=0.38"];
+    let setting = ["material.poisson=0.38", "model.poisson=bonds"];
     let energy = lattice("nhpd", "bond-energy", 6.0, &setting);
     let stretch = lattice("nhpd", "critical-stretch", 6.0, &setting);
     assert!(Separation::from_bench(&energy, &segment, OPENING).unbroken > 0);

@@ -36,6 +36,9 @@ const BARELY: f64 = 1e-7;
 /// The disk of the reference: 324 points, 3717 bonds.
 const COARSE: &str = "mesh.file=reference/disk.msh";
 
+/// A large Poisson's ratio by bonds with a negative shear stiffness.
+const BY_BONDS: &str = "model.poisson=bonds";
+
 /// One third: no bond has a shear stiffness.
 const NO_SHEAR: &str = "material.poisson=0.333333333333333333";
 
@@ -192,10 +195,19 @@ fn in_place_as_anew() {
         &two_materials,
         &["load.0.displacement.x=4e-5"],
     );
-    add("nu 0.38", DISK, &[COARSE, "material.poisson=0.38"]);
+    add(
+        "nu 0.38",
+        DISK,
+        &[COARSE, "material.poisson=0.38", BY_BONDS],
+    );
+    add("nu 0.38 by cells", DISK, &[COARSE, "material.poisson=0.38"]);
     let goes_on = "fracture.stop.negative_energy=false";
     let large = "material.poisson=0.38";
-    add(BEYOND, DISK, &[COARSE, large, goes_on, "fracture.steps=20"]);
+    add(
+        BEYOND,
+        DISK,
+        &[COARSE, large, BY_BONDS, goes_on, "fracture.steps=20"],
+    );
     add("nu 1/3", DISK, &[COARSE, NO_SHEAR, apart, one]);
     for (name, text, settings) in &cases {
         let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
@@ -246,7 +258,12 @@ fn pre_cracked_plate_of_negative_shear_stiffness() {
 #[test]
 fn the_count_is_in_the_files() {
     let folder = TempDir::new().unwrap();
-    let settings = [COARSE, "material.poisson=0.38", "fracture.stop.bonds=100"];
+    let settings = [
+        COARSE,
+        "material.poisson=0.38",
+        BY_BONDS,
+        "fracture.stop.bonds=100",
+    ];
     let bench = Bench::new(DISK, &settings);
     let history = follow(&bench, in_place()).0.history;
     bench::run_program(&bench.case, &folder.path().join("out"));
@@ -367,7 +384,7 @@ fn broken_down_to_points() {
     let (mut n_loose, mut n_mechanisms) = (0, 0);
     for (name, settings) in [
         ("square", vec![]),
-        ("square, nu 0.38", vec!["material.poisson=0.38"]),
+        ("square, nu 0.38", vec!["material.poisson=0.38", BY_BONDS]),
         ("square, nu 1/3", vec![NO_SHEAR]),
         ("lattice", vec!["model.horizon_factor=1.5"]),
         (
@@ -419,7 +436,7 @@ fn broken_down_to_points() {
 /// Sylvester: signs of the pivots of an elimination without pivoting; the pivots are far from zero.
 #[test]
 fn tracked_inertia_is_that_of_a_dense_elimination() {
-    let bench = Bench::new(SQUARE, &["material.poisson=0.38"]);
+    let bench = Bench::new(SQUARE, &["material.poisson=0.38", BY_BONDS]);
     let system = &**bench.model.plane();
     let mut run = Tearing::intact(&bench, in_place());
     run.balance();
@@ -576,7 +593,7 @@ fn a_held_rotation_is_no_sign_of_instability() {
     let end = start + text[start..].find('\n').unwrap();
     let text = format!("{}{}", &text[..start], &text[end..])
         .replace("displacement = { y = 5e-5 }", "force = { y = 1e5 }");
-    let bench = Bench::new(&text, &["material.poisson=0.38"]);
+    let bench = Bench::new(&text, &["material.poisson=0.38", BY_BONDS]);
     let run = bench.solve();
     let held = &run.state().held;
     let of_rotation = (0..held.len()).filter(|&dof| held[dof] && dof % 3 == 2);
@@ -744,7 +761,12 @@ fn whatever_the_order_and_the_factorisation() {
         );
         assert_same(name, &run, &expected);
     }
-    let settings = [COARSE, "material.poisson=0.38", "solver.factorisation=llt"];
+    let settings = [
+        COARSE,
+        "material.poisson=0.38",
+        BY_BONDS,
+        "solver.factorisation=llt",
+    ];
     let run = Bench::new(DISK, &settings).break_up();
     let Termination::NoEquilibrium { step: 1, reason } = &run.outcome.termination else {
         panic!("{}", run.outcome.termination);

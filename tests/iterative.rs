@@ -350,7 +350,11 @@ load = [{ group = "top", displacement = { y = 1e-5 } }]
 "#;
     let cases: [(&[&str], Unfit); 4] = [
         (
-            &["model.law=nhpd", "material.poisson=0.4"],
+            &[
+                "model.law=nhpd",
+                "material.poisson=0.4",
+                "model.poisson=bonds",
+            ],
             Unfit::Indefinite,
         ),
         (&["model.strains=\"true\""], Unfit::NotLinear),
@@ -395,7 +399,10 @@ load = [{ group = "top", displacement = { y = 1e-5 } }]
         &["model.law=mppd-beam", "material.poisson=0.34"],
     ];
     for settings in beyond_a_third {
-        let refused = chosen(&Bench::new(LATTICE, &[settings, &[CG]].concat()));
+        let refused = chosen(&Bench::new(
+            LATTICE,
+            &[settings, &["model.poisson=bonds", CG]].concat(),
+        ));
         let is_named = matches!(refused, Err(SetupError::NotIterative(Unfit::Indefinite)));
         assert!(is_named, "{settings:?}: {refused:?}");
     }
@@ -438,7 +445,7 @@ fn a_factor_that_does_not_fit_is_not_taken() {
         assert!(of == available && told > available && told <= needed);
     }
     for settings in [
-        &["material.poisson=0.4"][..],
+        &["material.poisson=0.4", "model.poisson=bonds"][..],
         &["solver.method=direct"],
         &["solver.factorisation=ldlt"],
     ] {

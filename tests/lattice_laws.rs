@@ -44,7 +44,10 @@ const SETS: [(&str, &[&str]); 14] = [
         &["correction.alpha=none", "correction.surface=none"],
     ),
     ("mppd-quarter", &["model.rotational_stiffness=quarter"]),
-    ("mppd-negative", &["material.poisson=0.4"]),
+    (
+        "mppd-negative",
+        &["material.poisson=0.4", "model.poisson=bonds"],
+    ),
     ("mppd-hole", &[HOLE]),
     (
         "beam",

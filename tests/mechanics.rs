@@ -50,4 +50,5 @@ mod surface_contact;
 mod symmetry;
 mod temperature;
 mod unresisted;
+mod volumetric_cells;
 mod waves;

@@ -406,7 +406,11 @@ fn many_modes_are_as_exact_as_few() {
 /// An unstable model is told of: nu = 0.45 with a horizon factor of 4 has more negative eigenvalues than rotations.
 #[test]
 fn an_unstable_model_is_told_of() {
-    let settings = ["material.poisson=0.45", "model.horizon_factor=4"];
+    let settings = [
+        "material.poisson=0.45",
+        "model.poisson=bonds",
+        "model.horizon_factor=4",
+    ];
     let outcome = ModalBench::new(SQUARE, &settings).find();
     assert_eq!(outcome.rotations, Rotations::Massless);
     assert_eq!(outcome.messages[0].kind, "massless-rotations");

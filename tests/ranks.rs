@@ -91,7 +91,10 @@ fn elastic_answers_are_those_of_one_process() {
     let cases: [(&str, &[&str]); 5] = [
         (PLATE, &[pull]),
         (PLATE, &[pull, platen]),
-        (PLATE, &[pull, "material.poisson=0.4"]),
+        (
+            PLATE,
+            &[pull, "material.poisson=0.4", "model.poisson=bonds"],
+        ),
         (PLATE, &[pull, "solver.method=direct"]),
         (LATTICE, &[]),
     ];
@@ -167,7 +170,10 @@ fn the_choice_says_why() {
     };
     assert_eq!(choice(&[pull]), of(Reason::Definite, Some(1e-8)));
     let negative = Reason::Unfit(Unfit::Indefinite);
-    assert_eq!(choice(&[pull, "material.poisson=0.4"]), of(negative, None));
+    assert_eq!(
+        choice(&[pull, "material.poisson=0.4", "model.poisson=bonds"]),
+        of(negative, None)
+    );
     assert_eq!(
         choice(&[pull, "solver.method=direct"]),
         of(Reason::Named, None)

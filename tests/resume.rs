@@ -188,7 +188,7 @@ fn the_exact_path_goes_on_to_the_same_bits() {
         }
         assert_resumes(law, &Bench::new(DISK, &settings), 9);
     }
-    let more: [&[&str]; 4] = [
+    let more: [&[&str]; 5] = [
         &["solver.rebuild_every=17"],
         &["solver.update=refactor"],
         &[
@@ -196,6 +196,7 @@ fn the_exact_path_goes_on_to_the_same_bits() {
             "solver.ordering=nested-dissection",
         ],
         &["material.poisson=0.4"],
+        &["material.poisson=0.4", "model.poisson=bonds"],
     ];
     for more in more {
         let settings: Vec<&str> = [&[EVENT, COARSE], more].concat();

@@ -33,12 +33,16 @@ const LAMINA: &str = "material={ young_1 = 15e9, young_2 = 5e9, poisson_12 = 0.2
                       thermal_expansion_2 = 30e-6, thermal_expansion_3 = 10e-6 }";
 
 /// Every law on its body, in both states of the plane; Poisson's ratio above and below that of central forces.
-const LAWS: [(&str, &[&str]); 12] = [
+const LAWS: [(&str, &[&str]); 13] = [
     ("bbpd", &["model.law=bbpd"]),
     ("bbpd-conical", &["model.law=bbpd-conical"]),
     ("pds", &["model.law=pds"]),
     ("mppd", &[]),
-    ("mppd, negative k_t", &["material.poisson=0.4"]),
+    ("mppd, cells", &["material.poisson=0.4"]),
+    (
+        "mppd, negative k_t",
+        &["material.poisson=0.4", "model.poisson=bonds"],
+    ),
     ("mppd-beam", &["model.law=mppd-beam"]),
     ("orthotropic", &["model.law=orthotropic", LAMINA]),
     ("nhpd", &["model.law=nhpd"]),

@@ -124,6 +124,7 @@ impl Truss {
                 materials: Vec::new(),
                 faces: Faces::default(),
                 far: None,
+                volumetric: None,
                 room: DeformationPool::default(),
                 closeness: std::sync::OnceLock::new(),
                 cloud,

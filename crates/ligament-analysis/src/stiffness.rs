@@ -54,8 +54,10 @@ impl Stiffness {
             .unwrap_or(Ordering::suited_to(system.n_points()));
         let elimination = ordering.elimination(&**system, &unknowns);
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
-        // Without positive stiffnesses the matrix may not be positive definite.
-        let suitable = if system.rigidities().all_positive(&system.subdomain) {
+        // Without positive stiffnesses the matrix may not be positive definite. Cells hold what bonds without shear stiffness leave.
+        let (rigidities, subdomain) = (system.rigidities(), &system.subdomain);
+        let is_held = system.has_volumetric_cells && !rigidities.some_negative(subdomain);
+        let suitable = if is_held || rigidities.all_positive(subdomain) {
             FactorKind::Llt
         } else {
             FactorKind::Ldlt

@@ -129,7 +129,7 @@ fn the_size_of_the_rotational_stiffness_is_refused_by_name() {
     }
     assert_eq!(
         of_law("pds", "cosserat_length = 1e-3"),
-        "14:19: model.cosserat_length: `cosserat_length` does not apply with law = \"pds\": its points have no rotations; remove it"
+        "15:19: model.cosserat_length: `cosserat_length` does not apply with law = \"pds\": its points have no rotations; remove it"
     );
     assert_eq!(
         of_law(
@@ -159,7 +159,10 @@ fn the_size_of_the_rotational_stiffness_is_refused_by_name() {
 fn a_cosserat_length_needs_a_shear_stiffness_that_is_not_negative() {
     let of_poisson = |poisson: &str| {
         TEXT.replace("poisson = 0.21", &format!("poisson = {poisson}"))
-            .replace("law = \"nhpd\"", "law = \"nhpd\"\ncosserat_length = 1e-3")
+            .replace(
+                "law = \"nhpd\"",
+                "law = \"nhpd\"\npoisson = \"bonds\"\ncosserat_length = 1e-3",
+            )
     };
     assert_eq!(
         error_of(&of_poisson("0.4")),

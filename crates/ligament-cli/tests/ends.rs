@@ -13,7 +13,7 @@ use crate::support::{ligament_in, stderr, stdout};
 const STEEL: &str = r#"
 lattice = { cells = [10, 10], spacing = 1e-4, thickness = 1e-3, plane = "strain", set = { bottom = { bottom = 1 }, top = { top = 1 } } }
 material = { young = 210e9, poisson = 0.3, fracture_energy = 2700.0, density = 7800.0 }
-model = { law = "nhpd", horizon_factor = 3.0 }
+model = { law = "nhpd", horizon_factor = 3.0, poisson = "bonds" }
 correction = { surface = "patch" }
 precrack = [{ points = [[-1e-4, 5.03e-4], [5.03e-4, 5.03e-4]] }]
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]

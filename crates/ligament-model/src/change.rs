@@ -6,6 +6,10 @@ use crate::deformation::Deformation;
 use crate::element::{Element, Term};
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
+use crate::volumetric::ChangedPatch;
+
+/// Terms of the stiffness of a bond in the plane.
+const TERMS_OF_BOND: usize = 3;
 
 /// Elements that change when some bonds break together.
 pub trait ChangedElements: std::fmt::Debug {
@@ -39,6 +43,13 @@ struct ChangedElement<const D: usize, const M: usize, E: Element<D, M>> {
     before: (E, E::Deformation),
     /// Element after, with its deformation; `None` if its own bond breaks.
     after: Option<(E, E::Deformation)>,
+}
+
+/// Elements of bonds and patches of cells that a breakage changes.
+#[derive(Debug)]
+struct Changed<const D: usize, const M: usize, E: Element<D, M>> {
+    elements: Vec<ChangedElement<D, M, E>>,
+    patches: Vec<ChangedPatch>,
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
@@ -80,24 +91,43 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
                 })
             }));
         }
-        Box::new(elements)
+        let patches = self.system.volumetric.as_ref().map(|terms| {
+            let mut intact = left.intact.to_vec();
+            for &bond in bonds {
+                intact[bond as usize] = false;
+            }
+            let after = UnbrokenBonds {
+                intact: &intact,
+                ..left
+            };
+            let bonds = bonds.iter().copied();
+            terms.changed::<M>([left, after], bonds, displacement, expansion)
+        });
+        Box::new(Changed {
+            elements,
+            patches: patches.unwrap_or_default(),
+        })
     }
 }
 
-impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements
-    for Vec<ChangedElement<D, M, E>>
-{
+impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements for Changed<D, M, E> {
+    /// Patches count by their terms, as many as a third of those of a bond.
     fn n_elements(&self) -> usize {
-        self.len()
+        let n_terms: usize = self.patches.iter().map(ChangedPatch::n_terms).sum();
+        self.elements.len() + n_terms.div_ceil(TERMS_OF_BOND)
     }
 
     fn lost_terms(&self) -> Vec<Term> {
-        self.iter().flat_map(|it| it.before.0.terms()).collect()
+        let of_bonds = self.elements.iter().flat_map(|it| it.before.0.terms());
+        let of_cells = self.patches.iter().filter_map(ChangedPatch::lost_term);
+        of_bonds.chain(of_cells).collect()
     }
 
     fn gained_terms(&self) -> Vec<Term> {
-        let after = self.iter().filter_map(|it| it.after.as_ref());
-        after.flat_map(|(element, _)| element.terms()).collect()
+        let after = self.elements.iter().filter_map(|it| it.after.as_ref());
+        let of_bonds = after.flat_map(|(element, _)| element.terms());
+        let of_cells = self.patches.iter().filter_map(ChangedPatch::gained_term);
+        of_bonds.chain(of_cells).collect()
     }
 
     fn unbalanced_force(
@@ -113,11 +143,14 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements
                 parts.extend((first..).zip(values.map(|value| sign * value)));
             });
         };
-        for it in self {
+        for it in &self.elements {
             add(it.ends, &it.before.0, 1.0);
             if let Some((after, _)) = &it.after {
                 add(it.ends, after, -1.0);
             }
+        }
+        for it in &self.patches {
+            it.add_unbalanced(displacement, expansion, &mut parts);
         }
         parts
     }
@@ -130,7 +163,9 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements
             };
             mutual(&it.before) - it.after.as_ref().map_or(0.0, mutual)
         };
-        self.iter().map(of_element).sum()
+        let of_cells = self.patches.iter();
+        let of_cells = of_cells.map(|it| it.released(displacement, expansion));
+        self.elements.iter().map(of_element).sum::<f64>() + of_cells.sum::<f64>()
     }
 }
 

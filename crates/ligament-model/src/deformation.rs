@@ -84,6 +84,7 @@ impl Deformation for BondDeformation {
             measured,
             in_space: Vec::new(),
             motions: Vec::new(),
+            volume_changes: Vec::new(),
             room: room.clone(),
         }
     }
@@ -140,6 +141,7 @@ impl Deformation for SpaceDeformation {
             measured,
             in_space,
             motions: Vec::new(),
+            volume_changes: Vec::new(),
             room: room.clone(),
         }
     }
@@ -192,6 +194,8 @@ pub struct Deformations {
     in_space: Vec<SpaceDeformation>,
     /// Motions of the points that deform the elements of the far field, shape (n_degrees_of_freedom); empty without a far field.
     motions: Vec<f64>,
+    /// Changes of the volumes of cells with a volumetric stiffness less those by temperature, shape (n_cells), m^3; empty without such cells.
+    volume_changes: Vec<f64>,
     /// Memory pool to which the arrays return.
     room: DeformationPool,
 }
@@ -217,6 +221,7 @@ impl PartialEq for Deformations {
         self.measured == other.measured
             && self.in_space == other.in_space
             && self.motions == other.motions
+            && self.volume_changes == other.volume_changes
     }
 }
 
@@ -238,14 +243,26 @@ impl Deformations {
         &self.motions
     }
 
+    /// The deformations with the changes of the volumes of cells (n_cells), m^3.
+    pub(crate) fn with_volume_changes(mut self, volume_changes: Vec<f64>) -> Self {
+        self.volume_changes = volume_changes;
+        self
+    }
+
+    /// Changes of the volumes of cells with a volumetric stiffness less those by temperature, shape (n_cells), m^3.
+    pub(crate) fn volume_changes(&self) -> &[f64] {
+        &self.volume_changes
+    }
+
     /// All deformations times a factor.
     pub fn scaled(&self, factor: f64) -> Self {
         let of_bonds = match self.in_space.is_empty() {
             true => scaled::<BondDeformation>(self, factor),
             false => scaled::<SpaceDeformation>(self, factor),
         };
-        let motions = self.motions.iter().map(|it| factor * it);
-        of_bonds.with_motions(motions.collect())
+        let scaled = |values: &[f64]| values.iter().map(|it| factor * it).collect();
+        (of_bonds.with_motions(scaled(&self.motions)))
+            .with_volume_changes(scaled(&self.volume_changes))
     }
 
     /// Deformations plus `by` times the slopes (n_bonds).
@@ -254,8 +271,12 @@ impl Deformations {
             true => ahead::<BondDeformation>(self, slopes, by),
             false => ahead::<SpaceDeformation>(self, slopes, by),
         };
-        let motions = self.motions.iter().zip(&slopes.motions);
-        of_bonds.with_motions(motions.map(|(here, slope)| here + by * slope).collect())
+        let ahead = |values: &[f64], slopes: &[f64]| {
+            let both = values.iter().zip(slopes);
+            both.map(|(value, slope)| value + by * slope).collect()
+        };
+        (of_bonds.with_motions(ahead(&self.motions, &slopes.motions)))
+            .with_volume_changes(ahead(&self.volume_changes, &slopes.volume_changes))
     }
 }
 

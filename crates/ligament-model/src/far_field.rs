@@ -153,7 +153,7 @@ impl<const D: usize> FarField<D> {
 }
 
 /// Points that some of the lists couple with each point, ascending.
-fn joined(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoints {
+pub(crate) fn joined(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoints {
     let of_point = |point: u32| {
         let mut others: Vec<u32> = lists.iter().flat_map(|it| it.at(point)).collect();
         others.sort_unstable();

@@ -163,6 +163,15 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         deformations: [&Deformations; 2],
     ) -> f64;
 
+    /// Energy 1/2 u^T (K - K') u', J, of the cells, of which bonds with the remaining stiffness `before` and `after` (n_bonds) leave the
+    /// stiffnesses K and K', for two deformations of all bonds; 0 where cells have no stiffness.
+    fn energy_lost_by_cells(
+        &self,
+        intact: &[bool],
+        remaining: [&[StiffnessFactors]; 2],
+        deformations: [&Deformations; 2],
+    ) -> f64;
+
     /// Energy 1/2 u^T K u, J, of an unbroken bond with its remaining stiffness, from its deformation as criteria measure it.
     fn stored_energy(
         &self,

@@ -60,6 +60,7 @@ pub mod thermal;
 pub mod topology;
 pub mod uniform_strain;
 mod vector_registers;
+pub mod volumetric;
 #[cfg(feature = "case")]
 pub mod word;
 

@@ -4,6 +4,7 @@ mod anisotropic;
 mod contrast;
 mod elasticity;
 mod expansion;
+mod volumetric_split;
 mod waves;
 
 pub use anisotropic::Anisotropic;
@@ -11,6 +12,7 @@ pub use contrast::with_reduced_contrast;
 pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane, Space, Stiffness};
 pub(crate) use elasticity::{stress, stress_component};
 pub use expansion::Expansion;
+pub use volumetric_split::{PoissonForm, VolumetricSplit};
 pub use waves::PlaneWaves;
 
 crate::case_type! {

@@ -11,6 +11,7 @@ use crate::failure::{Criteria, Measure};
 use crate::point_sums::BondForces;
 use crate::subdomain::Whole;
 use crate::system::{ElementSystem, UnbrokenBonds};
+use crate::thermal::ThermalStrain;
 
 /// Limits near which a sweep finds bonds.
 #[derive(Debug, Clone, Copy)]
@@ -145,6 +146,16 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             let each = of_points.par_iter_mut().enumerate();
             each.for_each(|(point, sum)| {
                 let force = far.force::<M>(motions, point as u32);
+                (0..D).for_each(|axis| sum[axis] += force[axis]);
+            });
+        }
+        if let Some(terms) = &self.system.volumetric {
+            let shares = terms.shares(bonds);
+            let changes = terms.volume_changes((motions, M), ThermalStrain::NONE);
+            let pressures = terms.pressures(&shares, &terms.dilatations(&shares, &changes));
+            let each = of_points.par_iter_mut().enumerate();
+            each.for_each(|(point, sum)| {
+                let force = terms.force(point as u32, &pressures);
                 (0..D).for_each(|axis| sum[axis] += force[axis]);
             });
         }

@@ -12,6 +12,7 @@ use crate::subdomain::{Share, Subdomain, Whole};
 use crate::surface::Vector;
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
+use crate::volumetric::VolumetricTerms;
 
 /// Number of bonds that make a task worth while.
 const TASK: usize = 2048;
@@ -83,8 +84,14 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let of_bonds = Deformation::written(&self.system.room, ends.len(), |all| {
             all.par_chunks_mut(TASK).enumerate().for_each(of_task);
         });
-        match self.system.far {
+        let of_bonds = match self.system.far {
             Some(_) => of_bonds.with_motions(displacement.to_vec()),
+            None => of_bonds,
+        };
+        match &self.system.volumetric {
+            Some(terms) => {
+                of_bonds.with_volume_changes(terms.volume_changes((displacement, M), expansion))
+            }
             None => of_bonds,
         }
     }
@@ -116,6 +123,11 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let mut energies: [f64; 3] =
             std::array::from_fn(|place| of_groups.iter().map(|it| it[place]).sum());
         energies[1] += self.add_far_field(deformations.motions(), &mut at_points);
+        if let Some(terms) = &self.system.volumetric {
+            let changes = deformations.volume_changes();
+            let of_cells = add_volumetric(terms, bonds, (changes, expansion), &mut at_points);
+            (energies.iter_mut().zip(of_cells)).for_each(|(sum, energy)| *sum += energy);
+        }
         subdomain.all_reduce_sum(&mut energies);
         BondSweep::new(
             &at_points,
@@ -188,6 +200,32 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         }
         [work, energy]
     }
+}
+
+/// Adds the forces of cells with a volumetric stiffness at all points, from the changes of their volumes (n_cells, m^3); returns their work
+/// -force . thermal dilatation, their energy and that of the thermal dilatation at load factor 1, J.
+fn add_volumetric<const D: usize, const M: usize>(
+    terms: &VolumetricTerms<D>,
+    bonds: UnbrokenBonds<'_>,
+    (changes, expansion): (&[f64], ThermalStrain<'_>),
+    sums: &mut [PointForces<M>],
+) -> [f64; 3] {
+    let shares = terms.shares(bonds);
+    let dilatations = terms.dilatations(&shares, changes);
+    let pressures = terms.pressures(&shares, &dilatations);
+    (sums.par_iter_mut().enumerate()).for_each(|(point, sum)| {
+        let mut force = [0.0; M];
+        force[..D].copy_from_slice(&terms.force(point as u32, &pressures));
+        sum.add(force);
+    });
+    let stored = 0.5 * terms.work(&dilatations, &dilatations);
+    if expansion.is_none() {
+        return [0.0, stored, 0.0];
+    }
+    let thermal = terms.thermal_changes(expansion.at_full_load());
+    let thermal = terms.dilatations(&shares, &thermal);
+    let work = -terms.work(&dilatations, &thermal);
+    [work, stored, 0.5 * terms.work(&thermal, &thermal)]
 }
 
 impl BondSweep {

@@ -24,6 +24,7 @@ use crate::layout::{Component, Layout};
 use crate::material::Stiffness;
 use crate::point_sums::Reach;
 use crate::topology::{CoupledPoints, Topology};
+use crate::volumetric::{VolumetricCells, VolumetricTerms};
 
 /// Points and bonds in D dimensions with their rigidities; constant after construction.
 #[derive(Debug, Clone)]
@@ -48,6 +49,8 @@ pub struct BondSystem<const D: usize = 2> {
     pub faces: Faces<D>,
     /// Elements in place of bonds where nothing breaks; none without a far field.
     pub far: Option<FarField<D>>,
+    /// Volumetric stiffness of the cells; none where bonds have the whole stiffness of the materials.
+    pub volumetric: Option<VolumetricTerms<D>>,
     /// Reusable memory for deformations.
     pub room: DeformationPool,
     /// Factors of the [strains of points](crate::stress::point_strain), once some were asked for, shape (n_bonds).
@@ -111,6 +114,7 @@ impl<const D: usize> BondSystem<D> {
             materials: Vec::new(),
             faces: Faces::default(),
             far: None,
+            volumetric: None,
             room: DeformationPool::default(),
             closeness: OnceLock::new(),
         }
@@ -128,8 +132,13 @@ impl<const D: usize> BondSystem<D> {
         let of_body = |ends: &[u32; 2]| ends.map(|end| points[end as usize]);
         bonds.ends = bonds.ends.iter().map(of_body).collect();
         bonds.incidence = Incidence::new(&bonds.ends, cloud.len()).into();
+        let coupled = CoupledPoints::from_bonds(&bonds.ends, &bonds.incidence);
+        let volumetric = self
+            .volumetric
+            .map(|it| it.within(points, &bonds, &coupled));
         Self {
             cloud,
+            volumetric,
             bonds,
             faces: Faces::default(),
             closeness: OnceLock::new(),
@@ -140,8 +149,38 @@ impl<const D: usize> BondSystem<D> {
     /// The system with linear finite elements between its points.
     pub fn with_far_field<C: MeshCell<D>>(mut self, simplices: &[Simplex<C>]) -> Self {
         let by_bonds = CoupledPoints::from_bonds(&self.bonds.ends, &self.bonds.incidence);
-        let far = FarField::new(&self.cloud, simplices, &self.materials, &by_bonds);
+        let coupled = self
+            .volumetric
+            .as_ref()
+            .map(VolumetricTerms::coupled_points);
+        let whole = self.whole_materials();
+        let far = FarField::new(&self.cloud, simplices, &whole, coupled.unwrap_or(&by_bonds));
         self.far = Some(far);
+        self
+    }
+
+    /// Stiffness of each material, that of bonds and cells together, shape (n_materials), Pa.
+    fn whole_materials(&self) -> Vec<Stiffness> {
+        let mut materials = self.materials.clone();
+        let moduli = self.volumetric.iter().flat_map(|it| it.moduli());
+        for (stiffness, modulus) in materials.iter_mut().zip(moduli) {
+            stiffness.view_mut((0, 0), (D, D)).add_scalar_mut(*modulus);
+        }
+        materials
+    }
+
+    /// The system with the volumetric stiffness of cells by the moduli kappa of their materials (n_materials), Pa. `is_cut` says of an edge
+    /// without a bond whether a pre-crack cuts it.
+    pub fn with_volumetric(
+        mut self,
+        cells: &VolumetricCells<D>,
+        moduli: &[f64],
+        is_cut: impl Fn([u32; 2]) -> bool,
+    ) -> Self {
+        let by_bonds = CoupledPoints::from_bonds(&self.bonds.ends, &self.bonds.incidence);
+        let by_faces = self.faces.coupled().map(CoupledPoints::from_lists);
+        let coupled = by_faces.as_ref().unwrap_or(&by_bonds);
+        self.volumetric = VolumetricTerms::new(cells, &self.bonds, moduli, is_cut, coupled);
         self
     }
 
@@ -186,10 +225,14 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let BondSystem { cloud, bonds, .. } = &system;
         let couplings = E::couplings(&lattice);
         let of_elements = couplings.map(|[_, points]| points);
-        let coupled_points = match (&system.far, of_elements.or(system.faces.coupled())) {
+        let of_lists = || of_elements.or(system.faces.coupled());
+        let coupled_points = match (&system.far, &system.volumetric) {
             (Some(far), _) => far.coupled_points.clone(),
-            (None, Some(points)) => CoupledPoints::from_lists(points),
-            (None, None) => CoupledPoints::from_bonds(&bonds.ends, &bonds.incidence),
+            (None, Some(terms)) => terms.coupled_points().clone(),
+            (None, None) => match of_lists() {
+                Some(points) => CoupledPoints::from_lists(points),
+                None => CoupledPoints::from_bonds(&bonds.ends, &bonds.incidence),
+            },
         };
         let topology = Topology {
             layout: Layout {
@@ -210,6 +253,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
                 .clone(),
             coupled_points,
             far_field: system.far.as_ref().map(|it| it.neighbours.clone()),
+            has_volumetric_cells: system.volumetric.is_some(),
             faces_close: system.faces.close(),
         };
         Self {

@@ -38,6 +38,8 @@ pub struct Topology {
     pub coupled_points: CoupledPoints,
     /// Points that elements of the far field, which never break, couple with each point; none without a far field.
     pub far_field: Option<CoupledPoints>,
+    /// Whether cells have a stiffness against changes of volume.
+    pub has_volumetric_cells: bool,
     /// Whether crack faces carry pressure where they close.
     pub faces_close: bool,
 }

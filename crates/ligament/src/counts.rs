@@ -20,6 +20,8 @@ pub struct BondCounts {
     pub of_points: [usize; 2],
     /// Number of points of the far field, which have no bonds.
     pub far_points: usize,
+    /// Number of cells that carry the volumetric stiffness of their material.
+    pub volumetric_cells: usize,
 }
 
 impl BondCounts {
@@ -35,6 +37,7 @@ impl BondCounts {
         cloud.subdomain.all_reduce_max(&mut ends);
         Self {
             far_points: cloud.subdomain.count(all().filter(is_far).count()),
+            volumetric_cells: system.volumetric.as_ref().map_or(0, |it| it.n_cells()),
             bonds: bonds.count(cloud),
             cut: count(cloud, absent, Absence::PreCrack),
             across_voids: count(cloud, absent, Absence::Void),

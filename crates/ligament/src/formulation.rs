@@ -231,7 +231,7 @@ pub fn criteria<const D: usize>(
         no_fail: &fixed.no_fail,
         space,
         constants: (materials.iter())
-            .map(|it| setup.law.constants(it, space))
+            .map(|it| setup.law.split(it, space))
             .collect(),
         materials: &materials,
         lattice: cast_ref(system).map(|system| lattice(setup, system)),

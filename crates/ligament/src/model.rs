@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ligament_analysis::Message;
-use ligament_model::bonds::precrack::Crack;
+use ligament_model::bonds::precrack::{Crack, cut_bonds};
 use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
 use ligament_model::failure::Criteria;
@@ -142,7 +142,10 @@ impl Model {
         let criteria = stage(watcher, "criteria", limits)?;
         let report = correction.report.as_ref();
         Ok(Self {
-            warnings: warnings(described, &system.cloud, report, &fixed, &criteria, crossed),
+            warnings: warnings(described, &system.cloud, report, &fixed, &criteria, crossed)
+                .into_iter()
+                .chain(warning::without_edges(&system))
+                .collect(),
             correction_range: counts::correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system, &fixed.absent),
             correction: correction.report,
@@ -278,6 +281,8 @@ fn bonded<const D: usize>(
     watcher: &mut dyn StageWatcher,
 ) -> Result<Bonded<D>, SetupError> {
     let setup = described.setup;
+    let of_bonds = setup.of_bonds();
+    let of_bonds = of_bonds.as_ref().unwrap_or(setup);
     let horizons = setup.horizon.of_points(&cloud);
     let (bonds, absent) = stage(watcher, "bonds", || {
         let all = BondSet::search(&cloud, &horizons);
@@ -298,7 +303,7 @@ fn bonded<const D: usize>(
         energy_ratios,
         faces,
     } = stage(watcher, "correction", || {
-        let formulation = Formulation::new(setup, &cloud, &horizons, material_of_cell);
+        let formulation = Formulation::new(of_bonds, &cloud, &horizons, material_of_cell);
         correct(&formulation, bonds, &cracks, &crossed.is_cut)
     });
     watcher.found(&Finding::Correction(
@@ -313,8 +318,13 @@ fn bonded<const D: usize>(
         ..of_correction(&correction)
     };
     let system = stage(watcher, "rigidities", || {
+        let described = Described {
+            setup: of_bonds,
+            ..described
+        };
         bond_system(described, cloud, bonds, stiffness, &correction, faces)
     })?;
+    let system = with_volumetric(system, setup, body, material_of_cell, &cracks);
     Ok(Bonded {
         system,
         fixed,
@@ -340,6 +350,30 @@ fn bond_system<const D: usize>(
     require_finite_rigidities(names, &system)?;
     let materials = formulation::stiffness_of_materials(setup);
     Ok(system.with_faces(faces).with_materials(materials))
+}
+
+/// The system with the stiffness of the cells against changes of volume, where bonds do not make up the whole materials.
+fn with_volumetric<const D: usize>(
+    system: BondSystem<D>,
+    setup: &Setup,
+    body: &dyn Geometry<D>,
+    material_of_cell: &[u32],
+    cracks: &[Crack],
+) -> BondSystem<D> {
+    let Some(moduli) = setup.moduli_of_cells() else {
+        return system;
+    };
+    let cells = body.volumetric_cells(&system.cloud, material_of_cell, &moduli);
+    let counts: Vec<bool> = moduli.iter().map(|it| *it > 0.0).collect();
+    let has_no_bond = |edge: &[u32; 2]| system.bonds.ends.binary_search(edge).is_err();
+    let mut without_bond = cells.distinct_edges(&counts);
+    without_bond.retain(has_no_bond);
+    let is_cut = cut_bonds(cracks, &without_bond, &system.cloud);
+    let is_cut = |edge: [u32; 2]| {
+        let place = without_bond.binary_search(&edge);
+        place.is_ok_and(|place| is_cut[place])
+    };
+    system.with_volumetric(&cells, &moduli, is_cut)
 }
 
 /// The bonds, in a body of several materials with their composition from the cells that they cross.

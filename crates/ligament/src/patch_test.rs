@@ -119,8 +119,13 @@ fn of_bonds<const D: usize>(model: &Model, system: &dyn System<D>) -> Result<Pat
         return Err(Untested::NoCells);
     }
     let (cloud, bonds) = (&system.cloud, &system.bonds);
-    let stiffness = stiffness_of_materials(setup);
-    let forces = (setup.body.geometry()).cell_forces(cloud, &material_of_cell(setup)?, stiffness);
+    let of_bonds = setup.of_bonds();
+    let stiffness = stiffness_of_materials(of_bonds.as_ref().unwrap_or(setup));
+    let materials = material_of_cell(setup)?;
+    let mut forces = (setup.body.geometry()).cell_forces(cloud, &materials, stiffness);
+    if let Some(terms) = &system.volumetric {
+        terms.add_to(&mut forces);
+    }
     let loads = uniform_strain::loads(system, &forces);
     let displacements = displacements(model, loads)?;
     let strains = UniformStrains::measure(system, &forces, &displacements);

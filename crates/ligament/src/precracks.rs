@@ -99,7 +99,7 @@ impl Precracked {
         bonds: &BondSet<D>,
         cloud: &PointCloud<D>,
     ) -> Self {
-        let is_cut = cut_bonds(cracks, bonds, cloud);
+        let is_cut = cut_bonds(cracks, &bonds.ends, cloud);
         let count = |is_cut: &[bool]| {
             cloud
                 .subdomain
@@ -107,7 +107,7 @@ impl Precracked {
         };
         let is_idle = |index: &usize| match cracks {
             [_] => count(&is_cut) == 0,
-            _ => count(&cut_bonds(&cracks[*index..=*index], bonds, cloud)) == 0,
+            _ => count(&cut_bonds(&cracks[*index..=*index], &bonds.ends, cloud)) == 0,
         };
         Self {
             idle: (0..cracks.len()).filter(is_idle).collect(),

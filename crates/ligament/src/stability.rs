@@ -25,6 +25,9 @@ const DIGITS: f64 = 1e3;
 pub fn largest_poisson(model: &Model) -> Result<Option<f64>, Error> {
     let setup = &model.setup;
     let is_divided = setup.solver.communicator.size() > 1;
+    if setup.moduli_of_cells().is_some() {
+        return Ok(None);
+    }
     let constants = setup.materials.iter();
     let ratios = constants.filter_map(|it| Some(it.material.elasticity.isotropic()?.poisson));
     let mut stable = Isotropic::central_force_poisson(setup.space());

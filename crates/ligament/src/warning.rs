@@ -2,6 +2,7 @@
 
 mod correction;
 mod criteria;
+mod volumetric;
 
 use ligament_analysis::Message;
 use ligament_model::correction::{CorrectionReport, DomainReport};
@@ -18,6 +19,8 @@ use crate::body::{Body, Origin};
 use crate::described::Described;
 use crate::plausibility::corners;
 use crate::setup::{Horizon, Setup};
+
+pub(crate) use volumetric::without_edges;
 
 /// Horizon factor below which the domain correction is not known to have a fixed point.
 const SMALLEST_SAFE_FACTOR: f64 = 2.0;
@@ -106,6 +109,13 @@ fn of_constants(setup: &Setup) -> Vec<Message> {
         constants
             .iter()
             .filter_map(|it| energy_given_back(setup, it)),
+    );
+    let of_cells = [volumetric::crack_excess, volumetric::short_step];
+    warnings.extend(
+        constants
+            .iter()
+            .flat_map(|it| of_cells.map(|of| of(setup, it)))
+            .flatten(),
     );
     warnings
 }
@@ -304,7 +314,9 @@ fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Message> {
     };
     let criterion = setup.criteria.iter().find(by_energy)?.kind.word;
     let (poisson, limit) = poisson_and_limit(setup, material);
-    let gives_energy = poisson > limit && !setup.law.row.fixes_poisson;
+    let gives_energy = poisson > limit
+        && !setup.law.row.fixes_poisson
+        && volumetric::split(setup, material).is_none();
     gives_energy.then(|| {
         let text = format!(
             "criterion \"{criterion}\": above Poisson's ratio {limit:.4} (here {poisson}) shear lowers the energy of the bonds, and those nearly \
@@ -316,6 +328,9 @@ fn energy_given_back(setup: &Setup, material: &Isotropic) -> Option<Message> {
 
 fn of_poisson(setup: &Setup, material: &Isotropic) -> Option<Message> {
     let (poisson, limit) = poisson_and_limit(setup, material);
+    if volumetric::split(setup, material).is_some() {
+        return None;
+    }
     if setup.law.row.fixes_poisson {
         let differs = (poisson - limit).abs() > POISSON_TOLERANCE;
         return differs.then(|| {

@@ -265,6 +265,9 @@ impl Energies {
         let by_bond = left.iter().enumerate().map(released);
         if !left.is_empty() {
             add_over_bonds(&*problem.system, &mut self.released, by_bond);
+            let both = [before, &balanced.deformations];
+            let system = &problem.system;
+            self.released += system.energy_lost_by_cells(&state.intact, [left, remaining], both);
         }
         self.keep(state, balanced);
     }

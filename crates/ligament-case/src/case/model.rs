@@ -1,8 +1,8 @@
 //! `[model]` and `[correction]`: the bond model, and the factors alpha and Omega of its bonds.
 
 use ligament::setup::{
-    self, Alpha, Calibration, CorrectionDomain, Form, Horizon, Iteration, Law, Options, Setup,
-    Strains, Surface,
+    self, Alpha, Calibration, CorrectionDomain, Form, Horizon, Iteration, Law, Options,
+    PoissonForm, Setup, Strains, Surface,
 };
 use ligament_model::correction::StopRule;
 use ligament_model::correction::patch::{Reference, Settings};
@@ -45,6 +45,10 @@ pub struct ModelSection {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     #[schemars(extend("default" = false))]
     pub allow_unstable: bool,
+    /// What carries the stiffness that bonds cannot have above the Poisson's ratio of central forces (1/3 in plane stress, else 1/4).
+    #[serde(default, skip_serializing_if = "by_cells")]
+    #[schemars(extend("description" = of_laws("What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3)", |it| it.options.poisson.is_some())))]
+    pub poisson: Option<PoissonForm>,
     /// Where the constants of the law come from.
     #[schemars(extend("description" = of_laws("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
     pub calibration: Option<Calibration>,
@@ -65,6 +69,10 @@ pub struct ModelSection {
     pub strains: Option<Strains>,
 }
 
+fn by_cells(form: &Option<PoissonForm>) -> bool {
+    *form != Some(PoissonForm::Bonds)
+}
+
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
@@ -77,12 +85,14 @@ impl ModelSection {
             rotational_stiffness: self.rotational_stiffness,
             form: self.form,
             strains: self.strains,
+            poisson: self.poisson,
         });
         let reasons = [
             ("calibration", "its constants are those of the paper"),
             ("rotational_stiffness", "the law determines it"),
             ("form", "only \"mbb-pd\" has several"),
             ("strains", "only \"mbb-pd\" has true strains"),
+            ("poisson", "its cells carry no stiffness"),
         ];
         let settled = law.misplaced_option();
         let settled = settled.and_then(|name| reasons.iter().find(|(key, _)| *key == name));
@@ -99,6 +109,7 @@ impl ModelSection {
         self.rotational_stiffness = law.options.rotational_stiffness;
         self.form = law.options.form;
         self.strains = law.options.strains;
+        self.poisson = law.options.poisson;
         self.check_rotational_scale(key, &law)
     }
 

@@ -11,7 +11,6 @@ use ligament_analysis::solver::{
 use ligament_analysis::stiffness::Stiffness;
 
 use super::report::{Report, megabytes};
-use ligament::Setup;
 use ligament_case::case::CaseFile;
 use ligament_run::memory;
 use ligament_run::model::Model;
@@ -52,7 +51,7 @@ pub(super) fn write_with_matrix(
     write_memory(report, case, model, Some(stiffness))?;
     let choice = stiffness.choice();
     report.detail("method", format!("direct: {}", choice.reason))?;
-    write_choice(report, &model.setup, choice)?;
+    write_choice(report, model, choice)?;
     report.detail("ordering", ordering_reason(model))?;
     for ordering in [Ordering::NestedDissection, Ordering::MinimumDegree] {
         write_ordering(report, stiffness, ordering)?;
@@ -110,7 +109,8 @@ fn write_memory(
     }
 }
 
-fn write_choice(report: &mut Report<'_>, setup: &Setup, choice: &DirectChoice) -> io::Result<()> {
+fn write_choice(report: &mut Report<'_>, model: &Model, choice: &DirectChoice) -> io::Result<()> {
+    let setup = &model.setup;
     if choice.unsymmetric {
         return report.detail("factorisation",
             "L U, because the printed forces derive from no energy; entries and ordering are those of the energy form",
@@ -119,6 +119,9 @@ fn write_choice(report: &mut Report<'_>, setup: &Setup, choice: &DirectChoice) -
     let is_named = setup.solver.factorisation.is_some();
     let why = match (is_named, choice.factorisation) {
         (true, _) => "set in the case",
+        (false, FactorKind::Llt) if model.system.has_volumetric_cells => {
+            "bonds and cells have positive stiffnesses, so the stiffness of the body is positive definite"
+        }
         (false, FactorKind::Llt) => {
             "every bond has a positive axial and shear stiffness, so the stiffness of the body is positive definite"
         }

@@ -119,6 +119,10 @@ fn write_bonds(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
         let elements = format!("{} points of elements", model.counts.far_points);
         report.entry("far field", elements)?;
     }
+    if model.counts.volumetric_cells > 0 {
+        let cells = model.counts.volumetric_cells;
+        report.entry("cells", format!("{cells} carry volumetric stiffness"))?;
+    }
     if model.no_fail_points() > 0 {
         report.entry("points with no_fail", model.no_fail_points())?;
     }

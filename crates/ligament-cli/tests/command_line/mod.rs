@@ -155,7 +155,7 @@ fn llt_of_an_indefinite_stiffness_says_what_to_choose() {
     let text = format!(
         "mesh = {{ file = {:?} }}\n\
          material = {{ young = 15e9, poisson = 0.38, tensile_strength = 3.81e6 }}\n\
-         model = {{ law = \"nhpd\", horizon_factor = 3.0 }}\n\
+         model = {{ law = \"nhpd\", horizon_factor = 3.0, poisson = \"bonds\" }}\n\
          support = [{{ group = \"left\", displacement = {{ x = 0.0, y = 0.0 }} }}]\n\
          load = [{{ group = \"right\", displacement = {{ x = 1e-5 }} }}]\n\
          fracture = {{ steps = 2 }}\n",

@@ -107,7 +107,11 @@ fn a_damaged_result_is_named() {
 fn a_run_without_an_end_is_told_as_such() {
     let folder = tempfile::tempdir().unwrap();
     // A stiffness that is not positive definite.
-    let settings = ["material.poisson=0.38", "solver.factorisation=llt"];
+    let settings = [
+        "material.poisson=0.38",
+        "model.poisson=bonds",
+        "solver.factorisation=llt",
+    ];
     let results = run(folder.path(), SHEARED, &settings);
     let said = explain(&results, &["--bond", "25", "26"]);
     assert!(said.contains("the run is incomplete"), "{said}");

@@ -1,7 +1,7 @@
 //! What the limits of bonds are made from.
 
 use super::crack_energies::Lattice;
-use crate::material::{Isotropic, Material, Plane, Space};
+use crate::material::{Material, Plane, Space, VolumetricSplit};
 use crate::scatter::{Factors, Scattered};
 use crate::system::BondSystem;
 
@@ -16,8 +16,8 @@ pub struct Basis<'a, const D: usize = 2> {
     pub space: Space,
     /// The materials.
     pub materials: &'a [Material],
-    /// The elastic constants that the law makes of those of each material; none with axes, shape (n_materials).
-    pub constants: Vec<Option<Isotropic>>,
+    /// The elastic constants that the law makes of those of each material, and those of its bonds; none with axes, shape (n_materials).
+    pub constants: Vec<Option<VolumetricSplit>>,
     /// The bonds as a lattice far from its edges, for those with strains of their own; in the plane alone.
     pub lattice: Option<Lattice>,
     /// Factors by which properties vary at random, each another one.
@@ -27,8 +27,8 @@ pub struct Basis<'a, const D: usize = 2> {
 impl<const D: usize> Basis<'_, D> {
     /// A value of each material, from the constants that the law makes of its own; infinite where it has none, shape
     /// (n_materials).
-    pub fn each(&self, value: impl Fn(&Isotropic, &Material) -> Option<f64>) -> Vec<f64> {
-        let value = |(constants, material): (&Option<Isotropic>, &Material)| {
+    pub fn each(&self, value: impl Fn(&VolumetricSplit, &Material) -> Option<f64>) -> Vec<f64> {
+        let value = |(constants, material): (&Option<VolumetricSplit>, &Material)| {
             value(constants.as_ref()?, material)
         };
         let of_materials = self.constants.iter().zip(self.materials);

@@ -14,7 +14,7 @@ use crate::element::pair::{Pair, PairMechanics};
 use crate::element::{BondDeformation, ElementKind};
 use crate::horizon::Horizons;
 use crate::law::Law;
-use crate::material::{Elasticity, Isotropic, Material, Space};
+use crate::material::{Elasticity, Isotropic, Material, Space, VolumetricSplit};
 use crate::system::BondSystem;
 use crate::tensor::{dot, tangents};
 
@@ -73,7 +73,7 @@ fn made(
         system,
         no_fail: &no_fail,
         space: Space::Solid,
-        constants: vec![material.elasticity.isotropic()],
+        constants: vec![material.elasticity.isotropic().map(VolumetricSplit::whole)],
         materials: &[material],
         lattice: None,
         scatter: &[],

@@ -33,7 +33,7 @@ fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits
 /// Limits F_t/E' of the stress across the bonds.
 pub(super) fn tensile<const D: usize>(basis: &Basis<'_, D>) -> Limits {
     let strains = basis.each(|constants, material| {
-        Some(material.tensile_strength? / modulus(constants, basis.space))
+        Some(material.tensile_strength? / modulus(&constants.bonds, basis.space))
     });
     of_stress(basis, &strains, |_, it| it.coefficients())
 }

@@ -58,7 +58,7 @@ fn of_energy<const D: usize>(
 fn stretches_at_strength<const D: usize>(basis: &Basis<'_, D>) -> Vec<f64> {
     basis.each(|constants, material| {
         let strength = (TENSILE_STRENGTH.value)(material)?;
-        Some(stretch_at_strength(constants, strength, basis.space))
+        Some(stretch_at_strength(&constants.bonds, strength, basis.space))
     })
 }
 
@@ -124,7 +124,7 @@ pub(super) fn critical_stretches_for<const D: usize>(
 ) -> Vec<f64> {
     let system = basis.system;
     let energy = basis.weakest(of_materials);
-    let moduli = basis.each(|constants, _| Some(opening_modulus(constants, basis.space)));
+    let moduli = basis.each(|constants, _| Some(opening_modulus(&constants.bonds, basis.space)));
     let lengths = mean_lengths(system);
     let modulus = |end: u32| system.cloud.mean_property(end as usize, &moduli);
     let of_bonds = energy.into_iter().zip(&*system.bonds.ends);

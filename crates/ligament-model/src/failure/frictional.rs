@@ -77,9 +77,10 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         if let (Some(cohesion), Some(slope)) = (choice.limit, slope) {
             return Ok(Some(Friction { cohesion, slope }));
         }
-        let (Some(constants), Some(tensile)) = (constants, material.tensile_strength) else {
+        let (Some(split), Some(tensile)) = (constants, material.tensile_strength) else {
             return Ok(None);
         };
+        let constants = &split.material;
         if let Some(slope) = slope {
             return Ok(Some(with_slope(
                 constants,

@@ -126,7 +126,7 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         ))
     };
     let cohesions = basis.each(|constants, material| {
-        Some(friction(material)?.cohesion / modulus(constants, basis.space))
+        Some(friction(material)?.cohesion / modulus(&constants.bonds, basis.space))
     });
     let slopes: Vec<f64> = (basis.materials.iter())
         .map(|it| friction(it).map_or(0.0, |it| it.slope))

@@ -4,7 +4,7 @@ use super::basis::{Basis, weakest_materials};
 use super::criterion::Surroundings;
 use super::hooke::Moduli;
 use super::kind::Limits;
-use crate::material::Isotropic;
+use crate::material::VolumetricSplit;
 
 /// Limits of a stress across the bonds over E', from those of the materials (n_materials), with the coefficients of its measure that a
 /// function makes of the index of a material and its moduli. A bond between materials takes those of the one with the smallest limit.
@@ -13,8 +13,8 @@ pub(super) fn of_stress<const D: usize, const N: usize>(
     of_materials: &[f64],
     coefficients: impl Fn(usize, &Moduli) -> [f64; N],
 ) -> Limits {
-    let of_material = |(material, constants): (usize, &Option<Isotropic>)| {
-        let moduli = constants.map_or(Moduli::BAR, |it| Moduli::new(&it, basis.space));
+    let of_material = |(material, constants): (usize, &Option<VolumetricSplit>)| {
+        let moduli = constants.map_or(Moduli::BAR, |it| Moduli::new(&it.bonds, basis.space));
         coefficients(material, &moduli)
     };
     let constants = basis.constants.iter().enumerate();

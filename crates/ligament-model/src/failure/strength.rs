@@ -21,8 +21,11 @@ pub static STRENGTH: Kind = Kind {
 
 fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let energies = basis.each(|constants, material| {
-        let strength = material.tensile_strength?;
-        Some(critical_energy(constants, strength, basis.space))
+        let [bar, of_bonds] =
+            [constants.material, constants.bonds].map(|it| it.of_bar(basis.space));
+        // The stress of the bonds alone at the strain of a bar that carries its strength.
+        let strength = material.tensile_strength? * (of_bonds.young / bar.young);
+        Some(critical_energy(&constants.bonds, strength, basis.space))
     });
     let limit = critical_stretches(basis.system, &energies, basis.no_fail);
     Ok(vec![Limits::without_coefficient(limit)])

@@ -48,7 +48,7 @@ pub(super) fn of_strength<const D: usize>(
     basis.given_or(choice.limit, || {
         basis.each(|constants, material| {
             let strength = (choice.kind.takes.first()?.value)(material)?;
-            Some(of_material(constants, strength, basis.space))
+            Some(of_material(&constants.material, strength, basis.space))
         })
     })
 }

@@ -1,11 +1,13 @@
 //! Bond-based peridynamics: bonds that only resist stretch (Silling 2000, in the plane in the linear form of MPPD section 2).
 
 use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
+use crate::material::PoissonForm;
 
 /// Bond-based law with a constant micromodulus.
 pub static LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
+        poisson: Some(PoissonForm::Cells),
         ..Options::NONE
     },
     fixes_poisson: true,

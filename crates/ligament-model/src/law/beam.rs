@@ -6,10 +6,14 @@ use super::{
     constants,
 };
 use crate::element::ElementKind;
-use crate::material::Space;
+use crate::material::{PoissonForm, Space};
 
 /// Law of NHPD.
 pub static NHPD: BondLaw = BondLaw {
+    options: Options {
+        poisson: Some(PoissonForm::Cells),
+        ..Options::NONE
+    },
     shear_form: Some(nhpd_form),
     correction: PaperCorrection::LengthAndDomain,
     element: |_| ElementKind::Beam,
@@ -26,6 +30,7 @@ pub static NHPD: BondLaw = BondLaw {
 pub static MPPD_BEAM: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Discrete),
+        poisson: Some(PoissonForm::Cells),
         ..Options::NONE
     },
     element: |_| ElementKind::Beam,

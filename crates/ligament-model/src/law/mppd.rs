@@ -5,12 +5,14 @@ use rayon::prelude::*;
 use super::rotational::RotationalStiffness;
 use super::{BondLaw, BondStiffness, Calibration, Law, LawInput, Options, ShearForm, pds};
 use crate::element::ElementKind;
+use crate::material::PoissonForm;
 
 /// Micropolar law with a constant shear stiffness.
 pub static LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
         rotational_stiffness: Some(RotationalStiffness::Decaying),
+        poisson: Some(PoissonForm::Cells),
         ..Options::NONE
     },
     element: |_| ElementKind::Beam,

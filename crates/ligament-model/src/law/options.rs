@@ -1,6 +1,7 @@
 //! Options of bond laws.
 
 use super::rotational::RotationalStiffness;
+use crate::material::PoissonForm;
 
 crate::case_type! {
     /// Origin of the constants of a law.
@@ -51,6 +52,8 @@ pub struct Options {
     pub form: Option<Form>,
     /// Distances in the denominators of the strains.
     pub strains: Option<Strains>,
+    /// What carries the stiffness that bonds cannot have at a large Poisson's ratio.
+    pub poisson: Option<PoissonForm>,
 }
 
 impl Options {
@@ -60,6 +63,7 @@ impl Options {
         rotational_stiffness: None,
         form: None,
         strains: None,
+        poisson: None,
     };
 
     /// The options, completed by those of `others`.
@@ -69,6 +73,7 @@ impl Options {
             rotational_stiffness: self.rotational_stiffness.or(others.rotational_stiffness),
             form: self.form.or(others.form),
             strains: self.strains.or(others.strains),
+            poisson: self.poisson.or(others.poisson),
         }
     }
 
@@ -88,6 +93,10 @@ impl Options {
                 "strains",
                 self.strains.is_some() != others.strains.is_some(),
             ),
+            (
+                "poisson",
+                self.poisson.is_some() != others.poisson.is_some(),
+            ),
         ]
         .into_iter()
         .find_map(|(name, differs)| differs.then_some(name))
@@ -105,4 +114,4 @@ macro_rules! alone {
     };
 }
 
-alone! { calibration: Calibration, rotational_stiffness: RotationalStiffness, form: Form, strains: Strains }
+alone! { calibration: Calibration, rotational_stiffness: RotationalStiffness, form: Form, strains: Strains, poisson: PoissonForm }

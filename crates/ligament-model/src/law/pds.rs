@@ -1,11 +1,13 @@
 //! Law with stretch and shear stiffness, without rotations of the points (PDS; MPPD section 2.1).
 
 use super::{BondLaw, BondStiffness, Calibration, Densities, Law, LawInput, Options, constants};
+use crate::material::PoissonForm;
 
 /// Law with stretch and constant shear stiffness, without rotations.
 pub static LAW: BondLaw = BondLaw {
     options: Options {
         calibration: Some(Calibration::Integral),
+        poisson: Some(PoissonForm::Cells),
         ..Options::NONE
     },
     ..BondLaw::new(

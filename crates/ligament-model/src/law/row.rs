@@ -8,7 +8,9 @@ use crate::cloud::PointCloud;
 use crate::dimension::cast;
 use crate::element::ElementKind;
 use crate::failure::{Kind, strength};
-use crate::material::{Elasticity, Isotropic, Material, Plane, Space};
+use crate::material::{
+    Elasticity, Isotropic, Material, Plane, PoissonForm, Space, VolumetricSplit,
+};
 
 /// A bond law.
 #[derive(Debug, Clone, Copy)]
@@ -251,10 +253,19 @@ impl Law {
     /// Effective elastic constants of a material under the law: Young's modulus with the Poisson's ratio of central forces where the law
     /// fixes it. `None` for an anisotropic material.
     pub fn constants(&self, material: &Material, space: Space) -> Option<Isotropic> {
+        self.split(material, space).map(|it| it.material)
+    }
+
+    /// A material split between bonds and cells; `None` for an anisotropic material.
+    pub fn split(&self, material: &Material, space: Space) -> Option<VolumetricSplit> {
         let given = material.elasticity.isotropic()?;
-        Some(match self.row.fixes_poisson {
-            true => given.with_central_forces(space),
-            false => given,
+        let split = match self.options.poisson {
+            Some(PoissonForm::Cells) => VolumetricSplit::new(given, space),
+            Some(PoissonForm::Bonds) | None => VolumetricSplit::whole(given),
+        };
+        Some(match self.row.fixes_poisson && !split.is_split() {
+            true => VolumetricSplit::whole(given.with_central_forces(space)),
+            false => split,
         })
     }
 

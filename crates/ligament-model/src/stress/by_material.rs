@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::layout::Layout;
 use crate::material::stress_component;
-use crate::system::BondSystem;
+use crate::system::{BondSystem, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
 use super::carried::StrainReading;
@@ -31,11 +31,42 @@ impl<const D: usize> BondSystem<D> {
         let strains = self.strains_of_all(|point| self.strain_by(layout, reading, point));
         let numbered = strains.into_par_iter().enumerate();
         numbered
-            .map(|(point, strain)| self.stress_of(point as u32, &strain?))
+            .map(|(point, strain)| self.stress_in(layout, reading, point as u32, &strain?))
             .collect()
     }
 
-    /// Stress of a point with a strain, Pa; None where the system does not have the stiffnesses of its materials.
+    /// Stress of a point with a strain in a reading, Pa: that of the material of its bonds, and that of its cells; None where the system does
+    /// not have the stiffnesses of its materials.
+    pub(crate) fn stress_in(
+        &self,
+        layout: Layout,
+        reading: StrainReading<'_>,
+        point: u32,
+        strain: &SymTensor<D>,
+    ) -> Option<SymTensor<D>> {
+        let stress = self.stress_of(point, strain)?;
+        let Some(terms) = &self.volumetric else {
+            return Some(stress);
+        };
+        let (motion, remaining) = match reading {
+            StrainReading::Effective(motion) => (motion, &[][..]),
+            StrainReading::Carried(carried) => (carried.motion, carried.remaining),
+        };
+        let bonds = UnbrokenBonds {
+            intact: motion.intact,
+            remaining,
+        };
+        let motions = (motion.displacement, layout.components.len());
+        let found = terms.stress_in_motions(bonds, motions, motion.expansion, point);
+        let of_cells = match reading {
+            StrainReading::Effective(_) => found.of_living(),
+            StrainReading::Carried(_) => found.of_all(),
+        };
+        let of_cells = of_cells.unwrap_or_else(|| self.volumetric_stress_of(point, strain));
+        Some(stress.plus(&SymTensor::isotropic(of_cells)))
+    }
+
+    /// Stress of a strain of a point by the stiffness of its bonds, Pa; None where the system does not have the stiffnesses of its materials.
     pub(crate) fn stress_of(&self, point: u32, strain: &SymTensor<D>) -> Option<SymTensor<D>> {
         if self.materials.is_empty() {
             return None;
@@ -50,6 +81,16 @@ impl<const D: usize> BondSystem<D> {
             }
         }
         Some(SymTensor::from_components(&sums))
+    }
+
+    /// Stress kappa tr(eps) of a point whose elements have the whole stiffness of its materials, Pa; 0 without elements.
+    pub(crate) fn volumetric_stress_of(&self, point: u32, strain: &SymTensor<D>) -> f64 {
+        let has_elements = self.far.as_ref().is_some_and(|far| far.volume(point) > 0.0);
+        let Some(terms) = self.volumetric.as_ref().filter(|_| has_elements) else {
+            return 0.0;
+        };
+        let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
+        self.cloud.mean_property(point as usize, terms.moduli()) * trace
     }
 }
 

@@ -45,7 +45,9 @@ impl<const D: usize> BondSystem<D> {
             expansion: ThermalStrain::NONE,
         };
         let strain = self.fit_of_elements(layout, motion, point).strain()?;
+        let of_cells = self.volumetric_stress_of(point, &strain);
         let stress = self.stress_of(point, &strain)?;
+        let stress = stress.plus(&SymTensor::isotropic(of_cells));
         Some(ElementsAtPoint {
             volume,
             strain,

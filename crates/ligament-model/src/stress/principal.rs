@@ -27,6 +27,7 @@ impl<const D: usize> BondSystem<D> {
         starting: &Starting,
     ) -> Vec<f64> {
         let of_points = self.point_strains(layout, motion);
+        let of_cells = self.cell_stresses(layout, motion);
         let of_bond = |(bond, deformation): (usize, &BondDeformation)| {
             let (strength, moduli) = starting.strength(bond);
             let stretch = deformation.stretch();
@@ -38,11 +39,13 @@ impl<const D: usize> BondSystem<D> {
                 };
             };
             let n = self.bonds.direction[bond];
-            let principal = || principal(&own_strain(&mean, stretch, n), moduli);
+            let of_cells = of_cells.around(self.bonds.ends[bond]) / moduli.along;
+            let principal =
+                || principal(&own_strain(&mean, stretch, n), moduli).map(|it| it + of_cells);
             match &starting.surface {
                 Surface::Tension => {
                     let around = StrainAround::new(&mean, n);
-                    let normal = moduli.stress_across(stretch, Some(around)).normal;
+                    let normal = moduli.stress_across(stretch, Some(around)).normal + of_cells;
                     if normal <= 0.0 {
                         return 0.0;
                     }

@@ -8,6 +8,7 @@ use rstar::{AABB, RTree};
 
 use crate::cloud::PointCloud;
 use crate::contact::ClosedPair;
+use crate::deformation::{Deformation, Deformations};
 use crate::element::Element;
 use crate::system::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::tensor::minus;
@@ -41,17 +42,29 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     pub(crate) fn tractions(
         &self,
         bonds: UnbrokenBonds<'_>,
-        deformations: &[E::Deformation],
+        deformations: &Deformations,
     ) -> Vec<f64> {
+        let of_bonds: &[E::Deformation] = Deformation::of_bonds(deformations);
         let pull = |bond: usize| {
             let element = self.left(bonds, bond)?;
             // The end force is what holds the end in place against the bond: the bond pulls the other way.
-            let [at_a, _] = element.end_forces(&deformations[bond])?;
+            let [at_a, _] = element.end_forces(&of_bonds[bond])?;
             let force = std::array::from_fn(|axis| -at_a[axis]);
             Some((self.system.bonds.ends[bond], force))
         };
-        let pulls = || (0..deformations.len()).filter_map(pull);
-        through_planes(&self.system.cloud, pulls)
+        let pulls = || (0..of_bonds.len()).filter_map(pull);
+        let cloud = &self.system.cloud;
+        let mut tractions = through_planes(cloud, pulls);
+        if let Some(terms) = &self.system.volumetric {
+            let of_points = tractions.chunks_exact_mut(D * D);
+            for (point, values) in of_points.enumerate() {
+                let changes = deformations.volume_changes();
+                let found = terms.stress_from_changes(bonds, changes, point as u32);
+                let normal = found.stress_volume / cloud.volumes[point];
+                values.iter_mut().step_by(D).for_each(|it| *it += normal);
+            }
+        }
+        tractions
     }
 }
 

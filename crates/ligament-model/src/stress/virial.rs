@@ -41,6 +41,10 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             .system
             .elements_at(self.topology.layout, deformations, point);
         let mut sum = elements.map_or(SymTensor::ZERO, |it| it.stress.scaled(it.volume));
+        if let Some(terms) = &self.system.volumetric {
+            let found = terms.stress_from_changes(bonds, deformations.volume_changes(), point);
+            sum = sum.plus(&SymTensor::isotropic(found.stress_volume));
+        }
         let deformations: &[E::Deformation] = Deformation::of_bonds(deformations);
         for &bond in self.system.bonds.incidence.at(point) {
             let Some(element) = self.left(bonds, bond as usize) else {

@@ -50,6 +50,11 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
                 of_point.force += far.stiffness_at(point);
             }
         }
+        if let Some(terms) = &self.system.volumetric {
+            for (point, of_point) in (0..).zip(&mut all) {
+                of_point.force += terms.stiffness_at(point);
+            }
+        }
         all
     }
 
@@ -169,6 +174,9 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         if let Some(far) = &self.system.far {
             far.add_blocks::<M>(point, lower, blocks);
         }
+        if let Some(terms) = &self.system.volumetric {
+            terms.add_blocks::<M>(bonds, point, lower, blocks);
+        }
     }
 
     fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
@@ -212,6 +220,23 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         element.mutual_energy(&of_bonds(one)[bond], &of_bonds(other)[bond])
     }
 
+    fn energy_lost_by_cells(
+        &self,
+        intact: &[bool],
+        remaining: [&[StiffnessFactors]; 2],
+        deformations: [&Deformations; 2],
+    ) -> f64 {
+        let Some(terms) = &self.system.volumetric else {
+            return 0.0;
+        };
+        let [before, after] = remaining.map(|remaining| {
+            let shares = terms.shares(UnbrokenBonds { intact, remaining });
+            let found = deformations.map(|it| terms.dilatations(&shares, it.volume_changes()));
+            0.5 * terms.work(&found[0], &found[1])
+        });
+        before - after
+    }
+
     fn stored_energy(
         &self,
         intact: &[bool],
@@ -234,6 +259,9 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
             .system
             .elements_at(self.topology.layout, deformations, point);
         let of_elements = elements.map_or(0.0, |it| it.energy());
+        let changes = deformations.volume_changes();
+        let volumetric = self.system.volumetric.as_ref();
+        let of_cells = volumetric.map_or(0.0, |it| it.energy_at(bonds, changes, point));
         let deformations: &[E::Deformation] = of_bonds(deformations);
         let family = self.system.bonds.incidence.at(point).iter();
         let shares = family.filter_map(|&bond| {
@@ -243,7 +271,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
             let is_first = self.topology.ends[bond as usize][0] == point;
             Some(self.system.rigidities.share(bond, is_first) * energy)
         });
-        (shares.sum::<f64>() + of_elements) / self.system.cloud.volumes[point as usize]
+        (shares.sum::<f64>() + of_elements + of_cells) / self.system.cloud.volumes[point as usize]
     }
 
     fn stress(
@@ -272,7 +300,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
             }
             StressReading::Traction => Stresses {
                 names: traction::names::<D>(),
-                values: self.tractions(bonds, of_bonds(deformations)),
+                values: self.tractions(bonds, deformations),
             },
         }
     }
@@ -288,8 +316,9 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
     }
 
     fn stress_by_material(&self, reading: StrainReading<'_>, point: u32) -> Vec<f64> {
-        let strain = self.system.strain_by(self.topology.layout, reading, point);
-        let stress = strain.and_then(|it| self.system.stress_of(point, &it));
+        let layout = self.topology.layout;
+        let strain = self.system.strain_by(layout, reading, point);
+        let stress = strain.and_then(|it| self.system.stress_in(layout, reading, point, &it));
         components_or_nan(&stress)
     }
 

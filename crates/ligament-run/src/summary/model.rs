@@ -1,11 +1,13 @@
 //! The discrete model in summaries and reports, for all analyses.
 
 use ligament_model::correction::{CorrectionReport, DomainReport};
-use ligament_model::{ElementKind, Plane};
+use ligament_model::{ElementKind, Isotropic, Plane};
 use ligament_output::summary::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 
 use ligament::Model;
-use ligament::setup::{Alpha, Analysis, Calibration, Correction, Form, Setup, Surface};
+use ligament::setup::{
+    Alpha, Analysis, Calibration, Correction, Form, PoissonForm, Setup, Surface,
+};
 use ligament_case::case::{CaseFile, Word, word_of};
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::material::Space;
@@ -174,7 +176,12 @@ fn correction(model: &Model, energy_ratios: Vec<Spread>) -> CorrectionSummary {
 pub fn formulation_line(setup: &Setup) -> String {
     let is_solid = setup.space() == Space::Solid;
     let (name, options) = (setup.law.name(), setup.law.options);
+    let regions = setup.materials.iter();
+    let splits = regions.map(|it| setup.law.split(&it.material, setup.space()));
+    let are_split = || splits.clone().all(|it| it.is_some_and(|it| it.is_split()));
     let unknowns = match setup.law.element() {
+        ElementKind::Beam if is_solid && are_split() => "three displacements per point",
+        ElementKind::Beam if are_split() => "two displacements per point",
         ElementKind::Beam if is_solid => "three displacements and three rotations per point",
         ElementKind::Spring if is_solid => "three displacements per point",
         ElementKind::Beam => "two displacements and a rotation per point",
@@ -208,13 +215,31 @@ pub fn formulation_line(setup: &Setup) -> String {
         }
     };
     format!(
-        "law {name}{}: {unknowns}{constants}{rotational}{scale}",
+        "law {name}{}: {unknowns}{constants}{rotational}{scale}{}",
         match options.form {
             Some(Form::Rows) => " (rows)",
             Some(Form::Pairwise) => " (pairwise)",
             Some(Form::Full) | None => "",
-        }
+        },
+        poisson_words(setup)
     )
+}
+
+/// What carries the Poisson's ratio of a setup where that is above the ratio of central forces; empty elsewhere.
+fn poisson_words(setup: &Setup) -> String {
+    let limit = Isotropic::central_force_poisson(setup.space());
+    if setup.moduli_of_cells().is_some() {
+        return format!("; cells carry the volumetric stiffness above Poisson's ratio {limit:.4}");
+    }
+    let mut materials = setup.materials.iter();
+    let is_above = materials
+        .any(|it| (it.material.elasticity.isotropic()).is_some_and(|it| it.poisson > limit));
+    match setup.law.options.poisson {
+        Some(PoissonForm::Bonds) if is_above => {
+            "; bonds with a negative shear stiffness carry Poisson's ratio".to_owned()
+        }
+        _ => String::new(),
+    }
 }
 
 /// One-line description of the corrections of the bonds, and of the convergence of the iterated correction.

@@ -12,6 +12,7 @@ use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
 use ligament_model::surface::{CellFaces, Facet};
+use ligament_model::volumetric::VolumetricCells;
 use ligament_model::{BodyGrid, BondSet, BondSystem, Lattice, PointCloud, PointTags};
 use thiserror::Error;
 
@@ -288,6 +289,17 @@ pub trait Geometry<const D: usize>: Body {
         _material_of_cell: &[u32],
     ) -> BondSystem<D> {
         system
+    }
+
+    /// Cells between the points of a cloud that may carry a volumetric stiffness, with the moduli kappa of the materials (n_materials, Pa);
+    /// `material_of_cell` (n_cells) has the index of each cell's material. None for a body without cells.
+    fn volumetric_cells(
+        &self,
+        _cloud: &PointCloud<D>,
+        _material_of_cell: &[u32],
+        _moduli: &[f64],
+    ) -> VolumetricCells<D> {
+        VolumetricCells::default()
     }
 
     /// The outline of a meshed body with its nodes at the points of a cloud; `None` for other bodies.

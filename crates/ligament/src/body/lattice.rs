@@ -11,6 +11,7 @@ use ligament_model::correction::patch::{self, CellForces};
 use ligament_model::material::Stiffness;
 use ligament_model::shape::{Shape, SolidShape};
 use ligament_model::surface::{CellFaces, Facet};
+use ligament_model::volumetric::VolumetricCells;
 use ligament_model::{BodyGrid, BondSet, Numbering, PointCloud, PointTags, Tags, raised};
 
 use super::cells::{self, CellSets, Cells, Hole, LatticeError, rim};
@@ -203,6 +204,15 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
             true => Vec::new(),
             false => bonds_across(&self.lattice.holes, bonds, cloud),
         }
+    }
+
+    fn volumetric_cells(
+        &self,
+        cloud: &PointCloud<D>,
+        material_of_cell: &[u32],
+        moduli: &[f64],
+    ) -> VolumetricCells<D> {
+        VolumetricCells::from_lattice(&self.lattice, cloud, material_of_cell, moduli)
     }
 
     fn composed(&self, bonds: BondSet<D>, cloud: &PointCloud<D>, materials: &[u32]) -> BondSet<D> {

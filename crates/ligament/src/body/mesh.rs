@@ -11,6 +11,7 @@ use ligament_model::correction::patch::CellForces;
 use ligament_model::far_field::Simplex;
 use ligament_model::material::Stiffness;
 use ligament_model::surface::{CellFaces, Facet, InnerFace};
+use ligament_model::volumetric::VolumetricCells;
 use ligament_model::{BodyGrid, BondSet, BondSystem, PointCloud, PointTags, Tags, raised};
 
 use super::cells::among;
@@ -295,6 +296,19 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
             parts.map(move |cell| Simplex { cell, material })
         });
         system.with_far_field(&simplices.collect::<Vec<_>>())
+    }
+
+    fn volumetric_cells(
+        &self,
+        cloud: &PointCloud<D>,
+        material_of_cell: &[u32],
+        _: &[f64],
+    ) -> VolumetricCells<D> {
+        let mut cells = VolumetricCells::default();
+        for (cell, &material) in self.mesh.cells.iter().zip(material_of_cell) {
+            cells.push_cell(cell, &cell.simplices(), material, cloud);
+        }
+        cells
     }
 
     /// A body of some cells and their nodes, without groups.

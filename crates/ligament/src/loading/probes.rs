@@ -68,7 +68,7 @@ fn shares<const D: usize>(
     let pairs = BondSet::search(&few, &Horizons::unified(EVERYWHERE, n));
     // Errors of surfaces were reported when the model was built.
     let cracks = cracks(&**body, &setup.precracks).unwrap_or_default();
-    let parted = cut_bonds(&cracks, &pairs, &few);
+    let parted = cut_bonds(&cracks, &pairs.ends, &few);
     if !parted.contains(&true) {
         return shares;
     }

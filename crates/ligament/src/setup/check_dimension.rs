@@ -116,7 +116,9 @@ impl Setup {
 
     /// Refuses a negative shear stiffness with a positive rotational stiffness: waves of rotation of some wave length would have no energy.
     fn check_coupling(&self, field: Field) -> Checked {
-        let elasticities = self.materials.iter().map(|it| &it.material.elasticity);
+        let of_bonds = self.of_bonds();
+        let setup = of_bonds.as_ref().unwrap_or(self);
+        let elasticities = setup.materials.iter().map(|it| &it.material.elasticity);
         let least = elasticities.map(|it| orthotropic::smallest_shear(it, self.plane()));
         let least = least.fold(f64::INFINITY, f64::min);
         if least < 0.0 {

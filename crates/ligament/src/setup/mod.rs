@@ -34,6 +34,7 @@ pub use contact::{ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub(crate) use curve::CurveAxis;
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
+pub use ligament_model::material::PoissonForm;
 pub use not_together::{Exclusion, Feature, NOT_TOGETHER};
 pub use precrack::{CrackShape, PreCrack};
 pub use probe::{Probe, Reading};
@@ -197,6 +198,30 @@ impl Setup {
             poisson: 0.0,
         }));
         Some(self.of_materials(vec![first; self.materials.len()]))
+    }
+
+    /// Moduli kappa of the cells of each material, Pa, shape (n_materials); none where bonds make up the whole materials.
+    pub fn moduli_of_cells(&self) -> Option<Vec<f64>> {
+        let regions = self.materials.iter();
+        let splits = regions.map(|it| self.law.split(&it.material, self.space()));
+        let moduli: Vec<f64> = splits.map(|it| it.map_or(0.0, |it| it.modulus)).collect();
+        moduli.iter().any(|it| *it > 0.0).then_some(moduli)
+    }
+
+    /// The setup with the materials that its bonds make up; none where bonds make up the whole materials.
+    pub(crate) fn of_bonds(&self) -> Option<Self> {
+        self.moduli_of_cells()?;
+        let of_bonds = |region: &MaterialRegion| {
+            let material = region.material.clone();
+            match self.law.split(&material, self.space()) {
+                Some(split) if split.is_split() => Material {
+                    elasticity: split.bonds.into(),
+                    ..material
+                },
+                _ => material,
+            }
+        };
+        Some(self.of_materials(self.materials.iter().map(of_bonds).collect()))
     }
 
     /// The setup with other materials in its regions.

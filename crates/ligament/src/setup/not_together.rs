@@ -8,6 +8,7 @@ use ligament_model::material::Space;
 
 use super::check::{Checked, contradiction};
 use super::{Action, Analysis, ContactLaw, Load, Quantity, Rigid, Setup, Support};
+use crate::body::Origin;
 use crate::error::Field;
 
 /// A feature that another one may exclude.
@@ -215,6 +216,12 @@ features! {
         let has_length = matches!(it.rotational_scale, RotationalScale::CosseratLength(_));
         has_length.then(|| Field::whole("rotational_scale").part("length"))
     };
+    STIFFNESS_OF_CELLS = "a Poisson's ratio above that of central forces, whose volumetric stiffness the cells have", |it| {
+        let moduli = it.moduli_of_cells()?;
+        Some(first("materials", &moduli, |modulus| *modulus > 0.0)?.part("elasticity"))
+    };
+    POINTS_ALONE = "bodies of points without cells", |it| when(matches!(it.body.origin(), Origin::Points), "body");
+    SEVERAL_PROCESSES = "several processes", |it| when(it.solver.communicator.0.size() > 1, "solver");
     FAR_FIELD = "a far field", |it| when(it.far_field.is_some(), "far_field");
     GROWING_NEAR_FIELD = "a near field that grows", |it| {
         let grows = it.far_field.as_ref().is_some_and(|it| it.strength_share.is_some());
@@ -252,6 +259,8 @@ pub static NOT_TOGETHER: &[Exclusion] = pairs! {
     CLOSING_FACES, NATURAL_MODES, "modes.md", "natural modes assume that crack faces do not close: remove it";
     CLOSING_FACES, STAGES_ON_EXACT_PATH, "programmes.md", "with a part of the load that stays, faces open and close between two breakages, and the exact \
         path does not follow that: take load steps, or let all loads grow with one factor";
+    STIFFNESS_OF_CELLS, POINTS_ALONE, "laws.md", "bonds alone cannot have this Poisson's ratio and stay stable, and points without cells have bonds alone: take a         mesh or a lattice, a Poisson's ratio of at most 1/4 (in plane stress 1/3), or `model.poisson = \"bonds\"` for a body that does not crack";
+    STIFFNESS_OF_CELLS, SEVERAL_PROCESSES, "ranks.md", "the cells around a point may belong to several processes, which do not exchange them: take one process, or a         Poisson's ratio of at most 1/4 (in plane stress 1/3)";
     FAR_FIELD, CLOSING_FACES, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, CONTACT, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, TEMPERATURES, "far-field.md", BONDS_EVERYWHERE;

@@ -116,17 +116,17 @@ fn in_cloud<const D: usize, C: Cut<D>>(cracks: &[C], cloud: &PointCloud<D>) -> V
     local.collect()
 }
 
-/// Whether a pre-crack cuts each bond, shape (n_bonds).
+/// Whether a pre-crack cuts the straight line between each pair of points, shape (n_pairs).
 pub fn cut_bonds<const D: usize, C: Cut<D>>(
     cracks: &[C],
-    bonds: &BondSet<D>,
+    ends: &[[u32; 2]],
     cloud: &PointCloud<D>,
 ) -> Vec<bool> {
     if cracks.is_empty() {
-        return vec![false; bonds.len()];
+        return vec![false; ends.len()];
     }
     let pieces = Pieces::new(cracks, cloud);
-    let ends = bonds.ends.par_iter();
+    let ends = ends.par_iter();
     ends.map(|&ends| pieces.any(cloud, ends, C::cuts)).collect()
 }
 

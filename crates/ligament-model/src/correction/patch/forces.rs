@@ -70,7 +70,7 @@ impl<const D: usize> CellForces<D> {
     }
 
     /// Adds the tractions of the stresses in each strain, Pa, on an area, m^2, to the forces on a point.
-    pub(super) fn add(&mut self, point: u32, stresses: &[SymTensor<D>], area: [f64; D]) {
+    pub(crate) fn add(&mut self, point: u32, stresses: &[SymTensor<D>], area: [f64; D]) {
         let of_point = &mut self.values[stresses.len() * point as usize..][..stresses.len()];
         for (force, stress) in of_point.iter_mut().zip(stresses) {
             let traction = stress.times(area);

@@ -136,7 +136,7 @@ fn bulk_stiffness<const D: usize>(stiffness: &Stiffness) -> f64 {
 }
 
 /// Blocks between the centres of cells around a corner: the points at the corners of a block, lower before upper ones, along x first.
-fn blocks<const D: usize, S: Region<D>>(lattice: &Lattice<D, S>) -> Vec<Vec<u32>> {
+pub(crate) fn blocks<const D: usize, S: Region<D>>(lattice: &Lattice<D, S>) -> Vec<Vec<u32>> {
     let above = |cell: &[u32; D]| -> Option<Vec<u32>> {
         let corners = 0..1_usize << D;
         let place = |corner: usize, axis: usize| i64::from(cell[axis]) + upper(corner, axis) as i64;
@@ -153,7 +153,11 @@ fn upper(corner: usize, axis: usize) -> usize {
 
 /// Integral of the gradient of the shape function of a corner over a block, m^2: half in the plane, a quarter in space, of the existing part
 /// of the face across each axis.
-fn gradient<const D: usize>(block: &[u32], corner: usize, cloud: &PointCloud<D>) -> [f64; D] {
+pub(crate) fn gradient<const D: usize>(
+    block: &[u32],
+    corner: usize,
+    cloud: &PointCloud<D>,
+) -> [f64; D] {
     let place = |corner: usize| cloud.positions[block[corner] as usize];
     let (low, high) = (place(0), place(block.len() - 1));
     let share = 2.0 * cloud.thickness / block.len() as f64;

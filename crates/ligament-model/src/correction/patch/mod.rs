@@ -46,6 +46,7 @@ pub use dual::Report;
 pub use forces::{CellForces, Points, of_mesh, of_solid_mesh};
 pub(crate) use forces::{gradients, uniform_strains};
 pub use lattice_forces::of_lattice;
+pub(crate) use lattice_forces::{blocks, gradient as block_gradient};
 pub use reference::{Reference, reference};
 pub use settings::Settings;
 

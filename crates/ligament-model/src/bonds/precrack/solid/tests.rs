@@ -28,7 +28,7 @@ fn crossing([a, b]: [[f64; 3]; 2]) -> Option<[f64; 2]> {
 fn a_disk_cuts_what_crosses_it() {
     let (cloud, bonds) = lattice();
     let disk = SolidPreCrack::disk([0.0; 3], [0.0, 0.0, -3.0], 2.5).expect("a surface");
-    let cut = cut_bonds(std::slice::from_ref(&disk), &bonds, &cloud);
+    let cut = cut_bonds(std::slice::from_ref(&disk), &bonds.ends, &cloud);
     let (mut count, mut on_rim) = (0, 0);
     for (&bond, &found) in bonds.ends.iter().zip(&cut) {
         let at = crossing(ends(&cloud, bond)).map(|[x, y]| x.hypot(y));
@@ -42,7 +42,7 @@ fn a_disk_cuts_what_crosses_it() {
         count_touched_bonds(std::slice::from_ref(&disk), &bonds, &cloud, &cut),
         on_rim
     );
-    let with_rim = cut_bonds(&[disk.with_rim()], &bonds, &cloud);
+    let with_rim = cut_bonds(&[disk.with_rim()], &bonds.ends, &cloud);
     assert_eq!(with_rim.iter().filter(|it| **it).count(), count + on_rim);
 }
 
@@ -72,7 +72,7 @@ fn polygons_cut_what_crosses_them() {
         SolidPreCrack::triangles(&polygon, &triangles).expect("a surface"),
     ];
     for crack in cracks {
-        let cut = cut_bonds(&[crack], &bonds, &cloud);
+        let cut = cut_bonds(&[crack], &bonds.ends, &cloud);
         for (&bond, &found) in bonds.ends.iter().zip(&cut) {
             let wanted = crossing(ends(&cloud, bond)).is_some_and(is_in);
             assert_eq!(found, wanted, "{:?}", ends(&cloud, bond));
@@ -82,7 +82,7 @@ fn polygons_cut_what_crosses_them() {
     let square =
         SolidPreCrack::parallelogram([[-2.2, -2.2, 0.0], [1.8, -2.2, 0.0], [-2.2, 1.8, 0.0]])
             .expect("a surface");
-    let cut = cut_bonds(&[square], &bonds, &cloud);
+    let cut = cut_bonds(&[square], &bonds.ends, &cloud);
     for (&bond, &found) in bonds.ends.iter().zip(&cut) {
         let at = crossing(ends(&cloud, bond));
         let wanted = at.is_some_and(|at| at.iter().all(|it| (-2.2..1.8).contains(it)));
@@ -113,7 +113,7 @@ fn a_closed_surface_has_no_gap() {
         [3, 0, 5],
     ];
     let crack = SolidPreCrack::triangles(&tips, &triangles).expect("a surface");
-    let cut = cut_bonds(std::slice::from_ref(&crack), &bonds, &cloud);
+    let cut = cut_bonds(std::slice::from_ref(&crack), &bonds.ends, &cloud);
     let is_in = |p: [f64; 3]| p.iter().map(|x| x.abs()).sum::<f64>() < 3.1;
     let mut parted = 0;
     for (&bond, &found) in bonds.ends.iter().zip(&cut) {
@@ -184,7 +184,7 @@ fn normals_go_from_the_first_end_to_the_second() {
         (flat, [0.0, 0.0, 1.0]),
     ] {
         let cracks = [crack];
-        let cut = cut_bonds(&cracks, &bonds, &cloud);
+        let cut = cut_bonds(&cracks, &bonds.ends, &cloud);
         let cut: Vec<[u32; 2]> = bonds
             .ends
             .iter()
