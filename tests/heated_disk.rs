@@ -119,3 +119,60 @@ fn hot_disks_are_those_of_thermoelasticity() {
         assert!((mean - 1.0).abs() < 0.015, "{name}");
     }
 }
+
+/// A hot core of one material in a cold ring of another, in plane strain, with Poisson's ratios on both sides of that of central forces: the
+/// widening of the rim against Lame's solutions u = A r inside and B r + C/r outside, which agree in displacement and radial stress at the
+/// radius a and leave none at b. The tolerance is that of one material, for a jump of the temperature within a horizon.
+#[test]
+fn a_hot_core_widens_a_ring_of_another_material() {
+    const CORE: f64 = 0.02;
+    const RIM: f64 = 0.05;
+    const HEAT: f64 = 100.0;
+    for [(young_core, core), (young_ring, ring)] in [
+        [(70e9, 0.45), (70e9, 0.2)],
+        [(30e9, 0.2), (210e9, 0.3)],
+        [(70e9, 0.35), (20e9, 0.49)],
+    ] {
+        let text = format!(
+            r#"
+mesh = {{ file = "../meshes/heated-disk.msh", thickness = 0.01, plane = "strain" }}
+material.core = {{ group = "core", young = {young_core:?}, poisson = {core:?}, thermal_expansion = 23e-6 }}
+material.ring = {{ group = "shell", young = {young_ring:?}, poisson = {ring:?}, thermal_expansion = 23e-6 }}
+model = {{ law = "nhpd", horizon_factor = 3.0 }}
+correction = {{ surface = "patch" }}
+temperature = [{{ group = "core", change = {HEAT:?} }}]
+"#
+        );
+        let bench = Bench::new(&text, &[]);
+        let run = bench.solve();
+        let motion = run.displacement();
+        let rim = bench.group("rim");
+        let positions = bench.positions();
+        let mean = |axis: usize| {
+            let values = rim.iter().map(|&point| motion[3 * point as usize + axis]);
+            values.sum::<f64>() / rim.len() as f64
+        };
+        let (u, v) = (mean(0), mean(1));
+        let radial = |point: u32| {
+            let (p, m) = (positions[point as usize], &motion[3 * point as usize..]);
+            ((m[0] - u) * p[0] + (m[1] - v) * p[1]) / p[0].hypot(p[1])
+        };
+        let widening = rim.iter().map(|&point| radial(point)).sum::<f64>() / rim.len() as f64;
+        // Constants with which the equations of plane stress describe plane strain.
+        let constants = |young: f64, nu: f64| (young / (1.0 - nu * nu), nu / (1.0 - nu));
+        let ((e, nu), (f, mu)) = (constants(young_core, core), constants(young_ring, ring));
+        let free = (1.0 + core) * ALPHA * HEAT;
+        // sigma_r = f/(1 - mu) B - f/(1 + mu) C/r^2 is 0 at b.
+        let per_b = (1.0 + mu) / (1.0 - mu) * RIM * RIM;
+        // With B = 1: the motion and the stress at a, which the core has at A = motion/a.
+        let (moved, stress) = (
+            CORE + per_b / CORE,
+            f / (1.0 - mu) - f / (1.0 + mu) * per_b / (CORE * CORE),
+        );
+        let of_core = e / (1.0 - nu);
+        let b = of_core * free / (of_core * moved / CORE - stress);
+        let expected = b * (RIM + per_b / RIM);
+        println!("{core} in {ring}: {:.4}", widening / expected);
+        assert!(relative_error(widening, expected) < 0.015, "{core} in {ring}");
+    }
+}

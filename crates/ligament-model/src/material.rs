@@ -10,7 +10,7 @@ mod waves;
 pub use anisotropic::Anisotropic;
 pub use contrast::with_reduced_contrast;
 pub use elasticity::{Elasticity, Isotropic, Orthotropic, OutOfPlane, Plane, Space, Stiffness};
-pub(crate) use elasticity::{stress, stress_component};
+pub(crate) use elasticity::{add_volumetric, stress, stress_component};
 pub use expansion::Expansion;
 pub use volumetric_split::{PoissonForm, VolumetricSplit};
 pub use waves::PlaneWaves;

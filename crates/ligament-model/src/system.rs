@@ -21,7 +21,7 @@ use crate::element::{Element, ElementKind, Rigidities, StiffnessFactors};
 use crate::far_field::{FarField, Simplex};
 use crate::law::BondStiffness;
 use crate::layout::{Component, Layout};
-use crate::material::Stiffness;
+use crate::material::{Stiffness, add_volumetric};
 use crate::point_sums::Reach;
 use crate::topology::{CoupledPoints, Topology};
 use crate::volumetric::{VolumetricCells, VolumetricTerms};
@@ -164,7 +164,7 @@ impl<const D: usize> BondSystem<D> {
         let mut materials = self.materials.clone();
         let moduli = self.volumetric.iter().flat_map(|it| it.moduli());
         for (stiffness, modulus) in materials.iter_mut().zip(moduli) {
-            stiffness.view_mut((0, 0), (D, D)).add_scalar_mut(*modulus);
+            add_volumetric::<D>(stiffness, *modulus);
         }
         materials
     }

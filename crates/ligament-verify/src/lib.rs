@@ -78,7 +78,7 @@ enum Written {
 }
 
 /// Experiments of published values, in the order of the report; the measured tests follow them ([`experiments`]).
-static PUBLISHED: [Written; 46] = [
+static PUBLISHED: [Written; 47] = [
     File("frequencies"),
     File("statics"),
     Code(&readings::EXPERIMENT),
@@ -101,6 +101,7 @@ static PUBLISHED: [Written; 46] = [
     File("cost"),
     File("patch_test"),
     File("bars"),
+    File("incompressible"),
     File("ring"),
     File("hole"),
     File("disk_modes"),

@@ -19,6 +19,17 @@ pub(crate) fn stress<const D: usize>(stiffness: &Stiffness, strain: &SymTensor<D
     SymTensor::from_components(&components)
 }
 
+/// Adds the stiffness kappa tr(eps) of a modulus (Pa) against changes of volume.
+pub(crate) fn add_volumetric<const D: usize>(stiffness: &mut Stiffness, modulus: f64) {
+    let places = SymTensor::<D>::COMPONENTS.iter().enumerate();
+    let normal = places.filter(|(_, [i, j])| i == j).map(|(place, _)| place);
+    for row in normal.clone() {
+        for column in normal.clone() {
+            stiffness[(row, column)] += modulus;
+        }
+    }
+}
+
 /// A component of the stress of engineering strains, Pa: a row of the stiffness times them.
 pub(crate) fn stress_component(stiffness: &Stiffness, strains: &[f64], row: usize) -> f64 {
     let terms = strains.iter().enumerate();

@@ -6,6 +6,7 @@ use super::cells::VolumetricCells;
 use crate::bonds::{BondSet, Incidence};
 use crate::correction::patch::{CellForces, uniform_strains};
 use crate::far_field::joined;
+use crate::material::add_volumetric;
 use crate::system::UnbrokenBonds;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::thermal::ThermalStrain;
@@ -227,7 +228,7 @@ impl<const D: usize> VolumetricTerms<D> {
     /// Adds the forces of the cells in uniform strains, and their moduli to the stiffnesses of the materials.
     pub fn add_to(&self, forces: &mut CellForces<D>) {
         for (stiffness, modulus) in forces.stiffness.iter_mut().zip(&self.moduli) {
-            stiffness.view_mut((0, 0), (D, D)).add_scalar_mut(*modulus);
+            add_volumetric::<D>(stiffness, *modulus);
         }
         for cell in 0..self.cells.len() {
             let modulus = self.moduli[self.cells.materials[cell] as usize];

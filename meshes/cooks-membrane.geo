@@ -1,0 +1,16 @@
+// Cook's membrane, 48 mm wide, 24 cells along each side.
+h = 0.048/24;
+Point(1) = {0, 0, 0, 0.044/24};
+Point(2) = {0.048, 0.044, 0, 0.016/12};
+Point(3) = {0.048, 0.060, 0, 0.016/12};
+Point(4) = {0, 0.044, 0, 0.044/24};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Physical Curve("left") = {4};
+Physical Curve("right") = {2};
+Physical Surface("membrane") = {1};
+Mesh.Algorithm = 6;
