@@ -227,7 +227,8 @@ fn central_forces_leave_rotations_alone() {
                 format!("material.poisson={poisson:?}"),
                 format!("mesh.plane={plane}"),
             ];
-            let bench = Bench::new(DISK, &[&settings[0], &settings[1]]);
+            let by_bonds = "model.poisson=bonds";
+            let bench = Bench::new(DISK, &[&settings[0], &settings[1], by_bonds]);
             let run = bench.solve();
             (bench, run)
         };
@@ -266,7 +267,8 @@ fn stability_is_counted_and_its_loss_reported() {
             format!("model.horizon_factor={factor}"),
         ];
         let allowed = "model.allow_unstable=true";
-        let bench = Bench::new(DISK, &[&settings[0], &settings[1], allowed]);
+        let by_bonds = "model.poisson=bonds";
+        let bench = Bench::new(DISK, &[&settings[0], &settings[1], allowed, by_bonds]);
         (bench.points(), bench.solve())
     };
     let (_, run) = solve("0.21", "3");

@@ -253,9 +253,16 @@ fn modes_are_those_of_a_dense_decomposition() {
             format!("material.poisson={poisson}"),
             format!("modal.rotations={word}"),
         ];
+        let by_bonds = "model.poisson=bonds";
         let bench = ModalBench::new(
             SQUARE,
-            &[&settings[0], &settings[1], support, "modal.modes=20"],
+            &[
+                &settings[0],
+                &settings[1],
+                support,
+                "modal.modes=20",
+                by_bonds,
+            ],
         );
         let outcome = bench.find();
         let expected = dense_eigenvalues(&bench, rotations);

@@ -54,6 +54,7 @@ fn square(horizon_factor: &str, poisson: &str, plane: &str, more: &[&str]) -> Be
     let settings = [
         format!("model.horizon_factor={horizon_factor}"),
         format!("material.poisson={poisson}"),
+        "model.poisson=bonds".to_owned(),
         // Reference solutions are of the equations, whether or not the body is stable.
         "model.allow_unstable=true".to_owned(),
         format!("mesh.plane={plane}"),

@@ -81,6 +81,7 @@ fn a_free_ball_has_lambs_frequencies() {
 fn a_ball_with_negative_stiffnesses_is_warned_of() {
     let (modes, warnings, radius) = ball(&[
         "material.poisson=0.28",
+        "model.poisson=bonds",
         "material.young=2.56",
         "modal.modes=11",
     ]);

@@ -9,7 +9,7 @@ use ligament::setup::{PoissonForm, Surface};
 use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::correction::patch::Settings;
 use ligament_model::thermal::ThermalStrain;
-use ligament_model::{Canvas, UnbrokenBonds};
+use ligament_model::{Canvas, Orthotropic, UnbrokenBonds};
 use nalgebra::DMatrix;
 use verification::bench::Bench;
 use verification::meshes;
@@ -86,6 +86,40 @@ fn free_bodies_have_the_constants_of_the_material() {
         );
         assert!([x, y, nu].into_iter().all(|it| it.abs() < 3e-4), "{test:?}");
     }
+}
+
+/// A lamina whose shear stiffness of bonds is negative in some directions, in axes at an angle, has the constants of the material by cells as
+/// well: without negative stiffness of bonds. Its form by bonds stays the default.
+#[test]
+fn orthotropic_bodies_may_have_their_stiffness_from_cells() {
+    let lamina = Orthotropic {
+        young: [40e9, 12e9],
+        poisson: 0.42,
+        shear_modulus: 6e9,
+        out_of_plane: None,
+        angle: 0.4,
+    };
+    let material = Material {
+        elasticity: Elasticity::Orthotropic(lamina),
+        ..Material::isotropic(1.0, 0.0)
+    };
+    let law = Law::ORTHOTROPIC.with(PoissonForm::Cells);
+    let mut setup = setup(bar(), 0.0, law);
+    setup.materials[0].material = material;
+    assert!(setup.moduli_of_cells().unwrap()[0] > 0.0);
+    let by_bonds = Setup {
+        law: Law::ORTHOTROPIC,
+        ..setup.clone()
+    };
+    assert!(by_bonds.moduli_of_cells().is_none());
+    let model = built(setup);
+    assert!(model.system.rigidities().shear.iter().all(|it| *it >= 0.0));
+    let body = patch_test(&model).unwrap().constants.unwrap().body;
+    println!("{body:?}");
+    for (found, expected) in body.young.into_iter().zip(lamina.young) {
+        assert!(relative_error(found, expected) < 1e-3);
+    }
+    assert!((body.poisson[0][1] - lamina.poisson).abs() < 1e-3);
 }
 
 /// In space on cells of three shapes, with what the patch correction leaves of small bodies.

@@ -9,12 +9,13 @@ use super::{
     ShearForm,
 };
 use crate::element::ElementKind;
-use crate::material::{Elasticity, Plane};
+use crate::material::{Elasticity, Orthotropic, OutOfPlane, Plane, PoissonForm};
 
 /// The law.
 pub static LAW: BondLaw = BondLaw {
     options: Options {
         rotational_stiffness: Some(RotationalStiffness::Decaying),
+        poisson: Some(PoissonForm::Bonds),
         ..Options::NONE
     },
     element: |_| ElementKind::Beam,
@@ -70,6 +71,44 @@ fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
 pub fn smallest_shear(material: &Elasticity, plane: Plane) -> f64 {
     let [.., shear_0, cos_4, sin_4] = harmonics(material, plane, 1.0);
     shear_0 - cos_4.hypot(sin_4)
+}
+
+/// Share by which a modulus of cells exceeds the least one, so that rounding leaves no negative shear stiffness.
+const BEYOND_ROUNDING: f64 = 1e-9;
+
+/// The material that bonds without a negative shear stiffness make up, and the modulus kappa of the cells against changes of volume, Pa: with
+/// the smallest k_t of all directions, 3/(pi t H^3) (4 kappa + ...) of C - kappa 1 (x) 1, which is 0 at
+///
+/// kappa = -(pi/12) min k_t H^3 t.
+///
+/// None where the bonds would have no stable material, or pull along some direction where they are shortened.
+pub fn split(material: &Orthotropic, plane: Plane) -> Option<(Orthotropic, f64)> {
+    let least = smallest_shear(&Elasticity::Orthotropic(*material), plane);
+    if least >= 0.0 {
+        return Some((*material, 0.0));
+    }
+    let modulus = -least * (PI / 12.0) * (1.0 + BEYOND_ROUNDING);
+    let mut stiffness = material.principal_stiffness(plane);
+    stiffness
+        .fixed_view_mut::<2, 2>(0, 0)
+        .add_scalar_mut(-modulus);
+    stiffness.cholesky()?;
+    let compliance = stiffness.try_inverse()?;
+    let young = [0, 1].map(|axis| 1.0 / compliance[(axis, axis)]);
+    let of_bonds = Orthotropic {
+        young,
+        poisson: -compliance[(0, 1)] * young[0],
+        shear_modulus: 1.0 / compliance[(2, 2)],
+        // Without coupling to the plane the constants of either state of the plane are the same.
+        out_of_plane: material.out_of_plane.map(|_| OutOfPlane {
+            young: young[0],
+            poisson: [0.0; 2],
+        }),
+        angle: material.angle,
+    };
+    let [axial, cos_2, sin_2, cos_4, sin_4, ..] =
+        harmonics(&Elasticity::Orthotropic(of_bonds), plane, 1.0);
+    (axial > cos_2.hypot(sin_2) + cos_4.hypot(sin_4)).then_some((of_bonds, modulus))
 }
 
 /// k_n H^3 and k_t H^3 (N/m^3) as series in the angle psi to the x axis: the constant term, and the factors of cos and sin of

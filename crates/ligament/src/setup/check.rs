@@ -37,7 +37,9 @@ impl Setup {
             return contradiction(Field::whole("materials"), reason);
         }
         for (index, region) in self.materials.iter().enumerate() {
-            self.check_material(Field::element("materials", index), &region.material)?;
+            let field = Field::element("materials", index);
+            self.check_material(field, &region.material)?;
+            self.check_cells(field, &region.material)?;
         }
         in_range(&self.solver, |key| Field::whole("solver").part(key))?;
         if let Analysis::Modal(settings) = &self.analysis {
@@ -101,6 +103,20 @@ impl Setup {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Refuses a material whose volumetric stiffness the cells cannot carry.
+    fn check_cells(&self, field: Field, material: &Material) -> Checked {
+        if self
+            .law
+            .of_bonds_and_cells(material, self.space())
+            .is_some()
+        {
+            return Ok(());
+        }
+        let reason = "cells cannot carry the volumetric stiffness of this material: what they leave to the bonds is not stable, or pulls where \
+                      bonds are shortened; take `poisson = \"bonds\"`, the form of the paper";
+        contradiction(field.part("elasticity"), reason)
     }
 
     fn check_criteria(&self) -> Checked {

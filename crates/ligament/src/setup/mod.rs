@@ -203,8 +203,8 @@ impl Setup {
     /// Moduli kappa of the cells of each material, Pa, shape (n_materials); none where bonds make up the whole materials.
     pub fn moduli_of_cells(&self) -> Option<Vec<f64>> {
         let regions = self.materials.iter();
-        let splits = regions.map(|it| self.law.split(&it.material, self.space()));
-        let moduli: Vec<f64> = splits.map(|it| it.map_or(0.0, |it| it.modulus)).collect();
+        let shared = regions.map(|it| self.law.of_bonds_and_cells(&it.material, self.space()));
+        let moduli: Vec<f64> = shared.map(|it| it.map_or(0.0, |it| it.1)).collect();
         moduli.iter().any(|it| *it > 0.0).then_some(moduli)
     }
 
@@ -213,12 +213,11 @@ impl Setup {
         self.moduli_of_cells()?;
         let of_bonds = |region: &MaterialRegion| {
             let material = region.material.clone();
-            match self.law.split(&material, self.space()) {
-                Some(split) if split.is_split() => Material {
-                    elasticity: split.bonds.into(),
-                    ..material
-                },
-                _ => material,
+            let shared = self.law.of_bonds_and_cells(&material, self.space());
+            let elasticity = shared.map_or(material.elasticity, |it| it.0);
+            Material {
+                elasticity,
+                ..material
             }
         };
         Some(self.of_materials(self.materials.iter().map(of_bonds).collect()))

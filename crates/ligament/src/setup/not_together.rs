@@ -259,8 +259,11 @@ pub static NOT_TOGETHER: &[Exclusion] = pairs! {
     CLOSING_FACES, NATURAL_MODES, "modes.md", "natural modes assume that crack faces do not close: remove it";
     CLOSING_FACES, STAGES_ON_EXACT_PATH, "programmes.md", "with a part of the load that stays, faces open and close between two breakages, and the exact \
         path does not follow that: take load steps, or let all loads grow with one factor";
-    STIFFNESS_OF_CELLS, POINTS_ALONE, "laws.md", "bonds alone cannot have this Poisson's ratio and stay stable, and points without cells have bonds alone: take a         mesh or a lattice, a Poisson's ratio of at most 1/4 (in plane stress 1/3), or `model.poisson = \"bonds\"` for a body that does not crack";
-    STIFFNESS_OF_CELLS, SEVERAL_PROCESSES, "ranks.md", "the cells around a point may belong to several processes, which do not exchange them: take one process, or a         Poisson's ratio of at most 1/4 (in plane stress 1/3)";
+    STIFFNESS_OF_CELLS, POINTS_ALONE, "laws.md", "bonds alone cannot have this Poisson's ratio and stay stable, and points without cells have bonds \
+        alone: take a mesh or a lattice, a Poisson's ratio of at most 1/4 (in plane stress 1/3), or `model.poisson = \"bonds\"` for a body that does not \
+        crack";
+    STIFFNESS_OF_CELLS, SEVERAL_PROCESSES, "ranks.md", "the cells around a point may belong to several processes, which do not exchange them: take one \
+        process, or a Poisson's ratio of at most 1/4 (in plane stress 1/3)";
     FAR_FIELD, CLOSING_FACES, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, CONTACT, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, TEMPERATURES, "far-field.md", BONDS_EVERYWHERE;
