@@ -22,7 +22,7 @@ pub struct Reference {
 
 /// All references, in the order of the page.
 pub fn references() -> Vec<Reference> {
-    REFERENCES.lines().filter_map(Reference::of_row).collect()
+    REFERENCES.lines().filter_map(Reference::from_row).collect()
 }
 
 /// References that texts such as `MPPD eqs 7, 21; OMPPD eqs 54 to 57` cite, in the order of the texts.
@@ -44,7 +44,7 @@ pub fn cited(sources: &[&str]) -> Vec<Reference> {
 
 impl Reference {
     /// The reference of a row of the page, `| key | authors: *title*, place. [doi:...](...) |`.
-    fn of_row(row: &'static str) -> Option<Self> {
+    fn from_row(row: &'static str) -> Option<Self> {
         let (key, source) = row
             .strip_prefix("| ")?
             .strip_suffix(" |")?

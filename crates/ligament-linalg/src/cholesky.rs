@@ -3,14 +3,12 @@
 use std::sync::Arc;
 
 use crate::digest::digest;
-use crate::factor_error::FactorError;
-use crate::factorisation::{Factorisation, ForwardSubstituted, Inertia};
+use crate::factorisation::{FactorError, Factorisation, ForwardSubstituted, Inertia, RankOne};
 use crate::left_looking::LeftLooking;
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{DiagonalEntry, Modification, Target, VanishingPivot};
 use crate::panels::{FactorKind, Panels};
 use crate::parts::Part;
-use crate::rank_one::RankOne;
 use crate::substitution::{solve_backward, solve_backward_in, solve_forward};
 use crate::symbolic::Symbolic;
 

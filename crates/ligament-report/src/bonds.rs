@@ -59,8 +59,8 @@ impl Bonds {
     }
 
     /// Number of characters of the ends in a page.
-    pub(crate) fn letters(&self) -> usize {
-        self.ends.iter().map(Column::letters).sum()
+    pub(crate) fn n_characters(&self) -> usize {
+        self.ends.iter().map(Column::n_characters).sum()
     }
 }
 

@@ -50,7 +50,7 @@ impl Column {
     }
 
     /// Number of characters in a page.
-    pub(crate) fn letters(&self) -> usize {
+    pub(crate) fn n_characters(&self) -> usize {
         self.groups.iter().map(String::len).sum()
     }
 }

@@ -22,11 +22,11 @@ pub(crate) struct Choice {
 
 /// Texts of columns, referenced by index from the description of a run.
 #[derive(Debug, Default)]
-pub(crate) struct Texts(pub(crate) Vec<String>);
+pub(crate) struct ColumnTexts(pub(crate) Vec<String>);
 
-impl Texts {
+impl ColumnTexts {
     /// Number of characters of all texts.
-    pub(crate) fn letters(&self) -> usize {
+    pub(crate) fn n_characters(&self) -> usize {
         self.0.iter().map(String::len).sum()
     }
 
@@ -59,7 +59,7 @@ impl Budget {
     }
 
     /// Takes a number of characters from the budget; returns whether they fit.
-    pub(crate) fn takes(&mut self, name: &str, letters: usize) -> bool {
+    pub(crate) fn try_take(&mut self, name: &str, letters: usize) -> bool {
         match self.letters.checked_sub(letters) {
             Some(left) => {
                 self.letters = left;

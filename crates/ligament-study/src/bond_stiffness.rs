@@ -38,7 +38,7 @@ pub struct Request {
     pub length: f64,
     /// Folder of the results.
     pub out: PathBuf,
-    /// Whether earlier results there may be replaced.
+    /// Whether earlier results in the output folder may be replaced.
     pub force: bool,
 }
 
@@ -50,7 +50,7 @@ const COLUMNS: &str = "material,direction_deg,k_n,k_t,k_theta,c_xx,c_ss";
 /// The folder of curves of stiffness.
 const KIND: Kind = Kind {
     owns: |name| name == TABLE || (name.starts_with("k-") && name.ends_with(".svg")),
-    ..Kind::marked(TABLE)
+    ..Kind::with_marker(TABLE)
 };
 
 /// Directions of the curves: a degree apart, over half a turn.
@@ -81,7 +81,7 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
     let materials: Vec<(String, Vec<InDirection>)> = (0..setup.materials.len())
         .map(of_material)
         .collect::<Result<_, DirectionError>>()?;
-    let folder = ResultFolder::create_marked(&request.out, KIND, request.force)?;
+    let folder = ResultFolder::create_of_kind(&request.out, KIND, request.force)?;
     let mut table = Table::with_header(folder.file(TABLE), COLUMNS)?;
     writeln!(screen, "{}", heading(&request.case.case.title))?;
     let law = setup.law.name();

@@ -185,10 +185,10 @@ pub struct Load {
     /// Prescribed displacements, m, rotation in rad.
     pub displacement: Option<Displacement>,
     /// Prescribed velocities in a motion, m/s, of the rotation rad/s.
-    #[schemars(transform = of_rates)]
+    #[schemars(transform = describe_rates)]
     pub velocity: Option<Displacement>,
     /// Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2.
-    #[schemars(transform = of_rates)]
+    #[schemars(transform = describe_rates)]
     pub base_acceleration: Option<Displacement>,
     /// A force in total over the points, N.
     pub force: Option<Vector>,
@@ -352,7 +352,7 @@ impl Load {
 }
 
 /// Describes the components of velocities and accelerations, which have the unit of their key.
-fn of_rates(schema: &mut Schema) {
+fn describe_rates(schema: &mut Schema) {
     let components = schema.get_mut("properties").and_then(Json::as_object_mut);
     for component in components.into_iter().flat_map(|it| it.values_mut()) {
         let words = component["description"].as_str().unwrap_or_default();

@@ -197,7 +197,7 @@ impl<'de> Deserialize<'de> for Steps {
             )),
             Form::Number(_, Some(count)) if count > 0 => Ok(Self::Uniform(count as u32)),
             Form::List(factors) => Ok(Self::Factors(factors)),
-            other => Err(other.misfit(expected)),
+            other => Err(other.wrong_form_error(expected)),
         }
     }
 }
@@ -286,7 +286,7 @@ impl<'de> Deserialize<'de> for Scatters {
         let mut all = match Form::<Scatter, Scatter>::read(deserializer, expected)? {
             Form::Table(one) => vec![one],
             Form::List(all) => all,
-            other => return Err(other.misfit(expected)),
+            other => return Err(other.wrong_form_error(expected)),
         };
         match all.first_mut() {
             Some(first) => first.seed.get_or_insert_default(),

@@ -248,7 +248,7 @@ impl Kind {
     }
 
     /// The kind of a table, determined by a key that only this kind has.
-    fn of_table(table: &Node) -> &'static Self {
+    fn from_table(table: &Node) -> &'static Self {
         let tells = |kind: &&Self| kind.constants.keys().any(|key| table.get(key).is_some());
         KINDS.iter().rev().find(tells).unwrap_or(&KINDS[0])
     }
@@ -289,7 +289,7 @@ impl Kind {
 
 /// The place of a material.
 #[derive(Debug, Deserialize, JsonSchema)]
-struct Place {
+struct MaterialGroup {
     /// The physical surface of the mesh, or the set of the lattice, that the material fills.
     group: Option<String>,
 }
@@ -305,7 +305,7 @@ fn keys(mut table: Schema) -> Map<String, Json> {
 /// The keys of all kinds.
 fn all_keys() -> Map<String, Json> {
     let constants = KINDS.iter().flat_map(|it| it.constants.clone());
-    let place = keys(schema_for!(Place)).into_iter();
+    let place = keys(schema_for!(MaterialGroup)).into_iter();
     let others = keys(schema_for!(model::Material)).into_iter();
     let all = place.chain(constants).chain(others);
     all.chain(keys(schema_for!(Expansion))).collect()
@@ -367,9 +367,9 @@ pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
 /// Reads one material; one with a name must have a group.
 fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     let key = key_of(name.as_ref());
-    let kind = Kind::of_table(table);
+    let kind = Kind::from_table(table);
     kind.refuse_others(table, &key)?;
-    let Place { group } = read_keys(table, &key)?;
+    let MaterialGroup { group } = read_keys(table, &key)?;
     if name.is_some() && group.is_none() {
         return Err(missing(&key, "group"));
     }

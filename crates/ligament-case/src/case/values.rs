@@ -203,7 +203,7 @@ impl<'de, Element: Deserialize<'de>, Keys: Deserialize<'de>> Form<Element, Keys>
     }
 
     /// The error of a form that the key does not have.
-    pub(super) fn misfit<E: Error>(&self, expected: &'static str) -> E {
+    pub(super) fn wrong_form_error<E: Error>(&self, expected: &'static str) -> E {
         let found = match self {
             Self::Number(_, Some(whole)) => Unexpected::Signed(*whole),
             Self::Number(value, None) => Unexpected::Float(*value),

@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-
-use super::numbers::{number, positive};
-use super::output;
-use crate::build::BUILD;
-use crate::terminal;
 use ligament_analysis::solver::MOST_THREADS;
 use ligament_case::case::CaseFile;
 use ligament_study::calibrate::{Request, calibrate, line};
+
+use super::argument_parsers::{number, output_folder, positive_number};
+use crate::build::BUILD;
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -76,7 +75,7 @@ pub struct RunsArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
     /// Folder for the record and the runs [default: results/NAME-calibration with the name of the case's folder]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace an earlier calibration in the folder instead of going on with it
     #[arg(long)]
@@ -199,7 +198,7 @@ impl CalibrateArgs {
 
 /// A share on the command line, more than 0.
 fn share(text: &str) -> Result<f64, String> {
-    let share = positive(text);
+    let share = positive_number(text);
     share.ok_or_else(|| "expected a share greater than 0, such as 0.01 for 1 %".to_owned())
 }
 

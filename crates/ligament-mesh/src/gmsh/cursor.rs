@@ -1,6 +1,6 @@
 //! Sequential reading of values from the bytes of a file.
 
-use super::error::{GmshError, Place};
+use super::error::{FilePosition, GmshError};
 
 /// Encoding of the numbers in the sections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,12 +64,12 @@ impl<'a> Cursor<'a> {
     }
 
     /// Position of a byte, as a line or an offset by the kind of file.
-    pub(super) fn place(&self, offset: usize) -> Place {
+    pub(super) fn place(&self, offset: usize) -> FilePosition {
         if self.is_ascii() {
             let before = &self.bytes[..offset.min(self.bytes.len())];
-            Place::Line(1 + before.iter().filter(|byte| **byte == b'\n').count())
+            FilePosition::Line(1 + before.iter().filter(|byte| **byte == b'\n').count())
         } else {
-            Place::Byte(offset)
+            FilePosition::Byte(offset)
         }
     }
 

@@ -6,7 +6,7 @@ use super::cursor::{Cursor, shown};
 use super::error::GmshError;
 use super::records::{FieldRecord, Records, reserve};
 use super::tags::NodeIndices;
-use crate::field::NodeField;
+use crate::mesh::NodeField;
 
 /// Reads `$NodeData` after its first line: texts, real numbers and integers on a line each, also in a binary file, and a row (node, values)
 /// for each node. The integers are the time step, the number of components and the number of rows.

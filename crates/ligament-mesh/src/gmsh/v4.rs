@@ -80,13 +80,13 @@ fn skip_ints(cursor: &mut Cursor<'_>, count: u64, expected: &'static str) -> Res
 }
 
 /// Head of `$Nodes` or `$Elements`.
-struct Head {
+struct SectionHead {
     offset: usize,
     blocks: u64,
     total: u64,
 }
 
-impl Head {
+impl SectionHead {
     fn read(cursor: &mut Cursor<'_>) -> Result<Self, GmshError> {
         cursor.begin_row();
         let offset = cursor.offset();
@@ -135,7 +135,7 @@ fn dimension(cursor: &mut Cursor<'_>) -> Result<u8, GmshError> {
 /// Reads `$Nodes` after its first line.
 pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
     let before = records.nodes.len();
-    let head = Head::read(cursor)?;
+    let head = SectionHead::read(cursor)?;
     let mut tags = Vec::new();
     for _ in 0..head.blocks {
         read_node_block(cursor, records, &mut tags)?;
@@ -205,7 +205,7 @@ pub(super) fn read_elements(
     records: &mut Records,
 ) -> Result<(), GmshError> {
     let before = records.elements.len();
-    let head = Head::read(cursor)?;
+    let head = SectionHead::read(cursor)?;
     for _ in 0..head.blocks {
         read_element_block(cursor, records)?;
     }

@@ -10,7 +10,7 @@ use super::panel::Panel;
 use super::request::{FieldRequest, Magnification, WIDTHS};
 use super::select::Choice;
 use super::source::{Output, Subject, outputs};
-use super::strip::{Entry, Room};
+use super::strip::{LegendEntry, SeriesExtent};
 use super::style::{Style, crack_legend};
 use crate::drawing::Drawing;
 use crate::drawing::frame::bounds;
@@ -27,8 +27,8 @@ pub(super) struct Series<'a> {
     subject: &'a Subject,
     outputs: Vec<Output<'a>>,
     style: Style<'a>,
-    room: Room,
-    legend: Vec<Entry>,
+    room: SeriesExtent,
+    legend: Vec<LegendEntry>,
 }
 
 /// Draws a picture of each chosen output, and returns where they are: in files with the number of the step or the mode.
@@ -141,7 +141,7 @@ impl<'a> Series<'a> {
         legend.extend(Output::warning(&outputs));
         Ok(Self {
             style: Style::new(request, subject, magnification, (ranges.into_iter(), unit))?,
-            room: Room {
+            room: SeriesExtent {
                 extent: bounds(&extents),
                 titles: outputs.iter().map(Output::title).collect(),
             },

@@ -23,7 +23,7 @@ impl Graph {
         for [a, b] in self.gaps(&part) {
             let [kept, joined] = [a, b].map(|it| part[it as usize]);
             if kept != joined {
-                self.bridge([a, b]);
+                self.add_straight_edge([a, b]);
                 let of_joined = part.iter_mut().filter(|it| **it == joined);
                 of_joined.for_each(|it| *it = kept);
             }
@@ -35,7 +35,7 @@ impl Graph {
     pub(super) fn is_long(&self, component: &[u32], horizons: f64) -> bool {
         let corners = || component.iter().map(|&it| &self.corners[it as usize]);
         let horizon = corners().map(|it| it.horizon).sum::<f64>() / component.len() as f64;
-        corners().any(|it| it.is_cut) || self.extent(component) >= horizons * horizon
+        corners().any(|it| it.is_cut) || self.total_length(component) >= horizons * horizon
     }
 
     /// Pairs of a corner and the nearest corner of every other part within a horizon, unless a pre-crack ends at both, by increasing

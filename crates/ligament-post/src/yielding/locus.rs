@@ -106,7 +106,7 @@ mod tests {
         let directions = directions(3.0);
         let on = |list: &[(Measure, f64, f64)]| {
             let criteria = uniform(list, directions.len());
-            principal_locus(&Family::of_directions(&directions, &criteria), 360)
+            principal_locus(&Family::from_directions(&directions, &criteria), 360)
         };
         let square = on(&[
             (Measure::Tension, 1.0, 0.0),
@@ -145,7 +145,7 @@ mod tests {
     fn effective_loci_are_the_theoretical_ones_times_the_error() {
         let directions = directions(2.0);
         let criteria = uniform(&[(Measure::Sliding, 0.5, 0.0)], directions.len());
-        let family = Family::of_directions(&directions, &criteria);
+        let family = Family::from_directions(&directions, &criteria);
         for it in principal_locus(&family, 40) {
             assert!((it.effective.deviator() - 0.5 * 2f64.sqrt()).abs() < 1e-8);
             assert!((it.bond.shear() - 0.5).abs() < 1e-12);

@@ -22,7 +22,7 @@ pub(super) struct Law {
 
 impl Law {
     /// The law of each series, in the order of their first runs.
-    pub(super) fn of_series(theory: &SizeEffect, readings: &[Reading]) -> Vec<Self> {
+    pub(super) fn from_series(theory: &SizeEffect, readings: &[Reading]) -> Vec<Self> {
         let mut series: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
         for reading in readings {
             let Some((name, size)) = &reading.in_series else {
