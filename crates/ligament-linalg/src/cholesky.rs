@@ -47,7 +47,7 @@ impl Cholesky {
     }
 
     /// Stores the diagonal of the matrix just factorised and counts the negative pivots.
-    fn factorised(&mut self, matrix: &SymmetricMatrix) {
+    fn finish_factorisation(&mut self, matrix: &SymmetricMatrix) {
         let unknowns = self.symbolic.unknown_of_row().iter();
         let entries = unknowns.map(|&unknown| DiagonalEntry::new(matrix.diagonal(unknown)));
         self.diagonal = entries.collect();
@@ -74,7 +74,7 @@ impl Factorisation for Cholesky {
         };
         let factorised = left_looking.factorise(&mut self.values);
         factorised.map_err(|row| self.invalid_pivot_error(row))?;
-        self.factorised(matrix);
+        self.finish_factorisation(matrix);
         Ok(())
     }
 

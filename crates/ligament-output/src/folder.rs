@@ -11,7 +11,7 @@ use std::{fs, io};
 use entries::{names, remove_files, resolve_links};
 use kind::is_lock_or_temporary;
 use lock::FolderLock;
-use replacement::{beside, folder_of_new_results, path_of_old_results};
+use replacement::{folder_of_new_results, path_of_new_results, path_of_old_results};
 
 use crate::atomic::remove_file;
 use crate::remedy::{PathKind, Remedy, Resolution};
@@ -66,13 +66,13 @@ impl ResultFolder {
         // Another process may have filled the folder before it was locked.
         match FolderContent::usable_content(&path, given, kind, replace)? {
             FolderContent::Nothing => Ok(Self::lock_folder(path, kind, lock)),
-            FolderContent::Results => Self::beside(path, kind, lock),
+            FolderContent::Results => Self::create_beside(path, kind, lock),
         }
     }
 
     /// Creates a new folder beside earlier results; files left there by a killed run are removed.
-    fn beside(path: PathBuf, kind: Kind, lock: FolderLock) -> Result<Self, Error> {
-        let new = beside(&path)?;
+    fn create_beside(path: PathBuf, kind: Kind, lock: FolderLock) -> Result<Self, Error> {
+        let new = path_of_new_results(&path)?;
         FolderContent::usable_content(&new, &new, kind, true)?;
         fs::create_dir_all(&new).map_err(Error::system("create", &new))?;
         let new_lock = lock_folder(&new, kind)?;
@@ -118,7 +118,7 @@ impl ResultFolder {
             .filter(holds_results)
             .unwrap_or(path);
         let lock = lock_folder(&old, kind)?;
-        let Some(new) = beside(&old).ok().filter(holds_results) else {
+        let Some(new) = path_of_new_results(&old).ok().filter(holds_results) else {
             return Ok(Self::lock_folder(old, kind, lock));
         };
         let new_lock = lock_folder(&new, kind)?;
@@ -156,7 +156,7 @@ impl ResultFolder {
         if let FolderContent::Results = FolderContent::usable_content(&path, given, kind, replace)?
         {
             path_of_old_results(&path)?;
-            let new = beside(&path)?;
+            let new = path_of_new_results(&path)?;
             FolderLock::check(&new)?;
             FolderContent::usable_content(&new, &new, kind, true)?;
         }

@@ -78,7 +78,7 @@ const COMMON: Terms = Terms {
 
 impl Remedy {
     /// The remedy in the terms of a front end.
-    pub fn worded(self, terms: &Terms) -> String {
+    pub fn text_in_terms(self, terms: &Terms) -> String {
         let (kind, resolution) = match self {
             Self::OtherPath(kind, resolution) => (kind, resolution),
             Self::RunAgain { key, value } => {
@@ -108,7 +108,7 @@ impl Remedy {
 
 impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.worded(&COMMON))
+        f.write_str(&self.text_in_terms(&COMMON))
     }
 }
 
@@ -122,7 +122,7 @@ pub fn causes<'a>(
     let mut causes: Vec<String> = Vec::new();
     for cause in chain {
         match (cause.downcast_ref::<Remedy>(), causes.last_mut()) {
-            (Some(remedy), Some(last)) => *last += &format!("; {}", remedy.worded(terms)),
+            (Some(remedy), Some(last)) => *last += &format!("; {}", remedy.text_in_terms(terms)),
             _ => causes.push(cause.to_string()),
         }
     }
@@ -163,12 +163,15 @@ mod tests {
             key: "output.model",
             value: "true",
         };
-        assert_eq!(again.worded(&terms), "run it again with output.model:true");
+        assert_eq!(
+            again.text_in_terms(&terms),
+            "run it again with output.model:true"
+        );
         let at = Remedy::Give {
             option: "at",
             value: "X,Y",
         };
-        assert_eq!(at.worded(&terms), "give /at:X,Y");
+        assert_eq!(at.text_in_terms(&terms), "give /at:X,Y");
         assert_eq!(at.to_string(), "give at X,Y");
         assert_eq!(Remedy::OmitOption("view").to_string(), "leave out view");
         assert_eq!(again.to_string(), "run it again with `output.model = true`");

@@ -25,7 +25,7 @@ use crate::atomic::read_json;
 use crate::folder::ResultFolder;
 use crate::quantity::{place, quantity};
 
-pub use end::{UP_TO_THERE, verdict};
+pub use end::{INCOMPLETE_RUN_NOTE, verdict};
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 pub use motion::{EnergiesSummary, MotionSummary};
@@ -35,7 +35,7 @@ pub use solver::{FactorSummary, IterationSummary, SolverSummary};
 pub use values::Text;
 
 /// Name of the file.
-pub const SUMMARY: &str = "summary.json";
+pub const SUMMARY_FILE: &str = "summary.json";
 
 /// Summary of a run. Keys that an earlier version did not write have their default.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -256,7 +256,7 @@ impl From<Stability> for StabilitySummary {
 ///
 /// If the file cannot be read, or is not a summary.
 pub fn read<S: DeserializeOwned>(folder: &Path) -> Result<Option<S>, Error> {
-    let path = folder.join(SUMMARY);
+    let path = folder.join(SUMMARY_FILE);
     if !path.is_file() {
         return Ok(None);
     }
@@ -277,10 +277,10 @@ pub fn schema<S: JsonSchema>() -> Value {
 /// If the file cannot be written.
 pub fn write<S: Serialize>(folder: &ResultFolder, summary: &S) -> Result<(), Error> {
     let text = serde_json::to_string_pretty(summary).map_err(|error| Error::Refused {
-        path: folder.file(SUMMARY),
+        path: folder.file(SUMMARY_FILE),
         reason: error.to_string(),
     })?;
-    folder.write(SUMMARY, &(text + "\n"))
+    folder.write(SUMMARY_FILE, &(text + "\n"))
 }
 
 fn is_false(value: &bool) -> bool {

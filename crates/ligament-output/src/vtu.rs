@@ -20,7 +20,9 @@ use crate::{Error, FieldLocation};
 
 pub use field::Field;
 pub(crate) use field::SelectedValues;
-pub use pieces::{GlobalIndices, IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
+pub use pieces::{
+    FILE_EXTENSION, GlobalIndices, PIECES_EXTENSION, SharedCells, file_name, stem, write_shared,
+};
 
 /// Name of the time in the field data of a grid, which VTK recognises.
 pub const TIME_VALUE: &str = "TimeValue";

@@ -18,7 +18,7 @@ use ligament_output::results::outputs::{OutputKind, Outputs, kind_of, require_re
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
 use ligament_output::results::steps::StepChoice;
 use ligament_output::results::stored_jumps;
-use ligament_output::vtu::read::{TAGGED, VtuFile};
+use ligament_output::vtu::read::{TAG_NOUNS, VtuFile};
 use ligament_plot::stored_loading::stored_loading;
 use ligament_report::{DIGITS, MEGABYTE, SIZE, STEPS, write_report};
 use pyo3::prelude::*;
@@ -139,7 +139,7 @@ impl Folder {
         let named = PyDict::new(py);
         for name in file.fields(location) {
             let row = ResultField::named(name).map(|it| it.reading);
-            let is_fixed = TAGGED.contains(&name)
+            let is_fixed = TAG_NOUNS.contains(&name)
                 || matches!(
                     row,
                     Some(

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use ligament_output::Error;
 use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
-use ligament_output::vtu::read::{TAGGED, VtuFile};
+use ligament_output::vtu::read::{TAG_NOUNS, VtuFile};
 use rayon::prelude::*;
 
 use crate::body::{Body, ordered};
@@ -90,7 +90,7 @@ pub(crate) fn read(
 
 fn begin(file: &VtuFile, body: &Body, digits: u32) -> Vec<IncompleteField> {
     let location = body.location;
-    let names = file.fields(location).filter(|it| !TAGGED.contains(it));
+    let names = file.fields(location).filter(|it| !TAG_NOUNS.contains(it));
     let field = |name: &str| {
         let (stride, names) = file.components(location, name).unwrap_or((1, &[]));
         let components: Vec<String> = match (stride, names) {

@@ -39,7 +39,7 @@ impl ColumnTexts {
 
     /// Adds a column of whole numbers of a single step.
     pub(crate) fn add_whole<T: Into<i64>>(&mut self, values: impl IntoIterator<Item = T>) -> Value {
-        self.add(Column::whole(values.into_iter().map(Into::into)))
+        self.add(Column::whole_numbers(values.into_iter().map(Into::into)))
     }
 }
 

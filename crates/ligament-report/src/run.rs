@@ -128,7 +128,7 @@ impl DrawnOutputs<'_> {
         budget: &mut Budget,
     ) -> Result<Value, Error> {
         let (folder, body) = (&self.outputs.folder, self.body);
-        let run = stored(folder)?;
+        let run = stored_run(folder)?;
         let sketch = run.as_ref();
         let sketch = sketch.map(|run| sketch::describe(self.case, &run.model, body));
         let bonds = run.map(|run| Bonds::new(&run, body));
@@ -213,7 +213,7 @@ fn first_file<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<
 }
 
 /// The stored run with its bonds, if the run wrote its model.
-fn stored(folder: &Path) -> Result<Option<StoredRun>, Error> {
+fn stored_run(folder: &Path) -> Result<Option<StoredRun>, Error> {
     let is_there = folder.join("model.vtu").is_file() && folder.join("history.csv").is_file();
     is_there.then(|| StoredRun::open(folder)).transpose()
 }

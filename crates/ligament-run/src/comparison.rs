@@ -8,7 +8,7 @@ use anyhow::Context;
 use ligament_output::FieldLocation;
 use ligament_output::csv::read::records;
 use ligament_output::folder::{Kind, RESOLVED_CASE, is_derived_file};
-use ligament_output::summary::SUMMARY;
+use ligament_output::summary::SUMMARY_FILE;
 use ligament_output::vtu::read::VtuFile;
 use serde_json::Value;
 
@@ -56,7 +56,7 @@ impl Comparison {
         let mut names: Vec<String> = names.into_iter().collect();
         names.sort_by_key(|name| {
             let place = FIRST.iter().position(|it| it == name);
-            (place.unwrap_or(FIRST.len()), name == SUMMARY)
+            (place.unwrap_or(FIRST.len()), name == SUMMARY_FILE)
         });
         let mut differing = Vec::new();
         for file in &names {
@@ -115,7 +115,7 @@ fn file_difference(
     if one == other {
         return Ok(None);
     }
-    if name == SUMMARY {
+    if name == SUMMARY_FILE {
         return summary_difference(&one, &other, ending);
     }
     let words = match name.rsplit_once('.') {
@@ -139,7 +139,7 @@ pub(crate) enum FirstRunEnd {
 }
 
 /// Keys of values that may differ between equal runs: times, memory, threads and the record of the program.
-const PASSING: [&str; 4] = ["version", "provenance", "stages", "threads"];
+const KEYS_NOT_COMPARED: [&str; 4] = ["version", "provenance", "stages", "threads"];
 
 /// Keys of the end of a run, which differ where the first run ended by a limit of wall time.
 const OF_THE_END: [&str; 2] = ["termination", "termination_message"];
@@ -152,7 +152,7 @@ fn summary_difference(
 ) -> anyhow::Result<Option<String>> {
     let read = |bytes| serde_json::from_slice::<Value>(bytes).context("a summary is not JSON");
     let is_passing = |key: &str| {
-        PASSING.contains(&key)
+        KEYS_NOT_COMPARED.contains(&key)
             || key.ends_with("seconds")
             || (ending == FirstRunEnd::ByTime && OF_THE_END.contains(&key))
     };

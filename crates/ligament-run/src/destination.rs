@@ -75,7 +75,7 @@ fn failed_run_message(folder: &ResultFolder, error: &anyhow::Error) -> Option<St
 }
 
 /// Message to the user where earlier results are replaced.
-pub(crate) fn words(folder: &ResultFolder) -> Option<String> {
+pub(crate) fn replacement_message(folder: &ResultFolder) -> Option<String> {
     let earlier = folder.replaces()?.display();
     let place = folder.path().display();
     Some(format!(

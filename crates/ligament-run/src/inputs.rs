@@ -18,7 +18,7 @@ pub struct Inputs(String);
 
 /// Keys that may change when a run is resumed, because they do not change earlier results. The driver checks that completed load steps
 /// stay.
-pub const MAY_CHANGE: [&str; 11] = [
+pub const CHANGEABLE_KEYS: [&str; 11] = [
     "fracture.stop.load_fraction",
     "fracture.stop.displacement",
     "fracture.stop.bonds",
@@ -79,7 +79,7 @@ impl Inputs {
         Ok(Self(plain.resolved_toml().unwrap_or_default()))
     }
 
-    /// The inputs that determine the run up to its present state: all except [`MAY_CHANGE`].
+    /// The inputs that determine the run up to its present state: all except [`CHANGEABLE_KEYS`].
     ///
     /// # Errors
     ///

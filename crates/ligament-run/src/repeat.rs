@@ -10,7 +10,7 @@ use ligament_analysis::Termination;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::outputs::require_results;
-use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY, Summary};
+use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY_FILE, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
 use crate::comparison::{Comparison, FirstRunEnd};
@@ -208,7 +208,7 @@ fn summary_of(folder: &Path) -> anyhow::Result<Summary> {
     let summary = summary::read(folder)?;
     summary.with_context(|| {
         format!(
-            "the run in {0} is incomplete, because it has no {SUMMARY}; complete it by `ligament resume {0}`",
+            "the run in {0} is incomplete, because it has no {SUMMARY_FILE}; complete it by `ligament resume {0}`",
             folder.display()
         )
     })

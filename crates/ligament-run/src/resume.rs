@@ -16,13 +16,13 @@ use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::quantity::quantity;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
-use ligament_output::summary::{self, Build, Identity, SUMMARY, Summary};
+use ligament_output::summary::{self, Build, Identity, SUMMARY_FILE, Summary};
 
 use crate::checkpoints::{IsStopped, StopRequests, VERSION};
 use crate::destination::make_results;
 use crate::end::End;
 use crate::inputs::{
-    FileIdentities, Inputs, MAY_CHANGE, find_moved_files, set_mesh, unreadable_file,
+    CHANGEABLE_KEYS, FileIdentities, Inputs, find_moved_files, set_mesh, unreadable_file,
 };
 use crate::loading::{LoadedBody, RestoredRun};
 use crate::model::build_model_on;
@@ -155,7 +155,7 @@ impl Request<'_> {
             });
         let restored_run = restored_run.transpose()?;
         // The results of the run change from here on.
-        folder.remove(SUMMARY)?;
+        folder.remove(SUMMARY_FILE)?;
         folder.remove_derived_files()?;
         if restored_run.is_none() {
             clear(&folder)?;
@@ -199,10 +199,10 @@ fn restore_run(
 fn check_setting(setting: &str) -> anyhow::Result<()> {
     let key = setting.split_once('=').map_or(setting, |it| it.0).trim();
     ensure!(
-        MAY_CHANGE.contains(&key),
+        CHANGEABLE_KEYS.contains(&key),
         "--set {setting}: a resumed run can only change {}; any other key would change its earlier results. For that, run the case again \
          with `ligament run`",
-        MAY_CHANGE.join(", ")
+        CHANGEABLE_KEYS.join(", ")
     );
     Ok(())
 }

@@ -237,7 +237,7 @@ fn follow_loads(
     // Nothing is written or replaced before all input is checked.
     let create = || ResultFolder::create(request.out, request.force);
     let summary = make_results((case, request.keeps_inputs), create, |folder, case| {
-        if let Some(words) = destination::words(folder) {
+        if let Some(words) = destination::replacement_message(folder) {
             progress.stage(&words);
         }
         let body = LoadedBody { case, ..body };

@@ -30,7 +30,7 @@ pub(crate) struct RunObserver<'a> {
     progress: &'a mut Progress,
     messages: Vec<Message>,
     last: StepLine,
-    /// The points of the whole body.
+    /// Body with the names of all points, also those of other processes.
     names: &'a dyn Body,
     setup: &'a Setup,
     /// Number of bonds.
@@ -148,10 +148,10 @@ impl Observer for RunObserver<'_> {
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         if self.checkpoints.is_due() {
             let start = Instant::now();
-            let results = self.writer.output_state().map_err(failed)?;
+            let results = self.writer.output_state().map_err(observer_error)?;
             let (checkpoints, solution) = (&mut self.checkpoints, moment.checkpoint);
             let written = checkpoints.write(start, solution, &results, &self.messages);
-            written.map_err(failed)?;
+            written.map_err(observer_error)?;
         }
         Ok(if self.stops { Onward::Stop } else { Onward::Go })
     }
@@ -180,7 +180,7 @@ impl Observer for RunObserver<'_> {
     }
 }
 
-fn failed(error: ligament_output::Error) -> ObserverError {
+fn observer_error(error: ligament_output::Error) -> ObserverError {
     ObserverError(Box::new(error))
 }
 

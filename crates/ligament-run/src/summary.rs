@@ -19,8 +19,8 @@ use ligament_case::case::CaseFile;
 use ligament_output::quantity::{between, quantity, zero_if_rounding};
 use ligament_output::results::criterion_labels;
 use ligament_output::summary::{
-    BondEvent, CertificateSummary, OverlapSummary, PathPoint, Provenance, Resultant, Spread,
-    StabilitySummary, Stage, Summary, UP_TO_THERE, UnitsSummary,
+    BondEvent, CertificateSummary, INCOMPLETE_RUN_NOTE, OverlapSummary, PathPoint, Provenance,
+    Resultant, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
 };
 use motion::{motion_summary, write_motion};
 use solver::solver_summary;
@@ -36,7 +36,7 @@ pub use model::{
 };
 
 /// Decrease of the reaction, relative to its maximum so far, that ends the first rise of the load.
-pub const DROP: f64 = 0.02;
+pub const LOAD_DROP: f64 = 0.02;
 
 /// Largest number of warnings shown at the end of a run; small detached parts can give hundreds.
 const WARNINGS_SHOWN: usize = 10;
@@ -47,7 +47,7 @@ const ROUNDING: f64 = 1e-9;
 /// Description of the end of a run, with points by their tags and positions.
 pub(crate) fn end_text(outcome: &Outcome, model: &Model) -> String {
     match &outcome.termination {
-        end @ Termination::Unstable { .. } => stability::words(end, model),
+        end @ Termination::Unstable { .. } => stability::end_text(end, model),
         end => end.words(&|point| model.names.place(point)),
     }
 }
@@ -94,7 +94,8 @@ pub fn summary(
     let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
     let last_state_not_at_rest = history.last().is_some_and(|last| !last.at_rest);
     let end = (outcome.termination.row().verdict).end(without_equilibrium, last_state_not_at_rest);
-    let of_end = (end == End::NoEquilibrium).then(|| Message::new("no-equilibrium", UP_TO_THERE));
+    let of_end =
+        (end == End::NoEquilibrium).then(|| Message::new("no-equilibrium", INCOMPLETE_RUN_NOTE));
     let warnings = model.warnings.iter().cloned();
     Summary {
         model: model::model_summary(case, model, data.of_points),
@@ -111,7 +112,7 @@ pub fn summary(
         peak: loaded(outcome.peak()),
         reactions_at_peak: resultants_at_peak(boundary, model.system.layout, outcome),
         // The force of a motion rises and falls with its waves.
-        first_peak: loaded(outcome.first_peak(DROP)).filter(|_| outcome.rows != Rows::Times),
+        first_peak: loaded(outcome.first_peak(LOAD_DROP)).filter(|_| outcome.rows != Rows::Times),
         broken_bonds: outcome.broken_bonds,
         softened_bonds: (model.criteria.soften()).then_some(outcome.softened_bonds),
         steps: history.len().saturating_sub(1),

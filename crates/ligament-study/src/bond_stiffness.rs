@@ -192,11 +192,15 @@ pub fn plots(name: &str, stem: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
         let negative = Series::dashes(
             format!("-{stiffness}"),
             Colour::Vermilion,
-            whole(curves, |it| -of_bond(it)),
+            normalised_curve(curves, |it| -of_bond(it)),
         );
         let mut series = vec![
-            Series::curve(stiffness, Colour::Blue, whole(curves, of_bond)),
-            Series::curve(modulus, Colour::Orange, whole(curves, of_continuum)),
+            Series::curve(stiffness, Colour::Blue, normalised_curve(curves, of_bond)),
+            Series::curve(
+                modulus,
+                Colour::Orange,
+                normalised_curve(curves, of_continuum),
+            ),
             negative,
         ];
         series.retain(|it| it.points().iter().any(|point| point[1].is_finite()));
@@ -212,7 +216,7 @@ pub fn plots(name: &str, stem: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
 }
 
 /// A curve over all directions, normalised by its largest absolute value; NaN where it is negative.
-fn whole(curves: &[InDirection], value: impl Fn(&InDirection) -> f64) -> Vec<[f64; 2]> {
+fn normalised_curve(curves: &[InDirection], value: impl Fn(&InDirection) -> f64) -> Vec<[f64; 2]> {
     let largest = curves.iter().map(|it| value(it).abs()).fold(0.0, f64::max);
     let radius = |it: &InDirection| {
         let share = value(it) / largest;

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use ligament::suggestion::{hint, nearest};
 use ligament_output::folder::refuse_link;
-use ligament_output::summary::{SUMMARY, verdict};
+use ligament_output::summary::{SUMMARY_FILE, verdict};
 use ligament_output::{Error, read_json};
 
 /// Lists of a summary that are in a table of runs only by their lengths.
@@ -75,7 +75,7 @@ impl Quantities {
 
     /// Reads the results of a run from the summary in its folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
-        let path = folder.join(SUMMARY);
+        let path = folder.join(SUMMARY_FILE);
         refuse_link(&path)?;
         Ok(Self::from_summary(&read_json(&path)?))
     }

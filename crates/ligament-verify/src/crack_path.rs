@@ -12,7 +12,7 @@ use ligament_analysis::fields::{damage, point_damage};
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 
 /// Damage (NHPD eq. 17) above which a point belongs to a crack: a straight cut beside a point gives up to one half.
-pub(super) const CRACKED: f64 = 0.3;
+pub(super) const CRACKED_DAMAGE: f64 = 0.3;
 
 /// An observer that collects all breakages in their order.
 #[derive(Debug, Default)]
@@ -47,7 +47,7 @@ pub(super) type Segment = [[f64; 2]; 2];
 /// The cracked points of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Crack {
-    /// Points with a damage above [`CRACKED`].
+    /// Points with a damage above [`CRACKED_DAMAGE`].
     pub(super) points: Vec<CrackPoint>,
 }
 
@@ -100,7 +100,7 @@ impl Crack {
             intact[record.bond as usize] = false;
         }
         let damage = damage(&**model.plane(), &intact);
-        let cracked = (0..damage.len()).filter(|&point| damage[point] > CRACKED);
+        let cracked = (0..damage.len()).filter(|&point| damage[point] > CRACKED_DAMAGE);
         let points = cracked.map(|point| CrackPoint {
             at: place(model, point),
             horizon: model.fixed.horizon[point],
@@ -110,7 +110,7 @@ impl Crack {
         }
     }
 
-    /// The first cracked point: the first point whose damage exceeds [`CRACKED`].
+    /// The first cracked point: the first point whose damage exceeds [`CRACKED_DAMAGE`].
     pub(super) fn first_point(model: &Model, records: &[BreakRecord]) -> Option<CrackPoint> {
         let count = |until: usize| Self::from_breakages(model, &records[..until]).points.len();
         // Damage only grows, so that the breakage that cracks the first point is found by bisection.

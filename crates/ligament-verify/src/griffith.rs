@@ -104,7 +104,10 @@ fn separation(number: Number<'_>) -> anyhow::Result<f64> {
 }
 
 /// Energy released by the breakages of an edge crack per new surface, over G_c.
-pub(super) fn released(solution: &Solution, number: Number<'_>) -> anyhow::Result<f64> {
+pub(super) fn released_energy_ratio(
+    solution: &Solution,
+    number: Number<'_>,
+) -> anyhow::Result<f64> {
     separated_bonds(solution, number)?;
     let last = solution.outcome.history.last();
     Ok(last.context("the run has no state")?.released_energy / separation(number)?)

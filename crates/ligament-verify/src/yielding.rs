@@ -28,7 +28,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 const CASE: &str = "cases/verification/lattice.toml";
 
 /// Strengths as in the paper's tables.
-const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
+const STRENGTHS: Strengths = Strengths::TABLE_STRENGTHS;
 
 /// Young's modulus and tensile strength of the bar, Pa.
 const YOUNG: f64 = 70e9;

@@ -15,7 +15,7 @@ use super::decode::decode;
 use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::{RANGE, missing, require_unique, required};
+use super::values::{RANGE, missing_key, require_unique, required_key};
 
 /// Largest plausible coefficient of expansion, 1/K; a larger one is probably in other units.
 const LARGEST_EXPANSION: f64 = 0.01;
@@ -164,7 +164,7 @@ impl Orthotropic {
         }
         let needed = |name: &'static str, value: Option<f64>| {
             let reason = "because the other constants across the plane are given";
-            value.ok_or_else(|| required(key, name, reason))
+            value.ok_or_else(|| required_key(key, name, reason))
         };
         Ok(Some(OutOfPlane {
             young: needed("young_3", young)?,
@@ -189,7 +189,7 @@ impl Expansion {
         }
         let needed = |name: &'static str, value: Option<f64>| {
             let reason = "(in 1/K) because a coefficient along another axis is given";
-            value.ok_or_else(|| required(key, name, reason))
+            value.ok_or_else(|| required_key(key, name, reason))
         };
         let in_plane = [
             needed("thermal_expansion_1", one)?,
@@ -371,7 +371,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     kind.refuse_others(table, &key)?;
     let MaterialGroup { group } = read_keys(table, &key)?;
     if name.is_some() && group.is_none() {
-        return Err(missing(&key, "group"));
+        return Err(missing_key(&key, "group"));
     }
     Ok(Material {
         constants: (kind.read)(table, &key)?,

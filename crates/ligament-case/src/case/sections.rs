@@ -32,7 +32,7 @@ use super::places::{FarField, Region};
 use super::precrack::Precrack;
 use super::probe::Probe;
 use super::stage::Stage;
-use super::values::{each, exactly_one, metre, missing};
+use super::values::{each, exactly_one, metre, missing_key};
 use crate::point_table::Tables;
 
 /// A case: the sections of its file, with every default filled in.
@@ -387,7 +387,7 @@ impl Case {
         Ok(match (&self.motion, &self.modal, &self.fracture) {
             (Some(motion), _, _) => {
                 if !motion.is_explicit() && motion.step.is_none() {
-                    return Err(missing(&at("motion"), "step"));
+                    return Err(missing_key(&at("motion"), "step"));
                 }
                 let fracture = self.fracture.as_ref();
                 let breakages =

@@ -112,7 +112,7 @@ pub(super) fn first_given(section: &impl Serialize, keys: &[&'static str]) -> Op
 }
 
 /// The fault of a missing key that a table must have.
-pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
+pub(super) fn missing_key(table: &KeyPath, key: &str) -> KeyFault {
     let fault = Fault::MissingKey {
         key: key.to_owned(),
         table: table.table_title(),
@@ -122,7 +122,7 @@ pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
 }
 
 /// The fault of a missing key that is required for a reason.
-pub(super) fn required(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
+pub(super) fn required_key(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
     let reason = reason.to_owned();
     KeyFault::new(table.child(key), Fault::Required { key, reason })
 }

@@ -144,7 +144,7 @@ fn case_of_mesh<const D: usize>(
         parts: mesh.parts().iter().map(|it| it.name.clone()).collect(),
         extent,
         middle,
-        opening: opening(middle, sides[ends.axis], ends.axis)
+        opening: positions_beside_middle(middle, sides[ends.axis], ends.axis)
             .map(|place| on_body(mesh.positions, place, spacing)),
         spacing,
     };
@@ -163,7 +163,11 @@ fn on_body<const D: usize>(positions: &[[f64; D]], place: [f64; D], spacing: f64
 }
 
 /// Positions on either side of the middle, a fifth of the body's size apart along an axis.
-fn opening<const D: usize>(middle: [f64; D], size: f64, axis: usize) -> [[f64; D]; 2] {
+fn positions_beside_middle<const D: usize>(
+    middle: [f64; D],
+    size: f64,
+    axis: usize,
+) -> [[f64; D]; 2] {
     [-0.1, 0.1].map(|share| {
         let mut place = middle;
         place[axis] += share * size;
@@ -203,7 +207,7 @@ fn lattice_case_of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law
         parts: Vec::new(),
         extent: [[0.0; D], sides],
         middle,
-        opening: opening(middle, sides[axis], axis),
+        opening: positions_beside_middle(middle, sides[axis], axis),
         spacing,
     };
     let ends = SupportAndLoad {

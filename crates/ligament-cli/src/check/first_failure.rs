@@ -64,7 +64,7 @@ pub(super) fn write(
     });
     let refused = match prediction.map_err(|it| case.error_in_case_terms(it))? {
         Some(Prediction::Refused(end)) => {
-            Some(stages.time("stability", || stability::words(&end, model)))
+            Some(stages.time("stability", || stability::end_text(&end, model)))
         }
         Some(prediction) => {
             write_prediction(report, model, problem, &prediction)?;

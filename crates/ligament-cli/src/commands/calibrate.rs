@@ -107,7 +107,7 @@ pub struct LineArgs {
 
 impl RunsArgs {
     /// The first of these options that is given.
-    fn given(&self) -> Option<&'static str> {
+    fn first_given(&self) -> Option<&'static str> {
         let options = [
             ("--set", !self.overrides.is_empty()),
             ("--within", self.within.is_some()),
@@ -126,7 +126,7 @@ impl RunsArgs {
 
 impl LineArgs {
     /// The first of these options that is given.
-    fn given(&self) -> Option<&'static str> {
+    fn first_given(&self) -> Option<&'static str> {
         let options = [
             ("--x", self.x.is_some()),
             ("--by", !self.by.is_empty()),
@@ -143,14 +143,14 @@ impl CalibrateArgs {
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         if line::is_table(&self.subject) {
-            return match self.runs.given() {
+            return match self.runs.first_given() {
                 Some(option) => anyhow::bail!(
                     "{option} goes with a case to run; this is a sweep or its table, of which a line is made"
                 ),
                 None => self.by_line(),
             };
         }
-        match self.line.given() {
+        match self.line.first_given() {
             Some(option) => anyhow::bail!(
                 "{option} goes with the folder or the table of a sweep; this is a case, which is run"
             ),

@@ -301,7 +301,7 @@ impl BondHistory {
     }
 
     /// Softened state of the bond under a criterion at a stored step, zero after its breakage.
-    pub(super) fn left(
+    pub(super) fn remaining_softened_state(
         &self,
         criterion: usize,
         stored_steps: &[StoredStep],

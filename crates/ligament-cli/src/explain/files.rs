@@ -53,7 +53,7 @@ pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
                 let measure = life.measure(criterion, place);
                 row.extend([limit.limit, measure, utilisation].map(Value::from));
                 if !limit.after.is_brittle() {
-                    let left = life.left(criterion, &lives.stored_steps, place);
+                    let left = life.remaining_softened_state(criterion, &lives.stored_steps, place);
                     row.extend([left.force, left.secant].map(Value::from));
                 }
             }

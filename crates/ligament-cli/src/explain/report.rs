@@ -25,7 +25,7 @@ pub(super) fn bond(
     entry(out, "to", place(run, b))?;
     let Some(life) = lives.of_bonds.first() else {
         let pair = lives.absent.first().copied();
-        return sentences(out, words::no_bond(run, [a, b], pair));
+        return sentences(out, words::reasons_without_bond(run, [a, b], pair));
     };
     let length = metres(life.length);
     let along = match run.model.in_space {
@@ -236,7 +236,7 @@ fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
                 "broken".to_owned()
             });
             if !limit.after.is_brittle() {
-                let left = life.left(criterion, &lives.stored_steps, place);
+                let left = life.remaining_softened_state(criterion, &lives.stored_steps, place);
                 row.extend([left.force, left.secant].map(|it| format!("{it:.4}")));
             }
         }

@@ -315,7 +315,11 @@ pub(super) fn short_bond_description(
 }
 
 /// Reasons why two points have no bond, one sentence per line.
-pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) -> Vec<String> {
+pub(super) fn reasons_without_bond(
+    run: &StoredRun,
+    [a, b]: [u32; 2],
+    pair: Option<usize>,
+) -> Vec<String> {
     let model = &run.model;
     let [p, q] = [a, b].map(|end| model.positions[end as usize]);
     let distance = distance(p, q);

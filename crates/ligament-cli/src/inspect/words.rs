@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use ligament::warning::large_body;
 use ligament_mesh::{Group, NodeField, Remark};
-use ligament_output::columns::WIDEST;
+use ligament_output::columns::MAX_COLUMN_WIDTH;
 use ligament_output::quantity::{between, quantity};
 
 use crate::lines::entry;
@@ -93,7 +93,7 @@ pub(super) fn write_groups(
         return entry(out, NAMES, "groups", none);
     }
     let letters = groups.iter().map(|group| group.name.chars().count());
-    let width = letters.fold(4, usize::max).min(WIDEST);
+    let width = letters.fold(4, usize::max).min(MAX_COLUMN_WIDTH);
     writeln!(out, "  groups")?;
     writeln!(
         out,

@@ -44,7 +44,9 @@ impl Panel<'_> {
         let mut tile = self.tile(0);
         // On one thread an undivided panel gives the same bits in less time.
         if tile.rows_of_task.is_none() || rayon::current_num_threads() == 1 {
-            return self.whole().map(|rotations| rotations.more_negative);
+            return self
+                .update_undivided()
+                .map(|rotations| rotations.more_negative);
         }
         let of_first = |column| tile.columns.start + column;
         let mut rotations = self.rotate(&tile).map_err(of_first)?;
@@ -87,7 +89,7 @@ impl Panel<'_> {
     }
 
     /// Updates all rows of an undivided panel.
-    fn whole(self) -> Result<AppliedRotations, usize> {
+    fn update_undivided(self) -> Result<AppliedRotations, usize> {
         Arch::new().dispatch(Square {
             kind: self.kind,
             diagonal: self.diagonal,
@@ -279,7 +281,7 @@ mod tests {
         // A pool of one thread would not divide the panel.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
         let of_divided = pool.expect("two threads").install(|| panel.change());
-        let of_whole = whole.panel(kind, &diagonal).whole();
+        let of_whole = whole.panel(kind, &diagonal).update_undivided();
         let of_whole = of_whole.map(|rotations| rotations.more_negative);
         [(divided, of_divided), (whole, of_whole)]
     }

@@ -7,7 +7,7 @@ use super::tags::NodeIndices;
 use crate::remark::Remark;
 
 /// Number of a corner whose node was dropped.
-pub(super) const DROPPED: u32 = u32::MAX;
+pub(super) const DROPPED_NODE: u32 = u32::MAX;
 
 /// Use of a node by the cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,7 +25,7 @@ pub(super) struct Assembly {
     pub(super) by_tag: NodeIndices,
     /// New number of every node record; `None` for a dropped node.
     pub(super) numbers: Vec<Option<u32>>,
-    /// New numbers of the corners of all elements, one after the other; [`DROPPED`] for a dropped node.
+    /// New numbers of the corners of all elements, one after the other; [`DROPPED_NODE`] for a dropped node.
     pub(super) corners: Vec<u32>,
     uses: Vec<NodeUse>,
 }
@@ -44,7 +44,7 @@ impl Assembly {
         let uses = node_uses(cursor, records, &corners, &by_tag, dimension)?;
         let (nodes, numbers) = number_nodes(&records.nodes, &uses);
         for index in &mut corners {
-            *index = numbers[*index as usize].unwrap_or(DROPPED);
+            *index = numbers[*index as usize].unwrap_or(DROPPED_NODE);
         }
         Ok(Self {
             nodes,

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{Assembly, DROPPED};
+use super::assembly::{Assembly, DROPPED_NODE};
 use super::records::Records;
 use crate::cell::Cell;
 use crate::mesh::Group;
@@ -28,10 +28,10 @@ pub(super) fn collect(
             let Some(group) = groups.get_mut(&(dimension, *number)) else {
                 continue;
             };
-            let kept = corners.iter().filter(|corner| **corner != DROPPED);
+            let kept = corners.iter().filter(|corner| **corner != DROPPED_NODE);
             group.nodes.extend(kept);
             group.cells.extend(cell);
-            if corners.contains(&DROPPED) {
+            if corners.contains(&DROPPED_NODE) {
                 continue;
             }
             match (dimension, corners) {

@@ -79,7 +79,7 @@ fn skip_ints(cursor: &mut Cursor<'_>, count: u64, expected: &'static str) -> Res
     Ok(())
 }
 
-/// Head of `$Nodes` or `$Elements`.
+/// First row of a section `$Nodes` or `$Elements`.
 struct SectionHead {
     offset: usize,
     blocks: u64,
@@ -128,7 +128,7 @@ fn dimension(cursor: &mut Cursor<'_>) -> Result<u8, GmshError> {
     let dimension = cursor.int(EXPECTED)?;
     match u8::try_from(dimension) {
         Ok(dimension @ 0..=3) => Ok(dimension),
-        _ => Err(cursor.unexpected(offset, EXPECTED, dimension.to_string())),
+        _ => Err(cursor.unexpected_text_error(offset, EXPECTED, dimension.to_string())),
     }
 }
 
@@ -224,7 +224,7 @@ fn read_element_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<
     let element_type = records.element_type(cursor, record)?;
     if element_type.0.dimension() != dimension {
         let expected = "an element type of the dimension of its entity";
-        return Err(cursor.unexpected(record.offset, expected, record.code.to_string()));
+        return Err(cursor.unexpected_text_error(record.offset, expected, record.code.to_string()));
     }
     let count_offset = cursor.offset();
     let count = cursor.size("a number of elements")?;

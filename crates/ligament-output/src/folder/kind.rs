@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::atomic::PASSING;
+use crate::atomic::UNSYNCED_MARKER;
 use crate::vtu;
 
 /// File that every run writes first; the marker of a folder with the results of a run.
@@ -91,7 +91,7 @@ impl Kind {
 
     /// Whether a file of this name may be removed with the results.
     pub(super) fn may_remove(self, name: &str) -> bool {
-        name == self.marker || [LOCK, REPLACED, PASSING].contains(&name) || {
+        name == self.marker || [LOCK, REPLACED, UNSYNCED_MARKER].contains(&name) || {
             let whole = final_name(name).unwrap_or(name);
             (self.owns)(whole) || self.is_unfinished(name)
         }
@@ -113,7 +113,7 @@ pub(super) fn final_name(name: &str) -> Option<&str> {
 
 /// Whether a file of this name is a lock or another mark, or an unfinished file of the program.
 pub(super) fn is_lock_or_temporary(name: &str) -> bool {
-    [LOCK, PASSING].contains(&name) || Kind::RUN.is_unfinished(name)
+    [LOCK, UNSYNCED_MARKER].contains(&name) || Kind::RUN.is_unfinished(name)
 }
 
 fn is_run_file(name: &str) -> bool {

@@ -34,7 +34,7 @@ pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
 /// # Errors
 ///
 /// If the path has no name, or is a link.
-pub(super) fn beside(folder: &Path) -> Result<PathBuf, Error> {
+pub(super) fn path_of_new_results(folder: &Path) -> Result<PathBuf, Error> {
     let new = sibling(folder, ".new")?;
     refuse_link(&new)?;
     Ok(new)
@@ -100,7 +100,7 @@ pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
         return Ok(());
     }
     if fs::symlink_metadata(folder).is_err() {
-        let new = beside(folder)?;
+        let new = path_of_new_results(folder)?;
         // The old results are restored if there are no new ones.
         let whole = if new.join(kind.marker).is_file() {
             &new

@@ -16,7 +16,7 @@ use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::point_fields::location;
 use super::softening_table::{self, CrackedBelow};
 use crate::csv::read::{CsvTable, Row};
-use crate::vtu::read::{TAGGED, VtuFile};
+use crate::vtu::read::{TAG_NOUNS, VtuFile};
 use crate::{Error, FieldLocation, vtu};
 
 /// The faces of a body with the order in which a run opened them.
@@ -281,7 +281,7 @@ pub fn columns_of_ends(sheet: &CsvTable) -> [String; 2] {
             .iter()
             .any(|it| *it == format!("{tagged}_a"))
     };
-    let tagged = TAGGED.into_iter().find(has).unwrap_or(TAGGED[0]);
+    let tagged = TAG_NOUNS.into_iter().find(has).unwrap_or(TAG_NOUNS[0]);
     ["a", "b"].map(|end| format!("{tagged}_{end}"))
 }
 

@@ -291,7 +291,7 @@ impl Observer for ResultWriter<'_> {
         residual: f64,
         stored_energy: f64,
     ) -> Result<(), ObserverError> {
-        failed(self.tables.iteration(iteration, residual, stored_energy))
+        observer_result(self.tables.iteration(iteration, residual, stored_energy))
     }
 
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
@@ -301,7 +301,7 @@ impl Observer for ResultWriter<'_> {
         }
         let new = &self.breaks[self.breaks.len() - records.len()..];
         set_steps_of_breaking(&mut self.step_of_breaking, &self.problem, new);
-        failed(self.tables.breaks(records, self.grid))
+        observer_result(self.tables.breaks(records, self.grid))
     }
 
     fn looks(&self, step: usize) -> bool {
@@ -310,20 +310,20 @@ impl Observer for ResultWriter<'_> {
 
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         if self.rule.writes_fields(record, view) {
-            failed(self.write_fields(record, view))?;
+            observer_result(self.write_fields(record, view))?;
             if self.rule.bonds {
-                failed(self.write_bonds(record, view))?;
+                observer_result(self.write_bonds(record, view))?;
             }
         }
         self.first.step(record, view)?;
         if let Some(table) = &mut self.softening {
-            failed(table.step(record, view, self.grid))?;
+            observer_result(table.step(record, view, self.grid))?;
         }
         if let Some(largest) = self.largest.as_mut().filter(|_| view.is_whole) {
             largest.update(record.step, view);
             if view.is_last {
                 let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);
-                failed(model_file::write(
+                observer_result(model_file::write(
                     folder.path(),
                     grid,
                     fixed,
@@ -332,7 +332,7 @@ impl Observer for ResultWriter<'_> {
                 ))?;
             }
         }
-        failed(self.tables.step(record, view))
+        observer_result(self.tables.step(record, view))
     }
 }
 
@@ -358,6 +358,6 @@ fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
     vtu::file_name(&stem, &view.system.subdomain)
 }
 
-fn failed(result: Result<(), Error>) -> Result<(), ObserverError> {
+fn observer_result(result: Result<(), Error>) -> Result<(), ObserverError> {
     result.map_err(|error| ObserverError(Box::new(error)))
 }

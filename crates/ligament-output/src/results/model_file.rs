@@ -40,7 +40,8 @@ const MODEL: &str = "model";
 
 /// Path of the model file in a result folder, if it exists.
 pub(super) fn model_file(folder: &Path) -> Option<PathBuf> {
-    let names = [vtu::SINGLE, vtu::IN_PIECES].map(|it| folder.join(format!("{MODEL}.{it}")));
+    let names =
+        [vtu::FILE_EXTENSION, vtu::PIECES_EXTENSION].map(|it| folder.join(format!("{MODEL}.{it}")));
     names.into_iter().find(|path| path.is_file())
 }
 

@@ -227,7 +227,7 @@ impl Tables {
         write_criteria(folder, problem, &labels_of(problem))?;
         let create =
             |place: usize, columns: &[&str]| Table::create(folder.file(FILES[place]), columns);
-        Self::with(problem, tagged, Costs::default(), &create)
+        Self::open_all(problem, tagged, Costs::default(), &create)
     }
 
     /// The tables of a resumed run, truncated to their state in the checkpoint.
@@ -241,7 +241,7 @@ impl Tables {
             let length = progress.of_files[place].length;
             Table::open_truncated(folder.file(FILES[place]), columns.len(), length)
         };
-        Self::with(problem, tagged, progress.costs, &resume)
+        Self::open_all(problem, tagged, progress.costs, &resume)
     }
 
     /// Syncs the tables to disk and returns their state.
@@ -255,7 +255,7 @@ impl Tables {
     }
 
     /// The tables, each opened by `table`.
-    fn with(
+    fn open_all(
         problem: &Problem,
         tagged: &str,
         costs_before: Costs,

@@ -26,16 +26,16 @@ pub(super) const POINT_NUMBER: &str = "point_number";
 pub(super) const CELL_NUMBER: &str = "cell_number";
 
 /// File extension of a grid in one file.
-pub const SINGLE: &str = "vtu";
+pub const FILE_EXTENSION: &str = "vtu";
 
 /// File extension of a grid in pieces.
-pub const IN_PIECES: &str = "pvtu";
+pub const PIECES_EXTENSION: &str = "pvtu";
 
 /// Name of the file of a grid, in pieces where the body is divided between processes.
 pub fn file_name(stem: &str, subdomain: &Subdomain) -> String {
     let ending = match subdomain.is_whole() {
-        true => SINGLE,
-        false => IN_PIECES,
+        true => FILE_EXTENSION,
+        false => PIECES_EXTENSION,
     };
     format!("{stem}.{ending}")
 }
@@ -48,8 +48,8 @@ pub fn stem(name: &str) -> Option<&str> {
         rank.parse::<usize>().is_ok().then_some(stem)
     };
     match ending {
-        SINGLE => Some(of_piece().unwrap_or(rest)),
-        IN_PIECES => Some(rest),
+        FILE_EXTENSION => Some(of_piece().unwrap_or(rest)),
+        PIECES_EXTENSION => Some(rest),
         _ => None,
     }
 }

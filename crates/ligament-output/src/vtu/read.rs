@@ -14,7 +14,7 @@ use crate::{Error, FieldLocation};
 use text::{ArrayEntry, ArraySection, VtuText, malformed, sources};
 
 /// Nouns for the points of a model whose tags a file has: nodes of a mesh, cells of a lattice, points of a table.
-pub const TAGGED: [&str; 3] = ["node", "cell", "point"];
+pub const TAG_NOUNS: [&str; 3] = ["node", "cell", "point"];
 
 /// Size that no result reaches: squares and quotients of smaller numbers are finite.
 const BEYOND: f64 = 1e100;
@@ -206,13 +206,13 @@ impl VtuFile {
         values.ok_or_else(|| self.missing_field(location, name))
     }
 
-    /// The tags of the points of a model, with the noun of [`TAGGED`] for these points.
+    /// The tags of the points of a model, with the noun of [`TAG_NOUNS`] for these points.
     ///
     /// # Errors
     ///
     /// If there are none, or they are damaged.
     pub fn tags(&self, location: FieldLocation) -> Result<(&'static str, Vec<i64>), Error> {
-        for tagged in TAGGED {
+        for tagged in TAG_NOUNS {
             if let Some(tags) = self.integers(location, tagged)? {
                 return Ok((tagged, tags));
             }
@@ -256,7 +256,7 @@ impl VtuFile {
         let mut cells = vec![None; self.n_cells];
         for piece in &self.pieces {
             for (place, cell) in self.cells_of(piece)?.into_iter().enumerate() {
-                cells[piece.cells.at(place)] = cell;
+                cells[piece.cells.global_number(place)] = cell;
             }
         }
         let cells: Option<Vec<Cell>> = cells.into_iter().collect();
@@ -278,7 +278,7 @@ impl VtuFile {
         let point = |number: &i64| {
             let number = usize::try_from(*number).ok();
             let number = number.filter(|point| *point < text.n_points());
-            number.map(|place| piece.points.at(place) as u32)
+            number.map(|place| piece.points.global_number(place) as u32)
         };
         let mut from = 0;
         let cell = |(vtk_type, to): (u8, i64)| {
@@ -370,7 +370,7 @@ impl VtuFile {
                 &piece.points
             };
             for (place, row) in of_piece.chunks_exact(n).enumerate() {
-                all[n * places.at(place)..][..n].copy_from_slice(row);
+                all[n * places.global_number(place)..][..n].copy_from_slice(row);
             }
         }
         Ok(Some(all))
@@ -394,7 +394,7 @@ impl RowNumbers {
     }
 
     /// Place in the grid of a row of the piece.
-    fn at(&self, row: usize) -> usize {
+    fn global_number(&self, row: usize) -> usize {
         match self {
             Self::From(first) => first + row,
             Self::Numbers(numbers) => numbers[row] as usize,
@@ -408,7 +408,7 @@ fn grid_size<'a>(pieces: impl Iterator<Item = (&'a RowNumbers, usize)> + Clone) 
     let mut is_there = vec![false; most];
     for (places, n) in pieces {
         for row in 0..n {
-            *is_there.get_mut(places.at(row))? = true;
+            *is_there.get_mut(places.global_number(row))? = true;
         }
     }
     let n_rows = is_there.iter().rposition(|it| *it)? + 1;

@@ -148,7 +148,7 @@ impl<'a> Tables<'a> {
             name: name_in_words(y),
             at_rest: at_rest(sheet, points.len())?,
             is_scattered: place == 2,
-            first: first(self.folder, &steps, &points).filter(|_| place < 2),
+            first: first_failure(self.folder, &steps, &points).filter(|_| place < 2),
             points,
             units: [x, y].map(|it| self.unit_of(it, place).to_owned()),
         })
@@ -211,7 +211,11 @@ fn at_rest(sheet: &CsvTable, n_rows: usize) -> Result<Vec<bool>, PictureError> {
 }
 
 /// Description and point of the first breakage or softening.
-fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'static str, [f64; 2])> {
+fn first_failure(
+    folder: &Path,
+    steps: &[usize],
+    points: &[[f64; 2]],
+) -> Option<(&'static str, [f64; 2])> {
     let choice = StepChoice::One(StepName::First);
     let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;
     let row = steps.iter().position(|it| *it == step)?;

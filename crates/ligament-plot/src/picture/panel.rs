@@ -107,7 +107,7 @@ impl Panel {
         }
         for (colour, bonds) in &self.broken {
             let mut path = PathData::default();
-            for ends in bonds.iter().filter(|ends| frame.meets(*ends)) {
+            for ends in bonds.iter().filter(|ends| frame.may_intersect(*ends)) {
                 path.segment(ends.map(|end| frame.to_pixels(end)));
             }
             drawing.path(path, Paint::stroke(*colour, BOND_WIDTH));

@@ -22,7 +22,7 @@ impl EqualScales {
     pub fn for_screen(&self) -> Result<Drawing, PlotError> {
         let [lower, upper] = self.window;
         if !(0..2).all(|axis| lower[axis] < upper[axis]) {
-            return Err(self.plot.is_empty());
+            return Err(self.plot.empty_error());
         }
         let sheet = PageLayout::screen(600.0, &self.plot.series);
         let frame = self.plot.frame(sheet, self.window);

@@ -84,12 +84,13 @@ impl Plot {
     fn on_page(&self, sheet: PageLayout) -> Result<Drawing, PlotError> {
         let points = || self.series.iter().flat_map(|series| series.points());
         let range = |axis: usize| range(points().map(|point| point[axis]));
-        let ([left, right], [low, high]) = range(0).zip(range(1)).ok_or_else(|| self.is_empty())?;
+        let ([left, right], [low, high]) =
+            range(0).zip(range(1)).ok_or_else(|| self.empty_error())?;
         let frame = self.frame(sheet, [[left, low], [right, high]]);
         Ok(self.draw(sheet, frame))
     }
 
-    fn is_empty(&self) -> PlotError {
+    fn empty_error(&self) -> PlotError {
         let name = self.name.clone();
         PlotError::Empty { name }
     }

@@ -11,7 +11,7 @@ use super::paths::{Corner, Graph};
 impl Graph {
     /// The graph with straight edges over the gaps between its parts that are no wider than a horizon, the narrowest first, as long as they
     /// connect separate parts. Parts shorter than half a horizon without a pre-crack are left alone.
-    pub(super) fn bridged(mut self) -> Self {
+    pub(super) fn with_bridges(mut self) -> Self {
         let mut part = vec![None; self.corners.len()];
         for (number, component) in self.components().iter().enumerate() {
             if self.is_long(component, 0.5) {

@@ -44,7 +44,7 @@ impl Faces {
             Canvas::Between(cells) => Self::between_nodes(positions, cells),
             Canvas::Around(squares) => Self::around_points(squares),
             Canvas::Solid(_) | Canvas::Boxes(_) => {
-                UnsortedFaces::default().sorted(Vec::new(), Vec::new())
+                UnsortedFaces::default().sort_faces(Vec::new(), Vec::new())
             }
         }
     }
@@ -96,7 +96,7 @@ impl Faces {
             }
             faces.push(points, [edge[0].1, far], middle);
         }
-        faces.sorted(corners, is_outside)
+        faces.sort_faces(corners, is_outside)
     }
 
     fn around_points(squares: &[[[f64; 2]; 4]]) -> Self {
@@ -121,7 +121,7 @@ impl Faces {
         for corner in sides.into_keys().flatten() {
             is_outside[corner as usize] = true;
         }
-        faces.sorted(corners.places, is_outside)
+        faces.sort_faces(corners.places, is_outside)
     }
 }
 
@@ -134,7 +134,7 @@ impl UnsortedFaces {
         self.0.push((points, ends, middle));
     }
 
-    fn sorted(mut self, corners: Vec<[f64; 2]>, is_outside: Vec<bool>) -> Faces {
+    fn sort_faces(mut self, corners: Vec<[f64; 2]>, is_outside: Vec<bool>) -> Faces {
         self.0.sort_by_key(|(points, ends, _)| (*points, *ends));
         Faces {
             corners,

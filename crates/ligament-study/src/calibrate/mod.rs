@@ -90,7 +90,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
     let start = match (case.number(&request.key)?, from, to) {
         (Some(start), ..) if start != 0.0 => start,
         (_, Some(low), Some(high)) => 0.5 * (low + high),
-        _ => return Err(no_start(request)),
+        _ => return Err(missing_start_error(request)),
     };
     Ok(Search {
         start,
@@ -106,7 +106,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
 }
 
 /// The error of a missing start value; a key that no case has gets an error of its own.
-fn no_start(request: &Request) -> anyhow::Error {
+fn missing_start_error(request: &Request) -> anyhow::Error {
     let is_about_key = |error: &CaseError| match error {
         CaseError::Key { fault, .. } => matches!(**fault, Fault::UnknownKey { .. }),
         CaseError::Override { .. } => true,

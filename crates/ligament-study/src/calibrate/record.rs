@@ -266,7 +266,7 @@ impl Record {
         };
         format!(
             "{key} = {}\n{warning}  runs               {n_runs}\n  use it by          --set {}\n  record in          {}\n",
-            self.words(trial),
+            self.trial_text(trial),
             setting(key, trial.key),
             self.request.out.display()
         )
@@ -282,13 +282,15 @@ impl Record {
             .runs
             .iter()
             .min_by(|a, b| relative_difference(a).total_cmp(&relative_difference(b)));
-        let nearest = best.map(|run| self.words(&run.trial)).unwrap_or_default();
+        let nearest = best
+            .map(|run| self.trial_text(&run.trial))
+            .unwrap_or_default();
         match verdict {
             Verdict::Jump([a, b]) => format!(
                 "{of} jumps over the target between {key} = {} and {} ({n_runs} runs, record in {record}); fewer bonds per iteration or \
                  smaller load steps may make it smoother; a larger --within accepts one of the two",
-                self.words(a),
-                self.words(b)
+                self.trial_text(a),
+                self.trial_text(b)
             ),
             Verdict::OutOfReach => format!(
                 "no value of {key} between --from and --to meets the target; nearest is {nearest} ({n_runs} runs, record in \
@@ -300,7 +302,7 @@ impl Record {
         }
     }
 
-    fn words(&self, trial: &Trial) -> String {
+    fn trial_text(&self, trial: &Trial) -> String {
         let (Trial { key, result }, of) = (trial, &self.request.of);
         let relative_difference = 100.0 * self.relative_difference(trial);
         format!("{key:?} with {of} = {result:.6e}, {relative_difference:+.2} % off")

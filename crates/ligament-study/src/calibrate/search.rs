@@ -71,7 +71,7 @@ impl Search {
     /// Next action after these trials, given in their order.
     pub fn next(&self, trials: &[Trial]) -> Next {
         let Some(best) = self.best(trials) else {
-            return Next::Try(self.allowed(self.start));
+            return Next::Try(self.nearest_allowed(self.start));
         };
         if self.deviation(&best).abs() <= self.tolerance {
             return Next::Stop(Verdict::Met(best));
@@ -86,7 +86,7 @@ impl Search {
             return Next::Stop(Verdict::OutOfTrials);
         }
         match bracket {
-            Some(ends) => Next::Try(self.allowed(self.inside(ends, trials))),
+            Some(ends) => Next::Try(self.nearest_allowed(self.inside(ends, trials))),
             None => self.outside(best, trials),
         }
     }
@@ -103,7 +103,7 @@ impl Search {
     }
 
     /// The nearest value within the limits, rounded to the significant digits of trials.
-    fn allowed(&self, key: f64) -> f64 {
+    fn nearest_allowed(&self, key: f64) -> f64 {
         let written = format!("{key:.*e}", DIGITS - 1);
         written
             .parse()
@@ -156,7 +156,7 @@ impl Search {
             Some(other) if other.result == best.result => self.beyond_level(best, trials),
             Some(other) => self.along_secant(best, other),
         };
-        let key = self.allowed(key);
+        let key = self.nearest_allowed(key);
         if !trials.iter().any(|trial| trial.key == key) {
             return Next::Try(key);
         }

@@ -109,7 +109,7 @@ fn prepare_ensemble(request: &Request<'_>) -> anyhow::Result<Ensemble> {
     match ensemble.refused() {
         Some(end) => bail!(
             "no sample has a result: {}",
-            stability::words(&end, ensemble.model())
+            stability::end_text(&end, ensemble.model())
         ),
         None => Ok(ensemble),
     }

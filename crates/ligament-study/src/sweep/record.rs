@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament_output::folder::{Kind, ResultFolder, recover, refuse_link, replace_folder};
-use ligament_output::summary::SUMMARY;
+use ligament_output::summary::SUMMARY_FILE;
 use ligament_output::{read_json, rename, replace_file};
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ impl Results {
     }
 
     fn are_complete(&self) -> bool {
-        self.folder.join(SUMMARY).is_file()
+        self.folder.join(SUMMARY_FILE).is_file()
     }
 
     fn record(&self) -> Option<Record> {

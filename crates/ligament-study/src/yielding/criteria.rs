@@ -159,7 +159,7 @@ impl Combination {
 
 impl Strengths {
     /// Strengths of the MPPD paper's tables: nu = 0, and a compressive strength of three times the tensile one.
-    pub const OF_THE_TABLES: Self = Self {
+    pub const TABLE_STRENGTHS: Self = Self {
         poisson: 0.0,
         ratio: 3.0,
         calibration: Calibration::Printed,

@@ -7,7 +7,7 @@ use ligament::run::Solution;
 use ligament_analysis::driver::LoadPoint;
 use ligament_analysis::history::{BreakRecord, StepRecord};
 use ligament_output::csv::read::CsvTable;
-use ligament_run::summary::DROP;
+use ligament_run::summary::LOAD_DROP;
 
 use super::history;
 use crate::case_run::{Number, displacement_at, largest_displacements};
@@ -56,7 +56,7 @@ impl LoadedRun<'_> {
     }
 
     pub(super) fn first_peak(&self) -> anyhow::Result<LoadPoint> {
-        let peak = self.solution.outcome.first_peak(DROP);
+        let peak = self.solution.outcome.first_peak(LOAD_DROP);
         peak.context("the run has no state at rest")
     }
 

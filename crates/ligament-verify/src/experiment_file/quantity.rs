@@ -318,7 +318,7 @@ static QUANTITIES: &[(&str, Source)] = &[
     ),
     (
         "griffith.released",
-        Source::Run(|it| griffith::released(it.solution, it.numbers)),
+        Source::Run(|it| griffith::released_energy_ratio(it.solution, it.numbers)),
     ),
     (
         "griffith.separation",

@@ -167,7 +167,7 @@ impl Motion {
     }
 
     /// The body with a quantity, for drawing.
-    pub(super) fn drawn(&self, title: impl Into<String>, quantity: Quantity) -> MappedBody {
+    pub(super) fn mapped_body(&self, title: impl Into<String>, quantity: Quantity) -> MappedBody {
         let values = match quantity {
             Quantity::Component(axis) => self.displacements.iter().map(|u| u[axis]).collect(),
             Quantity::Length => self
@@ -221,7 +221,7 @@ pub(super) fn maps_of_component(
         quantity: quantity.to_owned(),
         unit: "m",
         bodies: (motions.iter())
-            .map(|(title, motion)| motion.drawn(title, Quantity::Component(axis)))
+            .map(|(title, motion)| motion.mapped_body(title, Quantity::Component(axis)))
             .collect(),
         columns: motions.len(),
         are_modes: false,
@@ -234,7 +234,7 @@ pub(super) fn maps_of_modes(name: String, title: &str, methods: &[(&str, Vec<Mot
         let pairs = modes.iter().zip(NAMES);
         let drawn = |(motion, name): (&Motion, &str)| {
             let motion = motion.clone().with_sign();
-            motion.drawn(format!("{method}, {name}"), Quantity::Length)
+            motion.mapped_body(format!("{method}, {name}"), Quantity::Length)
         };
         pairs.map(drawn).collect::<Vec<_>>()
     };

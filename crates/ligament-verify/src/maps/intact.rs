@@ -34,12 +34,12 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
         (1, "y", "mbb-plate/tension"),
         (0, "x", "mbb-plate/tension-x"),
     ] {
-        let motions = beside(plate_in_tension(axis)?, case, 0.2)?;
+        let motions = compared_motions(plate_in_tension(axis)?, case, 0.2)?;
         let title = format!("Plate in tension along {name}, nu = 0.2");
         let file = format!("mbb-figure-9-tension-{name}");
         maps.push(maps_of_component(file, &title, &motions, axis));
     }
-    let motions = beside(plate_in_shear()?, "mbb-plate/shear", 0.3)?;
+    let motions = compared_motions(plate_in_shear()?, "mbb-plate/shear", 0.3)?;
     let file = "mbb-figure-9-shear".to_owned();
     maps.push(maps_of_component(
         file,
@@ -55,7 +55,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
             "Heated plate, three edges clamped",
         ),
     ] {
-        let motions = beside(heated_plate(edges)?, case, 0.4)?;
+        let motions = compared_motions(heated_plate(edges)?, case, 0.4)?;
         for axis in [1, 0] {
             let file = format!("mbb-figure-10-{edges}-edges");
             maps.push(maps_of_component(file, title, &motions, axis));
@@ -66,7 +66,11 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 }
 
 /// The motions of finite elements and of the lattice of a case.
-fn beside(elements: Motion, case: &str, ratio: f64) -> anyhow::Result<[(String, Motion); 2]> {
+fn compared_motions(
+    elements: Motion,
+    case: &str,
+    ratio: f64,
+) -> anyhow::Result<[(String, Motion); 2]> {
     let case_run =
         CaseRun::from_file(&format!("cases/{case}.toml"))?.set("material.poisson", ratio);
     let solution = case_run.solve()?;
@@ -90,7 +94,7 @@ fn plate(ratio: f64) -> Body {
 }
 
 /// Half of the elements' extent along x and y, m.
-fn half() -> [f64; 2] {
+fn half_extent() -> [f64; 2] {
     ELEMENTS.map(|cells| 0.5 * SPACING * cells as f64)
 }
 
@@ -106,7 +110,7 @@ fn plate_solution(
 /// The plate under 200 MPa on both ends, as a body force on the outermost elements; the middle is fixed.
 fn plate_in_tension(axis: usize) -> anyhow::Result<Motion> {
     let body = plate(0.2);
-    let outermost = half()[axis] - SPACING;
+    let outermost = half_extent()[axis] - SPACING;
     let forces = body.volume_forces(|centre| {
         let mut force = [0.0; 2];
         if centre[axis].abs() > outermost {
@@ -116,14 +120,14 @@ fn plate_in_tension(axis: usize) -> anyhow::Result<Motion> {
     });
     let mut prescribed = vec![[None; 2]; body.mesh.nodes.len()];
     prescribed[body.mesh.nearest_node([0.0, 0.0])] = [Some(0.0); 2];
-    prescribed[body.mesh.nearest_node([0.0, half()[1]])][0] = Some(0.0);
+    prescribed[body.mesh.nearest_node([0.0, half_extent()[1]])][0] = Some(0.0);
     Ok(plate_solution(body, &prescribed, &forces)?.without_rigid_motion())
 }
 
 /// The plate with the upper edge moved along x by 1 mm, and the lower edge fixed.
 fn plate_in_shear() -> anyhow::Result<Motion> {
     let body = plate(0.3);
-    let edge = half()[1] - 0.1 * SPACING;
+    let edge = half_extent()[1] - 0.1 * SPACING;
     let given = |[_, y]: &[f64; 2]| match (*y > edge, *y < -edge) {
         (true, _) => [Some(1e-3), Some(0.0)],
         (_, true) => [Some(0.0); 2],
@@ -138,7 +142,7 @@ fn plate_in_shear() -> anyhow::Result<Motion> {
 /// three edges also the left one.
 fn heated_plate(edges: usize) -> anyhow::Result<Motion> {
     let body = plate(0.4);
-    let edge = half().map(|it| it - 0.1 * SPACING);
+    let edge = half_extent().map(|it| it - 0.1 * SPACING);
     let is_clamped = |[x, y]: [f64; 2]| y.abs() > edge[1] || (edges == 3 && x < -edge[0]);
     let given = |&node: &[f64; 2]| node.map(|it| is_clamped(node).then_some(-FREE_STRAIN * it));
     let prescribed = body.mesh.nodes.iter().map(given).collect();

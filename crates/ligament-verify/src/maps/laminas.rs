@@ -82,7 +82,7 @@ fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
 fn rotations() -> anyhow::Result<Maps> {
     let mut bodies = Vec::new();
     for (title, has_hole) in [("without hole", false), ("with hole", true)] {
-        bodies.push(lamina_in_tension(0.0, has_hole)?.drawn(title, Quantity::Rotation));
+        bodies.push(lamina_in_tension(0.0, has_hole)?.mapped_body(title, Quantity::Rotation));
     }
     Ok(Maps {
         name: "omppd-figure-9".to_owned(),

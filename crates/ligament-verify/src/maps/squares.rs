@@ -98,7 +98,7 @@ impl Squares {
                     motions.push((model.to_owned(), self.lattice(load, ratio, model)?));
                 }
                 if let (2, Some((_, motion))) = (row, motions.last()) {
-                    turning.push(motion.drawn(format!("nu = {written}"), Quantity::Rotation));
+                    turning.push(motion.mapped_body(format!("nu = {written}"), Quantity::Rotation));
                 }
                 let name = format!("mppd-figure-{}", first + 3 * row);
                 let title = format!("Square plate in {load}, nu = {written}");

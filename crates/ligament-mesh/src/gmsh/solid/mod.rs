@@ -2,7 +2,7 @@
 
 mod cells;
 
-use super::assembly::{Assembly, DROPPED};
+use super::assembly::{Assembly, DROPPED_NODE};
 use super::cells::{Cells, check_covering, merge_repeated};
 use super::cursor::Cursor;
 use super::error::GmshError;
@@ -84,7 +84,7 @@ fn check_faces(
             continue;
         };
         let corners = &assembly.corners[element.corners()];
-        let is_face = !corners.contains(&DROPPED)
+        let is_face = !corners.contains(&DROPPED_NODE)
             && groups::face(corners).is_some_and(|face| !faces.sides_at(&face).is_empty());
         if !is_face {
             let mut named = groups.iter();
