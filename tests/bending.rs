@@ -11,7 +11,7 @@ use ligament::bending_test::{bending_test, thinnest_section};
 use ligament::body::SolidMeshBody;
 use ligament::prelude::*;
 use ligament::setup::{Axis, Surface};
-use ligament_cli::check::{Extent, Lines, check};
+use ligament_cli::check::{CheckExtent, Lines, check};
 use ligament_mesh::{Cell, SolidCell, SolidMesh};
 use ligament_model::Canvas;
 use ligament_model::correction::patch::Settings;
@@ -363,7 +363,7 @@ at = [4.0, 0.4]
 force = { y = -1e3 }
 "#;
 
-fn checked(across: u32, extent: Extent, settings: &[&str]) -> String {
+fn checked(across: u32, extent: CheckExtent, settings: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let mesh = mesh_setting(&strip(across), folder.path());
     let settings: Vec<&str> = [mesh.as_str()]
@@ -384,7 +384,7 @@ fn checked(across: u32, extent: Extent, settings: &[&str]) -> String {
 
 #[test]
 fn the_check_warns_of_thin_bodies_and_of_no_others() {
-    let report = checked(2, Extent::Matrix, &[]);
+    let report = checked(2, CheckExtent::Matrix, &[]);
     for line in [
         "strip at the thinnest section, bent\n  thinnest section      0.4000 m at (",
         "2.0 distances of points across, 0.7 horizons",
@@ -394,23 +394,23 @@ fn the_check_warns_of_thin_bodies_and_of_no_others() {
     ] {
         assert!(report.contains(line), "{line}\n{report}");
     }
-    let by_the_paper = checked(2, Extent::Matrix, &["correction.surface=\"domain\""]);
+    let by_the_paper = checked(2, CheckExtent::Matrix, &["correction.surface=\"domain\""]);
     let cure = "a finer mesh and correction.surface = \"patch\" reduce this";
     assert!(by_the_paper.contains(cure), "{by_the_paper}");
     for (across, line) in [
         (8, "  in bending            1.0"),
         (20, "not tested            more than 6 horizons across"),
     ] {
-        let report = checked(across, Extent::Matrix, &[]);
+        let report = checked(across, CheckExtent::Matrix, &[]);
         assert!(
             report.contains(line) && !report.contains("warning"),
             "{line}\n{report}"
         );
     }
-    assert!(!checked(2, Extent::Model, &[]).contains("strip"));
+    assert!(!checked(2, CheckExtent::Model, &[]).contains("strip"));
     let pds = checked(
         2,
-        Extent::Matrix,
+        CheckExtent::Matrix,
         &["model.law=\"pds\"", "support.0.displacement={x=0.0, y=0.0}"],
     );
     assert!(pds.contains("a finer mesh does not help"), "{pds}");

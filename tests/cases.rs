@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use ligament::setup::Surface;
 use ligament_case::case::{CaseFile, Word};
-use ligament_cli::check::{Extent, Lines, check};
+use ligament_cli::check::{CheckExtent, Lines, check};
 use ligament_study::sweep::plan;
 use ligament_study::sweep::study::Study;
 use verification::repository;
@@ -125,7 +125,7 @@ fn cases_pass_the_check(from: usize) {
     for path in cases().into_iter().skip(from).step_by(3) {
         let case = CaseFile::load(&path, &[]).unwrap_or_else(|error| panic!("{error}"));
         let mut report = Vec::new();
-        check(&case, Extent::Matrix, None, Lines::Main, &mut report)
+        check(&case, CheckExtent::Matrix, None, Lines::Main, &mut report)
             .unwrap_or_else(|error| panic!("{}: {error:#}", path.display()));
         let report = String::from_utf8(report).unwrap();
         assert!(

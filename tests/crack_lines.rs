@@ -12,7 +12,7 @@
 use std::f64::consts::PI;
 
 use ligament_model::Canvas;
-use ligament_post::crack::{CrackEnd, CrackLine, Faces, Part, crack_lines};
+use ligament_post::crack::{CrackEnd, CrackLine, FaceState, Faces, crack_lines};
 use verification::{meshes, repository};
 
 const SPACING: f64 = 2e-3;
@@ -84,17 +84,17 @@ fn length(curve: &Curve) -> f64 {
 
 impl Body {
     /// The states of the faces of a body cut along curves.
-    fn cut(&self, curves: &[Curve], part: Part) -> Vec<Part> {
+    fn cut(&self, curves: &[Curve], part: FaceState) -> Vec<FaceState> {
         let state = |points: &[u32; 2]| {
             let pair = points.map(|it| self.positions[it as usize]);
             let mut pieces = curves.iter().flat_map(|curve| curve.windows(2));
             let is_cut = pieces.any(|piece| cross([piece[0], piece[1]], pair));
-            if is_cut { part } else { Part::Whole }
+            if is_cut { part } else { FaceState::Whole }
         };
         self.faces.points().iter().map(state).collect()
     }
 
-    fn lines(&self, parts: &[Part]) -> Vec<CrackLine> {
+    fn lines(&self, parts: &[FaceState]) -> Vec<CrackLine> {
         crack_lines(&self.faces, parts, &vec![HORIZON; self.positions.len()])
     }
 }
@@ -126,7 +126,7 @@ fn curves() -> Vec<(&'static str, Curve)> {
 fn a_crack_follows_the_curve_of_the_cut() {
     for body in [disk(), lattice()] {
         for (name, curve) in curves() {
-            let found = body.lines(&body.cut(std::slice::from_ref(&curve), Part::Open));
+            let found = body.lines(&body.cut(std::slice::from_ref(&curve), FaceState::Open));
             assert_eq!(found.len(), 1, "{name}");
             let found = &found[0];
             assert_eq!(found.ends, [CrackEnd::Tip; 2], "{name}");
@@ -159,12 +159,12 @@ fn a_crack_follows_the_curve_of_the_cut() {
 fn loose_points_along_a_crack_make_no_second_one() {
     for body in [disk(), lattice()] {
         for (name, curve) in curves() {
-            let mut parts = body.cut(std::slice::from_ref(&curve), Part::Open);
+            let mut parts = body.cut(std::slice::from_ref(&curve), FaceState::Open);
             for (part, points) in parts.iter_mut().zip(body.faces.points()) {
                 let is_crushed =
                     |it: u32| off(body.positions[it as usize], &curve) < 0.75 * SPACING;
                 if points.iter().any(|&it| is_crushed(it)) {
-                    *part = Part::Open;
+                    *part = FaceState::Open;
                 }
             }
             let found = body.lines(&parts);
@@ -198,7 +198,7 @@ fn a_crack_branches_where_it_branches() {
     };
     let arms = [0.0, 120.0, 240.0].map(arm);
     for body in [disk(), lattice()] {
-        let found = body.lines(&body.cut(&arms, Part::Open));
+        let found = body.lines(&body.cut(&arms, FaceState::Open));
         assert_eq!(found.len(), 2);
         assert_eq!(found[1].ends, [CrackEnd::Junction, CrackEnd::Tip]);
         let fork = distance(found[1].places[0], centre);
@@ -228,9 +228,9 @@ fn cracks_start_at_pre_cracks_and_end_at_the_outline() {
         line([-0.06, 0.0], [-0.01, 0.0]),
         line([0.01, 0.0], [0.03, 0.01]),
     ];
-    let mut parts = body.cut(&wings, Part::Open);
-    for (part, cut) in parts.iter_mut().zip(body.cut(&[slot], Part::PreCrack)) {
-        if cut == Part::PreCrack {
+    let mut parts = body.cut(&wings, FaceState::Open);
+    for (part, cut) in parts.iter_mut().zip(body.cut(&[slot], FaceState::PreCrack)) {
+        if cut == FaceState::PreCrack {
             *part = cut;
         }
     }
@@ -260,13 +260,13 @@ fn a_horizon_decides_what_is_one_crack() {
             line([-0.02, 0.0], [-0.001, 0.0]),
             line([0.001, 0.0], [0.02, 0.0]),
         ];
-        let found = body.lines(&body.cut(&halves, Part::Open));
+        let found = body.lines(&body.cut(&halves, FaceState::Open));
         assert_eq!(found.len(), 1);
         assert!((found[0].length() - 0.04).abs() < 0.05 * 0.04 + SPACING);
         let parallel = [0.0, 2.0 * HORIZON].map(|y| line([-0.02, y], [0.02, y]));
-        assert_eq!(body.lines(&body.cut(&parallel, Part::Open)).len(), 2);
-        let mut single = vec![Part::Whole; body.faces.len()];
-        single[body.faces.len() / 2] = Part::Open;
+        assert_eq!(body.lines(&body.cut(&parallel, FaceState::Open)).len(), 2);
+        let mut single = vec![FaceState::Whole; body.faces.len()];
+        single[body.faces.len() / 2] = FaceState::Open;
         assert_eq!(body.lines(&single), []);
     }
 }
@@ -276,7 +276,7 @@ fn a_horizon_decides_what_is_one_crack() {
 fn a_closed_crack_is_followed_round() {
     let curve = arc(0.02, 0.0, 360.0);
     for body in [disk(), lattice()] {
-        let found = body.lines(&body.cut(std::slice::from_ref(&curve), Part::Open));
+        let found = body.lines(&body.cut(std::slice::from_ref(&curve), FaceState::Open));
         let whole: f64 = found.iter().map(CrackLine::length).sum();
         assert!(
             (whole - 2.0 * PI * 0.02).abs() < HORIZON + 0.05 * whole,

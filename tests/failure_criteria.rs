@@ -13,7 +13,7 @@ use ligament_analysis::driver::stepped::{self, SteppedSettings};
 use ligament_analysis::driver::{Problem, StopRules, event};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::{Component, Control, ControlKind, ProportionalLoading};
-use ligament_cli::check::{Extent, Lines, check};
+use ligament_cli::check::{CheckExtent, Lines, check};
 use ligament_model::failure::{Criteria, Criterion, KINDS, Measure};
 use ligament_model::thermal::ThermalStrain;
 use ligament_output::quantity::{four_digits, quantity};
@@ -750,7 +750,7 @@ fn the_check_lists_criteria_and_limits() {
     let told = |settings: &[&str]| {
         let case = bench::case(&PATCH.replace("control = \"event\"", "steps = 1"), settings);
         let mut out = Vec::new();
-        check(&case, Extent::Model, None, Lines::All, &mut out).unwrap();
+        check(&case, CheckExtent::Model, None, Lines::All, &mut out).unwrap();
         String::from_utf8(out).unwrap()
     };
     let several = "fracture.criterion=[{ kind = \"tension\", after = \"linear\" }, { kind = \"compression\" }, { kind = \"sliding\", \

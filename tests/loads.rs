@@ -4,7 +4,7 @@
 use ligament_analysis::gauges::{FreeBody, of_intact_body};
 use ligament_analysis::internal::{self, BondSweep};
 use ligament_analysis::{Component, ControlKind, Termination, Unbalanced};
-use ligament_cli::check::{Extent, Lines, check};
+use ligament_cli::check::{CheckExtent, Lines, check};
 use ligament_model::thermal::ThermalStrain;
 use ligament_run::progress::ProgressMode;
 use verification::bench::{self, Bench, Run};
@@ -382,7 +382,7 @@ fn check_and_summary_tell_of_gauges() {
     let settings = ["mesh.file=../meshes/plate-coarse.msh"];
     let case = bench::case(&format!("{PLATE}{pull}"), &settings);
     let mut report = Vec::new();
-    check(&case, Extent::Model, None, Lines::All, &mut report).unwrap();
+    check(&case, CheckExtent::Model, None, Lines::All, &mut report).unwrap();
     let report = String::from_utf8(report).unwrap();
     let folder = tempfile::tempdir().unwrap();
     let summary = bench::run_program(&case, &folder.path().join("out"));
@@ -413,7 +413,7 @@ fn loads_that_do_nothing_are_refused() {
         let run = ligament_run::run::run(&case, &out, false, ProgressMode::Quiet)
             .unwrap_err()
             .to_string();
-        let checked = check(&case, Extent::Model, None, Lines::All, &mut Vec::new())
+        let checked = check(&case, CheckExtent::Model, None, Lines::All, &mut Vec::new())
             .unwrap_err()
             .to_string();
         assert_eq!(run, checked);

@@ -9,7 +9,7 @@ use ligament::patch_test::{PatchTest, Untested, patch_test};
 use ligament::prelude::*;
 use ligament::setup::Surface;
 use ligament_case::case::CaseFile;
-use ligament_cli::check::{Extent, Lines, check};
+use ligament_cli::check::{CheckExtent, Lines, check};
 use ligament_model::correction::patch::Settings;
 use verification::{meshes, repository};
 
@@ -175,7 +175,7 @@ fn points_without_cells_have_none() {
 }
 
 /// What `ligament check` prints of a case of the repository.
-fn checked(case: &str, settings: &[&str], extent: Extent) -> String {
+fn checked(case: &str, settings: &[&str], extent: CheckExtent) -> String {
     let settings: Vec<String> = settings.iter().map(|it| (*it).to_owned()).collect();
     let path = repository().join(Path::new(case));
     let case = CaseFile::load(&path, &settings).unwrap();
@@ -187,7 +187,7 @@ fn checked(case: &str, settings: &[&str], extent: Extent) -> String {
 #[test]
 fn the_check_tells_how_stiff_the_body_is() {
     let case = "cases/verification/patch-test.toml";
-    let report = checked(case, &[], Extent::Matrix);
+    let report = checked(case, &[], CheckExtent::Matrix);
     for line in [
         "Young's modulus       15.00 GPa (",
         " %) along x, ",
@@ -198,7 +198,7 @@ fn the_check_tells_how_stiff_the_body_is() {
     ] {
         assert!(report.contains(line), "{line}\n{report}");
     }
-    let report = checked(case, &[], Extent::Model);
+    let report = checked(case, &[], CheckExtent::Model);
     assert!(!report.contains("free body"), "{report}");
 }
 
@@ -209,7 +209,7 @@ fn several_materials_have_no_modulus_but_strains() {
         let report = checked(
             "cases/bimaterial-bar/case.toml",
             &[&setting],
-            Extent::Matrix,
+            CheckExtent::Matrix,
         );
         let none =
             "E, nu                 none: a body of several materials does not strain uniformly";
@@ -227,7 +227,11 @@ fn several_materials_have_no_modulus_but_strains() {
 #[test]
 fn the_check_says_that_large_bodies_are_left_out() {
     let large = ["lattice.cells=[150, 150]", "model.horizon_factor=1.5"];
-    let report = checked("cases/verification/lattice.toml", &large, Extent::Matrix);
+    let report = checked(
+        "cases/verification/lattice.toml",
+        &large,
+        CheckExtent::Matrix,
+    );
     let line = "not computed          it needs a factor of the matrix, and the body has more than 20000 points; use --patch-test";
     assert!(report.contains(line), "{report}");
 }

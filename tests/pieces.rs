@@ -9,7 +9,7 @@ use ligament_model::subdomain::Subdomain;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::vtu::{
-    Cell, Field, Held, SharedCells, TIME_VALUE, UnstructuredGrid, write_shared, write_vtu,
+    Cell, Field, GlobalIndices, SharedCells, TIME_VALUE, UnstructuredGrid, write_shared, write_vtu,
 };
 use verification::threads_as_ranks::on_ranks;
 
@@ -110,7 +110,7 @@ fn pieces_read_as_the_whole() {
         let cells = SharedCells {
             subdomain: &subdomain,
             points: &Body::points(&body.cells),
-            held: Held {
+            global: GlobalIndices {
                 points: &all(body.positions.len()),
                 cells: Some(&all(body.cells.len())),
             },
@@ -173,7 +173,7 @@ fn lines_that_two_processes_know_are_written_once() {
         let cells = SharedCells {
             subdomain: &subdomain,
             points: &Body::points(&lines),
-            held: Held {
+            global: GlobalIndices {
                 points: &points,
                 cells: None,
             },
@@ -209,7 +209,7 @@ fn what_is_missing_of_a_grid_in_pieces_is_told() {
             let cells = SharedCells {
                 subdomain: &subdomain,
                 points: &Body::points(&body.cells),
-                held: Held {
+                global: GlobalIndices {
                     points: &all(body.positions.len()),
                     cells: Some(&all(body.cells.len())),
                 },

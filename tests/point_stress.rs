@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)]
 
 use ligament_output::FieldLocation;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::vtu::read::VtuFile;
 use verification::bench::{case, run_program};
 use verification::numbers::relative_error;
@@ -46,7 +46,7 @@ impl Results {
         let out = folder.path().join("out");
         run_program(&case(text, settings), &out);
         let file = VtuFile::open(out.join("fields_0001.vtu")).unwrap();
-        let history = Sheet::read(out.join("history.csv")).unwrap();
+        let history = CsvTable::read(out.join("history.csv")).unwrap();
         let last = |name: &&str| *history.values(name).unwrap().last().unwrap();
         Self {
             places: file.points().unwrap(),

@@ -311,7 +311,7 @@ fn fault(bench: &Bench, text: &str, settings: &[&str]) -> String {
     let case = bench::case(text, settings);
     let setup = case.setup_on(bench.model.setup.body.clone()).unwrap();
     let loading = Loading::new(&ligament::Model::build(setup, &mut ()).unwrap());
-    case.located(loading.unwrap_err()).to_string()
+    case.error_at_key(loading.unwrap_err()).to_string()
 }
 
 /// An edge inside the body has cells on both sides, a diagonal of a cell is no edge of one: both are told by their nodes. So

@@ -15,7 +15,7 @@ use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::correction::CorrectionReport;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::{ConstantFields, Tags};
-use ligament_run::memory::foresee_model;
+use ligament_run::memory::check_model_memory;
 use verification::bench::case;
 use verification::problems::{BAR, TWO};
 use verification::repository;
@@ -324,11 +324,11 @@ fn all_points_have_their_names_on_each_rank() {
 fn memory_is_foreseen_for_the_bonds_of_a_process() {
     let case = named("lattice-plate", &["solver.memory=0.016"]);
     let setup = case.setup(&mut ()).unwrap();
-    assert!(foresee_model(&case, &setup).is_err());
+    assert!(check_model_memory(&case, &setup).is_err());
     let fits = on_ranks(2, |together| {
         let mut setup = setup.clone();
         setup.solver.communicator = Processes(together.clone());
-        foresee_model(&case, &setup).is_ok()
+        check_model_memory(&case, &setup).is_ok()
     });
     assert_eq!(fits, [true, true]);
 }

@@ -5,7 +5,7 @@
 use std::fs;
 
 use ligament_output::FieldLocation;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
 use ligament_output::results::{write_series, write_surface};
 use ligament_output::vtu::Cell;
@@ -58,7 +58,7 @@ fn the_crack_of_a_stored_run_is_a_surface_with_its_opening() {
                 .all(|(step, factor)| *factor == 0.25 * *step as f64)
         );
 
-        let growth = Sheet::read(folder.path().join("crack_growth.csv")).unwrap();
+        let growth = CsvTable::read(folder.path().join("crack_growth.csv")).unwrap();
         let rows = growth.numbers(["step", "parts", "area"]).unwrap();
         assert_eq!(rows.len(), 3);
         assert!(

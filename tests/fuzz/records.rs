@@ -8,7 +8,7 @@ use ligament_run::progress::ProgressMode;
 use ligament_run::run::run;
 use ligament_study::calibrate::{self, calibrate};
 use ligament_study::sweep::study::Study;
-use ligament_study::sweep::{self, Task, opened, plan, sweep};
+use ligament_study::sweep::{self, Task, open_folder, plan, sweep};
 use serde_json::json;
 
 use crate::Target;
@@ -75,7 +75,7 @@ impl Records {
 fn finish_study(study: &Path, out: &Path) {
     let study = Study::load(study).unwrap();
     let runs = plan::runs(&study, out).unwrap();
-    opened(out, &study).unwrap();
+    open_folder(out, &study).unwrap();
     for it in &runs {
         let results = out.join("runs").join(&it.name);
         run(&it.case, &results, false, ProgressMode::Quiet).unwrap();

@@ -17,7 +17,7 @@ use std::process::Command;
 use ligament::Loading;
 use ligament::run::follow;
 use ligament_case::case::CaseFile;
-use ligament_cli::check::{self, Extent, Lines};
+use ligament_cli::check::{self, CheckExtent, Lines};
 use ligament_model::failure::Criteria;
 use ligament_model::failure::frictional::Calibration;
 use ligament_post::yielding::field::families;
@@ -148,7 +148,7 @@ impl Case {
         let mut said = Vec::new();
         check::check(
             &self.file,
-            Extent::Model,
+            CheckExtent::Model,
             Some(&self.results()),
             Lines::All,
             &mut said,
@@ -190,8 +190,8 @@ impl Case {
         canvas.grid("points.vtu", &mut expected);
         let mut fields = canvas.on("points.vtu", &mut expected);
         for (criterion, criteria) in of {
-            for (k, strain) in Strain::of_the_figures(poisson).into_iter().enumerate() {
-                let at = |_: u32| Strain::of_the_figures(poisson)[k].stretches;
+            for (k, strain) in Strain::of_figures(poisson).into_iter().enumerate() {
+                let at = |_: u32| Strain::of_figures(poisson)[k].stretches;
                 let found = families(system, &criteria, at);
                 let name = |what: &str| format!("{criterion}_{}_{what}", strain.name);
                 let values = |of: fn(&ligament_post::yielding::field::FamilyYield) -> f64| {

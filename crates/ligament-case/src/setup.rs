@@ -137,9 +137,9 @@ impl CaseFile {
     }
 
     /// The error of a computation in the terms of the case, with a faulty field of the setup at the responsible key.
-    pub fn explained(&self, error: ligament::Error) -> anyhow::Error {
+    pub fn error_in_case_terms(&self, error: ligament::Error) -> anyhow::Error {
         match error {
-            ligament::Error::Setup(error) => self.located(error).into(),
+            ligament::Error::Setup(error) => self.error_at_key(error).into(),
             ligament::Error::Equations(SetupError::NothingResists) => {
                 anyhow::anyhow!("{error} ([[support]])")
             }

@@ -6,22 +6,22 @@ use ligament_output::summary::{Build, Text};
 
 /// The build of this program.
 pub const BUILD: Build = Build {
-    commit: known(env!("LIGAMENT_COMMIT")),
+    commit: nonempty(env!("LIGAMENT_COMMIT")),
     uncommitted_changes: match env!("LIGAMENT_UNCOMMITTED").as_bytes() {
         b"true" => Some(true),
         b"false" => Some(false),
         _ => None,
     },
-    profile: known(env!("LIGAMENT_PROFILE")),
-    target: known(env!("LIGAMENT_TARGET")),
-    compiler: known(env!("LIGAMENT_COMPILER")),
+    profile: nonempty(env!("LIGAMENT_PROFILE")),
+    target: nonempty(env!("LIGAMENT_TARGET")),
+    compiler: nonempty(env!("LIGAMENT_COMPILER")),
 };
 
 /// Text of version and commit.
 pub(crate) const VERSION: &str = env!("LIGAMENT_VERSION");
 
 /// The text, or `None` if it is empty.
-const fn known(text: &'static str) -> Option<Text> {
+const fn nonempty(text: &'static str) -> Option<Text> {
     if text.is_empty() {
         None
     } else {

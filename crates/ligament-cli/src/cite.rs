@@ -22,11 +22,11 @@ pub struct Reference {
 
 /// All references, in the order of the page.
 pub fn references() -> Vec<Reference> {
-    REFERENCES.lines().filter_map(Reference::of_row).collect()
+    REFERENCES.lines().filter_map(Reference::from_row).collect()
 }
 
 /// References that texts such as `MPPD eqs 7, 21; OMPPD eqs 54 to 57` cite, in the order of the texts.
-pub fn cited(sources: &[&str]) -> Vec<Reference> {
+pub fn cited_references(sources: &[&str]) -> Vec<Reference> {
     let all = references();
     let mut found: Vec<Reference> = Vec::new();
     for part in sources.iter().flat_map(|source| source.split(';')) {
@@ -44,7 +44,7 @@ pub fn cited(sources: &[&str]) -> Vec<Reference> {
 
 impl Reference {
     /// The reference of a row of the page, `| key | authors: *title*, place. [doi:...](...) |`.
-    fn of_row(row: &'static str) -> Option<Self> {
+    fn from_row(row: &'static str) -> Option<Self> {
         let (key, source) = row
             .strip_prefix("| ")?
             .strip_suffix(" |")?
@@ -181,13 +181,18 @@ mod tests {
 
     #[test]
     fn texts_of_sources_name_references() {
-        let keys = |source| -> Vec<&str> { cited(&[source]).iter().map(|it| it.key).collect() };
+        let keys = |source| -> Vec<&str> {
+            cited_references(&[source])
+                .iter()
+                .map(|it| it.key)
+                .collect()
+        };
         assert_eq!(
             keys("MPPD eqs 7, 21; OMPPD eqs 54 to 57"),
             ["MPPD", "OMPPD"]
         );
         assert_eq!(keys("Silling and Askari 2005"), ["Silling and Askari 2005"]);
-        let [article] = &cited(&["Silling 2000"])[..] else {
+        let [article] = &cited_references(&["Silling 2000"])[..] else {
             panic!("one reference");
         };
         let text = article.bibtex();
@@ -213,7 +218,7 @@ mod tests {
             .map(|it| it.source);
         for source in laws.chain(kinds).chain(after).filter(|it| !it.is_empty()) {
             let parts = source.split(';').count();
-            assert_eq!(cited(&[source]).len(), parts, "{source}");
+            assert_eq!(cited_references(&[source]).len(), parts, "{source}");
         }
     }
 }

@@ -1,9 +1,9 @@
 //! The processes of a run, if an MPI launcher started several and the program is built for them.
 
 #[cfg(feature = "petsc")]
-pub(crate) use mpi::{abort, is_not_root, join, part};
+pub(crate) use mpi::{abort, finish, is_not_root, join};
 #[cfg(not(feature = "petsc"))]
-pub(crate) use serial::{abort, is_not_root, join, part};
+pub(crate) use serial::{abort, finish, is_not_root, join};
 
 #[cfg(feature = "petsc")]
 mod mpi {
@@ -41,7 +41,7 @@ mod mpi {
     }
 
     /// Waits for the other processes at the end, after an error for a limited time; returns whether all arrived.
-    pub(crate) fn part(has_failed: bool) -> bool {
+    pub(crate) fn finish(has_failed: bool) -> bool {
         let Some(processes) = Processes::started() else {
             return true;
         };
@@ -93,7 +93,7 @@ mod serial {
     }
 
     /// Returns true: there is one process.
-    pub(crate) fn part(_has_failed: bool) -> bool {
+    pub(crate) fn finish(_has_failed: bool) -> bool {
         true
     }
 

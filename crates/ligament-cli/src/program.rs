@@ -26,10 +26,10 @@ pub fn parse_and_execute<A: Parser>(
     let _ = report_large_files();
     let code = match A::try_parse_from(arguments) {
         Ok(read) => conclude(execute(read)),
-        Err(told) => {
+        Err(usage_error) => {
             // Help and versions are returned as errors, too.
-            let _ = told.print();
-            u8::try_from(told.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
+            let _ = usage_error.print();
+            u8::try_from(usage_error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from)
         }
     };
     // An unfinished line would not be flushed otherwise if this is part of another program.
@@ -48,14 +48,14 @@ fn conclude(done: anyhow::Result<ExitCode>) -> ExitCode {
     if let Some(error) = error.as_ref().filter(|_| !processes::is_not_root()) {
         print_error(error);
     }
-    let all_came = processes::part(error.is_some());
+    let all_finished = processes::finish(error.is_some());
     if let Some(error) = error
         .as_ref()
-        .filter(|_| processes::is_not_root() && !all_came)
+        .filter(|_| processes::is_not_root() && !all_finished)
     {
         print_error(error);
     }
-    if !all_came {
+    if !all_finished {
         processes::abort();
     }
     code

@@ -30,7 +30,7 @@ impl StopSignal {
     /// # Errors
     ///
     /// If the system refuses the handlers.
-    pub(crate) fn awaited() -> io::Result<Self> {
+    pub(crate) fn install() -> io::Result<Self> {
         let stop = Self::default();
         #[cfg(not(target_family = "wasm"))]
         for signal in SIGNALS {
@@ -42,7 +42,7 @@ impl StopSignal {
     }
 
     /// Whether a signal to stop was received.
-    pub(crate) fn came(&self) -> bool {
+    pub(crate) fn is_received(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }

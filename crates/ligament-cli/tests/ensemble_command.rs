@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use std::process::Output;
 
 use ligament_output::FieldLocation;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::vtu::read::VtuFile;
 use serde_json::Value;
 
@@ -144,7 +144,7 @@ fn all_ways_to_the_same_samples_give_the_same_files() {
 fn rows_and_fields_are_those_of_runs() {
     let place = Place::new();
     place.ensemble("--samples 6 --out out");
-    let sheet = Sheet::read(place.path("out/samples.csv")).unwrap();
+    let sheet = CsvTable::read(place.path("out/samples.csv")).unwrap();
     let seeds: Vec<u64> = sheet.values("seed").unwrap();
     let numbers = |column: &str| sheet.values::<f64>(column).unwrap();
     let (first, peak) = (numbers("first_load"), numbers("peak_load"));
@@ -162,7 +162,7 @@ fn rows_and_fields_are_those_of_runs() {
         // Numbers of JSON are read to the last bit but one.
         let found = summary["peak"]["reaction"].as_f64().unwrap();
         assert!((found / peak[sample] - 1.0).abs() < 1e-15, "{found}");
-        let broken = Sheet::read(place.path(&format!("run-{sample}/breaks.csv"))).unwrap();
+        let broken = CsvTable::read(place.path(&format!("run-{sample}/breaks.csv"))).unwrap();
         let column = |it| broken.values::<usize>(it).unwrap();
         let [steps, a, b] = ["step", "cell_a", "cell_b"].map(column);
         assert_eq!(broken.values::<f64>("reaction").unwrap()[0], first[sample]);

@@ -9,7 +9,7 @@ mod ends;
 mod ensemble_command;
 mod explain;
 mod faults;
-mod foresight;
+mod first_failure;
 mod lattice_command;
 mod modal_command;
 mod motion_results;

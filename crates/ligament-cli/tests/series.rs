@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::vtu::read::VtuFile;
 use tempfile::TempDir;
 
@@ -45,7 +45,7 @@ fn series(path: &Path) -> Vec<(f64, String)> {
 /// Times of the series of a run, which grow; its files have them and the numbers of the history.
 fn times(out: &Path, name: &str) -> Vec<f64> {
     let columns = ["step", "load_factor", "displacement", "reaction"];
-    let sheet = Sheet::read(out.join("history.csv")).unwrap();
+    let sheet = CsvTable::read(out.join("history.csv")).unwrap();
     let rows = sheet.numbers(columns).unwrap();
     let listed = series(&out.join(format!("{name}.pvd")));
     assert!(listed.windows(2).all(|it| it[0].0 < it[1].0), "{listed:?}");
@@ -112,7 +112,7 @@ fn times_are_times_in_a_motion() {
         let out = place.path().join("out");
         let found = times(&out, "fields");
         assert_eq!(times(&out, "bonds"), found);
-        let sheet = Sheet::read(out.join("history.csv")).unwrap();
+        let sheet = CsvTable::read(out.join("history.csv")).unwrap();
         let rows = sheet.numbers(["time"]).unwrap();
         assert_eq!(found, rows.as_flattened());
         assert_eq!((found.len(), found[4]), (5, 2e-6));
@@ -128,7 +128,7 @@ fn times_are_numbers_of_modes() {
         &format!("analysis = \"modal\"\n{PLATE}modal = {{ modes = 3 }}\n"),
     );
     let out = place.path().join("out");
-    let sheet = Sheet::read(out.join("modes.csv")).unwrap();
+    let sheet = CsvTable::read(out.join("modes.csv")).unwrap();
     let rows = sheet.numbers(["mode", "frequency_hz"]).unwrap();
     let listed = series(&out.join("modes.pvd"));
     assert_eq!(listed.len(), rows.len());

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use ligament::setup::Law;
 use ligament_case::case::{CaseFile, schema};
-use ligament_case::starter::{Starter, StarterError, of_lattice, of_mesh};
-use ligament_cli::check::{Extent, Lines, check};
+use ligament_case::starter::{Starter, StarterError, lattice_case, mesh_case};
+use ligament_cli::check::{CheckExtent, Lines, check};
 use serde_json::Value;
 use tempfile::TempDir;
 
@@ -23,7 +23,7 @@ fn case(starter: &Starter, folder: &Path) -> CaseFile {
     parsed.unwrap_or_else(|error| panic!("{error}\n{}", starter.text))
 }
 
-fn checked(case: &CaseFile, extent: Extent) -> String {
+fn checked(case: &CaseFile, extent: CheckExtent) -> String {
     let mut report = Vec::new();
     check(case, extent, None, Lines::All, &mut report)
         .unwrap_or_else(|error| panic!("{error:#}\n{}", case.source.text));
@@ -50,20 +50,20 @@ fn meshes_have_cases_that_check(from: usize) {
     all.sort();
     assert!(all.len() > 10, "{} meshes", all.len());
     for path in all.iter().skip(from).step_by(3) {
-        let mut starter = of_mesh(path, folder.path(), Law::NHPD).unwrap();
+        let mut starter = mesh_case(path, folder.path(), Law::NHPD).unwrap();
         assert!(
             starter.warnings.is_empty(),
             "{}: {:?}",
             path.display(),
             starter.warnings
         );
-        let report = checked(&case(&starter, folder.path()), Extent::Model);
+        let report = checked(&case(&starter, folder.path()), CheckExtent::Model);
         assert!(report.contains("surface correction: patch"), "{report}");
         // The correction is the one of above: a coarse one is enough.
         let text = with_all_settings(&starter.text);
         starter.text = text.replace("regularisation = 3e-7", "regularisation = 1e-3");
         assert_ne!(starter.text, text);
-        let report = checked(&case(&starter, folder.path()), Extent::Model);
+        let report = checked(&case(&starter, folder.path()), CheckExtent::Model);
         assert!(
             !report.contains("(0 cut by pre-cracks)"),
             "{}\n{report}",
@@ -99,7 +99,7 @@ fn groups_are_found_by_their_names() {
         ("disk-2mm.msh", "platen-bottom", "platen-top", 1, -1.0),
         ("diagonal-plate.msh", "patch-bottom", "patch-top", 1, 1.0),
     ] {
-        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
+        let starter = mesh_case(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
         let case = case(&starter, folder.path()).case;
         assert_eq!(case.supports[0].group.as_deref(), Some(held), "{mesh}");
         assert_eq!(case.loads[0].group.as_deref(), Some(loaded), "{mesh}");
@@ -118,10 +118,10 @@ fn groups_are_found_by_their_names() {
 fn without_groups_boxes_are_taken() {
     let folder = TempDir::new().unwrap();
     for mesh in ["annulus-coarse.msh", "heated-disk.msh"] {
-        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
+        let starter = mesh_case(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
         let case = case(&starter, folder.path());
         assert!(case.case.supports[0].r#box.is_some(), "{}", starter.text);
-        let report = checked(&case, Extent::Matrix);
+        let report = checked(&case, CheckExtent::Matrix);
         assert!(!report.contains(" 0 points"), "{report}");
     }
 }
@@ -195,8 +195,8 @@ fn beams_break_within_their_example_load() {
     }
     let mesh = folder.path().join("beam.msh");
     std::fs::write(&mesh, text + "$EndElements\n").unwrap();
-    let starter = of_mesh(&mesh, folder.path(), Law::NHPD).unwrap();
-    let report = checked(&case(&starter, folder.path()), Extent::Matrix);
+    let starter = mesh_case(&mesh, folder.path(), Law::NHPD).unwrap();
+    let report = checked(&case(&starter, folder.path()), CheckExtent::Matrix);
     let first = report.lines().find(|it| it.starts_with("  first breakage"));
     let share = first.and_then(|it| it.split_once("at ")?.1.split(' ').next()?.parse().ok());
     let share: f64 = share.unwrap_or_else(|| panic!("{report}"));
@@ -240,7 +240,7 @@ fn of_text(text: &str) -> (TempDir, Result<Starter, StarterError>) {
     let folder = TempDir::new().unwrap();
     let path = folder.path().join("a mesh.msh");
     std::fs::write(&path, text).unwrap();
-    let starter = of_mesh(&path, folder.path(), Law::NHPD);
+    let starter = mesh_case(&path, folder.path(), Law::NHPD);
     (folder, starter)
 }
 
@@ -259,7 +259,7 @@ fn names_are_quoted() {
     assert_eq!(materials, ["left half", "right.half"]);
     assert_eq!(case.case.supports[0].group.as_deref(), Some(names[2]));
     assert_eq!(case.case.loads[0].group.as_deref(), Some(names[3]));
-    checked(&case, Extent::Matrix);
+    checked(&case, CheckExtent::Matrix);
     let (folder, starter) = of_text(&square(0.1, ["a", "b", "top", "bottom, \u{e9}"]));
     let case = self::case(&starter.unwrap(), folder.path());
     assert_eq!(case.case.loads[0].group.as_deref(), Some("top"));
@@ -285,7 +285,7 @@ fn names_that_are_not_seen_are_escaped() {
     assert_eq!(case.case.supports[0].group.as_deref(), Some(names[2]));
     assert_eq!(case.case.loads[0].group.as_deref(), Some(names[3]));
     assert_eq!(case.case.loads[0].name.as_deref(), Some("load"));
-    checked(&case, Extent::Matrix);
+    checked(&case, CheckExtent::Matrix);
 }
 
 /// Groups whose names have no meaning are used by their positions.
@@ -295,7 +295,7 @@ fn groups_are_found_by_their_place() {
     let case = case(&starter.unwrap(), folder.path());
     assert_eq!(case.case.supports[0].group.as_deref(), Some("17"));
     assert_eq!(case.case.loads[0].group.as_deref(), Some("4"));
-    checked(&case, Extent::Matrix);
+    checked(&case, CheckExtent::Matrix);
 }
 
 /// Two supports are both held, the second free to slide, and the body is pressed onto them in the middle of its far side.
@@ -315,7 +315,7 @@ fn a_beam_lies_on_both_supports() {
     let load = &case.case.loads[0];
     assert_eq!(load.group, None);
     assert!(load.displacement.unwrap().x.is_some_and(|x| x != 0.0));
-    checked(&case, Extent::Matrix);
+    checked(&case, CheckExtent::Matrix);
 }
 
 /// A beam whose ends are called left and right and that has a load between them: three-point bending, as a beam between supports.
@@ -323,7 +323,7 @@ fn a_beam_lies_on_both_supports() {
 fn a_load_between_two_ends_bends() {
     let folder = TempDir::new().unwrap();
     let mesh = meshes().join("notched-beam-10mm.msh");
-    let starter = of_mesh(&mesh, folder.path(), Law::NHPD).unwrap();
+    let starter = mesh_case(&mesh, folder.path(), Law::NHPD).unwrap();
     let case = case(&starter, folder.path());
     let supports = case.case.supports.iter();
     let supports: Vec<_> = supports
@@ -341,7 +341,7 @@ fn a_load_between_two_ends_bends() {
     assert_eq!(case.case.loads[0].group.as_deref(), Some("load"));
     let moved = case.case.loads[0].displacement.unwrap();
     assert!(moved.x.is_none() && moved.y.is_some_and(|y| y < 0.0));
-    checked(&case, Extent::Matrix);
+    checked(&case, CheckExtent::Matrix);
     // With one named side beside the load, that side is held.
     let (folder, starter) = of_text(&square(0.1, ["a", "b", "bottom", "load"]));
     let case = self::case(&starter.unwrap(), folder.path()).case;
@@ -369,19 +369,19 @@ fn sizes_are_sensible() {
         let (folder, starter) = of_text(&square(side, names));
         let starter = starter.unwrap();
         assert_eq!(starter.warnings, Vec::<String>::new());
-        checked(&case(&starter, folder.path()), Extent::Matrix);
+        checked(&case(&starter, folder.path()), CheckExtent::Matrix);
     }
 }
 
 #[test]
 fn a_lattice_takes_the_place_of_a_mesh() {
     for law in Law::ALL {
-        let starter = of_lattice([12, 30], 0.001, law);
+        let starter = lattice_case([12, 30], 0.001, law);
         let case = case(&starter, Path::new(""));
-        checked(&case, Extent::Matrix);
+        checked(&case, CheckExtent::Matrix);
     }
-    let small = of_lattice([4, 4], 2.0, Law::NHPD);
-    checked(&case(&small, Path::new("")), Extent::Matrix);
+    let small = lattice_case([4, 4], 2.0, Law::NHPD);
+    checked(&case(&small, Path::new("")), CheckExtent::Matrix);
 }
 
 /// The case of every law is valid by the schema, as an editor will see it.
@@ -391,7 +391,7 @@ fn the_cases_are_valid_for_editors() {
     compiler.add_resource("case.json", schema()).unwrap();
     let index = compiler.compile("case.json", &mut schemas).unwrap();
     for law in Law::ALL {
-        let text = of_lattice([12, 30], 0.001, law).text;
+        let text = lattice_case([12, 30], 0.001, law).text;
         for text in [text.clone(), with_all_settings(&text)] {
             let document: Value = toml::from_str(&text).unwrap();
             let valid = schemas.validate(&document, index);
@@ -406,7 +406,9 @@ fn what_is_no_mesh_is_refused() {
     let of = |name: &str, text: &str, law: Law| {
         let path = folder.path().join(name);
         std::fs::write(&path, text).unwrap();
-        of_mesh(&path, folder.path(), law).unwrap_err().to_string()
+        mesh_case(&path, folder.path(), law)
+            .unwrap_err()
+            .to_string()
     };
     let error = of("plate.geo", "Point(1) = {0, 0, 0};", Law::NHPD);
     assert!(
@@ -423,7 +425,7 @@ fn what_is_no_mesh_is_refused() {
     let lattices = Law::MBB_PD;
     let error = of("a.msh", &square(1.0, ["a", "b", "c", "d"]), lattices);
     assert!(error.contains("--lattice"), "{error}");
-    let missing = of_mesh(Path::new("nowhere.msh"), folder.path(), Law::NHPD).unwrap_err();
+    let missing = mesh_case(Path::new("nowhere.msh"), folder.path(), Law::NHPD).unwrap_err();
     assert!(
         missing
             .to_string()

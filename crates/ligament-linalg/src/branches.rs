@@ -25,7 +25,7 @@ pub(crate) struct Branch {
 
 impl Branch {
     /// The whole factor, cut into tasks.
-    pub(crate) fn of_factor(supernodes: Supernodes<'_>) -> Self {
+    pub(crate) fn from_supernodes(supernodes: Supernodes<'_>) -> Self {
         let total = supernodes.values_before(supernodes.len());
         Self::cut(supernodes, (total / MOST_TASKS).max(SMALLEST_TASK))
     }
@@ -53,7 +53,7 @@ impl Branch {
 /// For each supernode, the first one of the smallest range that ends with it and depends on no supernode outside, shape (n_supernodes).
 fn first_supernodes(supernodes: Supernodes<'_>) -> Vec<usize> {
     let count = supernodes.len();
-    let of_row = supernodes.of_rows();
+    let of_row = supernodes.supernode_of_rows();
     let mut first_child: Vec<usize> = (0..count).collect();
     let mut first = Vec::with_capacity(count);
     // Last supernodes of the ranges so far that lie in no other range.
@@ -175,7 +175,7 @@ mod tests {
     /// Checks that parts do not depend on each other, and returns the supernodes of the branch, in their order, and its depth.
     fn checked(supernodes: Supernodes<'_>, branch: &Branch) -> (Vec<usize>, usize) {
         let (mut all, mut depth) = (Vec::new(), 0);
-        let of_row = supernodes.of_rows();
+        let of_row = supernodes.supernode_of_rows();
         for part in &branch.parts {
             let (of_part, depth_of_part) = checked(supernodes, part);
             for &supernode in &of_part {
@@ -216,7 +216,7 @@ mod tests {
         ] {
             let supernodes = symbolic.supernodes();
             assert!(symbolic.n_factor_values() > 2 * SMALLEST_TASK, "{name}");
-            let branch = Branch::of_factor(supernodes);
+            let branch = Branch::from_supernodes(supernodes);
             let (all, depth) = checked(supernodes, &branch);
             assert!(all.into_iter().eq(0..supernodes.len()), "{name}");
             assert!(depth <= MOST_TASKS, "{name}: {depth}");

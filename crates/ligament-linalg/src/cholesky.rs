@@ -3,14 +3,12 @@
 use std::sync::Arc;
 
 use crate::digest::digest;
-use crate::factor_error::FactorError;
-use crate::factorisation::{Factorisation, ForwardSubstituted, Inertia};
+use crate::factorisation::{FactorError, Factorisation, ForwardSubstituted, Inertia, RankOne};
 use crate::left_looking::LeftLooking;
 use crate::matrix::SymmetricMatrix;
 use crate::modification::{DiagonalEntry, Modification, Target, VanishingPivot};
 use crate::panels::{FactorKind, Panels};
 use crate::parts::Part;
-use crate::rank_one::RankOne;
 use crate::substitution::{solve_backward, solve_backward_in, solve_forward};
 use crate::symbolic::Symbolic;
 
@@ -49,7 +47,7 @@ impl Cholesky {
     }
 
     /// Stores the diagonal of the matrix just factorised and counts the negative pivots.
-    fn factorised(&mut self, matrix: &SymmetricMatrix) {
+    fn finish_factorisation(&mut self, matrix: &SymmetricMatrix) {
         let unknowns = self.symbolic.unknown_of_row().iter();
         let entries = unknowns.map(|&unknown| DiagonalEntry::new(matrix.diagonal(unknown)));
         self.diagonal = entries.collect();
@@ -76,7 +74,7 @@ impl Factorisation for Cholesky {
         };
         let factorised = left_looking.factorise(&mut self.values);
         factorised.map_err(|row| self.invalid_pivot_error(row))?;
-        self.factorised(matrix);
+        self.finish_factorisation(matrix);
         Ok(())
     }
 

@@ -32,7 +32,7 @@ pub(crate) fn factorise(
     let panel = MatMut::from_column_major_slice_mut(panel, height, n_columns);
     let (mut columns, below) = panel.split_at_row_mut(n_columns);
     if n_columns <= 2 * BLOCK {
-        whole(kind, columns.rb_mut())?;
+        factorise_at_once(kind, columns.rb_mut())?;
     } else {
         in_blocks(kind, columns.rb_mut())?;
     }
@@ -46,7 +46,7 @@ pub(crate) fn factorise(
 }
 
 /// Factorises a square matrix in one call to faer.
-fn whole(kind: FactorKind, square: MatMut<'_, f64>) -> Result<(), usize> {
+fn factorise_at_once(kind: FactorKind, square: MatMut<'_, f64>) -> Result<(), usize> {
     let n = square.nrows();
     let parameters = Default::default();
     match kind {
@@ -82,7 +82,7 @@ fn in_blocks(kind: FactorKind, mut square: MatMut<'_, f64>) -> Result<(), usize>
         let width = BLOCK.min(n - first);
         let rest = square.rb_mut().get_mut(first.., first..);
         let (mut block, _, mut below, rest) = rest.split_at_mut(width, width);
-        whole(kind, block.rb_mut()).map_err(|column| first + column)?;
+        factorise_at_once(kind, block.rb_mut()).map_err(|column| first + column)?;
         solve(kind, block.rb(), below.rb_mut());
         subtract(kind, block.rb(), below.rb(), rest);
     }

@@ -1,9 +1,10 @@
-//! The interface of all factorisations.
+//! The interface of all factorisations, the terms by which they change, and their errors.
 
-use crate::factor_error::FactorError;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
 use crate::matrix::SymmetricMatrix;
 use crate::parts::Part;
-use crate::rank_one::RankOne;
 
 /// A factorised symmetric matrix.
 pub trait Factorisation: Send + Sync {
@@ -69,4 +70,45 @@ pub struct Inertia {
     pub positive: usize,
     /// Number of negative eigenvalues.
     pub negative: usize,
+}
+
+/// A term c w w^T of a change of the matrix.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RankOne {
+    /// Factor c: positive where stiffness is added, negative where it is removed.
+    pub weight: f64,
+    /// Unknowns and values of w; values of a repeated unknown add up. Every pair of unknowns must be in the pattern of the matrix.
+    pub entries: Vec<(usize, f64)>,
+}
+
+/// Reasons why a matrix has no factor.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum FactorError {
+    /// A pivot of L L^T is not positive.
+    #[error("the matrix is not positive definite: pivot of unknown {unknown}")]
+    NotPositiveDefinite {
+        /// Index of the pivot in the matrix.
+        unknown: usize,
+    },
+    /// A pivot of L D L^T is zero.
+    #[error("the matrix is singular: pivot of unknown {unknown} is zero")]
+    ZeroPivot {
+        /// Index of the pivot in the matrix.
+        unknown: usize,
+    },
+    /// Pivots of L D L^T vanish.
+    #[error("the matrix is singular: {vanishing} pivots vanish")]
+    Singular {
+        /// Number of vanishing pivots.
+        vanishing: usize,
+    },
+    /// The factor does not fit into memory.
+    #[error("out of memory: the factor needs {bytes} bytes")]
+    OutOfMemory {
+        /// Bytes requested.
+        bytes: usize,
+    },
+    /// The matrix is too large for the index type.
+    #[error("the matrix is too large to be indexed")]
+    IndexOverflow,
 }

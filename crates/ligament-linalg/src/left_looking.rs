@@ -107,18 +107,18 @@ impl LeftLooking<'_> {
         for (column, values) in
             (target.columns.clone()).zip(target.values.chunks_exact_mut(target.height))
         {
-            for &[row, place] in self.symbolic.sources().of_column(column) {
+            for &[row, place] in self.symbolic.sources().column_entries(column) {
                 values[target.place_of_row[row as usize] as usize] += self.matrix[place as usize];
             }
         }
         let supernodes = self.symbolic.supernodes();
-        for &reaching in self.symbolic.reaching().supernodes(supernode) {
-            let reaching = reaching as usize;
-            let panel = supernodes.panel(reaching);
+        for &updating_supernodes in self.symbolic.updating_supernodes().supernodes(supernode) {
+            let updating_supernodes = updating_supernodes as usize;
+            let panel = supernodes.panel(updating_supernodes);
             let source = Source {
                 values: &before[panel.start - first_value..panel.end - first_value],
-                n_columns: supernodes.columns(reaching).len(),
-                below: supernodes.rows_below(reaching),
+                n_columns: supernodes.columns(updating_supernodes).len(),
+                below: supernodes.rows_below(updating_supernodes),
             };
             target.subtract(self.kind, source, buffers);
         }

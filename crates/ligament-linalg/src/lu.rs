@@ -6,7 +6,7 @@ use faer::sparse::linalg::lu::{LuRef, NumericLu, SymbolicLu, factorize_symbolic_
 use faer::sparse::{FaerError, SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par};
 
-use crate::factor_error::FactorError;
+use crate::factorisation::FactorError;
 use crate::general::GeneralMatrix;
 
 /// Factors L U of a square matrix, with a fill-reducing order of columns and rows in the order of their pivots.

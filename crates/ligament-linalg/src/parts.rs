@@ -26,7 +26,7 @@ impl Part {
     }
 
     /// The parts of a factor, each after its parent; every part that has children has at least `least` values together with its descendants.
-    pub(crate) fn of_factor(supernodes: Supernodes<'_>, least: usize) -> Vec<Self> {
+    pub(crate) fn from_supernodes(supernodes: Supernodes<'_>, least: usize) -> Vec<Self> {
         let mut parts = Vec::new();
         let mut branches = vec![(None, Branch::cut(supernodes, least))];
         while let Some((above, branch)) = branches.pop() {

@@ -1,6 +1,6 @@
 //! Sources of the values of a factor, in the order of elimination: entries of the matrix, and updates between supernodes.
 
-use crate::factor_error::FactorError;
+use crate::factorisation::FactorError;
 use crate::matrix::Pattern;
 use crate::supernodes::Supernodes;
 
@@ -47,7 +47,7 @@ impl Sources {
     }
 
     /// Row and index in the matrix of each entry of a column.
-    pub(crate) fn of_column(&self, column: usize) -> &[[u32; 2]] {
+    pub(crate) fn column_entries(&self, column: usize) -> &[[u32; 2]] {
         &self.entries[self.starts[column] as usize..self.starts[column + 1] as usize]
     }
 }
@@ -63,7 +63,7 @@ pub(crate) struct UpdatingSupernodes {
 
 impl UpdatingSupernodes {
     pub(crate) fn new(supernodes: Supernodes<'_>) -> Self {
-        let of_row = supernodes.of_rows();
+        let of_row = supernodes.supernode_of_rows();
         let reached = |supernode: usize| {
             let rows = supernodes.rows_below(supernode);
             let of_rows = |rows: &[usize]| of_row[rows[0]] as usize;
@@ -79,16 +79,16 @@ impl UpdatingSupernodes {
             starts[supernode + 1] += starts[supernode];
         }
         let mut next = starts.clone();
-        let mut reaching = vec![0; starts[count]];
+        let mut updating_supernodes = vec![0; starts[count]];
         for supernode in 0..count {
             for target in reached(supernode) {
-                reaching[next[target]] = supernode as u32;
+                updating_supernodes[next[target]] = supernode as u32;
                 next[target] += 1;
             }
         }
         Self {
             starts,
-            supernodes: reaching,
+            supernodes: updating_supernodes,
         }
     }
 

@@ -38,15 +38,15 @@ pub(crate) fn solve_backward_in(panels: Panels<'_>, supernodes: Range<usize>, ve
 }
 
 /// Contribution of a supernode to a row: row and value.
-type Addition = (usize, f64);
+type RowContribution = (usize, f64);
 
 /// Forward substitution in the rows of a branch; returns the contributions to rows beyond it, in the order of its supernodes.
 ///
 /// Sums are taken in the order of the supernodes for any number of threads: a part returns single contributions instead of sums.
-fn forward_branch(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) -> Vec<Addition> {
+fn forward_branch(panels: Panels<'_>, branch: &Branch, vector: &mut [f64]) -> Vec<RowContribution> {
     let rows = panels.rows(branch.supernodes());
     let mut beyond = Vec::new();
-    let of_parts: Vec<Vec<Addition>> = (branch.parts.par_iter())
+    let of_parts: Vec<Vec<RowContribution>> = (branch.parts.par_iter())
         .zip(panels.split(&branch.parts, vector))
         .with_max_len(1)
         .map(|(part, vector)| forward_branch(panels, part, vector))
@@ -73,7 +73,7 @@ struct Forward<'a> {
     /// First row of the vector.
     first_row: usize,
     vector: &'a mut [f64],
-    beyond: &'a mut Vec<Addition>,
+    beyond: &'a mut Vec<RowContribution>,
 }
 
 impl WithSimd for Forward<'_> {

@@ -62,7 +62,7 @@ impl<'a> Supernodes<'a> {
     }
 
     /// Supernode of each row, shape (n).
-    pub(crate) fn of_rows(self) -> Vec<u32> {
+    pub(crate) fn supernode_of_rows(self) -> Vec<u32> {
         let n_rows = self.0.map_or(0, SymbolicSupernodalCholesky::nrows);
         let mut of_row = vec![0; n_rows];
         for supernode in 0..self.len() {

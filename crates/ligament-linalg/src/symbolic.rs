@@ -11,7 +11,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
 use crate::branches::Branch;
-use crate::factor_error::FactorError;
+use crate::factorisation::FactorError;
 use crate::matrix::Pattern;
 use crate::parts::Part;
 use crate::sources::{Sources, UpdatingSupernodes};
@@ -39,7 +39,7 @@ pub struct Symbolic {
     pub(crate) cholesky: SymbolicCholesky<usize>,
     branch: Branch,
     sources: Sources,
-    reaching: UpdatingSupernodes,
+    updating_supernodes: UpdatingSupernodes,
 }
 
 impl Symbolic {
@@ -80,8 +80,8 @@ impl Symbolic {
         };
         let supernodes = Supernodes::from_analysis(&cholesky);
         Ok(Self {
-            branch: Branch::of_factor(supernodes),
-            reaching: UpdatingSupernodes::new(supernodes),
+            branch: Branch::from_supernodes(supernodes),
+            updating_supernodes: UpdatingSupernodes::new(supernodes),
             sources,
             pattern,
             cholesky,
@@ -116,7 +116,7 @@ impl Symbolic {
     /// Parts of the factor for backward substitution part by part, each after its parent; every part that has children has at least `least`
     /// values together with its descendants.
     pub fn parts(&self, least: usize) -> Vec<Part> {
-        Part::of_factor(self.supernodes(), least)
+        Part::from_supernodes(self.supernodes(), least)
     }
 
     /// The panels of the factor.
@@ -135,8 +135,8 @@ impl Symbolic {
     }
 
     /// For each supernode, the supernodes before it that update it.
-    pub(crate) fn reaching(&self) -> &UpdatingSupernodes {
-        &self.reaching
+    pub(crate) fn updating_supernodes(&self) -> &UpdatingSupernodes {
+        &self.updating_supernodes
     }
 
     /// Index in the matrix of each row of the factor, shape (n).

@@ -18,7 +18,7 @@ const SINGULAR: f64 = 1e-12;
 const STEPS: (usize, f64) = (30, 1e-13);
 
 /// Weights of the corners of a cell at a position.
-struct Found {
+struct CornerWeights {
     /// Depth inside the sides of the cell, over its height; negative outside.
     depth: f64,
     /// Corners and their weights, which sum to one.
@@ -32,9 +32,9 @@ impl Mesh {
         let corner = |node: u32| self.positions[node as usize];
         let near =
             (self.cells.iter()).filter(|it| is_near(it.corners(), &self.positions, position));
-        deepest(near.filter_map(|cell| match *cell {
-            Cell::Triangle(nodes) => in_simplex(nodes, nodes.map(corner), position),
-            Cell::Quadrangle(nodes) => in_block(&nodes, &nodes.map(corner), position),
+        weights_in_deepest_cell(near.filter_map(|cell| match *cell {
+            Cell::Triangle(nodes) => simplex_weights(nodes, nodes.map(corner), position),
+            Cell::Quadrangle(nodes) => block_weights(&nodes, &nodes.map(corner), position),
         }))
     }
 }
@@ -47,12 +47,13 @@ impl SolidMesh {
         let corner = |node: u32| self.positions[node as usize];
         let near =
             (self.cells.iter()).filter(|it| is_near(it.corners(), &self.positions, position));
-        deepest(near.filter_map(|cell| match *cell {
-            SolidCell::Hexahedron(nodes) => in_block(&nodes, &nodes.map(corner), position),
+        weights_in_deepest_cell(near.filter_map(|cell| match *cell {
+            SolidCell::Hexahedron(nodes) => block_weights(&nodes, &nodes.map(corner), position),
             _ => {
                 let parts = cell.tetrahedra();
-                let found = parts.filter_map(|it| in_simplex(it, it.map(corner), position));
-                found.max_by(|one, other| one.depth.total_cmp(&other.depth))
+                let candidates =
+                    parts.filter_map(|it| simplex_weights(it, it.map(corner), position));
+                candidates.max_by(|one, other| one.depth.total_cmp(&other.depth))
             }
         }))
     }
@@ -71,8 +72,10 @@ fn is_near<const D: usize>(nodes: &[u32], positions: &[[f64; D]], position: [f64
 }
 
 /// Weights in the cell with the largest depth of the position, the first of several.
-fn deepest(found: impl Iterator<Item = Found>) -> Option<Vec<(u32, f64)>> {
-    let best = found.reduce(|best, it| if it.depth > best.depth { it } else { best });
+fn weights_in_deepest_cell(
+    candidates: impl Iterator<Item = CornerWeights>,
+) -> Option<Vec<(u32, f64)>> {
+    let best = candidates.reduce(|best, it| if it.depth > best.depth { it } else { best });
     let mut shares = best.filter(|it| it.depth >= -OUTSIDE)?.shares;
     shares.retain(|(_, share)| *share > NOTHING);
     let sum: f64 = shares.iter().map(|(_, share)| share).sum();
@@ -82,13 +85,13 @@ fn deepest(found: impl Iterator<Item = Found>) -> Option<Vec<(u32, f64)>> {
     Some(shares)
 }
 
-fn in_simplex<const D: usize, const N: usize>(
+fn simplex_weights<const D: usize, const N: usize>(
     nodes: [u32; N],
     corners: [[f64; D]; N],
     position: [f64; D],
-) -> Option<Found> {
+) -> Option<CornerWeights> {
     let shares = barycentric(corners, position)?;
-    Some(Found {
+    Some(CornerWeights {
         depth: shares.into_iter().fold(f64::INFINITY, f64::min),
         shares: nodes.into_iter().zip(shares).collect(),
     })
@@ -114,11 +117,11 @@ pub(crate) fn barycentric<const D: usize, const N: usize>(
 
 /// Weights at a position in a quadrangle or hexahedron, with its corners in the order of Gmsh, by Newton's method for sum of N_k(s) x_k = x
 /// with the products N_k of s_a or 1 - s_a along each axis.
-fn in_block<const D: usize>(
+fn block_weights<const D: usize>(
     nodes: &[u32],
     corners: &[[f64; D]],
     position: [f64; D],
-) -> Option<Found> {
+) -> Option<CornerWeights> {
     // Corners around the base and then around the top: along x they are 0, 1, 1, 0, along y 0, 0, 1, 1.
     let is_upper = |corner: usize, axis: usize| match axis {
         0 => (corner ^ (corner >> 1)) & 1 == 1,
@@ -151,7 +154,7 @@ fn in_block<const D: usize>(
             let depths = at.iter().map(|&it| it.min(1.0 - it));
             let inside = at.map(|it| it.clamp(0.0, 1.0));
             let shares = (0..).zip(nodes).map(|(k, &node)| (node, share(k, &inside)));
-            return Some(Found {
+            return Some(CornerWeights {
                 depth: depths.fold(f64::INFINITY, f64::min),
                 shares: shares.collect(),
             });

@@ -15,12 +15,9 @@
 //! # Ok::<(), ligament_mesh::gmsh::GmshError>(())
 //! ```
 
-mod any_mesh;
 mod cell;
 mod curve;
-mod field;
 pub mod gmsh;
-mod group;
 mod interpolation;
 mod mesh;
 mod numbering;
@@ -28,12 +25,9 @@ mod overlap;
 mod remark;
 mod solid;
 
-pub use any_mesh::AnyMesh;
 pub use cell::{Cell, MeshCell};
 pub use curve::along_hilbert_curve;
-pub use field::NodeField;
-pub use group::Group;
-pub use mesh::{Mesh, SolidMesh};
+pub use mesh::{AnyMesh, Group, Mesh, NodeField, SolidMesh};
 pub use numbering::Numbering;
 pub use remark::Remark;
 pub use solid::{Faces, NotOnOutline, Side, SolidCell};

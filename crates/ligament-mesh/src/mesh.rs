@@ -1,11 +1,11 @@
-//! Meshes: nodes, cells and named groups.
+//! Meshes: nodes, cells, physical groups, and values at the nodes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::cell::{Cell, MeshCell};
-use crate::field::NodeField;
-use crate::group::Group;
 use crate::remark::Remark;
 use crate::solid::SolidCell;
 
@@ -105,5 +105,67 @@ impl<const D: usize, C> Mesh<D, C> {
     /// All groups of a given name, in the order of dimension, then number.
     pub fn groups_named(&self, name: &str) -> impl Iterator<Item = &Group> {
         self.groups.iter().filter(move |group| group.name == name)
+    }
+}
+
+/// A mesh that is planar or solid.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AnyMesh {
+    /// Triangles and quadrangles in a plane.
+    Plane(Mesh),
+    /// Tetrahedra, hexahedra, prisms and pyramids.
+    Solid(SolidMesh),
+}
+
+impl AnyMesh {
+    /// Number of nodes.
+    pub fn n_nodes(&self) -> usize {
+        match self {
+            AnyMesh::Plane(mesh) => mesh.positions.len(),
+            AnyMesh::Solid(mesh) => mesh.positions.len(),
+        }
+    }
+}
+
+/// A physical group of the mesh file: a named set of nodes, with its edges, faces or cells.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub struct Group {
+    /// Name of the group; for an unnamed group its number in decimal.
+    pub name: String,
+    /// Dimension: 0 points, 1 curves, 2 surfaces, 3 volumes.
+    pub dimension: u8,
+    /// Number of the physical group in the file.
+    pub number: i32,
+    /// Nodes of the group, ascending, each once.
+    pub nodes: Vec<u32>,
+    /// Edges of a curve group, ascending by their nodes, each once (else empty).
+    pub edges: Vec<[u32; 2]>,
+    /// Faces of a surface group of a solid mesh, ascending by their nodes, each once, with either orientation (else empty).
+    pub faces: Vec<Cell>,
+    /// Cells, ascending: of a surface group of a planar mesh, or a volume group of a solid one (else empty).
+    pub cells: Vec<u32>,
+}
+
+/// A view of a post-processing program at one time: a section `$NodeData`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct NodeField {
+    /// Name of the view.
+    pub name: String,
+    /// Number of the time step, by which several sections of one name differ.
+    pub time_step: i32,
+    /// Number of values per node: 1 for scalars, 3 for vectors, 9 for tensors.
+    pub components: u64,
+    /// Nodes with their values, ascending; nodes without a value are left out. Empty for vectors and tensors: only scalars are stored.
+    pub values: Vec<(u32, f64)>,
+}
+
+impl NodeField {
+    /// Value at each node, shape (n_nodes); `None` where the section has no value.
+    pub fn at_nodes(&self, n_nodes: usize) -> Vec<Option<f64>> {
+        let mut dense = vec![None; n_nodes];
+        for &(node, value) in &self.values {
+            dense[node as usize] = Some(value);
+        }
+        dense
     }
 }

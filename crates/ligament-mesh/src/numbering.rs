@@ -7,9 +7,7 @@ use rayon::prelude::*;
 
 use crate::cell::{Cell, MeshCell};
 use crate::curve::along_hilbert_curve;
-use crate::field::NodeField;
-use crate::group::Group;
-use crate::mesh::Mesh;
+use crate::mesh::{Group, Mesh, NodeField};
 
 /// Numbering of the points of a body: as in its file, which is the default, or along a space-filling curve. Copies share their lists.
 ///
@@ -119,13 +117,13 @@ impl Numbering {
 
     /// Reorders values from the order of the points to the order of the file, with any number of values per point.
     pub fn to_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
-        taken(self.order_of_file(), values)
+        rows_in_order(self.order_of_file(), values)
     }
 
     /// Reorders values from the order of the file to the order of the points, with any number of values per point.
     pub fn from_file<T: Copy>(&self, values: Vec<T>) -> Vec<T> {
         let order = self.0.as_ref().map(|orders| orders.in_file.as_slice());
-        taken(order, values)
+        rows_in_order(order, values)
     }
 
     /// Cells between the points as cells between their places in the order of the file.
@@ -179,7 +177,7 @@ impl Numbering {
 }
 
 /// Values in a given order of their rows (n_rows), with any number of values per row.
-fn taken<T: Copy>(order: Option<&[u32]>, values: Vec<T>) -> Vec<T> {
+fn rows_in_order<T: Copy>(order: Option<&[u32]>, values: Vec<T>) -> Vec<T> {
     let Some(order) = order else {
         return values;
     };

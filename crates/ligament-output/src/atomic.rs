@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use crate::Error;
 
 /// Name of a file that marks a folder, such as a temporary one, whose files need not survive a failure of the machine: they are not synced.
-pub(crate) const PASSING: &str = ".passing";
+pub(crate) const UNSYNCED_MARKER: &str = ".passing";
 
 /// Writes a file to `path` with a function, and moves the previous file to `older`; both are synced to disk when this returns.
 ///
@@ -143,7 +143,7 @@ fn write_synced(path: &Path, write: impl FnOnce(&mut File) -> io::Result<()>) ->
     let mut file = File::create_new(path)?;
     write(&mut file)?;
     // Full quotas and remote disks may report a failed write only here, before the rename.
-    match path.with_file_name(PASSING).exists() {
+    match path.with_file_name(UNSYNCED_MARKER).exists() {
         true => Ok(()),
         false => file.sync_all(),
     }

@@ -95,10 +95,10 @@ impl Checkpoint {
             header.extend(FORMAT.to_le_bytes());
             header.extend(0_u64.to_le_bytes());
             file.write_all(&header)?;
-            let mut content = Content::new(file);
+            let mut content = ContentWriter::new(file);
             Serial::write(self, &mut content);
             solution(&mut content);
-            let (length, digest) = content.end()?;
+            let (length, digest) = content.finish()?;
             file.write_all(&digest.to_le_bytes())?;
             file.seek(SeekFrom::Start(HEADER - size_of::<u64>() as u64))?;
             file.write_all(&length.to_le_bytes())
@@ -145,27 +145,27 @@ impl Checkpoint {
             return Err("it is no checkpoint of a run".to_owned());
         }
         let damaged = |_| "it is damaged".to_owned();
-        let format = fixed(&mut from).map(u32::from_le_bytes);
+        let format = read_bytes(&mut from).map(u32::from_le_bytes);
         let format = format.map_err(damaged)?;
         if format != FORMAT {
             return Err(format!(
                 "it is of format {format}, which another version of the program writes; this one reads format {FORMAT}"
             ));
         }
-        let length = fixed(&mut from).map(u64::from_le_bytes);
+        let length = read_bytes(&mut from).map(u64::from_le_bytes);
         let length = length.map_err(damaged)?;
         let in_file = n_bytes.saturating_sub(HEADER + DIGEST);
         if in_file < length {
             return Err(format!("it ends after {n_bytes} bytes, too early"));
         }
-        let mut content = Digested::new((&mut from).take(length));
+        let mut content = DigestReader::new((&mut from).take(length));
         let checkpoint = Self::read(&mut content).map_err(damaged)?;
         let before = length - content.from.limit();
         let rest = io::copy(&mut content, &mut io::sink());
         let digest = content.digest.finish();
         if rest.is_err()
             || in_file != length
-            || fixed(&mut from).map(u64::from_le_bytes).ok() != Some(digest)
+            || read_bytes(&mut from).map(u64::from_le_bytes).ok() != Some(digest)
         {
             return Err("it is damaged: its digest is another one".to_owned());
         }
@@ -174,14 +174,14 @@ impl Checkpoint {
 }
 
 /// Reads the next N bytes.
-fn fixed<const N: usize>(from: &mut impl Read) -> Result<[u8; N], Damaged> {
+fn read_bytes<const N: usize>(from: &mut impl Read) -> Result<[u8; N], Damaged> {
     let mut bytes = [0; N];
     let read = from.read_exact(&mut bytes);
     read.map(|()| bytes).map_err(|_| Damaged)
 }
 
-/// Content of a checkpoint while it is written to its file.
-struct Content<'a> {
+/// Writer of the content of a checkpoint, which keeps its length and digest.
+struct ContentWriter<'a> {
     file: &'a mut File,
     /// Bytes that are not yet in the file.
     waiting: Vec<u8>,
@@ -192,7 +192,7 @@ struct Content<'a> {
     result: io::Result<()>,
 }
 
-impl<'a> Content<'a> {
+impl<'a> ContentWriter<'a> {
     fn new(file: &'a mut File) -> Self {
         Self {
             file,
@@ -203,7 +203,7 @@ impl<'a> Content<'a> {
         }
     }
 
-    fn pass_on(&mut self) {
+    fn flush(&mut self) {
         self.digest.write(&self.waiting);
         self.length += self.waiting.len() as u64;
         if self.result.is_ok() {
@@ -212,30 +212,30 @@ impl<'a> Content<'a> {
         self.waiting.clear();
     }
 
-    /// Length and digest of the content, which is then in the file.
-    fn end(mut self) -> io::Result<(u64, u64)> {
-        self.pass_on();
+    /// Writes the rest of the content to the file; returns length and digest of the whole content.
+    fn finish(mut self) -> io::Result<(u64, u64)> {
+        self.flush();
         self.result?;
         Ok((self.length, self.digest.finish()))
     }
 }
 
-impl Sink for Content<'_> {
+impl Sink for ContentWriter<'_> {
     fn put(&mut self, bytes: &[u8]) {
         self.waiting.extend_from_slice(bytes);
         if self.waiting.len() >= AT_ONCE {
-            self.pass_on();
+            self.flush();
         }
     }
 }
 
 /// A stream with the digest of the bytes read so far.
-struct Digested<R> {
+struct DigestReader<R> {
     from: R,
     digest: XxHash64,
 }
 
-impl<R> Digested<R> {
+impl<R> DigestReader<R> {
     fn new(from: R) -> Self {
         Self {
             from,
@@ -244,7 +244,7 @@ impl<R> Digested<R> {
     }
 }
 
-impl<R: Read> Read for Digested<R> {
+impl<R: Read> Read for DigestReader<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.from.read(buffer)?;
         self.digest.write(&buffer[..count]);

@@ -1,7 +1,7 @@
 //! Text in aligned columns.
 
 /// Largest width of a column, in characters; longer words exceed it.
-pub const WIDEST: usize = 120;
+pub const MAX_COLUMN_WIDTH: usize = 120;
 
 /// Rows of words as lines of columns, two spaces apart: the first `n_left` columns are left-aligned, the others right-aligned. A row of two
 /// words in a wider table is a name with a remark, which widens no column.
@@ -10,7 +10,7 @@ pub fn aligned(rows: &[Vec<String>], n_left: usize) -> Vec<String> {
     let width = |column: usize| {
         let rows = rows.iter().filter(|row| row.len() > 2 || n_columns == 2);
         let widths = rows.filter_map(|row| Some(row.get(column)?.chars().count()));
-        widths.max().unwrap_or(0).min(WIDEST)
+        widths.max().unwrap_or(0).min(MAX_COLUMN_WIDTH)
     };
     let widths: Vec<usize> = (0..n_columns).map(width).collect();
     let line = |row: &Vec<String>| {

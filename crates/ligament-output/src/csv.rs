@@ -11,15 +11,15 @@ use std::path::PathBuf;
 use twox_hash::XxHash64;
 
 use crate::Error;
+use crate::file_digest::{FileDigest, digest_of_beginning};
 use crate::folder::refuse_link;
-use crate::written::{Written, digested};
 
 /// One entry of a row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Value<'a> {
     /// A signed integer.
     Integer(i64),
-    /// A count.
+    /// A count, such as a number of bonds.
     Count(u64),
     /// A number, printed with the fewest digits that are read back exactly; `nan`, `inf` and `-inf` as words.
     Float(f64),
@@ -110,7 +110,7 @@ impl Table {
     /// # Errors
     ///
     /// If the file does not exist, is shorter, or cannot be written.
-    pub fn cut_back(
+    pub fn open_truncated(
         path: impl Into<PathBuf>,
         n_columns: usize,
         length: u64,
@@ -120,7 +120,7 @@ impl Table {
             let mut file = File::options().write(true).open(&path)?;
             file.set_len(length)?;
             file.seek(SeekFrom::End(0))?;
-            let (digest, _) = digested(&path, length)?;
+            let (digest, _) = digest_of_beginning(&path, length)?;
             Ok((file, digest))
         };
         let (file, digest) = open().map_err(Error::system("write", &path))?;
@@ -137,10 +137,10 @@ impl Table {
     /// # Errors
     ///
     /// If the file cannot be synced, or its length read.
-    pub fn synced(&self) -> Result<Written, Error> {
-        let synced = self.file.sync_data().and_then(|()| self.file.metadata());
-        let metadata = synced.map_err(Error::system("write", &self.path))?;
-        Ok(Written {
+    pub fn sync(&self) -> Result<FileDigest, Error> {
+        let sync = self.file.sync_data().and_then(|()| self.file.metadata());
+        let metadata = sync.map_err(Error::system("write", &self.path))?;
+        Ok(FileDigest {
             length: metadata.len(),
             digest: self.digest.finish(),
         })

@@ -34,7 +34,7 @@ pub enum Error {
         action: &'static str,
         /// Path of the file or folder.
         path: PathBuf,
-        /// The cause.
+        /// Cause of the error in the operating system.
         source: io::Error,
     },
     /// A result file in another form than this program writes.
@@ -79,7 +79,7 @@ pub enum Error {
         path: PathBuf,
         /// Number of the process, where known.
         process: Option<u32>,
-        /// What the user can do.
+        /// Remedy for the user.
         #[source]
         remedy: Remedy,
     },
@@ -92,7 +92,7 @@ pub enum Error {
         path: PathBuf,
         /// Name of the missing marker file.
         marker: &'static str,
-        /// What the user can do.
+        /// Remedy for the user.
         #[source]
         remedy: Remedy,
     },

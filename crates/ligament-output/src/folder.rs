@@ -1,27 +1,25 @@
 //! The folder with the results of one run.
 
-mod copy;
 mod entries;
 mod kind;
 mod lock;
 mod replacement;
 
-use std::fs;
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use crate::Error;
+use entries::{names, remove_files, resolve_links};
+use kind::is_lock_or_temporary;
+use lock::FolderLock;
+use replacement::{folder_of_new_results, path_of_new_results, path_of_old_results};
+
 use crate::atomic::remove_file;
-use crate::remedy::{Place, Remedy, Way};
-use crate::replace_file;
-use entries::{remove_files, resolved};
-use lock::Lock;
-use replacement::{behind, beside, free_place_aside};
+use crate::remedy::{PathKind, Remedy, Resolution};
+use crate::{Error, replace_file};
 
-pub use copy::copy_results;
 pub use entries::{refuse_link, refuse_links, remove_unfinished_pages};
-pub use kind::{Kind, REPORT, RESOLVED_CASE, input_name, is_made_later};
-pub use replacement::{put_in_place, recover};
+pub use kind::{Kind, REPORT, RESOLVED_CASE, input_name, is_derived_file};
+pub use replacement::{recover, replace_folder};
 
 /// A folder for the results of one run, locked against other processes.
 ///
@@ -32,9 +30,9 @@ pub struct ResultFolder {
     /// Folder to which files are written.
     path: PathBuf,
     kind: Kind,
-    lock: Lock,
+    lock: FolderLock,
     /// Folder of earlier results to be replaced, and its lock.
-    replaces: Option<(PathBuf, Lock)>,
+    replaces: Option<(PathBuf, FolderLock)>,
 }
 
 impl ResultFolder {
@@ -47,7 +45,7 @@ impl ResultFolder {
     ///
     /// If the folder may not be used, another process writes to it, or it cannot be created.
     pub fn create(path: impl AsRef<Path>, replace: bool) -> Result<Self, Error> {
-        Self::create_marked(path, Kind::RUN, replace)
+        Self::create_of_kind(path, Kind::RUN, replace)
     }
 
     /// Creates a folder of another kind, whose marker the caller writes first.
@@ -55,33 +53,37 @@ impl ResultFolder {
     /// # Errors
     ///
     /// As for [`ResultFolder::create`].
-    pub fn create_marked(path: impl AsRef<Path>, kind: Kind, replace: bool) -> Result<Self, Error> {
+    pub fn create_of_kind(
+        path: impl AsRef<Path>,
+        kind: Kind,
+        replace: bool,
+    ) -> Result<Self, Error> {
         let given = path.as_ref();
-        Self::check_marked(given, kind, replace)?;
-        let path = resolved(given);
+        Self::check_of_kind(given, kind, replace)?;
+        let path = resolve_links(given);
         fs::create_dir_all(&path).map_err(Error::system("create", &path))?;
-        let lock = locked(&path, kind)?;
+        let lock = lock_folder(&path, kind)?;
         // Another process may have filled the folder before it was locked.
-        match Occupant::usable_content(&path, given, kind, replace)? {
-            Occupant::Nothing => Ok(Self::locked(path, kind, lock)),
-            Occupant::Results => Self::beside(path, kind, lock),
+        match FolderContent::usable_content(&path, given, kind, replace)? {
+            FolderContent::Nothing => Ok(Self::lock_folder(path, kind, lock)),
+            FolderContent::Results => Self::create_beside(path, kind, lock),
         }
     }
 
     /// Creates a new folder beside earlier results; files left there by a killed run are removed.
-    fn beside(path: PathBuf, kind: Kind, lock: Lock) -> Result<Self, Error> {
-        let new = beside(&path)?;
-        Occupant::usable_content(&new, &new, kind, true)?;
+    fn create_beside(path: PathBuf, kind: Kind, lock: FolderLock) -> Result<Self, Error> {
+        let new = path_of_new_results(&path)?;
+        FolderContent::usable_content(&new, &new, kind, true)?;
         fs::create_dir_all(&new).map_err(Error::system("create", &new))?;
-        let new_lock = locked(&new, kind)?;
+        let new_lock = lock_folder(&new, kind)?;
         replacement::clear(&new, kind)?;
         Ok(Self {
             replaces: Some((path, lock)),
-            ..Self::locked(new, kind, new_lock)
+            ..Self::lock_folder(new, kind, new_lock)
         })
     }
 
-    fn locked(path: PathBuf, kind: Kind, lock: Lock) -> Self {
+    fn lock_folder(path: PathBuf, kind: Kind, lock: FolderLock) -> Self {
         Self {
             path,
             kind,
@@ -95,11 +97,11 @@ impl ResultFolder {
     /// # Errors
     ///
     /// If another process writes to the folder, or the folder cannot be written.
-    pub fn existing(path: impl AsRef<Path>, kind: Kind) -> Result<Self, Error> {
-        let path = resolved(path.as_ref());
+    pub fn open(path: impl AsRef<Path>, kind: Kind) -> Result<Self, Error> {
+        let path = resolve_links(path.as_ref());
         recover(&path, kind)?;
-        let lock = locked(&path, kind)?;
-        Ok(Self::locked(path, kind, lock))
+        let lock = lock_folder(&path, kind)?;
+        Ok(Self::lock_folder(path, kind, lock))
     }
 
     /// Opens the folder of a stopped run with its files. Where the run was to replace earlier results, both paths `NAME` and `NAME.new`
@@ -107,20 +109,22 @@ impl ResultFolder {
     ///
     /// # Errors
     ///
-    /// As for [`ResultFolder::existing`].
-    pub fn resumed(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let (path, kind) = (resolved(path.as_ref()), Kind::RUN);
+    /// As for [`ResultFolder::open`].
+    pub fn open_resumed(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let (path, kind) = (resolve_links(path.as_ref()), Kind::RUN);
         recover(&path, kind)?;
         let holds_results = |it: &PathBuf| it.join(kind.marker).is_file();
-        let old = behind(&path).filter(holds_results).unwrap_or(path);
-        let lock = locked(&old, kind)?;
-        let Some(new) = beside(&old).ok().filter(holds_results) else {
-            return Ok(Self::locked(old, kind, lock));
+        let old = folder_of_new_results(&path)
+            .filter(holds_results)
+            .unwrap_or(path);
+        let lock = lock_folder(&old, kind)?;
+        let Some(new) = path_of_new_results(&old).ok().filter(holds_results) else {
+            return Ok(Self::lock_folder(old, kind, lock));
         };
-        let new_lock = locked(&new, kind)?;
+        let new_lock = lock_folder(&new, kind)?;
         Ok(Self {
             replaces: Some((old, lock)),
-            ..Self::locked(new, kind, new_lock)
+            ..Self::lock_folder(new, kind, new_lock)
         })
     }
 
@@ -129,10 +133,10 @@ impl ResultFolder {
     /// # Errors
     ///
     /// If another process writes to the folder.
-    pub fn settled(path: impl AsRef<Path>) -> Result<PathBuf, Error> {
-        let path = resolved(path.as_ref());
+    pub fn path_for_reading(path: impl AsRef<Path>) -> Result<PathBuf, Error> {
+        let path = resolve_links(path.as_ref());
         recover(&path, Kind::RUN)?;
-        Lock::check(&path)?;
+        FolderLock::check(&path)?;
         Ok(path)
     }
 
@@ -142,18 +146,19 @@ impl ResultFolder {
     ///
     /// If the folder may not be used, or another process writes to it.
     pub fn check(path: &Path, replace: bool) -> Result<(), Error> {
-        Self::check_marked(path, Kind::RUN, replace)
+        Self::check_of_kind(path, Kind::RUN, replace)
     }
 
-    fn check_marked(given: &Path, kind: Kind, replace: bool) -> Result<(), Error> {
-        let path = resolved(given);
+    fn check_of_kind(given: &Path, kind: Kind, replace: bool) -> Result<(), Error> {
+        let path = resolve_links(given);
         recover(&path, kind)?;
-        Lock::check(&path)?;
-        if let Occupant::Results = Occupant::usable_content(&path, given, kind, replace)? {
-            free_place_aside(&path)?;
-            let new = beside(&path)?;
-            Lock::check(&new)?;
-            Occupant::usable_content(&new, &new, kind, true)?;
+        FolderLock::check(&path)?;
+        if let FolderContent::Results = FolderContent::usable_content(&path, given, kind, replace)?
+        {
+            path_of_old_results(&path)?;
+            let new = path_of_new_results(&path)?;
+            FolderLock::check(&new)?;
+            FolderContent::usable_content(&new, &new, kind, true)?;
         }
         Ok(())
     }
@@ -196,8 +201,8 @@ impl ResultFolder {
     /// # Errors
     ///
     /// If the files cannot be listed or removed.
-    pub fn remove_made_later(&self) -> Result<(), Error> {
-        remove_files(&self.path, is_made_later)
+    pub fn remove_derived_files(&self) -> Result<(), Error> {
+        remove_files(&self.path, is_derived_file)
     }
 
     /// Completes the folder: its results replace earlier ones.
@@ -211,32 +216,32 @@ impl ResultFolder {
         let Some((folder, mut old_lock)) = self.replaces.take() else {
             return Ok(());
         };
-        put_in_place(&self.path, &folder, self.kind, || Ok(()))?;
+        replace_folder(&self.path, &folder, self.kind, || Ok(()))?;
         // The lock's file was removed with the old results.
-        old_lock.moved_to(&self.path);
-        self.lock.moved_to(&folder);
+        old_lock.set_folder(&self.path);
+        self.lock.set_folder(&folder);
         Ok(())
     }
 }
 
 /// Locks a folder without links among its result files; removes unfinished files of killed processes.
-fn locked(folder: &Path, kind: Kind) -> Result<Lock, Error> {
+fn lock_folder(folder: &Path, kind: Kind) -> Result<FolderLock, Error> {
     refuse_links(folder, kind)?;
-    let lock = Lock::take(folder)?;
+    let lock = FolderLock::take(folder)?;
     // No other process writes files of this kind here while this one has the lock.
     remove_files(folder, |name| kind.is_unfinished(name))?;
     Ok(lock)
 }
 
 /// Content of a path to which a run may write its results.
-enum Occupant {
+enum FolderContent {
     /// No folder, or an empty one.
     Nothing,
     /// Results that are to be replaced.
     Results,
 }
 
-impl Occupant {
+impl FolderContent {
     /// Content of a path, if a run may write there; `given` is the user's form of the path.
     fn usable_content(path: &Path, given: &Path, kind: Kind, replace: bool) -> Result<Self, Error> {
         let metadata = match fs::metadata(path) {
@@ -245,7 +250,7 @@ impl Occupant {
             Err(error) => return Err(Error::system("look at", path)(error)),
         };
         let (given, marker) = (given.to_path_buf(), kind.marker);
-        let elsewhere = |way| Remedy::Elsewhere(Place::Folder, way);
+        let elsewhere = |way| Remedy::OtherPath(PathKind::Folder, way);
         if !metadata.is_dir() {
             return Err(Error::NotAFolder(given, elsewhere(None)));
         }
@@ -258,14 +263,40 @@ impl Occupant {
         }
         match path.join(marker).is_file() {
             true if replace => Ok(Self::Results),
-            true => Err(Error::ResultsExist(given, elsewhere(Some(Way::Replace)))),
+            true => Err(Error::ResultsExist(
+                given,
+                elsewhere(Some(Resolution::Replace)),
+            )),
             false => Err(Error::NotAResultFolder {
                 path: given,
                 marker,
-                remedy: elsewhere(Some(Way::Remove)),
+                remedy: elsewhere(Some(Resolution::Remove)),
             }),
         }
     }
+}
+
+/// Copies the files of a folder with the results of a run into another one, where earlier results are replaced if `replace` is set.
+///
+/// # Errors
+///
+/// If a process writes to either folder, the other one may not be used, or a file cannot be copied.
+pub fn copy_results(from: &Path, to: &Path, replace: bool) -> Result<(), Error> {
+    recover(from, Kind::RUN)?;
+    FolderLock::check(from)?;
+    refuse_links(from, Kind::RUN)?;
+    let into = ResultFolder::create(to, replace)?;
+    let mut names = names(from)?;
+    // First the file by which a folder is recognised.
+    names.sort_by_key(|name| name.to_str() != Some(Kind::RUN.marker));
+    for name in names {
+        let (source, target) = (from.join(&name), into.path().join(&name));
+        let is_trace = name.to_str().is_some_and(is_lock_or_temporary);
+        if !is_trace && source.is_file() {
+            fs::copy(&source, &target).map_err(Error::system("copy", &source))?;
+        }
+    }
+    into.finish()
 }
 
 #[cfg(test)]
@@ -315,7 +346,7 @@ mod tests {
         let error = ResultFolder::create(&path, false).unwrap_err();
         assert!(matches!(&error, Error::ResultsExist(p, _) if *p == path));
         let source = std::error::Error::source(&error).unwrap();
-        let remedy = Remedy::Elsewhere(Place::Folder, Some(Way::Replace));
+        let remedy = Remedy::OtherPath(PathKind::Folder, Some(Resolution::Replace));
         assert_eq!(source.downcast_ref(), Some(&remedy));
         assert_eq!(n_entries(&path), 1);
     }
@@ -373,7 +404,7 @@ mod tests {
             for error in [
                 ResultFolder::check(&path, true).unwrap_err(),
                 ResultFolder::create(&path, true).unwrap_err(),
-                ResultFolder::existing(&path, Kind::RUN).unwrap_err(),
+                ResultFolder::open(&path, Kind::RUN).unwrap_err(),
             ] {
                 let message = error.to_string();
                 assert!(
@@ -418,7 +449,7 @@ mod tests {
             let folder = ResultFolder::create(&path, true).unwrap();
             folder.write(RESOLVED_CASE, "new").unwrap();
             drop(folder);
-            let folder = ResultFolder::resumed(parent.path().join(name)).unwrap();
+            let folder = ResultFolder::open_resumed(parent.path().join(name)).unwrap();
             assert_eq!(folder.path(), parent.path().join("results.new"));
             folder.finish().unwrap();
             assert_eq!(fs::read_to_string(path.join(RESOLVED_CASE)).unwrap(), "new");

@@ -22,6 +22,7 @@ pub mod checkpoint;
 pub mod columns;
 pub mod csv;
 mod error;
+mod file_digest;
 pub mod folder;
 pub mod pvd;
 pub mod quantity;
@@ -31,7 +32,6 @@ mod single_file;
 pub mod summary;
 pub mod terminal;
 pub mod vtu;
-mod written;
 mod xml;
 
 pub use atomic::{read_json, read_text, remove_if_there, rename};

@@ -4,7 +4,7 @@
 
 /// Unit in which the values of a quantity are shown.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shown {
+pub struct PrefixedUnit {
     /// Factor of values in SI units.
     pub factor: f64,
     /// Prefix of the unit: `k`; `u` for a millionth.
@@ -18,7 +18,7 @@ pub struct Shown {
 /// Prefixes of the powers of ten, in steps of three from 10^-12.
 const PREFIXES: [&str; 9] = ["p", "n", "u", "m", "", "k", "M", "G", "T"];
 
-impl Shown {
+impl PrefixedUnit {
     /// The unit for values of a size, in an SI unit such as `J/m^3`; `-` is no unit.
     pub fn new(unit: &str, size: f64) -> Self {
         let exact = if size > 0.0 && size.is_finite() {
@@ -30,8 +30,8 @@ impl Shown {
         match unit {
             // Long times are shown in s, not ks.
             "s" if exact >= 3.0 => return Self::plain(symbol),
-            "m^2" => return Self::of_lengths(symbol, exact, 2),
-            "m^3" => return Self::of_lengths(symbol, exact, 3),
+            "m^2" => return Self::with_length_prefix(symbol, exact, 2),
+            "m^3" => return Self::with_length_prefix(symbol, exact, 3),
             _ => {}
         }
         // Lengths are shown as 0.1 to 100, all other quantities as 1 to 1000.
@@ -68,7 +68,7 @@ impl Shown {
 
     /// Unit of areas and volumes: square or cubic millimetres below a hundredth of a square or a thousandth of a cubic metre, and
     /// micrometres for smaller values.
-    fn of_lengths(symbol: &str, exact: f64, dimensions: i32) -> Self {
+    fn with_length_prefix(symbol: &str, exact: f64, dimensions: i32) -> Self {
         let prefix = match exact {
             exact if exact >= -f64::from(dimensions) => return Self::plain(symbol),
             exact if exact >= -3.0 - 3.0 * f64::from(dimensions) => ("m", 3),
@@ -118,7 +118,7 @@ fn least(unit: &str) -> f64 {
 const NOTHING: f64 = 1e-12;
 
 /// A value, or 0 where it is only rounding compared with the largest value of its column or curve.
-pub fn settled(value: f64, largest: f64) -> f64 {
+pub fn zero_if_rounding(value: f64, largest: f64) -> f64 {
     if value.abs() < NOTHING * largest.abs() {
         0.0
     } else {
@@ -138,12 +138,12 @@ pub fn without_rounding(value: f64, unit: &str) -> f64 {
 /// Formats a value in an SI unit: `quantity(6.4e5, "N")` is `640.0 kN`; `-` is no unit.
 pub fn quantity(value: f64, unit: &str) -> String {
     let value = without_rounding(value, unit);
-    Shown::new(unit, value.abs()).value(value)
+    PrefixedUnit::new(unit, value.abs()).value(value)
 }
 
 /// Formats a smallest and a largest value in one unit: `1.113 to 2.264 mm`; one value where both are formatted alike.
 pub fn between([min, max]: [f64; 2], unit: &str) -> String {
-    let shown = Shown::new(unit, min.abs().max(max.abs()));
+    let shown = PrefixedUnit::new(unit, min.abs().max(max.abs()));
     let [low, high] = [min, max].map(|value| shown.number(value));
     if low == high {
         shown.value(max)
@@ -155,7 +155,7 @@ pub fn between([min, max]: [f64; 2], unit: &str) -> String {
 /// Formats a position: `(12.50, -3.000) mm`.
 pub fn place(position: &[f64]) -> String {
     let largest = position.iter().map(|it| it.abs()).fold(0.0, f64::max);
-    let shown = Shown::new("m", largest);
+    let shown = PrefixedUnit::new("m", largest);
     let coordinates: Vec<String> = position.iter().map(|&it| shown.number(it)).collect();
     format!("({}) {}", coordinates.join(", "), shown.symbol())
 }
@@ -220,9 +220,9 @@ mod tests {
 
     #[test]
     fn what_is_nothing_beside_the_largest_is_zero() {
-        assert_eq!(settled(2.093e-31, 5.0), 0.0);
-        assert_eq!(settled(-3e-12, 2.0), -3e-12);
-        assert_eq!(settled(0.0, 0.0), 0.0);
+        assert_eq!(zero_if_rounding(2.093e-31, 5.0), 0.0);
+        assert_eq!(zero_if_rounding(-3e-12, 2.0), -3e-12);
+        assert_eq!(zero_if_rounding(0.0, 0.0), 0.0);
     }
 
     #[test]

@@ -7,8 +7,8 @@ use std::fmt;
 /// ([`causes`]), which words it in its own terms.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Remedy {
-    /// Another path for the file or folder, or another way to write to this path.
-    Elsewhere(Place, Option<Way>),
+    /// Another path for the file or folder, or a resolution by which this path can be written to.
+    OtherPath(PathKind, Option<Resolution>),
     /// Another run, with this value of a key of the case.
     RunAgain {
         /// Path of the key, `output.model`.
@@ -27,25 +27,25 @@ pub enum Remedy {
     GiveNumber {
         /// Name of the option on the command line, `point`.
         option: &'static str,
-        /// The number.
+        /// Number to give for the option.
         value: i64,
     },
     /// An option of the request, to be left out.
-    LeaveOut(&'static str),
+    OmitOption(&'static str),
 }
 
 /// Purpose of a path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// A file.
+pub enum PathKind {
+    /// A path of a file.
     File,
     /// A folder of results.
     Folder,
 }
 
-/// A way to write to the same path.
+/// Resolution of a path that is occupied: what lets the user write there after all.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
+pub enum Resolution {
     /// The existing file or folder is replaced.
     Replace,
     /// The user removes the existing file or folder.
@@ -78,9 +78,9 @@ const COMMON: Terms = Terms {
 
 impl Remedy {
     /// The remedy in the terms of a front end.
-    pub fn worded(self, terms: &Terms) -> String {
-        let (place, way) = match self {
-            Self::Elsewhere(place, way) => (place, way),
+    pub fn text_in_terms(self, terms: &Terms) -> String {
+        let (kind, resolution) = match self {
+            Self::OtherPath(kind, resolution) => (kind, resolution),
             Self::RunAgain { key, value } => {
                 return format!("run it again with {}", (terms.setting)(key, value));
             }
@@ -90,25 +90,25 @@ impl Remedy {
             Self::GiveNumber { option, value } => {
                 return format!("give {}", (terms.option)(option, &value.to_string()));
             }
-            Self::LeaveOut(option) => return format!("leave out {}", (terms.option)(option, "")),
+            Self::OmitOption(option) => return format!("leave out {}", (terms.option)(option, "")),
         };
-        let place = match place {
-            Place::File => "file",
-            Place::Folder => "folder",
+        let kind = match kind {
+            PathKind::File => "file",
+            PathKind::Folder => "folder",
         };
-        let way = match way {
-            Some(Way::Replace) => format!(", or replace it{}", terms.replace),
-            Some(Way::Remove) => ", or remove it yourself".to_owned(),
-            Some(Way::Wait) => ", or wait for its end".to_owned(),
+        let resolution = match resolution {
+            Some(Resolution::Replace) => format!(", or replace it{}", terms.replace),
+            Some(Resolution::Remove) => ", or remove it yourself".to_owned(),
+            Some(Resolution::Wait) => ", or wait for its end".to_owned(),
             None => String::new(),
         };
-        format!("choose another {place}{}{way}", terms.elsewhere)
+        format!("choose another {kind}{}{resolution}", terms.elsewhere)
     }
 }
 
 impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.worded(&COMMON))
+        f.write_str(&self.text_in_terms(&COMMON))
     }
 }
 
@@ -122,7 +122,7 @@ pub fn causes<'a>(
     let mut causes: Vec<String> = Vec::new();
     for cause in chain {
         match (cause.downcast_ref::<Remedy>(), causes.last_mut()) {
-            (Some(remedy), Some(last)) => *last += &format!("; {}", remedy.worded(terms)),
+            (Some(remedy), Some(last)) => *last += &format!("; {}", remedy.text_in_terms(terms)),
             _ => causes.push(cause.to_string()),
         }
     }
@@ -137,7 +137,7 @@ mod tests {
 
     /// An error around another one that has a remedy, as front ends see it.
     #[derive(Debug, thiserror::Error)]
-    enum Around {
+    enum OuterError {
         #[error(transparent)]
         Inner(#[from] Inner),
     }
@@ -154,23 +154,26 @@ mod tests {
             setting: |key, value| format!("{key}:{value}"),
             option: |name, value| format!("/{name}:{value}"),
         };
-        let remedy = Remedy::Elsewhere(Place::Folder, Some(Way::Replace));
-        let error = Around::from(Inner(remedy));
+        let remedy = Remedy::OtherPath(PathKind::Folder, Some(Resolution::Replace));
+        let error = OuterError::from(Inner(remedy));
         let chain = successors(Some(&error as &(dyn Error + 'static)), |it| (*it).source());
-        let said = "out has results; choose another folder by PATH, or replace it by REPLACE";
-        assert_eq!(causes(chain, &terms), [said]);
+        let expected = "out has results; choose another folder by PATH, or replace it by REPLACE";
+        assert_eq!(causes(chain, &terms), [expected]);
         let again = Remedy::RunAgain {
             key: "output.model",
             value: "true",
         };
-        assert_eq!(again.worded(&terms), "run it again with output.model:true");
+        assert_eq!(
+            again.text_in_terms(&terms),
+            "run it again with output.model:true"
+        );
         let at = Remedy::Give {
             option: "at",
             value: "X,Y",
         };
-        assert_eq!(at.worded(&terms), "give /at:X,Y");
+        assert_eq!(at.text_in_terms(&terms), "give /at:X,Y");
         assert_eq!(at.to_string(), "give at X,Y");
-        assert_eq!(Remedy::LeaveOut("view").to_string(), "leave out view");
+        assert_eq!(Remedy::OmitOption("view").to_string(), "leave out view");
         assert_eq!(again.to_string(), "run it again with `output.model = true`");
     }
 }

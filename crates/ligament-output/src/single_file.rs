@@ -9,11 +9,11 @@ use std::path::Path;
 
 use crate::Error;
 use crate::atomic::replace_regular;
-use crate::remedy::{Place, Remedy, Way};
+use crate::remedy::{PathKind, Remedy, Resolution};
 
 /// Kind of the object at the path of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Occupant {
+enum PathContent {
     /// The path does not exist.
     Nothing,
     /// A regular file.
@@ -28,9 +28,9 @@ enum Occupant {
 ///
 /// If a file exists and may not be replaced, or the path can be neither replaced nor written to.
 pub fn check_file(path: &Path, replace: bool) -> Result<(), Error> {
-    match occupant(path)? {
-        Occupant::File if !replace => {
-            let remedy = Remedy::Elsewhere(Place::File, Some(Way::Replace));
+    match path_content(path)? {
+        PathContent::File if !replace => {
+            let remedy = Remedy::OtherPath(PathKind::File, Some(Resolution::Replace));
             Err(Error::FileExists(path.to_path_buf(), remedy))
         }
         _ => Ok(()),
@@ -56,16 +56,16 @@ pub fn write_file(path: &Path, contents: &[u8], replace: bool) -> Result<(), Err
 ///
 /// If the path is a link to a file or a folder, or cannot be written.
 pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
-    let written = match occupant(path)? {
-        Occupant::Stream => write_stream(path, contents),
-        Occupant::Nothing | Occupant::File => replace_regular(path, contents),
+    let written = match path_content(path)? {
+        PathContent::Stream => write_stream(path, contents),
+        PathContent::Nothing | PathContent::File => replace_regular(path, contents),
     };
     written.map_err(Error::system("write", path))
 }
 
 /// Whether a path is a pipe, a device or an open file of this process.
 pub fn is_stream(path: &Path) -> bool {
-    matches!(occupant(path), Ok(Occupant::Stream))
+    matches!(path_content(path), Ok(PathContent::Stream))
 }
 
 /// Whether a path is the standard output of this process.
@@ -73,23 +73,23 @@ pub fn is_standard_output(path: &Path) -> bool {
     descriptor(path) == Some(1)
 }
 
-fn occupant(path: &Path) -> Result<Occupant, Error> {
+fn path_content(path: &Path) -> Result<PathContent, Error> {
     if descriptor(path).is_some() {
-        return Ok(Occupant::Stream);
+        return Ok(PathContent::Stream);
     }
     // Other errors, such as a missing folder, are reported when the file is written.
     let Ok(found) = fs::symlink_metadata(path) else {
-        return Ok(Occupant::Nothing);
+        return Ok(PathContent::Nothing);
     };
     let kind = found.file_type();
     // Writing through a link to a pipe or a device, such as many in /dev, destroys nothing.
     let target = fs::metadata(path).map(|it| it.file_type());
     match target {
-        Ok(target) if is_pipe_or_device(target) => Ok(Occupant::Stream),
+        Ok(target) if is_pipe_or_device(target) => Ok(PathContent::Stream),
         _ if kind.is_symlink() => Err(Error::Link(path.to_path_buf())),
-        _ if kind.is_file() => Ok(Occupant::File),
+        _ if kind.is_file() => Ok(PathContent::File),
         _ => {
-            let remedy = Remedy::Elsewhere(Place::File, None);
+            let remedy = Remedy::OtherPath(PathKind::File, None);
             Err(Error::NoPlaceForFile(path.to_path_buf(), remedy))
         }
     }
@@ -136,11 +136,11 @@ fn write_stream(path: &Path, contents: &[u8]) -> io::Result<()> {
             stdout.flush()
         }
         Some(2) => io::stderr().lock().write_all(contents),
-        _ => opened(path)?.write_all(contents),
+        _ => open_stream(path)?.write_all(contents),
     }
 }
 
 /// Opens a stream for appending; a pipe blocks until it has a reader.
-fn opened(path: &Path) -> io::Result<File> {
+fn open_stream(path: &Path) -> io::Result<File> {
     OpenOptions::new().append(true).open(path)
 }

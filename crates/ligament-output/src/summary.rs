@@ -1,6 +1,5 @@
 //! `summary.json` of a run, or of an analysis of natural modes; writers and readers share these types.
 
-mod certificate;
 mod end;
 mod modal;
 mod model;
@@ -19,25 +18,24 @@ use schemars::generate::SchemaSettings;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use values::number;
 
 use crate::Error;
 use crate::atomic::read_json;
 use crate::folder::ResultFolder;
 use crate::quantity::{place, quantity};
 
-pub use certificate::CertificateSummary;
-pub use end::{UP_TO_THERE, verdict};
+pub use end::{INCOMPLETE_RUN_NOTE, verdict};
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 pub use motion::{EnergiesSummary, MotionSummary};
 pub use provenance::{Build, Identity, Input, Provenance, Stage};
-use values::number;
 
 pub use solver::{FactorSummary, IterationSummary, SolverSummary};
 pub use values::Text;
 
 /// Name of the file.
-pub const SUMMARY: &str = "summary.json";
+pub const SUMMARY_FILE: &str = "summary.json";
 
 /// Summary of a run. Keys that an earlier version did not write have their default.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
@@ -258,7 +256,7 @@ impl From<Stability> for StabilitySummary {
 ///
 /// If the file cannot be read, or is not a summary.
 pub fn read<S: DeserializeOwned>(folder: &Path) -> Result<Option<S>, Error> {
-    let path = folder.join(SUMMARY);
+    let path = folder.join(SUMMARY_FILE);
     if !path.is_file() {
         return Ok(None);
     }
@@ -279,14 +277,56 @@ pub fn schema<S: JsonSchema>() -> Value {
 /// If the file cannot be written.
 pub fn write<S: Serialize>(folder: &ResultFolder, summary: &S) -> Result<(), Error> {
     let text = serde_json::to_string_pretty(summary).map_err(|error| Error::Refused {
-        path: folder.file(SUMMARY),
+        path: folder.file(SUMMARY_FILE),
         reason: error.to_string(),
     })?;
-    folder.write(SUMMARY, &(text + "\n"))
+    folder.write(SUMMARY_FILE, &(text + "\n"))
 }
 
 fn is_false(value: &bool) -> bool {
     !value
+}
+
+/// Certificate of a run in statics.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct CertificateSummary {
+    /// Number of the last state at rest, which all values describe.
+    pub step: usize,
+    /// Number of bonds broken up to there.
+    pub broken_bonds: usize,
+    /// Work of supports and loads, J.
+    pub work: f64,
+    /// Energy stored in the bonds, J.
+    pub stored: f64,
+    /// Energy that breakages took out of the body, J: what bonds dissipated, and what would have become motion.
+    pub released: f64,
+    /// Energy that the laws of the bonds dissipated, J.
+    pub dissipated: f64,
+    /// Area of the cracks, m^2, of bonds that broke or have less than a tenth of their force left; none without cracks, of a divided
+    /// body, and of one with more points than are traced in a moment.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub crack_area: Option<f64>,
+    /// Dissipated energy over the area of the cracks, J/m^2.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dissipated_per_area: Option<f64>,
+    /// Fracture energy that the case gives, J/m^2; none where materials differ, and where no criterion has one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fracture_energy: Option<f64>,
+    /// Largest residual of the states that were found, unbalanced force over the forces that meet at a point; none where no iteration was
+    /// needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub largest_residual: Option<f64>,
+    /// Number of breakages that had the same utilisation as the one before, so that the numbers in the file decided their order.
+    pub ties: usize,
+}
+
+impl CertificateSummary {
+    /// Dissipated energy per area over the fracture energy, where there are both.
+    pub fn spent_ratio(&self) -> Option<f64> {
+        let both = self.dissipated_per_area.zip(self.fracture_energy);
+        both.map(|(spent, given)| spent / given)
+    }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Output of foreign texts on a terminal.
 //!
-//! A title, a name of a group or a line of a file may contain escape sequences that control a terminal. [`Plain`] shows control characters
+//! A title, a name of a group or a line of a file may contain escape sequences that control a terminal. [`EscapedWriter`] shows control characters
 //! instead of sending them.
 
 use std::borrow::Cow;
@@ -8,7 +8,7 @@ use std::io::{self, Write};
 
 /// A writer that shows control characters, except tabs and line ends, in the form `\u{1b}`.
 #[derive(Debug)]
-pub struct Plain<W> {
+pub struct EscapedWriter<W> {
     inner: W,
     /// Whether the last byte may be the first of the two bytes of a control character above 0x7f.
     is_in_control: bool,
@@ -17,7 +17,7 @@ pub struct Plain<W> {
 /// First byte of the characters U+0080 to U+00BF.
 const LEAD: u8 = 0xc2;
 
-impl<W: Write> Plain<W> {
+impl<W: Write> EscapedWriter<W> {
     /// A plain writer around another writer.
     pub fn new(inner: W) -> Self {
         Self {
@@ -27,7 +27,7 @@ impl<W: Write> Plain<W> {
     }
 }
 
-impl<W: Write> Write for Plain<W> {
+impl<W: Write> Write for EscapedWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let mut shown = Vec::with_capacity(bytes.len());
         for &byte in bytes {
@@ -60,7 +60,7 @@ pub fn plain(text: &str) -> Cow<'_, str> {
     }
     let mut shown = Vec::new();
     // Writing to memory cannot fail.
-    let _ = Plain::new(&mut shown).write_all(text.as_bytes());
+    let _ = EscapedWriter::new(&mut shown).write_all(text.as_bytes());
     Cow::Owned(String::from_utf8_lossy(&shown).into_owned())
 }
 
@@ -76,7 +76,7 @@ mod tests {
         assert_eq!(plain(text), expected);
         let mut out = Vec::new();
         // Characters may come in parts.
-        let mut plain = Plain::new(&mut out);
+        let mut plain = EscapedWriter::new(&mut out);
         text.bytes()
             .for_each(|byte| plain.write_all(&[byte]).unwrap());
         assert_eq!(String::from_utf8(out).unwrap(), expected);

@@ -18,9 +18,11 @@ use crate::replace_file;
 use crate::xml::escape_attribute;
 use crate::{Error, FieldLocation};
 
-pub(crate) use field::Chosen;
 pub use field::Field;
-pub use pieces::{Held, IN_PIECES, SINGLE, SharedCells, file_name, stem, write_shared};
+pub(crate) use field::SelectedValues;
+pub use pieces::{
+    FILE_EXTENSION, GlobalIndices, PIECES_EXTENSION, SharedCells, file_name, stem, write_shared,
+};
 
 /// Name of the time in the field data of a grid, which VTK recognises.
 pub const TIME_VALUE: &str = "TimeValue";
@@ -32,7 +34,7 @@ pub enum Cell {
     Vertex([u32; 1]),
     /// A segment, such as a bond.
     Line([u32; 2]),
-    /// A triangle.
+    /// A triangle by its three points.
     Triangle([u32; 3]),
     /// A quadrangle, with corners in order around the cell.
     Quad([u32; 4]),

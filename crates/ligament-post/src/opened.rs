@@ -15,11 +15,11 @@ pub struct OpenedCells<C> {
     pub of: Vec<u32>,
 }
 
-/// Numbers of the corners of pieces, by the points between which a corner lies, and the subset of these points on its side.
-pub(crate) type Found = HashMap<(Vec<u32>, Vec<u32>), u32>;
+/// Corners of pieces by number: the key has the points between which a corner lies, and the subset of these points on its side.
+pub(crate) type PieceCorners = HashMap<(Vec<u32>, Vec<u32>), u32>;
 
 impl<C> OpenedCells<C> {
-    /// No cells, with a corner at each point (n_points, m).
+    /// Opened cells without any cell, with a corner at each point (n_points, m).
     pub(crate) fn at_points(positions: Vec<[f64; 3]>) -> Self {
         let points = 0..positions.len() as u32;
         Self {
@@ -31,7 +31,12 @@ impl<C> OpenedCells<C> {
     }
 
     /// The corner in the middle of some points that follows `own` of them, both ascending: a new one, or one that is there already.
-    pub(crate) fn corner(&mut self, between: Vec<u32>, own: Vec<u32>, found: &mut Found) -> u32 {
+    pub(crate) fn corner(
+        &mut self,
+        between: Vec<u32>,
+        own: Vec<u32>,
+        found: &mut PieceCorners,
+    ) -> u32 {
         if let &[point] = between.as_slice() {
             return point;
         }

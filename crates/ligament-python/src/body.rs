@@ -57,7 +57,7 @@ pub(crate) fn write_mesh(
         }));
     }
     let mesh = gmsh::assemble(&nodes, &all);
-    let text = match mesh.map_err(|error| errors::of_body(py, &error.to_string()))? {
+    let text = match mesh.map_err(|error| errors::body_error(py, &error.to_string()))? {
         AnyMesh::Plane(mesh) => gmsh::write(&mesh),
         AnyMesh::Solid(mesh) => gmsh::write(&mesh),
     };
@@ -83,7 +83,7 @@ pub(crate) fn write_samples(
 
 fn written(py: Python<'_>, path: &std::path::Path, text: &str) -> PyResult<()> {
     let written = replace_file(path, text.as_bytes());
-    written.map_err(|error| errors::of_request(py, &error.to_string()))
+    written.map_err(|error| errors::request_error(py, &error.to_string()))
 }
 
 /// The table of points that are a body.
@@ -93,7 +93,7 @@ fn points_text<const D: usize>(
     sizes: Vec<f64>,
     groups: &Groups,
 ) -> PyResult<String> {
-    let fault = |error: String| errors::of_body(py, &error);
+    let fault = |error: String| errors::body_error(py, &error);
     let positions: Vec<[f64; D]> = positions_of(py, positions)?;
     let text = point_table::text_of_points(&positions, &sizes, groups).map_err(fault)?;
     let mut points = Points::new(positions, sizes).map_err(|it| fault(it.to_string()))?;
@@ -114,7 +114,7 @@ fn positions_of<const D: usize>(
             "positions have the shape (n, {D}), found {:?}",
             rows.shape()
         );
-        return Err(errors::of_body(py, &fault));
+        return Err(errors::body_error(py, &fault));
     }
     let rows = rows.rows().into_iter();
     Ok(rows

@@ -53,10 +53,10 @@ pub(crate) fn numbers<'py>(
     summary: &str,
     name: Option<&str>,
 ) -> PyResult<Bound<'py, PyDict>> {
-    let fault = |error: String| errors::of_request(py, &error);
+    let fault = |error: String| errors::request_error(py, &error);
     let summary: serde_json::Value =
         serde_json::from_str(summary).map_err(|it| fault(it.to_string()))?;
-    let all = Quantities::of_summary(&summary);
+    let all = Quantities::from_summary(&summary);
     let found = PyDict::new(py);
     if let Some(name) = name {
         let number = all.number(name).map_err(|it| fault(it.to_string()))?;

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::rows;
-use crate::errors::{Failure, of_case, of_request};
+use crate::errors::{Failure, case_error, request_error};
 use crate::{document, errors};
 
 /// A checked case.
@@ -25,7 +25,7 @@ impl Case {
     #[staticmethod]
     fn load(py: Python<'_>, path: PathBuf, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
         let overrides = document::overrides(changes)?;
-        let file = CaseFile::load(&path, &overrides).map_err(|it| of_case(py, &it))?;
+        let file = CaseFile::load(&path, &overrides).map_err(|it| case_error(py, &it))?;
         Ok(Self::new(file))
     }
 
@@ -38,7 +38,7 @@ impl Case {
         changes: &Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let overrides = document::overrides(changes)?;
-        let file = CaseFile::parse(&path, text, &overrides).map_err(|it| of_case(py, &it))?;
+        let file = CaseFile::parse(&path, text, &overrides).map_err(|it| case_error(py, &it))?;
         Ok(Self::new(file))
     }
 
@@ -52,15 +52,15 @@ impl Case {
     ) -> PyResult<Self> {
         let document = document::document(sections)?;
         let overrides = document::overrides(changes)?;
-        let file = CaseFile::of_document(&path, document, &overrides);
-        Ok(Self::new(file.map_err(|it| of_case(py, &it))?))
+        let file = CaseFile::from_document(&path, document, &overrides);
+        Ok(Self::new(file.map_err(|it| case_error(py, &it))?))
     }
 
     /// The case with further overrides.
     fn changed(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
         let more = document::overrides(changes)?;
         let file = self.file.with_overrides(&more);
-        Ok(Self::new(file.map_err(|it| of_case(py, &it))?))
+        Ok(Self::new(file.map_err(|it| case_error(py, &it))?))
     }
 
     /// Title of the case.
@@ -96,13 +96,13 @@ impl Case {
     /// The number at a key, as given or by default; `None` where there is none.
     fn number(&self, py: Python<'_>, key: &str) -> PyResult<Option<f64>> {
         let number = self.file.number(key);
-        number.map_err(|error| of_request(py, &error.to_string()))
+        number.map_err(|error| request_error(py, &error.to_string()))
     }
 
     /// The case as TOML with all defaults.
     fn to_toml(&self, py: Python<'_>) -> PyResult<String> {
         let text = self.file.resolved_toml();
-        text.map_err(|error| errors::of_request(py, &error.to_string()))
+        text.map_err(|error| errors::request_error(py, &error.to_string()))
     }
 
     /// The given sections as TOML, with the changes to them.

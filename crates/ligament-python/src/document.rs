@@ -2,7 +2,7 @@
 
 use ligament_case::case::document::{Entry, Node, Origin, Value};
 use ligament_case::case::key_path::KeyPath;
-use ligament_study::sweep::written;
+use ligament_study::sweep::toml_text;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 
@@ -34,7 +34,7 @@ pub(crate) fn overrides(changes: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
         }
         let place = KeyPath::parse(&key).unwrap_or_else(|| KeyPath(vec![key.clone()]));
         let node = Reading::default().node(&value, &place)?;
-        let text = written::toml(&node, &place);
+        let text = toml_text::toml(&node, &place);
         let text = text.map_err(|it| errors::at_key(value.py(), &place, &it.fault.to_string()))?;
         all.push(format!("{key}={text}"));
     }
@@ -45,7 +45,7 @@ pub(crate) fn overrides(changes: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
 pub(crate) fn text(py: Python<'_>, document: &Node) -> PyResult<String> {
     let line = |entry: &Entry| {
         let place = KeyPath(vec![entry.key.clone()]);
-        let value = written::toml(&entry.node, &place);
+        let value = toml_text::toml(&entry.node, &place);
         let value = value.map_err(|it| errors::at_key(py, &place, &it.fault.to_string()))?;
         Ok(format!("{place} = {value}\n"))
     };

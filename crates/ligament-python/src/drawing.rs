@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use ligament_plot::drawing::Drawing;
 use ligament_plot::picture::select::Choice;
-use ligament_plot::picture::units::Shown;
+use ligament_plot::picture::units::AxisUnit;
 use ligament_plot::picture::{
     CrackDrawing, FieldRequest, Magnification, SolidRequest, Target, picture_of_fields,
 };
@@ -45,11 +45,11 @@ pub(crate) fn draw_fields(
     folder: PathBuf,
     step: &str,
     wanted: Wanted,
-) -> PyResult<(Drawn, String)> {
-    let request = request(folder, step, wanted).map_err(|it| errors::of_request(py, &it))?;
-    let drawn = py.detach(|| picture_of_fields(&request));
-    let (drawing, title) = drawn.map_err(|error| errors::of_error(py, &error))?;
-    Ok((Drawn(drawing), title))
+) -> PyResult<(PythonDrawing, String)> {
+    let request = request(folder, step, wanted).map_err(|it| errors::request_error(py, &it))?;
+    let drawing = py.detach(|| picture_of_fields(&request));
+    let (drawing, title) = drawing.map_err(|error| errors::program_error(py, &error))?;
+    Ok((PythonDrawing(drawing), title))
 }
 
 fn request(folder: PathBuf, step: &str, wanted: Wanted) -> Result<FieldRequest, String> {
@@ -76,17 +76,17 @@ fn request(folder: PathBuf, step: &str, wanted: Wanted) -> Result<FieldRequest, 
             width: Some(wanted.width),
             ..Target::default()
         },
-        ..FieldRequest::usual(folder)
+        ..FieldRequest::default_for(folder)
     })
 }
 
 /// A picture in memory, which becomes a file of any kind.
 #[pyclass(frozen, name = "Drawing", module = "ligament._native")]
-pub(crate) struct Drawn(Drawing);
+pub(crate) struct PythonDrawing(Drawing);
 
 #[pymethods]
-impl Drawn {
-    /// The picture of a text that [`Drawn::__getnewargs__`] gave, by which pictures are pickled and copied.
+impl PythonDrawing {
+    /// The picture of a text that [`PythonDrawing::__getnewargs__`] gave, by which pictures are pickled and copied.
     #[new]
     fn new(text: &str) -> PyResult<Self> {
         let drawing = serde_json::from_str(text);
@@ -106,7 +106,7 @@ impl Drawn {
     /// The bytes of the picture as PNG with so many dots per inch.
     fn png(&self, py: Python<'_>, dpi: f64) -> PyResult<Cow<'static, [u8]>> {
         let bytes = self.0.to_png(dpi).map(Cow::Owned);
-        bytes.map_err(|error| errors::of_request(py, &error.to_string()))
+        bytes.map_err(|error| errors::request_error(py, &error.to_string()))
     }
 
     /// The bytes of the picture as PDF with a title.
@@ -131,7 +131,7 @@ pub(crate) fn draw_curves(
     y: (String, String),
     title: String,
     width: f64,
-) -> PyResult<Drawn> {
+) -> PyResult<PythonDrawing> {
     let values = |axis: usize| {
         let of = curves
             .iter()
@@ -142,7 +142,10 @@ pub(crate) fn draw_curves(
         let sizes = values(axis).filter(|it| it.is_finite());
         sizes.fold(0.0, |largest, it| f64::max(largest, it.abs()))
     };
-    let shown = [Shown::new(&x.1, largest(0)), Shown::new(&y.1, largest(1))];
+    let shown = [
+        AxisUnit::new(&x.1, largest(0)),
+        AxisUnit::new(&y.1, largest(1)),
+    ];
     let colours = [Colour::Black].into_iter().chain(Colour::CYCLE).cycle();
     let series = curves.iter().zip(colours).map(|((label, x, y), colour)| {
         let (x, y) = (x.as_array(), y.as_array());
@@ -152,6 +155,6 @@ pub(crate) fn draw_curves(
     });
     let labels = [shown[0].label(&x.0), shown[1].label(&y.0)];
     let plot = Plot::new("curves", title, [&labels[0], &labels[1]], series.collect());
-    let drawing = plot.for_paper(width).map(Drawn);
-    drawing.map_err(|error| errors::of_request(py, &error.to_string()))
+    let drawing = plot.for_paper(width).map(PythonDrawing);
+    drawing.map_err(|error| errors::request_error(py, &error.to_string()))
 }

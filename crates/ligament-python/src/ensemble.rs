@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 
 use crate::case::Case;
 use crate::errors::Failure;
-use crate::solution::watched;
+use crate::solution::run_watched;
 
 /// Computes the samples of a case that a folder lacks: `wanted` are the number of samples, the seed, and the number of displacements of their
 /// curves. Returns whether Ctrl-C stopped it.
@@ -22,7 +22,7 @@ pub(crate) fn compute_ensemble(
 ) -> PyResult<bool> {
     let file = &case.get().file;
     let (samples, seed, points) = wanted;
-    let (done, stopped) = watched(py, None, |_steps, stop| {
+    let (done, stopped) = run_watched(py, None, |_steps, stop| {
         let request = Request {
             case: file,
             samples,
@@ -30,7 +30,7 @@ pub(crate) fn compute_ensemble(
             points,
             displacement: None,
             out: &folder,
-            is_stopped: &|| stop.asked(1),
+            is_stopped: &|| stop.has_requests(1),
             task: Task::Run(Settings {
                 shard: None,
                 jobs: None,

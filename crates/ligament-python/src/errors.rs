@@ -33,7 +33,7 @@ fn argument(option: &str, value: &str) -> String {
 
 /// Machine-readable parts of an error.
 #[derive(Debug, Default)]
-struct Parts {
+struct ErrorParts {
     key: Option<String>,
     path: Option<String>,
     line: Option<usize>,
@@ -56,12 +56,17 @@ impl Failure {
     /// The exception for the failure.
     pub(crate) fn exception(self, py: Python<'_>) -> PyErr {
         match self {
-            Self::Case(error) => of_case(py, &error),
+            Self::Case(error) => case_error(py, &error),
             Self::Other(error) => match error.downcast_ref::<CaseError>() {
-                Some(error) => of_case(py, error),
+                Some(error) => case_error(py, error),
                 None => {
                     let message = causes(error.chain(), &TERMS).join(": ");
-                    raised(py, "SolutionError", &message, Parts::of_message(&message))
+                    exception_named(
+                        py,
+                        "SolutionError",
+                        &message,
+                        ErrorParts::from_message(&message),
+                    )
                 }
             },
             Self::Stopped => pyo3::exceptions::PyKeyboardInterrupt::new_err(()),
@@ -81,9 +86,9 @@ impl From<anyhow::Error> for Failure {
     }
 }
 
-impl Parts {
+impl ErrorParts {
     /// The hint of a message follows its first semicolon.
-    fn of_message(message: &str) -> Self {
+    fn from_message(message: &str) -> Self {
         let hint = message.split_once("; ").map(|(_, hint)| hint.to_owned());
         Self {
             hint,
@@ -93,9 +98,9 @@ impl Parts {
 }
 
 /// The exception for an error of a case.
-pub(crate) fn of_case(py: Python<'_>, error: &CaseError) -> PyErr {
-    let message = of_sections(error);
-    let mut parts = Parts::of_message(&message);
+pub(crate) fn case_error(py: Python<'_>, error: &CaseError) -> PyErr {
+    let message = sections_message(error);
+    let mut parts = ErrorParts::from_message(&message);
     match error {
         CaseError::Key { location, key, .. } => {
             parts.key = Some(key.clone());
@@ -107,11 +112,11 @@ pub(crate) fn of_case(py: Python<'_>, error: &CaseError) -> PyErr {
         }
         CaseError::Read { path, .. } => parts.path = Some(path.display().to_string()),
     }
-    raised(py, "CaseError", &message, parts)
+    exception_named(py, "CaseError", &message, parts)
 }
 
 /// Message of an error of a case, in which overrides are keyword arguments and sections are values.
-fn of_sections(error: &CaseError) -> String {
+fn sections_message(error: &CaseError) -> String {
     match error {
         CaseError::Override { given, reason } => format!("{}: {reason}", keyword(given)),
         CaseError::Key {
@@ -136,7 +141,7 @@ fn keyword(given: &str) -> String {
     format!("{}={}", key.replace('.', "__"), value.unwrap_or("None"))
 }
 
-impl Parts {
+impl ErrorParts {
     fn place(&mut self, location: &Location) {
         match location {
             Location::Position { path, line, column } => {
@@ -151,30 +156,30 @@ impl Parts {
 
 /// The exception for a fault at a key of sections in memory.
 pub(crate) fn at_key(py: Python<'_>, key: &KeyPath, fault: &str) -> PyErr {
-    let parts = Parts {
+    let parts = ErrorParts {
         key: Some(key.to_string()),
-        ..Parts::of_message(fault)
+        ..ErrorParts::from_message(fault)
     };
-    raised(py, "CaseError", &format!("{key}: {fault}"), parts)
+    exception_named(py, "CaseError", &format!("{key}: {fault}"), parts)
 }
 
 /// The exception for arrays that make no body.
-pub(crate) fn of_body(py: Python<'_>, fault: &str) -> PyErr {
-    raised(py, "BodyError", fault, Parts::of_message(fault))
+pub(crate) fn body_error(py: Python<'_>, fault: &str) -> PyErr {
+    exception_named(py, "BodyError", fault, ErrorParts::from_message(fault))
 }
 
 /// The exception for an error of the program, with its causes.
-pub(crate) fn of_error(py: Python<'_>, error: &(dyn Error + 'static)) -> PyErr {
+pub(crate) fn program_error(py: Python<'_>, error: &(dyn Error + 'static)) -> PyErr {
     let chain = successors(Some(error), |it| (*it).source());
-    of_request(py, &causes(chain, &TERMS).join(": "))
+    request_error(py, &causes(chain, &TERMS).join(": "))
 }
 
 /// The exception for a request that cannot be fulfilled.
-pub(crate) fn of_request(py: Python<'_>, fault: &str) -> PyErr {
-    raised(py, "LigamentError", fault, Parts::of_message(fault))
+pub(crate) fn request_error(py: Python<'_>, fault: &str) -> PyErr {
+    exception_named(py, "LigamentError", fault, ErrorParts::from_message(fault))
 }
 
-fn raised(py: Python<'_>, kind: &str, message: &str, parts: Parts) -> PyErr {
+fn exception_named(py: Python<'_>, kind: &str, message: &str, parts: ErrorParts) -> PyErr {
     let made = || {
         let keywords = PyDict::new(py);
         keywords.set_item("key", parts.key)?;

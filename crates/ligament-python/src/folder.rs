@@ -7,7 +7,7 @@ use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
 use ligament_cli::explain::{self, Position, Subject};
 use ligament_output::Error;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::folder::{REPORT, copy_results};
 use ligament_output::results::bond_arrays::{BondArrays, positions_of_fields};
 use ligament_output::results::columns::is_count;
@@ -18,7 +18,7 @@ use ligament_output::results::outputs::{OutputKind, Outputs, kind_of, require_re
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
 use ligament_output::results::steps::StepChoice;
 use ligament_output::results::stored_jumps;
-use ligament_output::vtu::read::{TAGGED, VtuFile};
+use ligament_output::vtu::read::{TAG_NOUNS, VtuFile};
 use ligament_plot::stored_loading::stored_loading;
 use ligament_report::{DIGITS, MEGABYTE, SIZE, STEPS, write_report};
 use pyo3::prelude::*;
@@ -45,8 +45,8 @@ type Line<'py> = (Bound<'py, PyAny>, [&'static str; 2], f64);
 type Limits = (Option<u32>, Option<u32>, Option<f64>);
 
 /// The exception of a fault in a folder.
-fn told(py: Python<'_>) -> impl Fn(Error) -> PyErr {
-    move |error| errors::of_error(py, &error)
+fn folder_error(py: Python<'_>) -> impl Fn(Error) -> PyErr {
+    move |error| errors::program_error(py, &error)
 }
 
 #[pymethods]
@@ -54,7 +54,7 @@ impl Folder {
     /// The folder at a path.
     #[new]
     fn new(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        require_results(&path).map_err(told(py))?;
+        require_results(&path).map_err(folder_error(py))?;
         let is_modal = kind_of(&path) == OutputKind::Modes;
         let path = std::path::absolute(&path).unwrap_or(path);
         Ok(Self { path, is_modal })
@@ -67,7 +67,7 @@ impl Folder {
 
     /// The columns of a table by their names: arrays, and lists of texts.
     fn table<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyDict>> {
-        let sheet = Sheet::read(self.path.join(name)).map_err(told(py))?;
+        let sheet = CsvTable::read(self.path.join(name)).map_err(folder_error(py))?;
         let columns = PyDict::new(py);
         for column in sheet.columns() {
             columns.set_item(column, column_of(py, &sheet, name, column)?)?;
@@ -77,8 +77,8 @@ impl Folder {
 
     /// SI units of the columns of the history, `-` where there is none or it is not known.
     fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let sheet = Sheet::read(self.path.join("history.csv")).map_err(told(py))?;
-        let loading = stored_loading(&self.path).map_err(told(py))?;
+        let sheet = CsvTable::read(self.path.join("history.csv")).map_err(folder_error(py))?;
+        let loading = stored_loading(&self.path).map_err(folder_error(py))?;
         let units = PyDict::new(py);
         for column in sheet.columns() {
             units.set_item(column, loading.unit_of(column))?;
@@ -88,7 +88,7 @@ impl Folder {
 
     /// Names of the probes.
     fn probes(&self, py: Python<'_>) -> PyResult<Vec<String>> {
-        let loading = stored_loading(&self.path).map_err(told(py))?;
+        let loading = stored_loading(&self.path).map_err(folder_error(py))?;
         Ok(loading.probes.into_keys().collect())
     }
 
@@ -99,19 +99,23 @@ impl Folder {
 
     /// The step that a name or a number means, among those with fields or among all of the history.
     fn step(&self, py: Python<'_>, name: &str, of_fields: bool) -> PyResult<usize> {
-        let fault = |error: String| errors::of_request(py, &error);
+        let fault = |error: String| errors::request_error(py, &error);
         let all = match of_fields {
             true => self.steps(py)?,
             false => {
-                let history = Sheet::read(self.path.join("history.csv")).map_err(told(py))?;
-                history.values("step").map_err(told(py))?
+                let history =
+                    CsvTable::read(self.path.join("history.csv")).map_err(folder_error(py))?;
+                history.values("step").map_err(folder_error(py))?
             }
         };
         let choice: StepChoice = name
             .parse()
             .map_err(|it| fault(format!("step `{name}`: {it}")))?;
         let steps = choice.steps(&self.path, &all);
-        match steps.map_err(|it| errors::of_error(py, &it))?.as_slice() {
+        match steps
+            .map_err(|it| errors::program_error(py, &it))?
+            .as_slice()
+        {
             [one] => Ok(one.step),
             _ => Err(fault(format!(
                 "`{name}` means several steps; name one of them"
@@ -123,17 +127,19 @@ impl Folder {
     fn file(&self, py: Python<'_>, step: usize) -> PyResult<PathBuf> {
         let mut outputs = self.outputs(py)?;
         let file = outputs.files.remove(&step);
-        file.ok_or_else(|| errors::of_request(py, &format!("there are no fields of step {step}")))
+        file.ok_or_else(|| {
+            errors::request_error(py, &format!("there are no fields of step {step}"))
+        })
     }
 
-    /// Names of the fields in a step, each with those of its components and whether it stays as it is in all steps.
+    /// Names of the fields in a step, each with the names of its components and whether it stays as it is in all steps.
     fn fields<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Bound<'py, PyDict>> {
-        let file = VtuFile::open(self.file(py, step)?).map_err(told(py))?;
+        let file = VtuFile::open(self.file(py, step)?).map_err(folder_error(py))?;
         let location = location(&file);
         let named = PyDict::new(py);
         for name in file.fields(location) {
             let row = ResultField::named(name).map(|it| it.reading);
-            let is_fixed = TAGGED.contains(&name)
+            let is_fixed = TAG_NOUNS.contains(&name)
                 || matches!(
                     row,
                     Some(
@@ -152,14 +158,14 @@ impl Folder {
     fn field<'py>(&self, py: Python<'py>, step: usize, name: &str) -> PyResult<Bound<'py, PyAny>> {
         let path = self.file(py, step)?;
         let read = py.detach(|| Values::read(&path, name));
-        read.map_err(told(py))?.array(py)
+        read.map_err(folder_error(py))?.array(py)
     }
 
     /// Positions of the points by a file of fields, shape (n_points, 3), m.
     fn positions<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Bound<'py, PyAny>> {
         let path = self.file(py, step)?;
         let read = py.detach(|| VtuFile::open(path).and_then(|it| positions_of_fields(&it)));
-        rows(py, read.map_err(told(py))?.into_flattened(), 3)
+        rows(py, read.map_err(folder_error(py))?.into_flattened(), 3)
     }
 
     /// Positions of the points, and arrays over the bonds; `None` where the run wrote no model.
@@ -168,7 +174,7 @@ impl Folder {
         py: Python<'py>,
     ) -> PyResult<Option<(Bound<'py, PyAny>, Bound<'py, PyDict>)>> {
         let read = py.detach(|| BondArrays::read(&self.path));
-        let Some(read) = read.map_err(told(py))? else {
+        let Some(read) = read.map_err(folder_error(py))? else {
             return Ok(None);
         };
         let bonds = PyDict::new(py);
@@ -186,13 +192,13 @@ impl Folder {
 
     /// Whether the body is a solid.
     fn is_solid(&self, py: Python<'_>) -> PyResult<bool> {
-        has_solid(&self.path).map_err(told(py))
+        has_solid(&self.path).map_err(folder_error(py))
     }
 
     /// The cracks in the state of a step, as lines.
     fn cracks<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Vec<Line<'py>>> {
         let lines = py.detach(|| StoredCracks::open(&self.path).map(|it| it.lines(step)));
-        let lines = lines.map_err(told(py))?.into_iter();
+        let lines = lines.map_err(folder_error(py))?.into_iter();
         lines
             .map(|line| {
                 let (length, ends) = (line.length(), line.ends.map(|end| end.word()));
@@ -209,7 +215,7 @@ impl Folder {
             let jumps = stored_jumps(&self.path, &cracks, &surface, step)?;
             Ok::<_, Error>((surface, jumps))
         });
-        let (surface, jumps) = read.map_err(told(py))?;
+        let (surface, jumps) = read.map_err(folder_error(py))?;
         let [opening, sliding] = [0, 1].map(|place| jumps.iter().map(|it| it[place]).collect());
         let named = PyDict::new(py);
         named.set_item("area", surface.area())?;
@@ -237,7 +243,7 @@ impl Folder {
             ([], &[x, y, z]) => Subject::At(Position::InSpace([x, y, z])),
             _ => {
                 let fault = "give one of `point` (a tag), `bond` (two tags) and `at` (a position)";
-                return Err(errors::of_request(py, fault));
+                return Err(errors::request_error(py, fault));
             }
         };
         let request = explain::Request {
@@ -249,14 +255,14 @@ impl Folder {
         };
         let mut words = Vec::new();
         let explained = py.detach(|| explain::explain(&request, &mut words));
-        explained.map_err(|error| errors::of_error(py, error.as_ref()))?;
+        explained.map_err(|error| errors::program_error(py, error.as_ref()))?;
         Ok(String::from_utf8_lossy(&words).into_owned())
     }
 
     /// Copies the results into another folder, where earlier results are replaced if `replace` is set.
     fn copy_to(&self, py: Python<'_>, folder: PathBuf, replace: bool) -> PyResult<()> {
         py.detach(|| copy_results(&self.path, &folder, replace))
-            .map_err(told(py))
+            .map_err(folder_error(py))
     }
 }
 
@@ -287,20 +293,20 @@ pub(crate) fn report(
         unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
     };
     let written = py.detach(|| write_report(&request));
-    let written = written.map_err(|error| errors::of_error(py, &error))?;
+    let written = written.map_err(|error| errors::program_error(py, &error))?;
     Ok(written.path)
 }
 
 impl Folder {
     fn outputs(&self, py: Python<'_>) -> PyResult<Outputs> {
-        Outputs::list(&self.path).map_err(told(py))
+        Outputs::list(&self.path).map_err(folder_error(py))
     }
 }
 
 /// A column of a table as an array of integers or numbers, or as a list of texts.
 fn column_of<'py>(
     py: Python<'py>,
-    sheet: &Sheet,
+    sheet: &CsvTable,
     table: &str,
     column: &str,
 ) -> PyResult<Bound<'py, PyAny>> {

@@ -21,16 +21,16 @@ const LOOK: Duration = Duration::from_millis(50);
 
 /// Number of the user's requests to stop: the first ends the run at the next state, the second immediately.
 #[derive(Debug, Default)]
-pub(crate) struct Stop(AtomicU8);
+pub(crate) struct StopRequests(AtomicU8);
 
-impl Stop {
+impl StopRequests {
     /// Adds a request to stop.
-    fn ask(&self) {
+    fn add_request(&self) {
         self.0.fetch_add(1, Ordering::Relaxed);
     }
 
     /// Whether there were at least `times` requests.
-    pub(crate) fn asked(&self, times: u8) -> bool {
+    pub(crate) fn has_requests(&self, times: u8) -> bool {
         self.0.load(Ordering::Relaxed) >= times
     }
 }
@@ -46,8 +46,8 @@ pub(crate) fn run(
     report: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<bool> {
     let file = &case.get().file;
-    let work = |steps, stop: &Stop| solve(file, (&folder, replace), steps, stop);
-    let (solved, stopped) = watched(py, report, work)?;
+    let work = |steps, stop: &StopRequests| solve(file, (&folder, replace), steps, stop);
+    let (solved, stopped) = run_watched(py, report, work)?;
     solved.map_err(|failure| failure.exception(py))?;
     Ok(stopped)
 }
@@ -56,18 +56,18 @@ fn solve(
     file: &CaseFile,
     (folder, replace): (&Path, bool),
     steps: Sender<StepLine>,
-    stop: &Stop,
+    stop: &StopRequests,
 ) -> Result<(), Failure> {
     let request = Request {
         force: replace,
-        is_stopped: &|| stop.asked(1),
-        is_aborted: &|| stop.asked(2),
+        is_stopped: &|| stop.has_requests(1),
+        is_aborted: &|| stop.has_requests(2),
         keeps_inputs: true,
         steps: Some(steps),
         ..Request::new(file, folder, BUILD)
     };
     match request.run(ProgressMode::Quiet) {
-        Err(_) if stop.asked(2) => Err(Failure::Stopped),
+        Err(_) if stop.has_requests(2) => Err(Failure::Stopped),
         Err(error) if error.is::<StoppedBeforeSolution>() => Err(Failure::Stopped),
         other => Ok(other.map(|_| ())?),
     }
@@ -79,19 +79,19 @@ fn solve(
 /// # Errors
 ///
 /// If `report` fails; the work is then stopped.
-pub(crate) fn watched<T: Send>(
+pub(crate) fn run_watched<T: Send>(
     py: Python<'_>,
     report: Option<&Bound<'_, PyAny>>,
-    work: impl FnOnce(Sender<StepLine>, &Stop) -> T + Send,
+    work: impl FnOnce(Sender<StepLine>, &StopRequests) -> T + Send,
 ) -> PyResult<(T, bool)> {
     let (sender, receiver) = channel();
-    let stop = Stop::default();
+    let stop = StopRequests::default();
     let stop = &stop;
     let report = report.map(|it| it.clone().unbind());
     let (done, watched) = py.detach(move || {
         thread::scope(|scope| {
             let worker = scope.spawn(move || work(sender, stop));
-            let watched = watch(&receiver, report.as_ref(), stop);
+            let watched = report_progress(&receiver, report.as_ref(), stop);
             let done = worker.join();
             (done, watched)
         })
@@ -107,7 +107,11 @@ pub(crate) fn watched<T: Send>(
 }
 
 /// Reports progress until the work has ended; returns the first signal or failure, which stops the work.
-fn watch(receiver: &Receiver<StepLine>, report: Option<&Py<PyAny>>, stop: &Stop) -> PyResult<()> {
+fn report_progress(
+    receiver: &Receiver<StepLine>,
+    report: Option<&Py<PyAny>>,
+    stop: &StopRequests,
+) -> PyResult<()> {
     let mut ended = Ok(());
     loop {
         let told = receiver.recv_timeout(LOOK);
@@ -116,7 +120,7 @@ fn watch(receiver: &Receiver<StepLine>, report: Option<&Py<PyAny>>, stop: &Stop)
         }
         let looked = Python::attach(|py| {
             py.check_signals()?;
-            if let (Ok(line), Some(report), false) = (told, report, stop.asked(1)) {
+            if let (Ok(line), Some(report), false) = (told, report, stop.has_requests(1)) {
                 let [displacement, force] = [line.displacement, line.load];
                 let [displacement, force] = [displacement, force].map(|it| it.unwrap_or(f64::NAN));
                 let (step, factor, broken) = (line.step, line.load_factor, line.broken_bonds);
@@ -125,7 +129,7 @@ fn watch(receiver: &Receiver<StepLine>, report: Option<&Py<PyAny>>, stop: &Stop)
             Ok(())
         });
         if looked.is_err() {
-            stop.ask();
+            stop.add_request();
             ended = ended.and(looked);
         }
     }

@@ -45,7 +45,10 @@ impl Body {
         let (tagged, tags) = file.tags(location)?;
         let (positions, halves): (Vec<[f64; 3]>, Vec<[f64; 3]>) = match location {
             FieldLocation::Point => (corners, Vec::new()),
-            FieldLocation::Cell => cells.iter().map(|it| around(it, &corners)).unzip(),
+            FieldLocation::Cell => cells
+                .iter()
+                .map(|it| middle_and_half_sides(it, &corners))
+                .unzip(),
         };
         let order = order(&positions, dimension);
         let places = places(&order);
@@ -101,7 +104,7 @@ pub(crate) fn places(order: &[u32]) -> Vec<u32> {
 }
 
 /// Middle of a square or box, and halves of its sides.
-fn around(cell: &Cell, corners: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
+fn middle_and_half_sides(cell: &Cell, corners: &[[f64; 3]]) -> ([f64; 3], [f64; 3]) {
     let corners: Vec<[f64; 3]> = (cell.points().iter())
         .map(|&it| corners[it as usize])
         .collect();
@@ -131,7 +134,7 @@ fn order(positions: &[[f64; 3]], dimension: usize) -> Vec<u32> {
     let code = |it: &u32| {
         let position = positions[*it as usize];
         let along = |axis: usize| ((position[axis] - ranges[axis][0]) / size * raster) as u32;
-        let bits = (0..dimension).map(|axis| spread(along(axis), dimension) << axis);
+        let bits = (0..dimension).map(|axis| spread_bits(along(axis), dimension) << axis);
         (bits.fold(0, |all, it| all | it), *it)
     };
     let mut order: Vec<u32> = (0..positions.len() as u32).collect();
@@ -139,10 +142,10 @@ fn order(positions: &[[f64; 3]], dimension: usize) -> Vec<u32> {
     order
 }
 
-/// The bits of a number, with a distance of `apart` places from each bit to the next.
-fn spread(number: u32, apart: usize) -> u64 {
+/// The bits of a number, with a distance of `spacing` places from each bit to the next.
+fn spread_bits(number: u32, spacing: usize) -> u64 {
     (0..BITS as usize).fold(0, |sum, bit| {
-        sum | u64::from(number >> bit & 1) << (apart * bit)
+        sum | u64::from(number >> bit & 1) << (spacing * bit)
     })
 }
 

@@ -45,7 +45,8 @@ impl Bonds {
             .collect();
         pairs.sort_unstable();
         let order: Vec<usize> = pairs.iter().map(|it| it.1).collect();
-        let ends = [0, 1].map(|end| Column::whole(pairs.iter().map(|it| i64::from(it.0[end]))));
+        let ends =
+            [0, 1].map(|end| Column::whole_numbers(pairs.iter().map(|it| i64::from(it.0[end]))));
         let criteria: Vec<String> = model.criteria.iter().map(|it| it.name.clone()).collect();
         let (breaks, utilisation_at_break) = breaks(run, &places, &pairs);
         Self {
@@ -59,8 +60,8 @@ impl Bonds {
     }
 
     /// Number of characters of the ends in a page.
-    pub(crate) fn letters(&self) -> usize {
-        self.ends.iter().map(Column::letters).sum()
+    pub(crate) fn n_characters(&self) -> usize {
+        self.ends.iter().map(Column::n_characters).sum()
     }
 }
 
@@ -71,7 +72,7 @@ fn columns(run: &StoredRun, order: &[usize]) -> Vec<(String, Column)> {
         let values: Vec<f64> = order.iter().map(|it| values[*it]).collect();
         Column::single(&values, Digits::OfLargest(DIGITS))
     };
-    let whole = |values: &[i64]| Column::whole(order.iter().map(|it| values[*it]));
+    let whole = |values: &[i64]| Column::whole_numbers(order.iter().map(|it| values[*it]));
     let absent: Vec<i64> = (bonds.absence.iter())
         .map(|it| it.map_or(0, |it| it.number()))
         .collect();

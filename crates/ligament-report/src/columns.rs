@@ -44,13 +44,13 @@ impl Column {
     }
 
     /// The column of whole numbers of a single step.
-    pub(crate) fn whole(values: impl IntoIterator<Item = i64>) -> Self {
+    pub(crate) fn whole_numbers(values: impl IntoIterator<Item = i64>) -> Self {
         let values: Vec<f64> = values.into_iter().map(|it| it as f64).collect();
         Self::single(&values, Digits::Whole)
     }
 
     /// Number of characters in a page.
-    pub(crate) fn letters(&self) -> usize {
+    pub(crate) fn n_characters(&self) -> usize {
         self.groups.iter().map(String::len).sum()
     }
 }
@@ -191,7 +191,7 @@ mod tests {
     #[test]
     fn whole_numbers_stay_as_they_are() {
         let tags = [1, 5, 70_000, 3, -12];
-        let column = Column::whole(tags);
+        let column = Column::whole_numbers(tags);
         assert_eq!(read(&column, 5)[0], tags.map(|it| it as f64));
         assert_eq!(column.exponents, [0]);
     }

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::body::{Body, places};
 use crate::columns::{Column, Digits, Encoder};
 use crate::history::column;
-use crate::parts::Texts;
+use crate::parts::ColumnTexts;
 
 /// Digits of the positions of nodes.
 const DIGITS: u32 = 6;
@@ -26,17 +26,22 @@ pub(crate) fn describe(
     folder: &Path,
     steps: &[usize],
     body: &Body,
-    texts: &mut Texts,
+    texts: &mut ColumnTexts,
 ) -> Result<Value, Error> {
     match body.dimension {
-        3 => Ok(of_solid(&SolidCracks::open(folder)?, steps, body, texts)),
+        3 => Ok(solid_cracks(
+            &SolidCracks::open(folder)?,
+            steps,
+            body,
+            texts,
+        )),
         _ => Ok(in_plane(&StoredCracks::open(folder)?, steps, body, texts)),
     }
 }
 
 /// Crack lines of the steps, each a list of lines of coordinates x, y, `null` where unchanged from the step before, and their length; triangles
 /// of a mesh that are cut at some time, with the sides of their corners in each step.
-fn in_plane(cracks: &StoredCracks, steps: &[usize], body: &Body, texts: &mut Texts) -> Value {
+fn in_plane(cracks: &StoredCracks, steps: &[usize], body: &Body, texts: &mut ColumnTexts) -> Value {
     let (mut before, mut lengths) = (Value::Null, Vec::new());
     let mut of_steps = Vec::new();
     for &step in steps {
@@ -62,7 +67,7 @@ fn in_plane(cracks: &StoredCracks, steps: &[usize], body: &Body, texts: &mut Tex
     let triangles = triangles(cracks, steps);
     if !triangles.is_empty() {
         let corners: Vec<[u32; 3]> = triangles.iter().map(|it| it.0).collect();
-        described["of"] = of_mesh(&corners, body, texts);
+        described["of"] = mesh_simplices(&corners, body, texts);
         let sides = (0..steps.len()).map(|step| triangles.iter().map(|it| it.1[step]).collect());
         add_sides(&mut described, sides, texts);
     }
@@ -82,7 +87,7 @@ fn triangles(cracks: &StoredCracks, steps: &[usize]) -> Vec<([u32; 3], Vec<f64>)
         let corners = cracks.cells()[number].corners();
         for triangle in (2..corners.len()).map(|last| [0, last - 1, last]) {
             let codes = of_steps.iter().map(|it| match it.get(&number) {
-                Some(sides) => code(&from_first(triangle.map(|corner| sides[corner]))),
+                Some(sides) => code(&numbered_from_first(triangle.map(|corner| sides[corner]))),
                 None => 0.0,
             });
             triangles.push((triangle.map(|corner| corners[corner]), codes.collect()));
@@ -92,7 +97,7 @@ fn triangles(cracks: &StoredCracks, steps: &[usize]) -> Vec<([u32; 3], Vec<f64>)
 }
 
 /// Sides of the corners of a triangle, numbered in the order of these corners.
-fn from_first([first, second, third]: [u8; 3]) -> [u8; 4] {
+fn numbered_from_first([first, second, third]: [u8; 3]) -> [u8; 4] {
     let of_second = u8::from(second != first);
     let of_third = match third {
         _ if third == first => 0,
@@ -103,7 +108,12 @@ fn from_first([first, second, third]: [u8; 3]) -> [u8; 4] {
 }
 
 /// Tetrahedra that are cut at some time, with the sides of their corners in each step; and the area of the crack surface.
-fn of_solid(cracks: &SolidCracks, steps: &[usize], body: &Body, texts: &mut Texts) -> Value {
+fn solid_cracks(
+    cracks: &SolidCracks,
+    steps: &[usize],
+    body: &Body,
+    texts: &mut ColumnTexts,
+) -> Value {
     let of_steps: Vec<(Vec<[u8; 4]>, f64)> = (steps.par_iter())
         .map(|step| (cracks.sides(*step), cracks.surface(*step).area()))
         .collect();
@@ -114,8 +124,8 @@ fn of_solid(cracks: &SolidCracks, steps: &[usize], body: &Body, texts: &mut Text
         return json!({"size": area, "area": area});
     }
     let mut described = match body.halves.is_empty() {
-        true => json!({"of": of_mesh(&tetrahedra.corners, body, texts)}),
-        false => of_lattice(cracks, body, texts),
+        true => json!({"of": mesh_simplices(&tetrahedra.corners, body, texts)}),
+        false => lattice_tetrahedra(cracks, body, texts),
     };
     let sides = of_steps.iter().map(|it| it.0.iter().map(code).collect());
     add_sides(&mut described, sides, texts);
@@ -125,7 +135,11 @@ fn of_solid(cracks: &SolidCracks, steps: &[usize], body: &Body, texts: &mut Text
 }
 
 /// Adds the number of simplices that are cut at some time, and the codes of their sides in each step.
-fn add_sides(described: &mut Value, of_steps: impl Iterator<Item = Vec<f64>>, texts: &mut Texts) {
+fn add_sides(
+    described: &mut Value,
+    of_steps: impl Iterator<Item = Vec<f64>>,
+    texts: &mut ColumnTexts,
+) {
     let (mut sides, mut count) = (Encoder::new(Digits::Whole), 0);
     for codes in of_steps {
         count = codes.len();
@@ -141,14 +155,18 @@ fn code(sides: &[u8; 4]) -> f64 {
 }
 
 /// Simplices of a mesh, by their corners in the files, as their numbers among the simplices of the body.
-fn of_mesh<const N: usize>(corners: &[[u32; N]], body: &Body, texts: &mut Texts) -> Value {
+fn mesh_simplices<const N: usize>(
+    corners: &[[u32; N]],
+    body: &Body,
+    texts: &mut ColumnTexts,
+) -> Value {
     let all = body.numbered();
     let numbers = corners.iter().filter_map(|it| all.get(it).copied());
     texts.add_whole(numbers)
 }
 
 /// The tetrahedra by their nodes, with position and point of each node.
-fn of_lattice(cracks: &SolidCracks, body: &Body, texts: &mut Texts) -> Value {
+fn lattice_tetrahedra(cracks: &SolidCracks, body: &Body, texts: &mut ColumnTexts) -> Value {
     let (tetrahedra, places) = (cracks.tetrahedra(), places(&body.order));
     let mut numbers: HashMap<u32, u32> = HashMap::new();
     let mut nodes: Vec<u32> = Vec::new();
@@ -186,11 +204,11 @@ mod tests {
     /// Both halves of a quadrangle have the sides of its corners, wherever the numbering of the sides began.
     #[test]
     fn sides_of_halves_are_numbered_from_their_first_corner() {
-        assert_eq!(from_first([0, 0, 0]), [0; 4]);
-        assert_eq!(from_first([2, 2, 0]), [0, 0, 1, 0]);
-        assert_eq!(from_first([1, 2, 1]), [0, 1, 0, 0]);
-        assert_eq!(from_first([0, 2, 2]), [0, 1, 1, 0]);
-        assert_eq!(from_first([3, 0, 1]), [0, 1, 2, 0]);
-        assert_eq!(code(&from_first([3, 0, 1])), 5.0);
+        assert_eq!(numbered_from_first([0, 0, 0]), [0; 4]);
+        assert_eq!(numbered_from_first([2, 2, 0]), [0, 0, 1, 0]);
+        assert_eq!(numbered_from_first([1, 2, 1]), [0, 1, 0, 0]);
+        assert_eq!(numbered_from_first([0, 2, 2]), [0, 1, 1, 0]);
+        assert_eq!(numbered_from_first([3, 0, 1]), [0, 1, 2, 0]);
+        assert_eq!(code(&numbered_from_first([3, 0, 1])), 5.0);
     }
 }

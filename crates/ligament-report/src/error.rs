@@ -16,7 +16,7 @@ pub enum ReportError {
         "{path} has {found} columns; a measured curve has two, and a header that names them with their units: opening (mm),force (kN)"
     )]
     Measured {
-        /// The table.
+        /// Table of the measured curve.
         path: PathBuf,
         /// Number of its columns.
         found: usize,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use ligament_output::Error;
 use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
-use ligament_output::vtu::read::{TAGGED, VtuFile};
+use ligament_output::vtu::read::{TAG_NOUNS, VtuFile};
 use rayon::prelude::*;
 
 use crate::body::{Body, ordered};
@@ -44,13 +44,13 @@ impl Field {
     }
 
     /// Number of characters in a page.
-    pub(crate) fn letters(&self) -> usize {
-        self.columns.iter().map(Column::letters).sum()
+    pub(crate) fn n_characters(&self) -> usize {
+        self.columns.iter().map(Column::n_characters).sum()
     }
 }
 
-/// A field while its steps are read.
-struct Growing {
+/// A field of which not all steps are read yet.
+struct IncompleteField {
     name: String,
     /// Number of values per point in the files.
     stride: usize,
@@ -73,7 +73,7 @@ pub(crate) fn read(
     body: &Body,
     digits: u32,
 ) -> Result<Vec<Field>, Error> {
-    let mut growing: Vec<Growing> = Vec::new();
+    let mut growing: Vec<IncompleteField> = Vec::new();
     for path in files.values() {
         let file = VtuFile::open(path)?;
         if growing.is_empty() {
@@ -83,14 +83,14 @@ pub(crate) fn read(
             .par_iter_mut()
             .try_for_each(|it| it.append(&file, body))?;
     }
-    let mut fields: Vec<Field> = growing.into_iter().map(Growing::finish).collect();
+    let mut fields: Vec<Field> = growing.into_iter().map(IncompleteField::finish).collect();
     fields.sort_by_key(|it| it.interest().rank());
     Ok(fields)
 }
 
-fn begin(file: &VtuFile, body: &Body, digits: u32) -> Vec<Growing> {
+fn begin(file: &VtuFile, body: &Body, digits: u32) -> Vec<IncompleteField> {
     let location = body.location;
-    let names = file.fields(location).filter(|it| !TAGGED.contains(it));
+    let names = file.fields(location).filter(|it| !TAG_NOUNS.contains(it));
     let field = |name: &str| {
         let (stride, names) = file.components(location, name).unwrap_or((1, &[]));
         let components: Vec<String> = match (stride, names) {
@@ -110,7 +110,7 @@ fn begin(file: &VtuFile, body: &Body, digits: u32) -> Vec<Growing> {
             _ => Digits::OfLargest(digits),
         };
         let count = components.len().max(1);
-        Growing {
+        IncompleteField {
             name: name.to_owned(),
             stride,
             is_vector: stride == 3 && names.is_empty(),
@@ -124,7 +124,7 @@ fn begin(file: &VtuFile, body: &Body, digits: u32) -> Vec<Growing> {
     names.map(field).collect()
 }
 
-impl Growing {
+impl IncompleteField {
     fn append(&mut self, file: &VtuFile, body: &Body) -> Result<(), Error> {
         let all = file.required_numbers(body.location, &self.name)?;
         if all.len() != self.stride * body.order.len() {

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use ligament_output::Error;
-use ligament_output::csv::read::Sheet;
-use ligament_output::quantity::settled;
-use ligament_plot::picture::units::Shown;
+use ligament_output::csv::read::CsvTable;
+use ligament_output::quantity::zero_if_rounding;
+use ligament_plot::picture::units::AxisUnit;
 use ligament_plot::stored_loading::StoredLoading;
 use serde_json::{Value, json};
 
@@ -22,7 +22,7 @@ pub(crate) fn read(folder: &Path, loading: &StoredLoading) -> Result<Value, Erro
     if !path.is_file() {
         return Ok(json!([]));
     }
-    let sheet = Sheet::read(path)?;
+    let sheet = CsvTable::read(path)?;
     let mut columns = Vec::new();
     for (place, name) in sheet.columns().iter().enumerate() {
         // The name of a load may equal the name of an earlier column.
@@ -48,14 +48,14 @@ pub(crate) fn column(name: &str, unit: &str, values: &[f64]) -> Value {
     let largest = finite.fold(0.0_f64, |largest, it| largest.max(it.abs()));
     let shown = shown(unit, largest);
     let rounded: Vec<f64> = (values.iter())
-        .map(|it| rounded(settled(*it, largest)))
+        .map(|it| rounded(zero_if_rounding(*it, largest)))
         .collect();
     json!({"name": name, "si": unit, "unit": shown.0, "shift": shown.1, "values": rounded})
 }
 
 /// A unit with its prefix, and the exponent of the power of ten that converts values from SI units.
 pub(crate) fn shown(unit: &str, size: f64) -> (String, i32) {
-    let shown = Shown::new(unit, size);
+    let shown = AxisUnit::new(unit, size);
     let shift = shown.factor.log10().round() as i32;
     (shown.unit, shift)
 }
@@ -72,7 +72,7 @@ fn iterations(folder: &Path, steps: &[usize]) -> Result<Vec<Value>, Error> {
     if !path.is_file() {
         return Ok(Vec::new());
     }
-    let rows = Sheet::read(path)?.numbers(["step", "residual"])?;
+    let rows = CsvTable::read(path)?.numbers(["step", "residual"])?;
     let mut counts = vec![0.0; steps.len()];
     let mut residuals = vec![0.0; steps.len()];
     let mut place = 0;

@@ -13,7 +13,6 @@
 //! | `history` | the table of the steps |
 //! | `inputs` | mesh, material and loads as text |
 //! | `sketch` | supports and loads as symbols on the body |
-//! | `measured` | measured curves |
 //! | `summary` | title, warnings and results as text |
 //! | `columns` | encoding of numbers as compressed text |
 //! | `viewer/` | the program of the page: HTML, CSS and JavaScript, joined without changes |
@@ -30,7 +29,6 @@ mod error;
 mod fields;
 mod history;
 mod inputs;
-mod measured;
 pub mod page;
 mod parts;
 mod run;
@@ -38,5 +36,5 @@ mod sketch;
 mod summary;
 
 pub use error::ReportError;
-pub use page::{Contents, DIGITS, MEGABYTE, Request, SIZE, STEPS, Written, write_report};
+pub use page::{DIGITS, MEGABYTE, PageContents, Request, SIZE, STEPS, WrittenPage, write_report};
 pub use parts::UnitOf;

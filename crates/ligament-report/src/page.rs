@@ -1,15 +1,15 @@
-//! The request for a page, and the written file.
+//! The request for a page with its measured curves, and the written file.
 
 use std::fmt::Write as _;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use ligament_output::csv::read::CsvTable;
 use ligament_output::folder::{REPORT, remove_unfinished_pages};
 use ligament_output::{check_file, write_file};
 use serde_json::{Value, json};
 
 use crate::error::ReportError;
-use crate::measured;
-use crate::parts::{Choice, Texts, UnitOf};
+use crate::parts::{Choice, ColumnTexts, UnitOf};
 use crate::run::PageRun;
 use crate::summary::escaped;
 
@@ -78,18 +78,18 @@ pub const MEGABYTE: f64 = 1e6;
 
 /// Description of the written page.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Written {
+pub struct WrittenPage {
     /// Path of the file.
     pub path: PathBuf,
     /// Size of the file, bytes.
     pub size: usize,
     /// Contents of the page for each result.
-    pub contents: Vec<Contents>,
+    pub contents: Vec<PageContents>,
 }
 
 /// Contents of a page for a result.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Contents {
+pub struct PageContents {
     /// Label of the result.
     pub label: String,
     /// Number of points of the body.
@@ -105,7 +105,7 @@ pub struct Contents {
 /// # Errors
 ///
 /// If there are no results, or they cannot be used, or the page cannot be written.
-pub fn write_report(request: &Request) -> Result<Written, ReportError> {
+pub fn write_report(request: &Request) -> Result<WrittenPage, ReportError> {
     let labels = labels(request)?;
     let first = || request.folders.first().cloned().unwrap_or_default();
     let own = || (first().join(REPORT), true);
@@ -118,9 +118,9 @@ pub fn write_report(request: &Request) -> Result<Written, ReportError> {
         letters: share,
         unit_of: request.unit_of,
     };
-    let measured = (request.measured.iter()).map(|it| measured::read(it));
+    let measured = (request.measured.iter()).map(|it| measured_curve(it));
     let measured: Vec<Value> = measured.collect::<Result<_, ReportError>>()?;
-    let mut texts = Texts::default();
+    let mut texts = ColumnTexts::default();
     let mut runs = Vec::new();
     for (folder, label) in request.folders.iter().zip(&labels) {
         runs.push(PageRun::read(folder, label, choice, &mut texts)?);
@@ -130,13 +130,16 @@ pub fn write_report(request: &Request) -> Result<Written, ReportError> {
         remove_unfinished_pages(&first())?;
     }
     write_file(&path, page.as_bytes(), replace)?;
-    let contents = labels.into_iter().zip(runs).map(|(label, run)| Contents {
-        label,
-        points: run.points,
-        steps: run.steps,
-        left_out: run.left_out,
-    });
-    Ok(Written {
+    let contents = labels
+        .into_iter()
+        .zip(runs)
+        .map(|(label, run)| PageContents {
+            label,
+            points: run.points,
+            steps: run.steps,
+            left_out: run.left_out,
+        });
+    Ok(WrittenPage {
         path,
         size: page.len(),
         contents: contents.collect(),
@@ -162,7 +165,7 @@ fn labels(request: &Request) -> Result<Vec<String>, ReportError> {
     Ok(request.folders.iter().map(name).collect())
 }
 
-fn page(runs: &[PageRun], texts: &Texts, measured: &[Value], request: &Request) -> String {
+fn page(runs: &[PageRun], texts: &ColumnTexts, measured: &[Value], request: &Request) -> String {
     let titles: Vec<&str> = runs.iter().map(|it| it.title.as_str()).collect();
     let mut title = titles.first().copied().unwrap_or_default().to_owned();
     if titles.iter().any(|it| *it != title) {
@@ -199,7 +202,7 @@ fn page(runs: &[PageRun], texts: &Texts, measured: &[Value], request: &Request) 
             "<script type=\"text/plain\" id=\"t{number}\">{text}</script>"
         );
     }
-    filled(&[
+    filled_template(&[
         ("title", &escaped(&title)),
         ("style", STYLE),
         ("summaries", &summaries),
@@ -210,7 +213,7 @@ fn page(runs: &[PageRun], texts: &Texts, measured: &[Value], request: &Request) 
 }
 
 /// The page's template with its parts inserted.
-fn filled(parts: &[(&str, &str)]) -> String {
+fn filled_template(parts: &[(&str, &str)]) -> String {
     let mut page = String::new();
     let mut rest = PAGE;
     while let Some((before, after)) = rest.split_once("{{") {
@@ -229,6 +232,28 @@ fn filled(parts: &[(&str, &str)]) -> String {
 /// JSON text escaped so that it cannot end its script element.
 fn script_safe(json: &str) -> String {
     json.replace('<', "\\u003c")
+}
+
+/// A measured curve: a table of two columns of numbers, whose header names them with their units, as in `opening (mm),force (kN)`.
+///
+/// # Errors
+///
+/// If the table cannot be read, or has other than two columns of numbers.
+fn measured_curve(path: &Path) -> Result<Value, ReportError> {
+    let sheet = CsvTable::read(path)?;
+    let names = sheet.columns();
+    let [x, y] = names else {
+        return Err(ReportError::Measured {
+            path: path.to_path_buf(),
+            found: names.len(),
+        });
+    };
+    let label = path.file_stem().unwrap_or_default().to_string_lossy();
+    Ok(json!({
+        "label": label,
+        "names": [x.trim(), y.trim()],
+        "values": [sheet.values::<f64>(x)?, sheet.values::<f64>(y)?],
+    }))
 }
 
 #[cfg(test)]
@@ -256,7 +281,7 @@ mod tests {
         ] {
             assert!(PAGE.contains(&format!("{{{{{part}}}}}")), "{part}");
         }
-        let page = filled(&[("title", "{{style}}")]);
+        let page = filled_template(&[("title", "{{style}}")]);
         assert!(
             page.contains("<title>{{style}}"),
             "parts are not filled in again"

@@ -22,11 +22,11 @@ pub(crate) struct Choice {
 
 /// Texts of columns, referenced by index from the description of a run.
 #[derive(Debug, Default)]
-pub(crate) struct Texts(pub(crate) Vec<String>);
+pub(crate) struct ColumnTexts(pub(crate) Vec<String>);
 
-impl Texts {
+impl ColumnTexts {
     /// Number of characters of all texts.
-    pub(crate) fn letters(&self) -> usize {
+    pub(crate) fn n_characters(&self) -> usize {
         self.0.iter().map(String::len).sum()
     }
 
@@ -39,7 +39,7 @@ impl Texts {
 
     /// Adds a column of whole numbers of a single step.
     pub(crate) fn add_whole<T: Into<i64>>(&mut self, values: impl IntoIterator<Item = T>) -> Value {
-        self.add(Column::whole(values.into_iter().map(Into::into)))
+        self.add(Column::whole_numbers(values.into_iter().map(Into::into)))
     }
 }
 
@@ -59,7 +59,7 @@ impl Budget {
     }
 
     /// Takes a number of characters from the budget; returns whether they fit.
-    pub(crate) fn takes(&mut self, name: &str, letters: usize) -> bool {
+    pub(crate) fn try_take(&mut self, name: &str, letters: usize) -> bool {
         match self.letters.checked_sub(letters) {
             Some(left) => {
                 self.letters = left;

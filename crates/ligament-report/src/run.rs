@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::fields::DISPLACEMENT;
 use ligament_output::results::first_field_of;
@@ -21,7 +21,7 @@ use crate::columns::{Column, Digits};
 use crate::fields::{self, Field};
 use crate::history::{self, shown};
 use crate::inputs::Inputs;
-use crate::parts::{Budget, Choice, Texts};
+use crate::parts::{Budget, Choice, ColumnTexts};
 use crate::{crack, sketch, summary};
 
 /// Digits of positions, relative to the largest coordinate.
@@ -54,20 +54,20 @@ impl PageRun {
         folder: &Path,
         label: &str,
         choice: Choice,
-        texts: &mut Texts,
+        texts: &mut ColumnTexts,
     ) -> Result<Self, Error> {
         let outputs = Outputs::list(folder)?;
         let peak = peak(&outputs)?;
         let files = chosen(&outputs, choice.steps, peak);
-        let words = summary::in_words(folder, outputs.kind)?;
+        let words = summary::run_summary(folder, outputs.kind)?;
         let case = read_text(&folder.join(RESOLVED_CASE))?;
         let loading = stored_loading(folder)?;
         let inputs = Inputs::read(folder, choice.unit_of)?;
         let steps: Vec<usize> = files.keys().copied().collect();
-        let first = VtuFile::open(first(&files, folder)?)?;
+        let first = VtuFile::open(first_file(&files, folder)?)?;
         let body = Body::read(&first)?;
         let mut budget = Budget::new(choice.letters);
-        let of = Drawn {
+        let of = DrawnOutputs {
             outputs: &outputs,
             files: &files,
             body: &body,
@@ -110,7 +110,7 @@ impl PageRun {
 }
 
 /// The drawn outputs of a run.
-struct Drawn<'a> {
+struct DrawnOutputs<'a> {
     outputs: &'a Outputs,
     /// Files of the steps, or modes, of the page.
     files: &'a BTreeMap<usize, PathBuf>,
@@ -119,35 +119,35 @@ struct Drawn<'a> {
     case: &'a toml::Table,
 }
 
-impl Drawn<'_> {
+impl DrawnOutputs<'_> {
     /// Body, cracks, fields and bonds, as far as the budget allows.
     fn describe(
         &self,
         digits: u32,
-        texts: &mut Texts,
+        texts: &mut ColumnTexts,
         budget: &mut Budget,
     ) -> Result<Value, Error> {
         let (folder, body) = (&self.outputs.folder, self.body);
-        let run = stored(folder)?;
+        let run = stored_run(folder)?;
         let sketch = run.as_ref();
         let sketch = sketch.map(|run| sketch::describe(self.case, &run.model, body));
         let bonds = run.map(|run| Bonds::new(&run, body));
         let fields = fields::read(self.files, body, digits)?;
         let moved = fields.iter().find(|it| it.name == DISPLACEMENT.name);
-        let before = texts.letters();
+        let before = texts.n_characters();
         let described = describe_body(body, moved.map_or(0.0, |it| it.usual), texts);
         let steps: Vec<usize> = self.files.keys().copied().collect();
         let cracks = match self.outputs.kind {
             OutputKind::Modes => Value::Null,
             OutputKind::Steps => crack::describe(folder, &steps, body, texts)?,
         };
-        budget.takes("body", texts.letters() - before);
+        budget.try_take("body", texts.n_characters() - before);
         let fields: Vec<Value> = (fields.into_iter())
-            .filter(|it| budget.takes(&it.name, it.letters()))
+            .filter(|it| budget.try_take(&it.name, it.n_characters()))
             .map(|it| describe_field(it, self.outputs.kind, texts))
             .collect();
         let bonds = bonds
-            .filter(|it| budget.takes("bonds", it.letters()))
+            .filter(|it| budget.try_take("bonds", it.n_characters()))
             .map_or(Value::Null, |it| describe_bonds(it, texts, budget));
         let precracks = match body.dimension {
             2 => stored_precracks(folder)?,
@@ -171,7 +171,7 @@ fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
     if outputs.kind == OutputKind::Modes || !history.is_file() {
         return Ok(None);
     }
-    let rows = Sheet::read(history)?.numbers(["step", "reaction", "at_rest"])?;
+    let rows = CsvTable::read(history)?.numbers(["step", "reaction", "at_rest"])?;
     let stored = rows
         .into_iter()
         .filter(|it| outputs.files.contains_key(&(it[0] as usize)));
@@ -203,8 +203,8 @@ fn chosen(outputs: &Outputs, most: usize, peak: Option<usize>) -> BTreeMap<usize
         .collect()
 }
 
-/// The first file.
-fn first<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a Path, Error> {
+/// First file of the steps of a page; an error where no step was chosen.
+fn first_file<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a Path, Error> {
     let first = files.values().next().map(PathBuf::as_path);
     first.ok_or_else(|| Error::NoResults {
         path: folder.to_path_buf(),
@@ -213,13 +213,13 @@ fn first<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a P
 }
 
 /// The stored run with its bonds, if the run wrote its model.
-fn stored(folder: &Path) -> Result<Option<StoredRun>, Error> {
+fn stored_run(folder: &Path) -> Result<Option<StoredRun>, Error> {
     let is_there = folder.join("model.vtu").is_file() && folder.join("history.csv").is_file();
     is_there.then(|| StoredRun::open(folder)).transpose()
 }
 
 /// Data of the body; `usual` is the displacement that few points exceed, m.
-fn describe_body(body: &Body, usual: f64, texts: &mut Texts) -> Value {
+fn describe_body(body: &Body, usual: f64, texts: &mut ColumnTexts) -> Value {
     let mut columns = |vectors: &[[f64; 3]]| -> Vec<Value> {
         let along = |axis: usize| -> Vec<f64> { vectors.iter().map(|it| it[axis]).collect() };
         (0..body.dimension)
@@ -245,7 +245,7 @@ fn describe_body(body: &Body, usual: f64, texts: &mut Texts) -> Value {
     })
 }
 
-fn describe_field(field: Field, kind: OutputKind, texts: &mut Texts) -> Value {
+fn describe_field(field: Field, kind: OutputKind, texts: &mut ColumnTexts) -> Value {
     // The amplitude of a mode is arbitrary.
     let unit = match kind {
         OutputKind::Steps => field.unit,
@@ -269,11 +269,11 @@ fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { 0.0 }
 }
 
-fn describe_bonds(bonds: Bonds, texts: &mut Texts, budget: &mut Budget) -> Value {
+fn describe_bonds(bonds: Bonds, texts: &mut ColumnTexts, budget: &mut Budget) -> Value {
     let ends = bonds.ends.map(|it| texts.add(it));
     let mut columns = serde_json::Map::new();
     for (name, column) in bonds.columns {
-        if budget.takes(&format!("{name} of bonds"), column.letters()) {
+        if budget.try_take(&format!("{name} of bonds"), column.n_characters()) {
             columns.insert(name, texts.add(column));
         }
     }
@@ -298,7 +298,7 @@ fn describe_bonds(bonds: Bonds, texts: &mut Texts, budget: &mut Budget) -> Value
 
 /// Frequencies of the modes, as a table of one row per mode.
 fn modes(folder: &Path) -> Result<Value, Error> {
-    let rows = Sheet::read(folder.join("modes.csv"))?.numbers(["mode", "frequency_hz"])?;
+    let rows = CsvTable::read(folder.join("modes.csv"))?.numbers(["mode", "frequency_hz"])?;
     let [mode, frequency] = [0, 1].map(|it| rows.iter().map(|row| row[it]).collect::<Vec<f64>>());
     Ok(json!([
         history::column("step", "-", &mode),

@@ -168,7 +168,7 @@ fn chosen(points: &[u32], model: &StoredModel) -> Vec<u32> {
     while let Some(point) = next.filter(|_| found.len() < MOST_POINTS.min(points.len())) {
         found.push(point);
         for (distance, &other) in distances.iter_mut().zip(points) {
-            *distance = distance.min(squared(at(point), at(other)));
+            *distance = distance.min(squared_distance(at(point), at(other)));
         }
         let farthest = points.iter().zip(&distances);
         let farthest = farthest.max_by(|a, b| a.1.total_cmp(b.1));
@@ -178,7 +178,7 @@ fn chosen(points: &[u32], model: &StoredModel) -> Vec<u32> {
 }
 
 /// Square of a distance, m^2.
-fn squared(a: [f64; 3], b: [f64; 3]) -> f64 {
+fn squared_distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum()
 }
 

@@ -3,13 +3,13 @@
 use std::path::Path;
 
 use ligament_output::Error;
-use ligament_output::quantity::{settled, without_rounding};
+use ligament_output::quantity::{without_rounding, zero_if_rounding};
 use ligament_output::results::outputs::OutputKind;
 use ligament_output::summary::{
     self, BondEvent, Input, ModalSummary, ModeSummary, ModelSummary, MotionSummary, PathPoint,
     Provenance, Stage, Summary, UnitsSummary,
 };
-use ligament_plot::picture::units::Shown;
+use ligament_plot::picture::units::AxisUnit;
 
 /// Shortest time of a stage that is shown, s.
 const WORTH_TELLING: f64 = 0.005;
@@ -31,7 +31,7 @@ pub(crate) fn escaped(text: &str) -> String {
 }
 
 /// Summary of a run.
-pub(crate) struct InWords {
+pub(crate) struct RunSummary {
     /// Title of the case; none where the run has not ended.
     pub(crate) title: Option<String>,
     /// The warnings, the main results and their origin as HTML.
@@ -43,12 +43,12 @@ pub(crate) struct InWords {
 /// # Errors
 ///
 /// If the summary cannot be read.
-pub(crate) fn in_words(folder: &Path, kind: OutputKind) -> Result<InWords, Error> {
+pub(crate) fn run_summary(folder: &Path, kind: OutputKind) -> Result<RunSummary, Error> {
     let ended = match kind {
-        OutputKind::Steps => summary::read(folder)?.map(of_steps),
-        OutputKind::Modes => summary::read(folder)?.map(of_modes),
+        OutputKind::Steps => summary::read(folder)?.map(summary_of_steps),
+        OutputKind::Modes => summary::read(folder)?.map(summary_of_modes),
     };
-    Ok(ended.unwrap_or_else(|| InWords {
+    Ok(ended.unwrap_or_else(|| RunSummary {
         title: None,
         html: warnings(&["The run did not come to its end: what is here is what it wrote so far."]),
     }))
@@ -62,7 +62,7 @@ pub(crate) fn case_html(case: &str) -> String {
     )
 }
 
-fn of_steps(summary: Summary) -> InWords {
+fn summary_of_steps(summary: Summary) -> RunSummary {
     let of_end = summary.warning_of_end();
     let of_end = of_end.map(|[head, words]| format!("{head}: {words}"));
     let mut texts: Vec<&str> = of_end.iter().map(String::as_str).collect();
@@ -74,13 +74,13 @@ fn of_steps(summary: Summary) -> InWords {
         &summary.model,
         &computed,
     );
-    InWords {
+    RunSummary {
         html,
         title: Some(summary.model.title),
     }
 }
 
-fn of_modes(summary: ModalSummary) -> InWords {
+fn summary_of_modes(summary: ModalSummary) -> RunSummary {
     let texts: Vec<&str> = summary.warnings.iter().map(String::as_str).collect();
     let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);
     let html = tables(
@@ -89,7 +89,7 @@ fn of_modes(summary: ModalSummary) -> InWords {
         &summary.model,
         &computed,
     );
-    InWords {
+    RunSummary {
         html,
         title: Some(summary.model.title),
     }
@@ -139,7 +139,7 @@ fn warnings(texts: &[&str]) -> String {
 /// A value with a suitable prefix of its unit; 0 for a value that is only rounding.
 pub(crate) fn quantity(value: f64, unit: &str) -> String {
     let value = without_rounding(value, unit);
-    Shown::new(unit, value.abs()).value(value)
+    AxisUnit::new(unit, value.abs()).value(value)
 }
 
 fn results_of_steps(summary: &Summary) -> Vec<Entry> {
@@ -167,7 +167,7 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
                 displacement,
             ),
         ]
-        .map(|(value, largest, unit)| quantity(settled(value, largest), unit));
+        .map(|(value, largest, unit)| quantity(zero_if_rounding(value, largest), unit));
         Some(entry(name, format!("{load} at {at}")))
     };
     let in_time = summary.motion.is_some();
@@ -199,7 +199,7 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         balance,
         Some(entry("Ended because", &*summary.termination_message)),
     ];
-    let motion = summary.motion.iter().flat_map(of_motion);
+    let motion = summary.motion.iter().flat_map(motion_entries);
     rows.into_iter().flatten().chain(motion).collect()
 }
 
@@ -213,7 +213,7 @@ fn steps_in_words(summary: &Summary) -> String {
 }
 
 /// Time, steps and energies of a motion.
-fn of_motion(motion: &MotionSummary) -> Vec<Entry> {
+fn motion_entries(motion: &MotionSummary) -> Vec<Entry> {
     let time = quantity(motion.time, "s");
     let step = quantity(motion.time_step, "s");
     let mut rows = vec![entry("Time", time), entry("Time step", step)];

@@ -13,16 +13,16 @@ pub type IsStopped<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Requests of the user to end a run.
 #[derive(Clone, Copy)]
-pub(crate) struct Stops<'a> {
+pub(crate) struct StopRequests<'a> {
     /// Whether the run is to stop at its next state.
     pub(crate) is_stopped: IsStopped<'a>,
     /// Whether the run is to end at once, without a state of its own.
     pub(crate) is_aborted: IsStopped<'a>,
 }
 
-impl<'a> Stops<'a> {
+impl<'a> StopRequests<'a> {
     /// Requests that stop a run at its next state and never at once.
-    pub(crate) fn in_order(is_stopped: IsStopped<'a>) -> Self {
+    pub(crate) fn at_next_state(is_stopped: IsStopped<'a>) -> Self {
         Self {
             is_stopped,
             is_aborted: &|| false,
@@ -64,7 +64,7 @@ impl<'a> Checkpoints<'a> {
     }
 
     /// Determines whether a checkpoint is due in the next state; `end` is the reason if the run ends there.
-    pub(crate) fn ask(&mut self, end: Option<&Termination>) {
+    pub(crate) fn decide(&mut self, end: Option<&Termination>) {
         let passed = self.last.elapsed();
         self.is_due = match (end, self.every) {
             (Some(end), every) => is_kept(end, every),
@@ -79,10 +79,10 @@ impl<'a> Checkpoints<'a> {
         self.is_due
     }
 
-    /// Writes a checkpoint, with a function that writes the solution; `begun` is the start of the work on it.
+    /// Writes a checkpoint, with a function that writes the solution; `start` is the start of the work on it.
     pub(crate) fn write(
         &mut self,
-        begun: Instant,
+        start: Instant,
         solution: &dyn Fn(&mut dyn Sink),
         results: &OutputState,
         messages: &[Message],
@@ -97,7 +97,7 @@ impl<'a> Checkpoints<'a> {
         };
         checkpoint.write(self.folder.path(), solution)?;
         self.last = Instant::now();
-        self.cost = self.last - begun;
+        self.cost = self.last - start;
         Ok(())
     }
 

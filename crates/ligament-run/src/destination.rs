@@ -5,7 +5,7 @@ use std::io;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 
-use crate::inputs::copied;
+use crate::inputs::copy_files;
 use crate::origin::recorded_text;
 
 /// Writes the results of a case into a folder, which replaces earlier results if `make` returns that the results are complete. With
@@ -21,7 +21,7 @@ pub(crate) fn make_results<T>(
 ) -> anyhow::Result<T> {
     case.resolved_toml()?;
     let folder = open()?;
-    let made = begun(case, keeps_inputs, &folder).and_then(|case| make(&folder, &case));
+    let made = write_case(case, keeps_inputs, &folder).and_then(|case| make(&folder, &case));
     let (made, is_complete) = made.map_err(|error| match failed_run_message(&folder, &error) {
         Some(words) => error.context(words),
         None => error,
@@ -33,12 +33,16 @@ pub(crate) fn make_results<T>(
 }
 
 /// Writes the case, and copies of its files if they are kept; returns the case with the copies.
-fn begun(case: &CaseFile, keeps_inputs: bool, folder: &ResultFolder) -> anyhow::Result<CaseFile> {
+fn write_case(
+    case: &CaseFile,
+    keeps_inputs: bool,
+    folder: &ResultFolder,
+) -> anyhow::Result<CaseFile> {
     let case = match keeps_inputs {
         true => {
             // First the file by which the folder is recognised.
             folder.write(RESOLVED_CASE, &case.resolved_toml()?)?;
-            copied(case, folder)?
+            copy_files(case, folder)?
         }
         false => case.clone(),
     };
@@ -71,7 +75,7 @@ fn failed_run_message(folder: &ResultFolder, error: &anyhow::Error) -> Option<St
 }
 
 /// Message to the user where earlier results are replaced.
-pub(crate) fn words(folder: &ResultFolder) -> Option<String> {
+pub(crate) fn replacement_message(folder: &ResultFolder) -> Option<String> {
     let earlier = folder.replaces()?.display();
     let place = folder.path().display();
     Some(format!(

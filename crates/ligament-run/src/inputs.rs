@@ -18,7 +18,7 @@ pub struct Inputs(String);
 
 /// Keys that may change when a run is resumed, because they do not change earlier results. The driver checks that completed load steps
 /// stay.
-pub const MAY_CHANGE: [&str; 11] = [
+pub const CHANGEABLE_KEYS: [&str; 11] = [
     "fracture.stop.load_fraction",
     "fracture.stop.displacement",
     "fracture.stop.bonds",
@@ -34,9 +34,9 @@ pub const MAY_CHANGE: [&str; 11] = [
 
 /// Identities of the contents of files by path, each read once.
 #[derive(Debug, Default)]
-pub struct Contents(HashMap<PathBuf, Identity>);
+pub struct FileIdentities(HashMap<PathBuf, Identity>);
 
-impl Contents {
+impl FileIdentities {
     /// The identity of the content of a file.
     ///
     /// # Errors
@@ -61,7 +61,7 @@ impl Inputs {
     pub fn from_case(
         case: &CaseFile,
         mesh: Option<&str>,
-        contents: &mut Contents,
+        contents: &mut FileIdentities,
     ) -> Result<Self, (PathBuf, io::Error)> {
         let mut plain = case.clone();
         plain.case.solver.threads = None;
@@ -79,14 +79,14 @@ impl Inputs {
         Ok(Self(plain.resolved_toml().unwrap_or_default()))
     }
 
-    /// The inputs that determine the run up to its present state: all except [`MAY_CHANGE`].
+    /// The inputs that determine the run up to its present state: all except [`CHANGEABLE_KEYS`].
     ///
     /// # Errors
     ///
     /// If a file cannot be read, with its path.
-    pub fn of_course(
+    pub fn determining_inputs(
         case: &CaseFile,
-        contents: &mut Contents,
+        contents: &mut FileIdentities,
     ) -> Result<Self, (PathBuf, io::Error)> {
         let mut plain = case.clone();
         plain.case.output.fields_every = None;
@@ -168,7 +168,11 @@ pub(crate) fn set_mesh(case: &mut CaseFile, mesh: Option<&Path>) -> anyhow::Resu
 
 /// Finds files of a case that are missing at their earlier paths because they were moved together with the results: an ending of the
 /// earlier path leads to the file from the results or from a folder above them, and the content is one that the run read.
-pub(crate) fn find_moved(case: &mut CaseFile, folder: &Path, was_read: &dyn Fn(&Identity) -> bool) {
+pub(crate) fn find_moved_files(
+    case: &mut CaseFile,
+    folder: &Path,
+    was_read: &dyn Fn(&Identity) -> bool,
+) {
     let Ok(folder) = folder.canonicalize() else {
         return;
     };
@@ -195,11 +199,12 @@ pub(crate) fn find_moved(case: &mut CaseFile, folder: &Path, was_read: &dyn Fn(&
 /// # Errors
 ///
 /// If a file cannot be read or written.
-pub(crate) fn copied(case: &CaseFile, folder: &ResultFolder) -> anyhow::Result<CaseFile> {
+pub(crate) fn copy_files(case: &CaseFile, folder: &ResultFolder) -> anyhow::Result<CaseFile> {
     let mut kept = case.clone();
     for (key, file) in paths(&mut kept) {
         let name = folder::input_name(&key, file);
-        let bytes = input_file::read(file).map_err(|error| unread((file.clone(), error)))?;
+        let bytes =
+            input_file::read(file).map_err(|error| unreadable_file((file.clone(), error)))?;
         folder.write(&name, &bytes)?;
         *file = folder.file(&name);
     }
@@ -207,7 +212,7 @@ pub(crate) fn copied(case: &CaseFile, folder: &ResultFolder) -> anyhow::Result<C
 }
 
 /// The case as a result folder records it: files in the folder are named without their path, so that the folder can be moved.
-pub(crate) fn recorded(case: &CaseFile, folder: &Path) -> CaseFile {
+pub(crate) fn recorded_case(case: &CaseFile, folder: &Path) -> CaseFile {
     let mut recorded = case.clone();
     let whole = folder.canonicalize();
     let is_here = |parent: &Path| {
@@ -225,12 +230,12 @@ pub(crate) fn recorded(case: &CaseFile, folder: &Path) -> CaseFile {
 
 /// Whether a result folder has copies of files that its case reads.
 pub(crate) fn are_kept(case: &CaseFile, folder: &Path) -> bool {
-    let files = files(&recorded(case, folder));
+    let files = files(&recorded_case(case, folder));
     files.iter().any(|(_, file)| file.is_relative())
 }
 
 /// The error of a file that cannot be read, with its path for the user.
-pub fn unread((path, error): (PathBuf, io::Error)) -> anyhow::Error {
+pub fn unreadable_file((path, error): (PathBuf, io::Error)) -> anyhow::Error {
     anyhow::Error::new(error).context(format!("cannot read {}", path.display()))
 }
 

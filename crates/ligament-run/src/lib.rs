@@ -2,7 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
-//! | [`run`], `modes` | the run of a case under loads, or of natural modes |
+//! | [`run`] | the run of a case under loads, or of natural modes |
 //! | [`resume`] | resuming a stopped run from its checkpoint |
 //! | [`repeat`], `comparison` | repeating a run from its record, and comparing both bitwise |
 //! | [`inputs`] | the inputs that determine the results of a run |
@@ -13,9 +13,10 @@
 //! | [`stability`] | advice about a model that is unstable |
 //! | [`messages`] | the messages of a run as the user reads them |
 //! | [`summary`] | `summary.json`, and the lines at the end of a run |
-//! | `destination`, `checkpoints`, `pace` | the result folder while results are written, its checkpoints and their times |
-//! | [`watch`], [`progress`] | the observer that writes results, and the display of progress |
-//! | `processes`, `pieces` | the communication of processes, and the output of ranks other than 0 |
+//! | `destination`, `checkpoints` | the result folder while results are written, and its checkpoints |
+//! | `run_time_estimate` | the time that a long run takes, shown before it begins |
+//! | [`run_observer`], [`progress`] | the observers that write results, and the display of progress |
+//! | `processes` | the communication of processes |
 //! | [`stages`], [`memory`], [`disk`] | time, memory and disk space that a run needs |
 //! | `processors` | the number of processors that other programs leave free |
 #![cfg_attr(
@@ -33,10 +34,7 @@ pub mod loading;
 pub mod memory;
 pub mod messages;
 pub mod model;
-mod modes;
 mod origin;
-mod pace;
-mod pieces;
 mod processes;
 mod processors;
 pub mod progress;
@@ -44,7 +42,8 @@ pub mod provenance;
 pub mod repeat;
 pub mod resume;
 pub mod run;
+pub mod run_observer;
+mod run_time_estimate;
 pub mod stability;
 pub mod stages;
 pub mod summary;
-pub mod watch;

@@ -9,15 +9,15 @@ use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, WriteRule};
 use ligament_output::summary::{self, Build, Summary};
 
-use crate::checkpoints::{Checkpoints, Stops};
-use crate::inputs::{Contents, Inputs, unread};
-use crate::pieces::Pieces;
+use crate::checkpoints::{Checkpoints, StopRequests};
+use crate::inputs::{FileIdentities, Inputs, unreadable_file};
+
 use crate::processes::broadcast_path;
 use crate::progress::Progress;
 use crate::provenance::provenance;
+use crate::run_observer::{PieceObserver, RunObserver};
 use crate::stages::Stages;
-use crate::summary::{Noted, OfPoints, certificate, summary};
-use crate::watch::Watch;
+use crate::summary::{PointStatistics, SummaryData, certificate, summary};
 
 /// A body under loads.
 pub(crate) struct LoadedBody<'a> {
@@ -25,11 +25,11 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) model: &'a Model,
     pub(crate) loading: &'a Loading,
     pub(crate) build: Build,
-    pub(crate) requests: Stops<'a>,
+    pub(crate) requests: StopRequests<'a>,
 }
 
 /// State of a checkpoint from which a run continues.
-pub(crate) struct Kept {
+pub(crate) struct RestoredRun {
     pub(crate) restored: Restored,
     pub(crate) results: OutputState,
     pub(crate) messages: Vec<Message>,
@@ -40,7 +40,7 @@ impl LoadedBody<'_> {
     pub(crate) fn follow(
         &self,
         folder: &ResultFolder,
-        kept: Option<Kept>,
+        restored_run: Option<RestoredRun>,
         stages: &mut Stages,
         progress: &mut Progress,
     ) -> anyhow::Result<Summary> {
@@ -54,34 +54,34 @@ impl LoadedBody<'_> {
         let problem = loading.problem(model);
         let motion = loading.motion(&problem);
         let posed = Posed::new(&problem, motion.as_ref());
-        let of_points = OfPoints::new(model);
+        let of_points = PointStatistics::new(model);
         let grid = grid(model);
         broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;
         let (fixed, rule) = (&model.fixed, write_rule(case));
-        let mut contents = Contents::default();
-        let inputs = Inputs::of_course(case, &mut contents).map_err(unread)?;
+        let mut contents = FileIdentities::default();
+        let inputs = Inputs::determining_inputs(case, &mut contents).map_err(unreadable_file)?;
         let provenance = provenance(build.clone(), case, folder.path(), &mut contents);
-        let mut provenance = provenance.map_err(unread)?;
-        provenance.resumed = kept.is_some();
+        let mut provenance = provenance.map_err(unreadable_file)?;
+        provenance.resumed = restored_run.is_some();
         let every = case.case.output.checkpoint_every;
         let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
-        let (writer, messages, restored) = match kept {
+        let (writer, messages, restored) = match restored_run {
             None => {
                 let writer = ResultWriter::new(folder, &grid, fixed, rule, &problem)?;
                 (writer, Vec::new(), None)
             }
-            Some(kept) => {
-                let results = kept.results;
-                let writer = ResultWriter::cut_back(folder, &grid, fixed, rule, &problem, results)?;
-                (writer, kept.messages, Some(kept.restored))
+            Some(restored_run) => {
+                let results = restored_run.results;
+                let writer = ResultWriter::resume(folder, &grid, fixed, rule, &problem, results)?;
+                (writer, restored_run.messages, Some(restored_run.restored))
             }
         };
-        let watched = (writer, checkpoints);
-        let mut watch = Watch::new(watched, requests, progress, model, messages);
-        let outcome = stages.time("solution", || self.outcome(posed, restored, &mut watch))?;
+        let writers = (writer, checkpoints);
+        let mut observer = RunObserver::new(writers, requests, progress, model, messages);
+        let outcome = stages.time("solution", || self.outcome(posed, restored, &mut observer))?;
 
-        let (messages, first, checkpoints) = watch.into_parts();
-        let noted = Noted {
+        let (messages, first, checkpoints) = observer.into_parts();
+        let data = SummaryData {
             of_points,
             provenance,
             messages,
@@ -89,7 +89,7 @@ impl LoadedBody<'_> {
             certificate: certificate(folder.path(), model, &outcome)?,
             stages: stages.done().to_vec(),
         };
-        let summary = summary(case, model, &loading.boundary, &outcome, noted);
+        let summary = summary(case, model, &loading.boundary, &outcome, data);
         summary::write(folder, &summary)?;
         checkpoints.end(&outcome.termination)?;
         Ok(summary)
@@ -109,16 +109,16 @@ impl LoadedBody<'_> {
         } = *self;
         let problem = loading.problem(model);
         let analysis = &model.setup.analysis;
-        OfPoints::new(model);
+        PointStatistics::new(model);
         let (grid, fixed) = (model.body().grid(), &model.fixed);
         let folder = broadcast_path(&*loading.solver.communicator, None)?;
         let writer = || PieceWriter::new(folder, &grid, fixed, write_rule(case), &problem);
         let is_divided = !model.system.subdomain.is_whole();
         let writer = is_divided.then(writer).transpose()?;
-        let mut pieces = Pieces::new(writer, requests.is_stopped);
+        let mut observer = PieceObserver::new(writer, requests.is_stopped);
         match restored {
-            None => follow(&problem, analysis, &mut pieces)?,
-            Some(restored) => restored.resume(&mut pieces)?,
+            None => follow(&problem, analysis, &mut observer)?,
+            Some(restored) => restored.resume(&mut observer)?,
         };
         Ok(())
     }
@@ -134,17 +134,17 @@ impl LoadedBody<'_> {
         &self,
         posed: Posed<'_>,
         restored: Option<Restored>,
-        watch: &mut Watch<'_>,
+        observer: &mut RunObserver<'_>,
     ) -> anyhow::Result<Outcome> {
         let analysis = &self.model.setup.analysis;
-        let guarded = &mut self.model.guarded(watch);
+        let guarded = &mut self.model.guarded(observer);
         let outcome = match restored {
             None => follow(posed, analysis, guarded),
             Some(restored) => restored.resume(guarded).map_err(Into::into),
         };
         outcome.map_err(|error| match self.model.growth(error) {
             Ok(growth) => growth.into(),
-            Err(error) => self.case.explained(error),
+            Err(error) => self.case.error_in_case_terms(error),
         })
     }
 }

@@ -55,7 +55,7 @@ const MARGIN: f64 = 1.5;
     if *is_bound { " or more" } else { "" },
     gigabytes(*available)
 )]
-pub struct TooLarge {
+pub struct InsufficientMemory {
     /// Memory that the run needs, bytes.
     pub needed: u64,
     /// Whether the need is a lower bound, without the matrix factor.
@@ -69,7 +69,7 @@ fn gigabytes(bytes: u64) -> f64 {
 }
 
 /// Estimated bytes of the equations of a system and of its bonds; without a stiffness the equations are solved without a matrix.
-pub fn of_equations(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize {
+pub fn equation_bytes(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize {
     let Some(stiffness) = stiffness else {
         let unknowns = system.layout.n_degrees_of_freedom();
         let of_unknown = WITHOUT_MATRIX[usize::from(n_axes(system) > 2)];
@@ -81,9 +81,9 @@ pub fn of_equations(system: &dyn Bonds, stiffness: Option<&Stiffness>) -> usize 
 }
 
 /// Bytes available to the matrix and its factor in a run of a case, after the program and the bonds.
-pub fn for_factor(case: &CaseFile, system: &dyn Bonds) -> Option<usize> {
-    let of_equations = allowed(case)? as f64 / MARGIN - PROGRAM as f64;
-    Some((of_equations as usize).saturating_sub(BOND * system.ends.len()))
+pub fn factor_bytes(case: &CaseFile, system: &dyn Bonds) -> Option<usize> {
+    let equation_bytes = allowed_memory(case)? as f64 / MARGIN - PROGRAM as f64;
+    Some((equation_bytes as usize).saturating_sub(BOND * system.ends.len()))
 }
 
 /// Ratio of the number of values of a factor to the number of the symmetric factor.
@@ -92,7 +92,7 @@ fn times_of_factor(is_unsymmetric: bool) -> usize {
 }
 
 /// Largest memory of a run whose equations take `equations` bytes.
-pub fn of_run(equations: usize) -> u64 {
+pub fn run_bytes(equations: usize) -> u64 {
     (MARGIN * (equations as u64 + PROGRAM) as f64) as u64
 }
 
@@ -101,11 +101,11 @@ pub fn of_run(equations: usize) -> u64 {
 /// # Errors
 ///
 /// If the available memory is exceeded, with both numbers.
-pub fn foresee_lattice(
+pub fn check_lattice_memory(
     case: &CaseFile,
     lattice: &LatticeSection,
     processes: usize,
-) -> Result<(), TooLarge> {
+) -> Result<(), InsufficientMemory> {
     let points = lattice.cells.iter().map(|&it| f64::from(it)).product();
     let [dx, dy] = lattice.spacing.0;
     let model = &case.case.model;
@@ -122,13 +122,13 @@ pub fn foresee_lattice(
 /// # Errors
 ///
 /// If the available memory is exceeded, with both numbers.
-pub fn foresee_model(case: &CaseFile, setup: &Setup) -> Result<(), TooLarge> {
+pub fn check_model_memory(case: &CaseFile, setup: &Setup) -> Result<(), InsufficientMemory> {
     let (points, family) = families(setup);
     require_memory_for_bonds(case, points, family, partition_communicator(setup).size())
 }
 
 /// Number of bonds that a body will have, before they are searched.
-pub(crate) fn foreseen_bonds(setup: &Setup) -> f64 {
+pub(crate) fn estimated_bonds(setup: &Setup) -> f64 {
     let (points, family) = families(setup);
     bonds(points, family)
 }
@@ -167,10 +167,10 @@ fn require_memory_for_bonds(
     points: f64,
     family: f64,
     processes: usize,
-) -> Result<(), TooLarge> {
+) -> Result<(), InsufficientMemory> {
     let bonds = bonds(points, family) / processes as f64;
     let needed = (POINT as f64 * points + BOND as f64 * bonds) as u64;
-    compare(case, needed, true)
+    check_available(case, needed, true)
 }
 
 /// Refuses a problem whose equations would exceed the available memory.
@@ -178,18 +178,18 @@ fn require_memory_for_bonds(
 /// # Errors
 ///
 /// If the available memory is exceeded, with both numbers, or if the equations cannot be analysed.
-pub fn foresee_equations(
+pub fn check_equation_memory(
     case: &CaseFile,
     system: &dyn Bonds,
     problem: &Problem,
 ) -> anyhow::Result<()> {
     let times = times_of_factor(!problem.system.element.has_energy());
     let most = (times * MOST_OVER_BONDS * BOND * system.ends.len()) as u64;
-    if allowed(case).is_none_or(|there| most <= there) {
+    if allowed_memory(case).is_none_or(|there| most <= there) {
         return Ok(());
     }
     let equilibrium = Equilibrium::new(problem, ELASTIC_ENERGY_TOLERANCE)?;
-    Ok(foresee(case, system, equilibrium.stiffness())?)
+    Ok(check_memory(case, system, equilibrium.stiffness())?)
 }
 
 /// Refuses analysed equations that would exceed the available memory.
@@ -197,21 +197,21 @@ pub fn foresee_equations(
 /// # Errors
 ///
 /// If the available memory is exceeded, with both numbers.
-pub fn foresee(
+pub fn check_memory(
     case: &CaseFile,
     system: &dyn Bonds,
     stiffness: Option<&Stiffness>,
-) -> Result<(), TooLarge> {
-    compare(
+) -> Result<(), InsufficientMemory> {
+    check_available(
         case,
-        of_equations(system, stiffness) as u64 + PROGRAM,
+        equation_bytes(system, stiffness) as u64 + PROGRAM,
         false,
     )
 }
 
-fn compare(case: &CaseFile, needed: u64, is_bound: bool) -> Result<(), TooLarge> {
-    match allowed(case) {
-        Some(available) if needed > available => Err(TooLarge {
+fn check_available(case: &CaseFile, needed: u64, is_bound: bool) -> Result<(), InsufficientMemory> {
+    match allowed_memory(case) {
+        Some(available) if needed > available => Err(InsufficientMemory {
             needed,
             is_bound,
             available,
@@ -221,22 +221,22 @@ fn compare(case: &CaseFile, needed: u64, is_bound: bool) -> Result<(), TooLarge>
 }
 
 /// Memory that a case may use, bytes: the given or the available memory.
-pub fn allowed(case: &CaseFile) -> Option<u64> {
+pub fn allowed_memory(case: &CaseFile) -> Option<u64> {
     let given = case.case.solver.memory;
-    given.map(|it| (1e9 * it) as u64).or_else(available)
+    given.map(|it| (1e9 * it) as u64).or_else(available_memory)
 }
 
 /// Memory that programs can use without swapping, bytes: the smaller one of the system's free memory and the rest of this process's limits
 /// (cgroups, as of batch systems and containers, or the shell's). `None` where neither is known.
-pub fn available() -> Option<u64> {
+pub fn available_memory() -> Option<u64> {
     let limits = [
-        of_system(),
-        of_cgroup(),
-        of_files(
+        system_memory(),
+        cgroup_memory(),
+        memory_from_files(
             Path::new("/sys/fs/cgroup/memory"),
             ["memory.limit_in_bytes", "memory.usage_in_bytes"],
         ),
-        of_shell(),
+        shell_memory(),
     ];
     limits.into_iter().flatten().min()
 }
@@ -249,18 +249,18 @@ fn kibibytes(list: &str, name: &str) -> Option<u64> {
     Some(1024 * kibibytes)
 }
 
-fn of_system() -> Option<u64> {
+fn system_memory() -> Option<u64> {
     kibibytes("/proc/meminfo", "MemAvailable:")
 }
 
-fn of_cgroup() -> Option<u64> {
+fn cgroup_memory() -> Option<u64> {
     let groups = fs::read_to_string("/proc/self/cgroup").ok()?;
     let group = groups.lines().find_map(|line| line.strip_prefix("0::/"))?;
     let folder = Path::new("/sys/fs/cgroup").join(group);
-    of_files(&folder, ["memory.max", "memory.current"])
+    memory_from_files(&folder, ["memory.max", "memory.current"])
 }
 
-fn of_files(folder: &Path, [limit, usage]: [&str; 2]) -> Option<u64> {
+fn memory_from_files(folder: &Path, [limit, usage]: [&str; 2]) -> Option<u64> {
     let number = |name: &str| {
         let text = fs::read_to_string(folder.join(name)).ok()?;
         text.trim().parse::<u64>().ok()
@@ -269,7 +269,7 @@ fn of_files(folder: &Path, [limit, usage]: [&str; 2]) -> Option<u64> {
 }
 
 /// The rest of this process's address space under `ulimit -v`, bytes.
-fn of_shell() -> Option<u64> {
+fn shell_memory() -> Option<u64> {
     let limits = fs::read_to_string("/proc/self/limits").ok()?;
     let line = limits
         .lines()

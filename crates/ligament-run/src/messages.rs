@@ -6,7 +6,7 @@ use ligament_model::ElementKind;
 use ligament_model::law::{BondLaw, listed, suited};
 
 /// A message with the names of its points, and with the advice for a setup.
-pub fn named(message: Message, body: &dyn Body, setup: &Setup) -> Message {
+pub fn with_point_names(message: Message, body: &dyn Body, setup: &Setup) -> Message {
     let known = |it: &str| {
         message
             .advice
@@ -23,7 +23,7 @@ pub fn named(message: Message, body: &dyn Body, setup: &Setup) -> Message {
 }
 
 /// Messages in their order; messages that differ only in their step or time become one, with their number.
-pub fn counted(messages: impl IntoIterator<Item = Message>) -> Vec<String> {
+pub fn merged_messages(messages: impl IntoIterator<Item = Message>) -> Vec<String> {
     let mut all: Vec<(Message, usize)> = Vec::new();
     for message in messages {
         match all.iter_mut().find(|it| it.0.tells_the_same(&message)) {
@@ -61,7 +61,7 @@ mod tests {
     #[test]
     fn messages_that_tell_the_same_are_one_with_their_number() {
         let message = |text: &str| Message::new("kind", text);
-        let told = [
+        let messages = [
             message("a: b"),
             message("c").in_step(3),
             message("c").at_time(1e-3),
@@ -69,7 +69,7 @@ mod tests {
             message("d").in_step(4),
             message("c").in_step(5),
         ];
-        let found = counted(told);
+        let found = merged_messages(messages);
         assert_eq!(found, ["a: b", "step 3: c (3 times)", "d (2 times)"]);
     }
 }

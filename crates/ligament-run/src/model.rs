@@ -10,9 +10,9 @@ use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use rayon::ThreadPoolBuildError;
 
 use crate::memory;
-use crate::pace;
 use crate::processors::{free_threads, tasks_of_others};
 use crate::progress::Progress;
+use crate::run_time_estimate;
 use crate::stages::Stages;
 use crate::summary;
 
@@ -96,22 +96,24 @@ pub fn build_model_on(
     progress: &Progress,
 ) -> anyhow::Result<Model> {
     if let Some(lattice) = &case.case.lattice {
-        memory::foresee_lattice(case, lattice, communicator.size())?;
+        memory::check_lattice_memory(case, lattice, communicator.size())?;
     }
     let mut preparation = Preparation { stages, progress };
     let tasks_before = tasks_of_others();
     let setup = case.setup_on_processes(communicator.clone(), &mut preparation)?;
-    memory::foresee_model(case, &setup)?;
-    if let Some(words) = pace::of_preparation(memory::foreseen_bonds(&setup)) {
+    memory::check_model_memory(case, &setup)?;
+    if let Some(words) =
+        run_time_estimate::preparation_announcement(memory::estimated_bonds(&setup))
+    {
         progress.stage(&words);
     }
     let tasks = tasks_before.min(tasks_of_others());
     let build = || on_free_processors(tasks, || Model::build(setup, &mut preparation));
     let model = on_pool(&*communicator, build)?;
-    let mut model = model.map_err(|error| case.located(error))?;
+    let mut model = model.map_err(|error| case.error_at_key(error))?;
     if case.case.output.stress.contains(&StressField::Virial) {
-        let told = of_virial_stress(&model.body().origin());
-        let news = told.filter(|it| !model.warnings.contains(it));
+        let message = of_virial_stress(&model.body().origin());
+        let news = message.filter(|it| !model.warnings.contains(it));
         model.warnings.extend(news);
     }
     Ok(model)

@@ -8,7 +8,7 @@ use ligament_case::input_file;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::summary::Identity;
 
-use crate::inputs::recorded;
+use crate::inputs::recorded_case;
 
 /// Beginning of the line.
 const BEGINNING: &str = "# from ";
@@ -19,14 +19,14 @@ const BEGINNING: &str = "# from ";
 ///
 /// If the case cannot be written as TOML.
 pub(crate) fn recorded_text(case: &CaseFile, folder: &Path) -> anyhow::Result<String> {
-    let kept = is_of(case, folder).then(|| kept_line(&case.source.text));
+    let kept = is_of(case, folder).then(|| first_line_of_origin(&case.source.text));
     let line = kept.unwrap_or_else(|| line_of(case)).unwrap_or_default();
-    Ok(line + &recorded(case, folder).resolved_toml()?)
+    Ok(line + &recorded_case(case, folder).resolved_toml()?)
 }
 
 /// Message where the file that the case of earlier results came from has changed since; none where it is gone.
 pub(crate) fn change(case: &CaseFile, folder: &Path) -> Option<String> {
-    let line = kept_line(&case.source.text)?;
+    let line = first_line_of_origin(&case.source.text)?;
     let (path, then) = line.trim_end().strip_prefix(BEGINNING)?.rsplit_once(" (")?;
     let path = PathBuf::from(path);
     let now = Identity::new(input_file::read_text(&path).ok()?.as_bytes());
@@ -43,7 +43,7 @@ fn is_of(case: &CaseFile, folder: &Path) -> bool {
 }
 
 /// The line of a resolved case, if it has one.
-fn kept_line(text: &str) -> Option<String> {
+fn first_line_of_origin(text: &str) -> Option<String> {
     let line = text.lines().next()?;
     line.starts_with(BEGINNING).then(|| format!("{line}\n"))
 }

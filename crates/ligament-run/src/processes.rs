@@ -33,8 +33,8 @@ pub fn loading(case: &CaseFile, model: &Model) -> anyhow::Result<Loading> {
          process, or take \"material\" or \"virial\""
     );
     let loading = Loading::new(model);
-    let mut loading = loading.map_err(|it| case.located(it))?;
-    loading.solver.factor_memory = memory::for_factor(case, &*model.system);
+    let mut loading = loading.map_err(|it| case.error_at_key(it))?;
+    loading.solver.factor_memory = memory::factor_bytes(case, &*model.system);
     Ok(loading)
 }
 

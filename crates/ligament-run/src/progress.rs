@@ -25,7 +25,7 @@ pub enum ProgressMode {
     Terminal,
     /// Lines in a log.
     Log,
-    /// No display.
+    /// No display of progress.
     Quiet,
 }
 
@@ -97,7 +97,7 @@ pub struct Progress {
     total: Option<u64>,
     bar: Option<ProgressBar>,
     started: Instant,
-    pace: LogPace,
+    pace: LogInterval,
     steps: Option<Sender<StepLine>>,
 }
 
@@ -109,13 +109,13 @@ impl Progress {
             total: None,
             bar: None,
             started: Instant::now(),
-            pace: LogPace::default(),
+            pace: LogInterval::default(),
             steps: None,
         }
     }
 
     /// The display with a receiver of the state at the end of each load step.
-    pub(crate) fn sent(self, steps: Option<Sender<StepLine>>) -> Self {
+    pub(crate) fn with_receiver(self, steps: Option<Sender<StepLine>>) -> Self {
         Self { steps, ..self }
     }
 
@@ -142,7 +142,7 @@ impl Progress {
     pub fn begin_steps(&mut self, total: Option<u64>, noun: &str) {
         self.total = total;
         self.started = Instant::now();
-        self.pace = LogPace::default();
+        self.pace = LogInterval::default();
         if self.mode == ProgressMode::Terminal {
             let bar = total.map_or_else(ProgressBar::no_length, ProgressBar::new);
             bar.set_style(style(total.is_some(), noun));
@@ -235,11 +235,11 @@ pub fn duration_text(duration: Duration) -> String {
 
 /// Selection of the steps for a log.
 #[derive(Debug, Default)]
-struct LogPace {
+struct LogInterval {
     last: Option<(u64, Duration)>,
 }
 
-impl LogPace {
+impl LogInterval {
     /// Whether a line is due after a number of steps and a time; a due line counts as written.
     fn is_due(&mut self, steps_done: u64, total: Option<u64>, elapsed: Duration) -> bool {
         let due = match self.last {
@@ -312,12 +312,12 @@ mod tests {
 
     #[test]
     fn fast_steps_are_logged_each_tenth_and_slow_ones_each() {
-        let mut pace = LogPace::default();
+        let mut pace = LogInterval::default();
         let logged: Vec<u64> = (1..=100)
             .filter(|&step| pace.is_due(step, Some(100), Duration::from_millis(step)))
             .collect();
         assert_eq!(logged, [1, 11, 21, 31, 41, 51, 61, 71, 81, 91, 100]);
-        let mut pace = LogPace::default();
+        let mut pace = LogInterval::default();
         assert!((1..=5).all(|step| pace.is_due(step, Some(1000), Duration::from_secs(3 * step))));
     }
 

@@ -8,7 +8,7 @@ use ligament_case::case::CaseFile;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::summary::{Build, Identity, Input, Provenance};
 
-use crate::inputs::{Contents, files, recorded};
+use crate::inputs::{FileIdentities, files, recorded_case};
 use crate::origin::recorded_text;
 
 /// The provenance of a run of a case into a folder, by a build on this computer.
@@ -20,9 +20,9 @@ pub fn provenance(
     build: Build,
     case: &CaseFile,
     folder: &Path,
-    contents: &mut Contents,
+    contents: &mut FileIdentities,
 ) -> Result<Provenance, (PathBuf, io::Error)> {
-    let recorded = recorded(case, folder);
+    let recorded = recorded_case(case, folder);
     // A case that cannot be written as TOML fails when it is run.
     let resolved = recorded_text(case, folder).unwrap_or_default();
     let mut inputs = vec![Input {
@@ -47,8 +47,10 @@ pub fn provenance(
 
 /// Name of the processor, where known (Linux).
 fn processor() -> Option<String> {
-    let told = fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = told.lines().find(|line| line.starts_with("model name"))?;
+    let cpu_info = fs::read_to_string("/proc/cpuinfo").ok()?;
+    let line = cpu_info
+        .lines()
+        .find(|line| line.starts_with("model name"))?;
     Some(line.split_once(':')?.1.trim().to_owned())
 }
 

@@ -10,11 +10,11 @@ use ligament_analysis::Termination;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::outputs::require_results;
-use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY, Summary};
+use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY_FILE, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
-use crate::comparison::{Comparison, Ending};
-use crate::inputs::{Contents, are_kept, files, find_moved, set_mesh, unread};
+use crate::comparison::{Comparison, FirstRunEnd};
+use crate::inputs::{FileIdentities, are_kept, files, find_moved_files, set_mesh, unreadable_file};
 use crate::progress::ProgressMode;
 use crate::provenance::provenance;
 use crate::run;
@@ -44,7 +44,7 @@ pub struct Request<'a> {
 pub struct Repetition {
     folder: PathBuf,
     /// Folder of the repetition's results, if kept.
-    kept: Option<PathBuf>,
+    kept_folder: Option<PathBuf>,
     comparison: Comparison,
     /// Notes on the run for the user.
     notes: Vec<String>,
@@ -63,19 +63,20 @@ impl Request<'_> {
     ///
     /// If the folder has no results of a run that has ended, another process writes to it, an input file has changed, or the run fails.
     pub fn repeat(&self, mode: ProgressMode) -> anyhow::Result<Repetition> {
-        let folder = ResultFolder::settled(self.folder).map_err(in_use)?;
+        let folder = ResultFolder::path_for_reading(self.folder).map_err(folder_in_use_error)?;
         require_results(&folder)?;
         let summary = summary_of(&folder)?;
         let mut case = self.case(&folder)?;
-        let mut contents = Contents::default();
+        let mut contents = FileIdentities::default();
         if let Some(record) = &summary.provenance {
-            find_moved(&mut case, &folder, &|it| {
+            find_moved_files(&mut case, &folder, &|it| {
                 record.inputs.iter().any(|input| input.content == *it)
             });
             check_inputs(&folder, record, &case, &mut contents)?;
         }
         let out = self.place(&folder)?;
-        let now = provenance(self.build.clone(), &case, &folder, &mut contents).map_err(unread)?;
+        let now = provenance(self.build.clone(), &case, &folder, &mut contents)
+            .map_err(unreadable_file)?;
         if let Err(error) = self.run_again(&case, &folder, &out, &summary, mode) {
             if self.out.is_none() {
                 // The folder did not exist before; a rest that cannot be removed is harmless.
@@ -84,12 +85,12 @@ impl Request<'_> {
             return Err(error);
         }
         let ending = match summary.termination == WALL_TIME {
-            true => Ending::ByTime,
-            false => Ending::ByCourse,
+            true => FirstRunEnd::ByTime,
+            false => FirstRunEnd::ByCourse,
         };
         let comparison = Comparison::new(&folder, &out, ending)?;
-        let kept = (self.out.is_some() || !comparison.is_same()).then(|| out.clone());
-        if kept.is_none() {
+        let kept_folder = (self.out.is_some() || !comparison.is_same()).then(|| out.clone());
+        if kept_folder.is_none() {
             fs::remove_dir_all(&out).with_context(|| format!("cannot remove {}", out.display()))?;
         }
         Ok(Repetition {
@@ -97,7 +98,7 @@ impl Request<'_> {
             circumstances: circumstances(&summary, &now),
             is_explained: summary.provenance.as_ref().is_none_or(|it| it.resumed),
             folder: self.folder.to_path_buf(),
-            kept,
+            kept_folder,
             comparison,
         })
     }
@@ -150,10 +151,10 @@ impl Request<'_> {
             .iter()
             .any(|name| summary.termination == *name);
         let rows = fs::read(folder.join(HISTORY)).unwrap_or_default();
-        let told =
+        let written_bytes =
             |folder: &Path| -> u64 { TOLD.iter().map(|name| length_of(&folder.join(name))).sum() };
-        let end = told(folder) + without_last_row(&rows);
-        let reached = || told(out) + length_of(&out.join(HISTORY));
+        let end = written_bytes(folder) + without_last_row(&rows);
+        let reached = || written_bytes(out) + length_of(&out.join(HISTORY));
         let is_at_its_end = || was_cut_short && reached() >= end;
         let request = run::Request {
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
@@ -188,7 +189,7 @@ fn without_last_row(table: &[u8]) -> u64 {
 }
 
 /// Converts the error of a folder that another process writes to.
-fn in_use(error: ligament_output::Error) -> anyhow::Error {
+fn folder_in_use_error(error: ligament_output::Error) -> anyhow::Error {
     match error {
         ligament_output::Error::Busy { path, .. } => anyhow::anyhow!(
             "{} is in use: a run writes its results there; repeat it when that run has ended",
@@ -207,7 +208,7 @@ fn summary_of(folder: &Path) -> anyhow::Result<Summary> {
     let summary = summary::read(folder)?;
     summary.with_context(|| {
         format!(
-            "the run in {0} is incomplete, because it has no {SUMMARY}; complete it by `ligament resume {0}`",
+            "the run in {0} is incomplete, because it has no {SUMMARY_FILE}; complete it by `ligament resume {0}`",
             folder.display()
         )
     })
@@ -218,7 +219,7 @@ fn check_inputs(
     folder: &Path,
     record: &Provenance,
     case: &CaseFile,
-    contents: &mut Contents,
+    contents: &mut FileIdentities,
 ) -> anyhow::Result<()> {
     let now = files(case);
     let mut changed = Vec::new();
@@ -236,7 +237,7 @@ fn check_inputs(
                 Some("mesh.file") => "; if the mesh has moved, give its new place with --mesh",
                 _ => "",
             };
-            unread((path.clone(), error)).context(format!("{what} cannot be read{hint}"))
+            unreadable_file((path.clone(), error)).context(format!("{what} cannot be read{hint}"))
         })?;
         if found != *content {
             let path = path.display();
@@ -276,8 +277,8 @@ fn notes(summary: &Summary) -> Vec<String> {
             "the run was cut short: only its steps were compared",
         ),
     ];
-    let said = all.into_iter().filter(|(applies, _)| *applies);
-    said.map(|(_, note)| note.to_owned()).collect()
+    let applicable = all.into_iter().filter(|(applies, _)| *applies);
+    applicable.map(|(_, note)| note.to_owned()).collect()
 }
 
 /// Differing circumstances of the run that may explain a difference: name, earlier value, present value.
@@ -358,8 +359,8 @@ impl Repetition {
         for note in &self.notes {
             writeln!(out, "  note: {note}")?;
         }
-        if let Some(kept) = &self.kept {
-            writeln!(out, "  repetition in      {}", kept.display())?;
+        if let Some(kept_folder) = &self.kept_folder {
+            writeln!(out, "  repetition in      {}", kept_folder.display())?;
         }
         Ok(())
     }

@@ -16,13 +16,15 @@ use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::quantity::quantity;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
-use ligament_output::summary::{self, Build, Identity, SUMMARY, Summary};
+use ligament_output::summary::{self, Build, Identity, SUMMARY_FILE, Summary};
 
-use crate::checkpoints::{IsStopped, Stops, VERSION};
+use crate::checkpoints::{IsStopped, StopRequests, VERSION};
 use crate::destination::make_results;
 use crate::end::End;
-use crate::inputs::{Contents, Inputs, MAY_CHANGE, find_moved, set_mesh, unread};
-use crate::loading::{Kept, LoadedBody};
+use crate::inputs::{
+    CHANGEABLE_KEYS, FileIdentities, Inputs, find_moved_files, set_mesh, unreadable_file,
+};
+use crate::loading::{LoadedBody, RestoredRun};
 use crate::model::build_model_on;
 use crate::origin;
 use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
@@ -65,7 +67,7 @@ impl Request<'_> {
         let threads = &mut case.case.solver.threads;
         *threads = self.threads.or(*threads);
         set_mesh(&mut case, self.mesh)?;
-        find_moved(&mut case, &path, &|it| was_read(&path, it));
+        find_moved_files(&mut case, &path, &|it| was_read(&path, it));
         on_threads(case.threads(), || {
             self.resume_here((&case, &path), folder, mode)
         })?
@@ -73,7 +75,7 @@ impl Request<'_> {
 
     /// Opens and locks the folder with the results of a run.
     fn open(&self) -> anyhow::Result<ResultFolder> {
-        let folder = ResultFolder::resumed(self.folder);
+        let folder = ResultFolder::open_resumed(self.folder);
         // The error of missing results takes precedence over the error of the lock.
         let folder = folder.map_err(|error| require_results(self.folder).err().unwrap_or(error))?;
         require_results(folder.path())?;
@@ -99,7 +101,7 @@ impl Request<'_> {
             ensure_unfinished(folder)?;
             progress.stage("the run has no checkpoint yet, so it starts from the beginning");
         }
-        let go_on = || self.go_on((case, path), folder, found, progress);
+        let go_on = || self.continue_run((case, path), folder, found, progress);
         match on_pool(&*self.communicator, go_on) {
             Ok(report) => Ok(report),
             Err(error) => {
@@ -114,7 +116,7 @@ impl Request<'_> {
     }
 
     /// Builds the model of a case and continues from the checkpoint that was found, if any.
-    fn go_on(
+    fn continue_run(
         &self,
         (case, path): (&CaseFile, &Path),
         folder: Option<ResultFolder>,
@@ -130,7 +132,7 @@ impl Request<'_> {
             .map(|(checkpoint, results, stored)| ((checkpoint, results), stored))
             .unzip();
         let stored = broadcast_solution(communicator, stored)?;
-        let restored = stored.map(|it| restored((&model, &loading), &problem, it.open(path)?));
+        let restored = stored.map(|it| restore_run((&model, &loading), &problem, it.open(path)?));
         let restored = restored.transpose()?;
         let is_stopped = || any_stopped(communicator, self.is_stopped);
         let body = LoadedBody {
@@ -138,31 +140,31 @@ impl Request<'_> {
             model: &model,
             loading: &loading,
             build: self.build.clone(),
-            requests: Stops::in_order(&is_stopped),
+            requests: StopRequests::at_next_state(&is_stopped),
         };
         let Some(folder) = folder else {
             body.follow_beside(restored)?;
             return Ok(Report::OfRankZero);
         };
-        let kept = found
+        let restored_run = found
             .zip(restored)
             .map(|((checkpoint, results), restored)| {
-                let kept = kept(checkpoint, results, restored, &problem)?;
-                progress.stage(&resuming(&kept.restored, &model));
-                anyhow::Ok(kept)
+                let restored_run = restored_run(checkpoint, results, restored, &problem)?;
+                progress.stage(&resumption_line(&restored_run.restored, &model));
+                anyhow::Ok(restored_run)
             });
-        let kept = kept.transpose()?;
+        let restored_run = restored_run.transpose()?;
         // The results of the run change from here on.
-        folder.remove(SUMMARY)?;
-        folder.remove_made_later()?;
-        if kept.is_none() {
+        folder.remove(SUMMARY_FILE)?;
+        folder.remove_derived_files()?;
+        if restored_run.is_none() {
             clear(&folder)?;
         }
         let summary = make_results(
             (case, false),
             || Ok(folder),
             |folder, _| {
-                let summary = body.follow(folder, kept, &mut stages, &mut progress)?;
+                let summary = body.follow(folder, restored_run, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
                 let is_complete = summary.end() != End::Stopped;
                 Ok((summary, is_complete))
@@ -173,7 +175,7 @@ impl Request<'_> {
 }
 
 /// The line about the state from which a run continues.
-fn resuming(restored: &Restored, model: &Model) -> String {
+fn resumption_line(restored: &Restored, model: &Model) -> String {
     let (reached, broken) = (restored.load_factor(), restored.broken_bonds());
     let reached = match model.setup.analysis.is_motion() {
         true => quantity(reached, "s"),
@@ -183,7 +185,7 @@ fn resuming(restored: &Restored, model: &Model) -> String {
 }
 
 /// The run of a checkpoint's solution.
-fn restored(
+fn restore_run(
     (model, loading): (&Model, &Loading),
     problem: &Problem,
     mut solution: impl Read,
@@ -197,10 +199,10 @@ fn restored(
 fn check_setting(setting: &str) -> anyhow::Result<()> {
     let key = setting.split_once('=').map_or(setting, |it| it.0).trim();
     ensure!(
-        MAY_CHANGE.contains(&key),
+        CHANGEABLE_KEYS.contains(&key),
         "--set {setting}: a resumed run can only change {}; any other key would change its earlier results. For that, run the case again \
          with `ligament run`",
-        MAY_CHANGE.join(", ")
+        CHANGEABLE_KEYS.join(", ")
     );
     Ok(())
 }
@@ -218,7 +220,7 @@ fn find_checkpoint(
             .and_then(|(checkpoint, stored)| {
                 check_inputs(&checkpoint, case)?;
                 let results = OutputState::read(&mut checkpoint.results.as_slice())?;
-                match results.obstacle(folder) {
+                match results.mismatch(folder) {
                     None => Ok((checkpoint, results, stored)),
                     Some(obstacle) => bail!("{obstacle}"),
                 }
@@ -259,8 +261,8 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
         "version {version} of the program wrote its checkpoint, and this is version {VERSION}: resume with that version, or run the case \
          again"
     );
-    let inputs = Inputs::of_course(case, &mut Contents::default());
-    let inputs = inputs.map_err(unread).context(
+    let inputs = Inputs::determining_inputs(case, &mut FileIdentities::default());
+    let inputs = inputs.map_err(unreadable_file).context(
         "an input of the run cannot be read; if the mesh has moved, give its new place with --mesh",
     )?;
     ensure!(
@@ -272,17 +274,17 @@ fn check_inputs(checkpoint: &Checkpoint, case: &CaseFile) -> anyhow::Result<()> 
 }
 
 /// The state of a checkpoint from which the run continues.
-fn kept(
+fn restored_run(
     checkpoint: Checkpoint,
     results: OutputState,
     restored: Restored,
     problem: &Problem,
-) -> anyhow::Result<Kept> {
+) -> anyhow::Result<RestoredRun> {
     ensure!(
         results.fits(problem),
         "the checkpoint belongs to another model: points or bonds differ"
     );
-    Ok(Kept {
+    Ok(RestoredRun {
         restored,
         results,
         messages: checkpoint.messages,

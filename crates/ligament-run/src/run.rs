@@ -5,28 +5,30 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
+use ligament::Vibration;
 use ligament::near_growth::Growth;
 use ligament::run::{on_pool, on_threads};
 use ligament::setup::Analysis;
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
+use ligament_case::case::CaseFile;
 use ligament_output::folder::ResultFolder;
-use ligament_output::summary::{Build, ModalSummary, Summary};
+use ligament_output::results::write_modes;
+use ligament_output::summary::{self, Build, ModalSummary, Provenance, Summary};
 
-use crate::checkpoints::Stops;
+use crate::checkpoints::StopRequests;
 use crate::destination::{self, make_results};
 use crate::end::{End, StoppedBeforeSolution};
-use crate::inputs::{Contents, unread};
+use crate::inputs::{FileIdentities, unreadable_file};
 use crate::loading::LoadedBody;
 use crate::memory;
-use crate::messages::counted;
+use crate::messages::merged_messages;
 use crate::model::{Model, build_model_on};
-use crate::modes::find_modes;
 use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode, StepLine};
 use crate::provenance::provenance;
 use crate::stages::Stages;
-use crate::summary::{write, write_modal};
-use ligament_case::case::CaseFile;
+use crate::summary::{modal_summary, write, write_modal};
 
 pub use crate::checkpoints::IsStopped;
 
@@ -139,7 +141,7 @@ impl<'a> Request<'a> {
             ResultFolder::check(self.out, self.force)?;
         }
         let mut stages = Stages::default();
-        let progress = Progress::on(&**communicator, mode).sent(self.steps.clone());
+        let progress = Progress::on(&**communicator, mode).with_receiver(self.steps.clone());
         let model = build_model_on(self.case, communicator.clone(), &mut stages, &progress)?;
         let solve = || self.solve(&model, stages, progress);
         let solved = on_pool(&**communicator, solve);
@@ -176,7 +178,7 @@ impl<'a> Request<'a> {
         stages: Stages,
         mut progress: Progress,
     ) -> anyhow::Result<Report> {
-        for warning in counted(model.warnings.iter().cloned()) {
+        for warning in merged_messages(model.warnings.iter().cloned()) {
             progress.stage(&format!("warning: {warning}"));
         }
         if let Analysis::Modal(settings) = model.setup.analysis {
@@ -185,9 +187,9 @@ impl<'a> Request<'a> {
                 return Ok(Report::OfRankZero);
             }
             let create = || ResultFolder::create(self.out, self.force);
-            let (build, mut contents) = (self.build.clone(), Contents::default());
+            let (build, mut contents) = (self.build.clone(), FileIdentities::default());
             let provenance = provenance(build, self.case, self.out, &mut contents);
-            let body = (model, provenance.map_err(unread)?);
+            let body = (model, provenance.map_err(unreadable_file)?);
             let summary = find_modes(
                 (self.case, self.keeps_inputs),
                 settings,
@@ -214,7 +216,7 @@ fn follow_loads(
     let loading = loading(case, model)?;
     if !communicator.has_matrices() && !model.setup.analysis.is_motion() {
         let problem = loading.problem(model);
-        memory::foresee_equations(case, &*model.system, &problem)?;
+        memory::check_equation_memory(case, &*model.system, &problem)?;
     }
     let is_stopped = || any_stopped(communicator, request.is_stopped);
     anyhow::ensure!(!is_stopped(), StoppedBeforeSolution);
@@ -223,7 +225,7 @@ fn follow_loads(
         model,
         loading: &loading,
         build: request.build.clone(),
-        requests: Stops {
+        requests: StopRequests {
             is_stopped: &is_stopped,
             is_aborted: request.is_aborted,
         },
@@ -235,7 +237,7 @@ fn follow_loads(
     // Nothing is written or replaced before all input is checked.
     let create = || ResultFolder::create(request.out, request.force);
     let summary = make_results((case, request.keeps_inputs), create, |folder, case| {
-        if let Some(words) = destination::words(folder) {
+        if let Some(words) = destination::replacement_message(folder) {
             progress.stage(&words);
         }
         let body = LoadedBody { case, ..body };
@@ -245,4 +247,33 @@ fn follow_loads(
         Ok((summary, is_complete))
     })?;
     Ok(Report::Loading(Box::new(summary)))
+}
+
+/// Finds the modes of a model and writes them into a new folder; `inputs` are the case, and whether the folder gets copies of its files.
+fn find_modes(
+    inputs: (&CaseFile, bool),
+    settings: ModalSettings,
+    (model, provenance): (&Model, Provenance),
+    create: impl FnOnce() -> Result<ResultFolder, ligament_output::Error>,
+    mut stages: Stages,
+) -> anyhow::Result<ModalSummary> {
+    let case = inputs.0;
+    let vibration = Vibration::new(model);
+    let vibration = vibration.map_err(|error| case.error_at_key(error))?;
+    let problem = vibration.problem(model);
+    let analysis = stages.time("analysis", || ModalAnalysis::new(&problem, settings))?;
+    memory::check_memory(case, &*model.system, Some(analysis.stiffness()))?;
+
+    let outcome = stages.time("modes", || analysis.find())?;
+
+    // Nothing is written or replaced before the modes are found.
+    make_results(inputs, create, |folder, case| {
+        stages.time("output", || {
+            let grid = model.body().grid();
+            write_modes(folder, &grid, &*model.system, &model.fixed, &outcome)
+        })?;
+        let summary = modal_summary(case, model, &outcome, provenance, stages.done());
+        summary::write(folder, &summary)?;
+        Ok((summary, true))
+    })
 }

@@ -5,7 +5,7 @@ use ligament::stability::largest_poisson;
 use ligament_analysis::Termination;
 
 /// Words for the end of a run of an unstable model, with the largest Poisson's ratio that works for it, which takes a few factorisations.
-pub fn words(end: &Termination, model: &Model) -> String {
+pub fn end_text(end: &Termination, model: &Model) -> String {
     // Without a model of a smaller ratio there is no advice about it.
     let largest = largest_poisson(model).unwrap_or_default();
     format!("{end}; {}", remedy(largest))

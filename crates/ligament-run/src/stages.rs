@@ -8,7 +8,7 @@ use ligament_output::summary::Stage;
 #[derive(Debug, Default)]
 pub struct Stages {
     done: Vec<Stage>,
-    begun: Option<Instant>,
+    start: Option<Instant>,
 }
 
 impl Stages {
@@ -22,12 +22,12 @@ impl Stages {
 
     /// Begins a stage.
     pub(crate) fn begin(&mut self) {
-        self.begun = Some(Instant::now());
+        self.start = Some(Instant::now());
     }
 
     /// Ends the current stage and records its time and memory.
     pub(crate) fn end(&mut self, name: &'static str) {
-        let start = self.begun.take();
+        let start = self.start.take();
         self.done.push(Stage {
             name: name.into(),
             seconds: start.map_or(0.0, |start| start.elapsed().as_secs_f64()),

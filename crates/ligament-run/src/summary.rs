@@ -4,39 +4,39 @@ mod certificate;
 mod modal;
 mod model;
 mod motion;
-mod places;
 mod solver;
 
+use std::collections::BTreeMap;
 use std::io::{self, Write};
 
-use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
-use ligament_analysis::first_bonds::FirstBonds;
-use ligament_analysis::history::StepRecord;
-use ligament_analysis::{Message, ProportionalLoading, Termination};
-use ligament_output::quantity::{between, quantity, settled};
-use ligament_output::summary::{
-    CertificateSummary, OverlapSummary, PathPoint, Provenance, Spread, StabilitySummary, Stage,
-    Summary, UP_TO_THERE, UnitsSummary,
-};
-
-use crate::end::End;
-use crate::messages::counted;
-use crate::stability;
-use ligament::Model;
-use ligament_case::case::CaseFile;
-
-pub(crate) use certificate::certificate;
 use certificate::write_certificate;
-pub use modal::{modal_summary, write_modal};
-pub use model::{
-    OfPoints, analysis_words, correction_line, family, formulation_line, heading, scatter,
+use ligament::Model;
+use ligament_analysis::driver::{LoadPoint, Outcome, Rows};
+use ligament_analysis::first_bonds::{FirstBond, FirstBonds};
+use ligament_analysis::history::StepRecord;
+use ligament_analysis::{Layout, LoadProgram, Message, ProportionalLoading, Termination};
+use ligament_case::case::CaseFile;
+use ligament_output::quantity::{between, quantity, zero_if_rounding};
+use ligament_output::results::criterion_labels;
+use ligament_output::summary::{
+    BondEvent, CertificateSummary, INCOMPLETE_RUN_NOTE, OverlapSummary, PathPoint, Provenance,
+    Resultant, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
 };
 use motion::{motion_summary, write_motion};
-use places::{bond_event, resultants_at_peak};
 use solver::solver_summary;
 
+use crate::end::End;
+use crate::messages::merged_messages;
+use crate::stability;
+
+pub(crate) use certificate::certificate;
+pub use modal::{modal_summary, write_modal};
+pub use model::{
+    PointStatistics, analysis_words, correction_line, family, formulation_line, heading, scatter,
+};
+
 /// Decrease of the reaction, relative to its maximum so far, that ends the first rise of the load.
-pub const DROP: f64 = 0.02;
+pub const LOAD_DROP: f64 = 0.02;
 
 /// Largest number of warnings shown at the end of a run; small detached parts can give hundreds.
 const WARNINGS_SHOWN: usize = 10;
@@ -45,9 +45,9 @@ const WARNINGS_SHOWN: usize = 10;
 const ROUNDING: f64 = 1e-9;
 
 /// Description of the end of a run, with points by their tags and positions.
-pub(crate) fn ending(outcome: &Outcome, model: &Model) -> String {
+pub(crate) fn end_text(outcome: &Outcome, model: &Model) -> String {
     match &outcome.termination {
-        end @ Termination::Unstable { .. } => stability::words(end, model),
+        end @ Termination::Unstable { .. } => stability::end_text(end, model),
         end => end.words(&|point| model.names.place(point)),
     }
 }
@@ -60,9 +60,9 @@ pub fn temperature_change(boundary: &ProportionalLoading) -> Option<Spread> {
 
 /// Data of a run for the summary, beside its model and its outcome.
 #[derive(Debug, Clone)]
-pub struct Noted {
+pub struct SummaryData {
     /// Data on the points of the model.
-    pub of_points: OfPoints,
+    pub of_points: PointStatistics,
     /// Origin of the results.
     pub provenance: Provenance,
     /// Messages of the run.
@@ -81,7 +81,7 @@ pub fn summary(
     model: &Model,
     boundary: &ProportionalLoading,
     outcome: &Outcome,
-    noted: Noted,
+    data: SummaryData,
 ) -> Summary {
     let (units, history) = (model.setup.units(), &outcome.history);
     let without_equilibrium = outcome.is_without_equilibrium();
@@ -94,10 +94,11 @@ pub fn summary(
     let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
     let last_state_not_at_rest = history.last().is_some_and(|last| !last.at_rest);
     let end = (outcome.termination.row().verdict).end(without_equilibrium, last_state_not_at_rest);
-    let of_end = (end == End::NoEquilibrium).then(|| Message::new("no-equilibrium", UP_TO_THERE));
+    let of_end =
+        (end == End::NoEquilibrium).then(|| Message::new("no-equilibrium", INCOMPLETE_RUN_NOTE));
     let warnings = model.warnings.iter().cloned();
     Summary {
-        model: model::model_summary(case, model, noted.of_points),
+        model: model::model_summary(case, model, data.of_points),
         temperature_change: temperature_change(boundary),
         units: UnitsSummary {
             displacement: units.displacement.into(),
@@ -106,23 +107,23 @@ pub fn summary(
         elastic_stiffness: Some(outcome.elastic_stiffness)
             .filter(|stiffness| stiffness.is_finite()),
         first_break: outcome.first_break.map(PathPoint::from),
-        first_softened_bond: noted.first.softened.map(|it| bond_event(model, &it)),
-        first_broken_bond: noted.first.broken.map(|it| bond_event(model, &it)),
+        first_softened_bond: data.first.softened.map(|it| bond_event(model, &it)),
+        first_broken_bond: data.first.broken.map(|it| bond_event(model, &it)),
         peak: loaded(outcome.peak()),
         reactions_at_peak: resultants_at_peak(boundary, model.system.layout, outcome),
         // The force of a motion rises and falls with its waves.
-        first_peak: loaded(outcome.first_peak(DROP)).filter(|_| outcome.rows != Rows::Times),
+        first_peak: loaded(outcome.first_peak(LOAD_DROP)).filter(|_| outcome.rows != Rows::Times),
         broken_bonds: outcome.broken_bonds,
         softened_bonds: (model.criteria.soften()).then_some(outcome.softened_bonds),
         steps: history.len().saturating_sub(1),
         exact_path: outcome.rows == Rows::Events,
         motion: motion_summary(&model.setup.analysis, outcome),
         termination: outcome.termination.name().into(),
-        termination_message: ending(outcome, model),
+        termination_message: end_text(outcome, model),
         without_equilibrium,
         last_state_not_at_rest,
         energy_balance_error: if put_in > 0.0 { missing / put_in } else { 0.0 },
-        certificate: noted.certificate,
+        certificate: data.certificate,
         overlap: outcome.overlap.map(|it| OverlapSummary {
             depth: it.depth,
             step: it.step,
@@ -130,9 +131,9 @@ pub fn summary(
         }),
         stability: outcome.stability.map(StabilitySummary::from),
         solver: solver_summary(&outcome.costs, &outcome.solver),
-        provenance: Some(noted.provenance),
-        stages: noted.stages,
-        warnings: counted(warnings.chain(noted.messages).chain(of_end)),
+        provenance: Some(data.provenance),
+        stages: data.stages,
+        warnings: merged_messages(warnings.chain(data.messages).chain(of_end)),
     }
 }
 
@@ -264,13 +265,48 @@ fn write_loads(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
             load_factor,
         }) = point.filter(|it| summary.motion.is_none() || it.reaction != 0.0)
         {
-            let load = quantity(settled(reaction, most), force);
+            let load = quantity(zero_if_rounding(reaction, most), force);
             let at = match summary.motion {
                 Some(_) => quantity(load_factor, "s"),
-                None => quantity(settled(displacement, farthest), along),
+                None => quantity(zero_if_rounding(displacement, farthest), along),
             };
             writeln!(out, "  {name:<18} {load} at {at}")?;
         }
     }
     Ok(())
+}
+
+/// Summary of the first breakage or softening in a model.
+fn bond_event(model: &Model, first: &FirstBond) -> BondEvent {
+    let ends = model.names.numbering().ordered(first.ends);
+    let criteria = model.criteria.list.iter().map(|it| it.name);
+    let mut labels = criterion_labels(criteria);
+    BondEvent {
+        ends: ends.map(|end| model.names.tag(end)),
+        place: model.middle(ends),
+        step: first.step,
+        load_factor: first.load_factor,
+        displacement: first.displacement,
+        reaction: first.reaction,
+        criterion: labels.swap_remove(first.criterion as usize),
+        tagged: model.names.tagged(),
+    }
+}
+/// Resultants of the groups, by their names in the history, at the record with the largest reaction and no bond left to break.
+fn resultants_at_peak(
+    loads: &dyn LoadProgram,
+    layout: Layout,
+    outcome: &Outcome,
+) -> BTreeMap<String, Resultant> {
+    let at_rest = outcome.history.iter().filter(|record| record.at_rest);
+    let higher = |best: &'_ StepRecord, record: &'_ StepRecord| record.reaction > best.reaction;
+    let peak = at_rest.reduce(|best, record| if higher(best, record) { record } else { best });
+    let groups = loads.groups().iter().map(|group| group.name.clone());
+    let forces = peak.iter().flat_map(|record| &record.group_forces);
+    let resultant = |force: &Vec<f64>| -> Resultant {
+        let of_body = layout.of_body().iter();
+        let named = of_body.map(|it| (it.force_name().into(), layout.value(0, *it, force)));
+        named.collect()
+    };
+    groups.zip(forces.map(resultant)).collect()
 }

@@ -124,7 +124,7 @@ fn error_with(old: &str, new: &str) -> String {
 fn loading(case: &CaseFile) -> anyhow::Result<Loading> {
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &progress)?;
-    Ok(Loading::new(&model).map_err(|it| case.located(it))?)
+    Ok(Loading::new(&model).map_err(|it| case.error_at_key(it))?)
 }
 
 /// Changes of the points of a case in a folder, in the order of its mesh file, K.

@@ -38,7 +38,7 @@ pub struct Request {
     pub length: f64,
     /// Folder of the results.
     pub out: PathBuf,
-    /// Whether earlier results there may be replaced.
+    /// Whether earlier results in the output folder may be replaced.
     pub force: bool,
 }
 
@@ -50,7 +50,7 @@ const COLUMNS: &str = "material,direction_deg,k_n,k_t,k_theta,c_xx,c_ss";
 /// The folder of curves of stiffness.
 const KIND: Kind = Kind {
     owns: |name| name == TABLE || (name.starts_with("k-") && name.ends_with(".svg")),
-    ..Kind::marked(TABLE)
+    ..Kind::with_marker(TABLE)
 };
 
 /// Directions of the curves: a degree apart, over half a turn.
@@ -81,7 +81,7 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
     let materials: Vec<(String, Vec<InDirection>)> = (0..setup.materials.len())
         .map(of_material)
         .collect::<Result<_, DirectionError>>()?;
-    let folder = ResultFolder::create_marked(&request.out, KIND, request.force)?;
+    let folder = ResultFolder::create_of_kind(&request.out, KIND, request.force)?;
     let mut table = Table::with_header(folder.file(TABLE), COLUMNS)?;
     writeln!(screen, "{}", heading(&request.case.case.title))?;
     let law = setup.law.name();
@@ -192,11 +192,15 @@ pub fn plots(name: &str, stem: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
         let negative = Series::dashes(
             format!("-{stiffness}"),
             Colour::Vermilion,
-            whole(curves, |it| -of_bond(it)),
+            normalised_curve(curves, |it| -of_bond(it)),
         );
         let mut series = vec![
-            Series::curve(stiffness, Colour::Blue, whole(curves, of_bond)),
-            Series::curve(modulus, Colour::Orange, whole(curves, of_continuum)),
+            Series::curve(stiffness, Colour::Blue, normalised_curve(curves, of_bond)),
+            Series::curve(
+                modulus,
+                Colour::Orange,
+                normalised_curve(curves, of_continuum),
+            ),
             negative,
         ];
         series.retain(|it| it.points().iter().any(|point| point[1].is_finite()));
@@ -212,7 +216,7 @@ pub fn plots(name: &str, stem: &str, curves: &[InDirection]) -> Vec<PolarPlot> {
 }
 
 /// A curve over all directions, normalised by its largest absolute value; NaN where it is negative.
-fn whole(curves: &[InDirection], value: impl Fn(&InDirection) -> f64) -> Vec<[f64; 2]> {
+fn normalised_curve(curves: &[InDirection], value: impl Fn(&InDirection) -> f64) -> Vec<[f64; 2]> {
     let largest = curves.iter().map(|it| value(it).abs()).fold(0.0, f64::max);
     let radius = |it: &InDirection| {
         let share = value(it) / largest;

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use ligament::suggestion::{hint, nearest};
 use ligament_output::folder::refuse_link;
-use ligament_output::summary::{SUMMARY, verdict};
+use ligament_output::summary::{SUMMARY_FILE, verdict};
 use ligament_output::{Error, read_json};
 
 /// Lists of a summary that are in a table of runs only by their lengths.
@@ -31,7 +31,7 @@ pub enum QuantityError {
         hint(name, known, "results with numbers", '`')
     )]
     Unknown {
-        /// The name.
+        /// Name of a result that does not exist.
         name: String,
         /// Names of the existing numbers.
         known: Vec<String>,
@@ -39,9 +39,9 @@ pub enum QuantityError {
     /// The run has no value of this result, or one that is not a number.
     #[error("`{name}` has no number in this run: it is {value}")]
     NotANumber {
-        /// The name.
+        /// Name of a result that is not a number.
         name: String,
-        /// The value.
+        /// Value of the result.
         value: Value,
     },
 }
@@ -49,7 +49,7 @@ pub enum QuantityError {
 impl Quantities {
     /// Flattens a summary: names of nested values are joined by dots, `modes.0.frequency`. Warnings become their number, stages `seconds`
     /// and `peak_bytes`; the provenance is left out.
-    pub fn of_summary(summary: &Value) -> Self {
+    pub fn from_summary(summary: &Value) -> Self {
         let mut all = Vec::new();
         for (name, value) in summary.as_object().into_iter().flatten() {
             match value {
@@ -75,9 +75,9 @@ impl Quantities {
 
     /// Reads the results of a run from the summary in its folder.
     pub(crate) fn read(folder: &Path) -> Result<Self, Error> {
-        let path = folder.join(SUMMARY);
+        let path = folder.join(SUMMARY_FILE);
         refuse_link(&path)?;
-        Ok(Self::of_summary(&read_json(&path)?))
+        Ok(Self::from_summary(&read_json(&path)?))
     }
 
     /// Names and values: numbers, texts, Booleans, or null where the run has no value.
@@ -108,7 +108,7 @@ impl Quantities {
                 },
                 None => QuantityError::Unknown {
                     name: name.to_owned(),
-                    known: self.near(name),
+                    known: self.suggestions(name),
                 },
             });
         };
@@ -119,7 +119,7 @@ impl Quantities {
     }
 
     /// Names of numbers to suggest for an unknown name: the names in the part that its beginning resembles, otherwise all.
-    fn near(&self, name: &str) -> Vec<String> {
+    fn suggestions(&self, name: &str) -> Vec<String> {
         fn part(name: &str) -> &str {
             name.split('.').next().unwrap_or(name)
         }
@@ -181,7 +181,7 @@ mod tests {
     use serde_json::json;
 
     fn sample() -> Quantities {
-        Quantities::of_summary(&json!({
+        Quantities::from_summary(&json!({
             "title": "disk",
             "first_peak": { "reaction": 6e5, "displacement": 1e-4 },
             "first_break": null,

@@ -10,7 +10,7 @@ use ligament_run::model::Model;
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
 /// Strengths for limits that are equal for all bonds; the errors under one measure do not depend on them.
-const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
+const STRENGTHS: Strengths = Strengths::TABLE_STRENGTHS;
 
 fn uniform(criterion: &str, n_bonds: usize) -> anyhow::Result<Criteria> {
     let combination: Combination = criterion.parse().map_err(anyhow::Error::msg)?;
@@ -21,7 +21,7 @@ fn uniform(criterion: &str, n_bonds: usize) -> anyhow::Result<Criteria> {
 fn on_lattice(size: f64, criterion: &str, strains: PrincipalStretches) -> anyhow::Result<f64> {
     let directions = lattice::directions(lattice::ratio_of_size(size));
     let criteria = uniform(criterion, directions.len())?;
-    let worst = Family::of_directions(&directions, &criteria).worst(strains);
+    let worst = Family::from_directions(&directions, &criteria).worst(strains);
     Ok(worst.context("nothing yields")?.error)
 }
 

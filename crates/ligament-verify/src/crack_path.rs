@@ -12,7 +12,7 @@ use ligament_analysis::fields::{damage, point_damage};
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 
 /// Damage (NHPD eq. 17) above which a point belongs to a crack: a straight cut beside a point gives up to one half.
-pub(super) const CRACKED: f64 = 0.3;
+pub(super) const CRACKED_DAMAGE: f64 = 0.3;
 
 /// An observer that collects all breakages in their order.
 #[derive(Debug, Default)]
@@ -34,7 +34,7 @@ impl Observer for Breakages {
 
 /// A position with its horizon.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct CrackPoint {
     /// Coordinates, m.
     pub(super) at: [f64; 2],
     /// Horizon, m.
@@ -47,8 +47,8 @@ pub(super) type Segment = [[f64; 2]; 2];
 /// The cracked points of a body.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Crack {
-    /// Points with a damage above [`CRACKED`].
-    pub(super) points: Vec<Place>,
+    /// Points with a damage above [`CRACKED_DAMAGE`].
+    pub(super) points: Vec<CrackPoint>,
 }
 
 /// Distances of a crack from its image after half a turn about the origin.
@@ -61,9 +61,9 @@ pub(super) struct HalfTurn {
 }
 
 /// Midpoint of a bond, with its horizon.
-pub(super) fn middle(model: &Model, bond: usize) -> Place {
+pub(super) fn middle(model: &Model, bond: usize) -> CrackPoint {
     let [a, b] = ends(model, bond);
-    Place {
+    CrackPoint {
         at: [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])],
         horizon: model.plane().bonds.horizon[bond],
     }
@@ -100,8 +100,8 @@ impl Crack {
             intact[record.bond as usize] = false;
         }
         let damage = damage(&**model.plane(), &intact);
-        let cracked = (0..damage.len()).filter(|&point| damage[point] > CRACKED);
-        let points = cracked.map(|point| Place {
+        let cracked = (0..damage.len()).filter(|&point| damage[point] > CRACKED_DAMAGE);
+        let points = cracked.map(|point| CrackPoint {
             at: place(model, point),
             horizon: model.fixed.horizon[point],
         });
@@ -110,8 +110,8 @@ impl Crack {
         }
     }
 
-    /// The first cracked point: the first point whose damage exceeds [`CRACKED`].
-    pub(super) fn first_point(model: &Model, records: &[BreakRecord]) -> Option<Place> {
+    /// The first cracked point: the first point whose damage exceeds [`CRACKED_DAMAGE`].
+    pub(super) fn first_point(model: &Model, records: &[BreakRecord]) -> Option<CrackPoint> {
         let count = |until: usize| Self::from_breakages(model, &records[..until]).points.len();
         // Damage only grows, so that the breakage that cracks the first point is found by bisection.
         let (mut none, mut some) = (0, records.len());
@@ -143,7 +143,7 @@ impl Crack {
     /// The part of the crack that starts at a segment: points connected to it by a chain in which each point lies in the horizon of the
     /// previous one; the segment lies in the horizon of the first.
     pub(super) fn part_from(&self, segment: Segment) -> Self {
-        let is_at = |point: &Place| distance(point.at, segment) <= point.horizon;
+        let is_at = |point: &CrackPoint| distance(point.at, segment) <= point.horizon;
         let mut reached: Vec<bool> = self.points.iter().map(is_at).collect();
         let mut front: Vec<usize> = (0..reached.len()).filter(|&it| reached[it]).collect();
         while let Some(last) = front.pop() {
@@ -166,7 +166,7 @@ impl Crack {
     }
 
     /// Whether the crack joins two segments: a point of the part that starts at one segment has the other in its horizon.
-    pub(super) fn joins(&self, from: Segment, to: Segment) -> bool {
+    pub(super) fn connects(&self, from: Segment, to: Segment) -> bool {
         let part = self.part_from(from);
         part.points
             .iter()
@@ -210,7 +210,7 @@ impl Crack {
     }
 
     /// The point of the crack farthest from the origin.
-    pub(super) fn tip(&self) -> Option<Place> {
+    pub(super) fn tip(&self) -> Option<CrackPoint> {
         let points = self.points.iter().copied();
         points.max_by(|a, b| radius(a.at).total_cmp(&radius(b.at)))
     }
@@ -274,7 +274,7 @@ mod tests {
     use super::*;
 
     fn crack(places: &[[f64; 2]]) -> Crack {
-        let points = places.iter().map(|&at| Place { at, horizon: 1.5 });
+        let points = places.iter().map(|&at| CrackPoint { at, horizon: 1.5 });
         Crack {
             points: points.collect(),
         }
@@ -284,9 +284,9 @@ mod tests {
     fn a_chain_joins_what_lies_within_a_horizon_of_its_ends() {
         let row = crack(&[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [4.0, 0.0]]);
         let at = |x: f64| [[x, -1.0], [x, 1.0]];
-        assert!(row.joins(at(-1.0), at(3.0)));
-        assert!(!row.joins(at(-1.0), at(4.0)), "there is a gap of 2");
-        assert!(!row.joins(at(-2.0), at(2.0)));
+        assert!(row.connects(at(-1.0), at(3.0)));
+        assert!(!row.connects(at(-1.0), at(4.0)), "there is a gap of 2");
+        assert!(!row.connects(at(-2.0), at(2.0)));
         let left = row.part_from(at(-1.0));
         assert_eq!([left.gap_to(at(5.0)), left.points.len() as f64], [3.0, 3.0]);
         assert_eq!(left.gap_between(&row.part_from(at(5.0))), 2.0);

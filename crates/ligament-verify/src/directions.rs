@@ -6,23 +6,23 @@ use anyhow::Context;
 use ligament::Model;
 use ligament::direction::{InDirection, over_direction};
 
-use super::trial::Trial;
+use super::case_run::CaseRun;
 
 /// The stiffness `k_n` or `k_t` of a case in a direction (degrees from x), the `smallest` or the `largest` one, the `spread` over the directions of its ratio to the modulus
 /// of the continuum (%), or, `turned_by_N`, the largest difference of the curve for axes turned by N degrees from the shifted curve, over the largest value.
-pub(super) fn stiffness(trial: &Trial, name: &str) -> anyhow::Result<f64> {
+pub(super) fn stiffness(case_run: &CaseRun, name: &str) -> anyhow::Result<f64> {
     let (stiffness, of) = name.split_once('.').context("no direction is named")?;
     let value: fn(&InDirection) -> f64 = match stiffness {
         "k_n" => |it| it.axial,
         _ => |it| it.shear,
     };
-    let straight = curves(&trial.model()?)?;
+    let straight = curves(&case_run.model()?)?;
     let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(f64::NEG_INFINITY, f64::max);
     if let Some(turn) = of.strip_prefix("turned_by_") {
         let turn: u8 = turn.parse()?;
         let size = largest(&mut straight.iter().map(value));
         let angle = f64::from(turn).to_radians();
-        let turned = trial.clone().set("material.angle", angle).model()?;
+        let turned = case_run.clone().set("material.angle", angle).model()?;
         let curves = curves(&turned)?.into_iter().enumerate();
         let difference = |(place, it): (usize, InDirection)| {
             let from_axis = (place + 180 - usize::from(turn)) % 180;

@@ -1,6 +1,6 @@
 //! An entry of a table: a known value, its reliability, and the verdict on the computed value.
 
-use super::printed::{Allowed, Printed};
+use super::printed::{PrintedNumber, Tolerance};
 
 /// A known value for comparison with a computed one.
 #[derive(Debug, Clone, PartialEq)]
@@ -8,9 +8,9 @@ pub struct Entry {
     /// Labels of the value, one for each key of the heading.
     pub labels: Vec<String>,
     /// Known value.
-    pub known: Printed,
+    pub known: PrintedNumber,
     /// Allowed distance of the computed value from the known one.
-    pub allowed: Allowed,
+    pub allowed: Tolerance,
     /// Reliability of the value.
     pub standing: Reliability,
     /// Whether the entry belongs to the fast subset.
@@ -30,21 +30,21 @@ pub enum Reliability {
     /// The value is a misprint.
     Misprint {
         /// Correct value, for the comparison.
-        instead: Printed,
+        instead: PrintedNumber,
         /// Evidence for the misprint.
         reason: String,
     },
     /// The set-up of the table does not give the value, for unknown reasons.
     Open {
         /// Value of an independent calculation, for the comparison.
-        instead: Printed,
+        instead: PrintedNumber,
         /// Knowledge about the value.
         reason: String,
     },
     /// The value is reliable, and the method does not reach it within the tolerance.
     Missed {
         /// Value of the method, for the comparison where it misses the known value.
-        instead: Printed,
+        instead: PrintedNumber,
         /// Reason why the method misses the value.
         reason: String,
     },
@@ -74,10 +74,10 @@ pub enum Verdict {
 impl Entry {
     /// Verdict on a computed value.
     pub(super) fn verdict(&self, computed: f64) -> Verdict {
-        let agrees = |printed: &Printed| self.allowed.admits(printed, computed);
+        let agrees = |printed: &PrintedNumber| self.allowed.admits(printed, computed);
         match &self.standing {
             _ if !computed.is_finite() => Verdict::Failed,
-            Reliability::Sound if self.allowed == Allowed::Any => Verdict::Shown,
+            Reliability::Sound if self.allowed == Tolerance::Any => Verdict::Shown,
             Reliability::Missed { instead, .. } if !agrees(&self.known) => match agrees(instead) {
                 true => Verdict::Missed,
                 false => Verdict::Failed,
@@ -89,7 +89,9 @@ impl Entry {
                 Verdict::Rounded
             }
             Reliability::Sound | Reliability::Missed { .. } => Verdict::Within,
-            Reliability::Truncated { .. } if self.known.is_cut_from(computed) => Verdict::Truncated,
+            Reliability::Truncated { .. } if self.known.is_truncated_from(computed) => {
+                Verdict::Truncated
+            }
             Reliability::Misprint { instead, .. } if agrees(instead) => Verdict::Misprint,
             Reliability::Open { instead, .. } if agrees(instead) => Verdict::Differs,
             _ => Verdict::Failed,
@@ -110,7 +112,7 @@ impl Reliability {
     }
 
     /// Value for the comparison in place of the known one, if any.
-    pub(super) fn instead(&self) -> Option<&Printed> {
+    pub(super) fn replacement_value(&self) -> Option<&PrintedNumber> {
         match self {
             Self::Misprint { instead, .. }
             | Self::Open { instead, .. }
@@ -152,10 +154,10 @@ impl Verdict {
 mod tests {
     use super::*;
 
-    fn entry(known: &str, allowed: Allowed, standing: Reliability) -> Entry {
+    fn entry(known: &str, allowed: Tolerance, standing: Reliability) -> Entry {
         Entry {
             labels: Vec::new(),
-            known: Printed::parse(known).unwrap(),
+            known: PrintedNumber::parse(known).unwrap(),
             allowed,
             standing,
             is_fast: true,
@@ -170,20 +172,20 @@ mod tests {
     #[test]
     fn a_sound_value_is_met_nearly_met_or_missed() {
         use Verdict::{Failed, Rounded, Shown, Within};
-        let printed = entry("2294.9", Allowed::Digits, Reliability::Sound);
+        let printed = entry("2294.9", Tolerance::Digits, Reliability::Sound);
         assert_eq!(
             verdicts(&printed, &[2294.94, 2294.86, 2294.96]),
             [Rounded, Rounded, Failed]
         );
-        let near = entry("2294.9", Allowed::Relative(0.01), Reliability::Sound);
+        let near = entry("2294.9", Tolerance::Relative(0.01), Reliability::Sound);
         assert_eq!(
             verdicts(&near, &[2294.9, 2310.0, 2272.0, 2318.0]),
             [Rounded, Within, Within, Failed]
         );
         // Half a unit of the only digit of 0 is no excuse for missing the tolerance.
-        let zero = entry("0", Allowed::Absolute(0.01), Reliability::Sound);
+        let zero = entry("0", Tolerance::Absolute(0.01), Reliability::Sound);
         assert_eq!(verdicts(&zero, &[-0.005, 0.3]), [Rounded, Failed]);
-        let shown = entry("0.1", Allowed::Any, Reliability::Sound);
+        let shown = entry("0.1", Tolerance::Any, Reliability::Sound);
         assert_eq!(verdicts(&shown, &[0.1, 7.0]), [Shown, Shown]);
         for it in [printed, near, zero, shown] {
             assert_eq!(verdicts(&it, &[f64::NAN, f64::INFINITY]), [Failed, Failed]);
@@ -194,11 +196,14 @@ mod tests {
     #[test]
     fn a_band_is_about_the_value_it_belongs_to() {
         use Verdict::{Failed, Missed, Within};
-        let band = Allowed::Between(-0.05, 0.01);
+        let band = Tolerance::Between(-0.05, 0.01);
         let sound = entry("1.00", band, Reliability::Sound);
         let found = verdicts(&sound, &[0.96, 1.008, 1.02, 0.94]);
         assert_eq!(found, [Within, Within, Failed, Failed]);
-        let (instead, reason) = (Printed::parse("0.80").unwrap(), String::from("few bonds"));
+        let (instead, reason) = (
+            PrintedNumber::parse("0.80").unwrap(),
+            String::from("few bonds"),
+        );
         let missed = entry("1.00", band, Reliability::Missed { instead, reason });
         let found = verdicts(&missed, &[0.96, 0.76, 0.82]);
         assert_eq!(found, [Within, Missed, Failed]);
@@ -210,25 +215,25 @@ mod tests {
         let reason = String::from("cut");
         let cut = entry(
             "0.01085",
-            Allowed::Digits,
+            Tolerance::Digits,
             Reliability::Truncated { reason },
         );
         let found = verdicts(&cut, &[0.010856, 0.01085, 0.010849, 0.010861]);
         assert_eq!(found, [Truncated, Truncated, Failed, Failed]);
         let reason = String::from("cut");
-        let negative = entry("-0.5", Allowed::Digits, Reliability::Truncated { reason });
+        let negative = entry("-0.5", Tolerance::Digits, Reliability::Truncated { reason });
         assert_eq!(verdicts(&negative, &[-0.58, -0.48]), [Truncated, Failed]);
     }
 
     #[test]
     fn a_misprint_must_still_be_what_should_stand_there() {
         let (instead, reason) = (
-            Printed::parse("2053").unwrap(),
+            PrintedNumber::parse("2053").unwrap(),
             String::from("digits exchanged"),
         );
         let misprint = entry(
             "2025.5",
-            Allowed::Digits,
+            Tolerance::Digits,
             Reliability::Misprint {
                 instead: instead.clone(),
                 reason: reason.clone(),
@@ -238,7 +243,7 @@ mod tests {
         assert_eq!(found, [Verdict::Misprint, Verdict::Failed]);
         let open = entry(
             "2025.5",
-            Allowed::Relative(0.001),
+            Tolerance::Relative(0.001),
             Reliability::Open { instead, reason },
         );
         let found = verdicts(&open, &[2054.0, 2025.5]);
@@ -247,10 +252,13 @@ mod tests {
 
     #[test]
     fn a_missed_value_must_still_be_missed_by_as_much() {
-        let (instead, reason) = (Printed::parse("0.8").unwrap(), String::from("few bonds"));
+        let (instead, reason) = (
+            PrintedNumber::parse("0.8").unwrap(),
+            String::from("few bonds"),
+        );
         let missed = entry(
             "0.0",
-            Allowed::Absolute(0.3),
+            Tolerance::Absolute(0.3),
             Reliability::Missed { instead, reason },
         );
         let found = verdicts(&missed, &[0.7, 1.2, 0.2, 0.01]);

@@ -22,11 +22,11 @@ pub struct Experiment {
     pub setup: &'static str,
     /// Paths of the cases that are run, with settings of each entry; empty for an experiment file, which names its cases itself.
     pub cases: &'static [&'static str],
-    /// Way to the tables.
+    /// Computation of the tables.
     pub compute: Compute,
 }
 
-/// Way to the tables of an experiment.
+/// Computation of the tables of an experiment.
 #[derive(Debug, Clone, Copy)]
 pub enum Compute {
     /// Function that computes the tables, or their fast subset.

@@ -4,8 +4,8 @@ use anyhow::Context;
 use ligament::Model;
 use ligament_analysis::history::BreakRecord;
 
+use crate::case_run::Number;
 use crate::crack_path::middle;
-use crate::trial::Number;
 
 /// A bond that broke.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +60,7 @@ impl Branches {
 }
 
 /// Cracks from two notches.
-pub(super) struct FromNotches {
+pub(super) struct CracksOfNotches {
     /// Mean angle of the cracks with the x axis, degrees.
     pub(super) angle: f64,
     /// Time at which the first one is a `horizon` away from its tip, s.
@@ -69,7 +69,7 @@ pub(super) struct FromNotches {
     pub(super) speed: f64,
 }
 
-impl FromNotches {
+impl CracksOfNotches {
     /// Cracks from the notches with tips at (`tip_x`, `upper_tip`) and (`tip_x`, `lower_tip`), on their outer sides and steeper than 45 degrees; `middle`
     /// is between them.
     pub(super) fn new(breaks: &[Break], number: Number<'_>) -> anyhow::Result<Self> {

@@ -8,8 +8,8 @@ use std::f64::consts::PI;
 use anyhow::{Context, ensure};
 use ligament::run::Solution;
 
+use super::case_run::Number;
 use super::crack_path::ends;
-use super::trial::Number;
 
 /// Shift of the part of the line whose crossings are counted, m. Bonds of a lattice cross at the points of the lattice, and the ends of
 /// that part should be between them.
@@ -82,7 +82,7 @@ fn energy_at_limits(solution: &Solution, bonds: impl Iterator<Item = usize>) -> 
 }
 
 /// The bonds that an edge crack through the whole plate broke.
-fn separating(solution: &Solution, number: Number<'_>) -> anyhow::Result<Vec<usize>> {
+fn separated_bonds(solution: &Solution, number: Number<'_>) -> anyhow::Result<Vec<usize>> {
     let intact = &solution.outcome.state.intact;
     let broken: Vec<usize> = (0..intact.len()).filter(|&bond| !intact[bond]).collect();
     let reached = broken.iter().map(|&bond| {
@@ -104,22 +104,25 @@ fn separation(number: Number<'_>) -> anyhow::Result<f64> {
 }
 
 /// Energy released by the breakages of an edge crack per new surface, over G_c.
-pub(super) fn released(solution: &Solution, number: Number<'_>) -> anyhow::Result<f64> {
-    separating(solution, number)?;
+pub(super) fn released_energy_ratio(
+    solution: &Solution,
+    number: Number<'_>,
+) -> anyhow::Result<f64> {
+    separated_bonds(solution, number)?;
     let last = solution.outcome.history.last();
     Ok(last.context("the run has no state")?.released_energy / separation(number)?)
 }
 
 /// Energy of the bonds that an edge crack broke at their limits per new surface, over G_c.
 pub(super) fn separation_energy(solution: &Solution, number: Number<'_>) -> anyhow::Result<f64> {
-    let broken = separating(solution, number)?;
+    let broken = separated_bonds(solution, number)?;
     Ok(energy_at_limits(solution, broken.into_iter()) / separation(number)?)
 }
 
 /// Largest distance of the middle of a bond that an edge crack broke from the line of the crack, over its horizon.
 pub(super) fn deviation(solution: &Solution, number: Number<'_>) -> anyhow::Result<f64> {
     let horizons = &solution.model.plane().bonds.horizon;
-    let deviations = separating(solution, number)?.into_iter().map(|bond| {
+    let deviations = separated_bonds(solution, number)?.into_iter().map(|bond| {
         let [[_, y], [_, other_y]] = ends(&solution.model, bond);
         0.5 * (y + other_y).abs() / horizons[bond]
     });

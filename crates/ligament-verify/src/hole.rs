@@ -7,7 +7,7 @@ use ligament_analysis::interface::StressReading;
 use ligament_model::UnbrokenBonds;
 use ligament_model::thermal::ThermalStrain;
 
-use super::trial::displacements;
+use super::case_run::displacements;
 
 /// Stress concentration K_t at the rim of the hole of a plate, and the root mean square residual of its fit over K_t, %, from the strain
 /// between neighbours times `young` (Pa), from the virial stress and from the traction; all over the `traction` (Pa) on the ends.

@@ -4,7 +4,7 @@
 //! |--------|-------|
 //! | `published` | the reader of `published/*.csv`: known values, tolerances, misprints with their reasons |
 //! | [`table`], [`entry`], `printed` | tables, verdicts on entries, numbers with their printed digits |
-//! | `trial` | a case of the repository, run in memory by the functions of `ligament run` |
+//! | `case_run` | a case of the repository, run in memory by the functions of `ligament run` |
 //! | [`experiment_file`] | experiments that are files beside their tables, and the quantities that their expressions can read |
 //! | `fast_crack`, `griffith`, `hole`, `record`, ... | quantities of a run, one subject each |
 //! | `readings`, `tension`, `maps`, `yielding` | the other experiments, one module each |
@@ -23,14 +23,15 @@ use std::sync::OnceLock;
 
 use clap::Parser;
 use ligament::suggestion::hint;
-use ligament_cli::commands::output;
+use ligament_cli::commands::argument_parsers::output_folder;
 use ligament_output::folder::{Kind, ResultFolder};
 
 mod anisotropy;
+mod case_run;
+mod contact_pressure;
 mod crack_path;
 mod directions;
 pub mod entry;
-mod equations;
 mod experiment;
 pub mod experiment_file;
 mod fast_crack;
@@ -44,7 +45,6 @@ mod named_modes;
 mod papers;
 mod patch_test;
 mod places;
-mod pressed;
 mod printed;
 mod published;
 mod readings;
@@ -55,11 +55,10 @@ mod square_elements;
 pub mod table;
 pub mod tally;
 mod tension;
-mod trial;
 mod uniform_stress;
 mod yielding;
 
-use Written::{Code, File};
+use ExperimentSource::{Code, File};
 pub use experiment::{Compute, Experiment, Findings};
 pub use measured::experiments;
 
@@ -69,16 +68,16 @@ use report::{console, files, markdown, page, scoreboard};
 use table::Extent;
 use tally::Tally;
 
-/// Place in which an experiment is written.
-enum Written {
-    /// In its own module.
+/// Form in which an experiment is written.
+enum ExperimentSource {
+    /// An experiment that is a module.
     Code(&'static Experiment),
-    /// In a file of its name ([`experiment_file`]).
+    /// An experiment that is a file of its name ([`experiment_file`]).
     File(&'static str),
 }
 
 /// Experiments of published values, in the order of the report; the measured tests follow them ([`experiments`]).
-static PUBLISHED: [Written; 47] = [
+static PUBLISHED: [ExperimentSource; 47] = [
     File("frequencies"),
     File("statics"),
     Code(&readings::EXPERIMENT),
@@ -158,7 +157,7 @@ pub struct Request {
     /// Folder for the report
     #[arg(
         long,
-        alias = "output", value_parser = output::folder(),
+        alias = "output", value_parser = output_folder(),
         value_name = "DIR",
         default_value = "results/verification"
     )]
@@ -203,8 +202,11 @@ pub fn verify(request: &Request, screen: &mut dyn Write) -> anyhow::Result<()> {
         false => Extent::Full,
     };
     let chosen = select(&request.names)?;
-    let folder =
-        ResultFolder::create_marked(&request.out, Kind::marked(files::SUMMARY), request.force)?;
+    let folder = ResultFolder::create_of_kind(
+        &request.out,
+        Kind::with_marker(files::SUMMARY),
+        request.force,
+    )?;
     let mut summary = files::Summary::create(&folder)?;
     let mut done = Vec::new();
     for experiment in chosen {

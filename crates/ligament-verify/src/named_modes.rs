@@ -3,7 +3,7 @@
 use anyhow::{anyhow, bail, ensure};
 use ligament_analysis::modal::Mode;
 
-use super::trial::Trial;
+use super::case_run::CaseRun;
 
 /// Names of the modes of the three tables, as in the papers.
 pub(super) const NAMES: [&str; 3] = ["flexural I", "axial I", "flexural II"];
@@ -30,12 +30,12 @@ impl Frequencies {
         }
     }
 
-    /// The named frequencies of a trial with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
+    /// The named frequencies of a case run with three modes, whose cantilever lies along the component `axis` (0: x, 1: y).
     ///
     /// The axial mode has the largest effective mass along the cantilever, at any place among the three: with PDS its frequency is below
     /// the first flexural one for nu < 0, and equal to it for nu = 0.
-    pub(super) fn from_trial(trial: &Trial, axis: usize) -> anyhow::Result<Self> {
-        let modes = trial.modes()?;
+    pub(super) fn from_case_run(case_run: &CaseRun, axis: usize) -> anyhow::Result<Self> {
+        let modes = case_run.modes()?;
         let named = |mode: &Mode| (mode.frequency(), mode.participation[axis]);
         Self::from_modes(modes.iter().map(named))
     }

@@ -139,7 +139,7 @@ impl Item {
             let tables = done.clone().flat_map(|findings| &findings.tables);
             for table in tables.filter(|table| table.heading.name == selection.table) {
                 for row in &table.rows {
-                    if table.labels(row).are(&selection.of)? {
+                    if table.labels(row).contain_labels(&selection.of)? {
                         rows.push((table, row));
                     }
                 }
@@ -170,7 +170,7 @@ mod tests {
     use super::*;
 
     fn holds(selection: &Selection, table: &str, labels: Labels<'_>) -> bool {
-        selection.table == table && labels.are(&selection.of).unwrap()
+        selection.table == table && labels.contain_labels(&selection.of).unwrap()
     }
 
     /// Every known value from a paper is in one line of the page, and every line has values.

@@ -5,7 +5,7 @@ use ligament::Model;
 use ligament::patch_test::{Constants, PatchTest};
 use ligament_mesh::{AnyMesh, gmsh};
 
-use super::trial::Trial;
+use super::case_run::CaseRun;
 
 /// Ratio of the Young's moduli of the body and of the material, along the axis where it differs more.
 pub(super) fn young(test: &PatchTest) -> anyhow::Result<f64> {
@@ -51,17 +51,17 @@ fn factors(model: Model) -> Vec<f64> {
         .collect()
 }
 
-/// Root mean square of the change of the factors of the bonds when the mesh of a trial is turned by an angle, degrees.
-pub(super) fn change_by_turn(trial: &Trial, angle: f64) -> anyhow::Result<f64> {
+/// Root mean square of the change of the factors of the bonds when the mesh of a case run is turned by an angle, degrees.
+pub(super) fn change_by_turn(case_run: &CaseRun, angle: f64) -> anyhow::Result<f64> {
     let (sin, cos) = angle.to_radians().sin_cos();
-    let file = trial.mesh_file().context("the body is no mesh")?;
+    let file = case_run.mesh_file().context("the body is no mesh")?;
     let mut mesh = gmsh::parse(&std::fs::read(file)?)?;
     for place in &mut mesh.positions {
         let [x, y] = *place;
         *place = [cos * x - sin * y, sin * x + cos * y];
     }
-    let straight = trial.model()?;
-    let turned = trial.model_with(|setup| setup.body = AnyMesh::Plane(mesh).into())?;
+    let straight = case_run.model()?;
+    let turned = case_run.model_with(|setup| setup.body = AnyMesh::Plane(mesh).into())?;
     let (mut sum, mut count) = (0.0, 0.0);
     for (turned, straight) in factors(turned).into_iter().zip(factors(straight)) {
         sum += (turned / straight - 1.0_f64).powi(2);

@@ -4,14 +4,14 @@ use std::fmt;
 
 /// A number with its printed digits.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Printed {
+pub struct PrintedNumber {
     text: String,
     value: f64,
 }
 
 /// Allowed difference of a computed value from the known one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Allowed {
+pub enum Tolerance {
     /// Half a unit of the last printed digit.
     Digits,
     /// Tolerance relative to the known value.
@@ -33,7 +33,7 @@ pub(super) enum Difference {
     Share(f64),
 }
 
-impl Printed {
+impl PrintedNumber {
     /// Parses a printed number, with or without an exponent; `None` if the text is not a finite number.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let value = text.parse().ok().filter(|value: &f64| value.is_finite())?;
@@ -80,7 +80,7 @@ impl Printed {
     }
 
     /// Whether this is `value`, truncated after the printed digits.
-    pub(super) fn is_cut_from(&self, value: f64) -> bool {
+    pub(super) fn is_truncated_from(&self, value: f64) -> bool {
         let rest = (value - self.value) * if self.value < 0.0 { -1.0 } else { 1.0 };
         (-ROUNDING..1.0 + ROUNDING).contains(&(rest / self.last_digit()))
     }
@@ -89,9 +89,9 @@ impl Printed {
 /// Tolerance of a comparison of digits for rounding errors, over the last digit.
 const ROUNDING: f64 = 1e-6;
 
-impl Allowed {
+impl Tolerance {
     /// Whether a computed value is within the tolerance of a known one.
-    pub(super) fn admits(self, known: &Printed, computed: f64) -> bool {
+    pub(super) fn admits(self, known: &PrintedNumber, computed: f64) -> bool {
         let distance = (computed - known.value).abs();
         match self {
             Self::Digits => known.is_rounded_from(computed),
@@ -105,7 +105,7 @@ impl Allowed {
 
 impl Difference {
     /// Text of the difference with its sign; an amount has one digit more than the known value.
-    pub(super) fn words(self, known: &Printed) -> String {
+    pub(super) fn words(self, known: &PrintedNumber) -> String {
         let (digits, unit) = match self {
             Self::Share(share) => (format!("{:.2}", 100.0 * share), " %"),
             Self::Amount(amount) => (known.like(amount), ""),
@@ -125,13 +125,13 @@ impl Difference {
     }
 }
 
-impl fmt::Display for Printed {
+impl fmt::Display for PrintedNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.text)
     }
 }
 
-impl fmt::Display for Allowed {
+impl fmt::Display for Tolerance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Digits => f.write_str("digits"),
@@ -156,11 +156,11 @@ mod tests {
             ("7.0e10", 1e9),
             ("-3e-2", 0.01),
         ] {
-            let found = Printed::parse(text).unwrap().last_digit();
+            let found = PrintedNumber::parse(text).unwrap().last_digit();
             assert!((found / digit - 1.0).abs() < 1e-12, "{text}: {found}");
         }
         for text in ["", "n/a", "nan", "inf", "1,5"] {
-            assert_eq!(Printed::parse(text), None, "{text}");
+            assert_eq!(PrintedNumber::parse(text), None, "{text}");
         }
     }
 
@@ -173,21 +173,21 @@ mod tests {
             ("70", 69.98, "69.98"),
             ("2053", 2053.16, "2053.2"),
         ] {
-            assert_eq!(Printed::parse(known).unwrap().like(computed), shown);
+            assert_eq!(PrintedNumber::parse(known).unwrap().like(computed), shown);
         }
     }
 
     #[test]
     fn tolerances_and_differences_in_words() {
-        assert_eq!(Allowed::Relative(0.03).to_string(), "3 %");
-        assert_eq!(Allowed::Relative(0.003).to_string(), "0.3 %");
-        assert_eq!(Allowed::Relative(0.001).to_string(), "0.1 %");
-        assert_eq!(Allowed::Absolute(0.04).to_string(), "0.04");
+        assert_eq!(Tolerance::Relative(0.03).to_string(), "3 %");
+        assert_eq!(Tolerance::Relative(0.003).to_string(), "0.3 %");
+        assert_eq!(Tolerance::Relative(0.001).to_string(), "0.1 %");
+        assert_eq!(Tolerance::Absolute(0.04).to_string(), "0.04");
         assert_eq!(
-            Allowed::Between(-0.02, 0.005).to_string(),
+            Tolerance::Between(-0.02, 0.005).to_string(),
             "-0.02 to +0.005"
         );
-        let known = Printed::parse("0.3800").unwrap();
+        let known = PrintedNumber::parse("0.3800").unwrap();
         assert_eq!(Difference::Share(-0.01234).words(&known), "-1.23 %");
         assert_eq!(Difference::Share(-1e-6).words(&known), "0.00 %");
         assert_eq!(Difference::Amount(-1e-6).words(&known), "0.00000");

@@ -20,8 +20,8 @@ use anyhow::Context;
 use ligament_output::csv::read::{StringRecord, records};
 
 use super::entry::{Entry, Reliability};
-use super::printed::{Allowed, Printed};
-use super::table::{Heading, Known};
+use super::printed::{PrintedNumber, Tolerance};
+use super::table::{Heading, KnownTable};
 
 /// Columns of every table, after the columns of its labels.
 const COLUMNS: [&str; 6] = [
@@ -29,7 +29,7 @@ const COLUMNS: [&str; 6] = [
 ];
 
 /// The known values of a table, by the name of its file.
-pub(super) fn known(table: &str) -> anyhow::Result<Known> {
+pub(super) fn known(table: &str) -> anyhow::Result<KnownTable> {
     let path = folder().join(format!("{table}.csv"));
     let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
     Ok(known_values(table, &text)?)
@@ -53,7 +53,7 @@ pub(super) struct TableError {
 }
 
 /// Parses the known values of a table; `name` is the name of its file.
-pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> {
+pub(super) fn known_values(name: &str, text: &str) -> Result<KnownTable, TableError> {
     let at = |line: usize| {
         move |fault| TableError {
             name: name.to_owned(),
@@ -80,25 +80,25 @@ pub(super) fn known_values(name: &str, text: &str) -> Result<Known, TableError> 
     if entries.is_empty() {
         return Err(at(line)("the table has no entries".to_owned()));
     }
-    Ok(Known { heading, entries })
+    Ok(KnownTable { heading, entries })
 }
 
 fn heading(name: &str, text: &str, keys: &[&str]) -> Result<Heading, String> {
     let notes = || text.lines().map_while(|line| line.strip_prefix('#'));
-    let told = |key: &str| {
+    let heading_value = |key: &str| {
         notes()
             .filter_map(|note| note.split_once(':'))
             .find(|(word, _)| word.trim() == key)
-            .map(|(_, told)| told.trim().to_owned())
+            .map(|(_, heading_value)| heading_value.trim().to_owned())
             .ok_or_else(|| format!("no line `# {key}: ...` stands above the columns"))
     };
     Ok(Heading {
         name: name.to_owned(),
-        title: told("title")?,
-        source: told("source")?,
-        quantity: told("quantity")?,
-        known: told("known")?,
-        tolerance: told("tolerance")?,
+        title: heading_value("title")?,
+        source: heading_value("source")?,
+        quantity: heading_value("quantity")?,
+        known: heading_value("known")?,
+        tolerance: heading_value("tolerance")?,
         keys: keys.iter().copied().map(str::to_owned).collect(),
     })
 }
@@ -123,7 +123,7 @@ fn entry(cells: &StringRecord, n_keys: usize) -> Result<Entry, String> {
     })
 }
 
-fn read_allowed(text: &str) -> Result<Allowed, String> {
+fn read_allowed(text: &str) -> Result<Tolerance, String> {
     let expected =
         "digits, a share such as 3 %, an amount, two differences such as -0.02 to 0.005, or any";
     let difference = |text: &str| text.trim().parse().ok().filter(|it: &f64| it.is_finite());
@@ -131,15 +131,15 @@ fn read_allowed(text: &str) -> Result<Allowed, String> {
         let both = difference(least).zip(difference(most));
         let both = both.filter(|(least, most)| least < most);
         return both
-            .map(|(least, most)| Allowed::Between(least, most))
+            .map(|(least, most)| Tolerance::Between(least, most))
             .ok_or_else(|| fault("allowed", text, expected));
     }
     let positive = |text: &str| text.trim().parse().ok().filter(|value: &f64| *value > 0.0);
     let read = match (text, text.strip_suffix('%')) {
-        ("digits", _) => Some(Allowed::Digits),
-        ("any", _) => Some(Allowed::Any),
-        (_, Some(share)) => positive(share).map(|percent| Allowed::Relative(0.01 * percent)),
-        (amount, None) => positive(amount).map(Allowed::Absolute),
+        ("digits", _) => Some(Tolerance::Digits),
+        ("any", _) => Some(Tolerance::Any),
+        (_, Some(share)) => positive(share).map(|percent| Tolerance::Relative(0.01 * percent)),
+        (amount, None) => positive(amount).map(Tolerance::Absolute),
     };
     read.ok_or_else(|| fault("allowed", text, expected))
 }
@@ -178,8 +178,8 @@ fn read_standing(standing: &str, instead: &str, reason: &str) -> Result<Reliabil
     }
 }
 
-fn number(column: &str, text: &str) -> Result<Printed, String> {
-    Printed::parse(text).ok_or_else(|| fault(column, text, "a number"))
+fn number(column: &str, text: &str) -> Result<PrintedNumber, String> {
+    PrintedNumber::parse(text).ok_or_else(|| fault(column, text, "a number"))
 }
 
 fn fault(column: &str, found: &str, expected: &str) -> String {
@@ -205,7 +205,7 @@ mod tests {
 nu,law,known,allowed,subset,standing,instead,reason
 ";
 
-    fn parse(rows: &str) -> Result<Known, TableError> {
+    fn parse(rows: &str) -> Result<KnownTable, TableError> {
         known_values("t4", &format!("{HEAD}{rows}\n"))
     }
 
@@ -216,7 +216,7 @@ nu,law,known,allowed,subset,standing,instead,reason
         let known = parse(&format!("{sound}\n{misprint}")).unwrap();
         assert_eq!(known.heading.source, "Author 2019, Table 4");
         assert_eq!(known.heading.keys, ["nu", "law"]);
-        assert_eq!(known.entries[1].allowed, Allowed::Relative(0.03));
+        assert_eq!(known.entries[1].allowed, Tolerance::Relative(0.03));
         assert_eq!(known.entries[1].standing.reason(), Some("not \"f\", g"));
         let compute = |labels: Labels<'_>| Ok(1000.0 * labels.number("nu")?);
         let table = known.judge(Extent::Full, compute).unwrap();

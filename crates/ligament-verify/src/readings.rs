@@ -3,14 +3,14 @@
 use anyhow::ensure;
 use ligament::run::Solution;
 
+use super::case_run::{CaseRun, ResultCache, displacement_at, largest_displacements};
 use super::experiment::{Compute, Experiment, Findings};
 use super::named_modes::Frequencies;
 use super::published::known;
 use super::square_elements::SquareLoad;
 use super::table::{Extent, Labels, Row, Table};
-use super::trial::{Memory, Trial, displacement_at, largest_displacements};
 
-/// The experiment.
+/// Experiment that compares the readings of the tables.
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "readings",
     title: "Readings of the micropolar tables",
@@ -47,13 +47,13 @@ const MIDDLE: f64 = 0.3;
 const FORCE: f64 = 100.0;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let mut memory = Memory::default();
+    let mut cache = ResultCache::default();
     let statics = known("mppd-readings-statics")?.judge(extent, |labels| {
-        score(labels, &mut memory, || static_tables(labels))
+        score(labels, &mut cache, || static_tables(labels))
     })?;
-    let mut memory = Memory::default();
+    let mut cache = ResultCache::default();
     let frequencies = known("mppd-readings-frequencies")?.judge(extent, |labels| {
-        score(labels, &mut memory, || modal_tables(labels))
+        score(labels, &mut cache, || modal_tables(labels))
     })?;
     Ok(Findings {
         tables: vec![statics, frequencies],
@@ -107,13 +107,13 @@ struct Score {
 /// The statistic of an entry (label `of`), for the tables under its reading.
 fn score(
     labels: Labels<'_>,
-    memory: &mut Memory<Score>,
+    cache: &mut ResultCache<Score>,
     tables: impl FnOnce() -> anyhow::Result<Vec<Table>>,
 ) -> anyhow::Result<f64> {
     let of = labels.text("of")?;
     let shown = labels.to_string();
     let reading = shown.trim_end_matches(of).to_owned();
-    let score = memory.result(reading, || Score::from_tables(&tables()?))?;
+    let score = cache.result(reading, || Score::from_tables(&tables()?))?;
     Ok(match of {
         "met" => score.met as f64,
         "median" => score.median,
@@ -149,15 +149,16 @@ fn is_micropolar(printed: Labels<'_>) -> anyhow::Result<bool> {
 fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let is_largest = reading.text("point")? == "largest";
-    let mut memory = Memory::default();
+    let mut cache = ResultCache::default();
     let mut table = |table: &str, load: SquareLoad| {
         known(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? {
                 return Ok(f64::NAN);
             }
-            let trial = loaded_on(Trial::of_file(case_of(load))?, load, rows);
-            let trial = with_law(trial, reading)?.set("material.poisson", printed.number("nu")?);
-            let found = memory.reading(&trial, Reading::from_solution)?;
+            let case_run = loaded_on(CaseRun::from_file(case_of(load))?, load, rows);
+            let case_run =
+                with_law(case_run, reading)?.set("material.poisson", printed.number("nu")?);
+            let found = cache.reading(&case_run, Reading::from_solution)?;
             let [x, y] = match load {
                 SquareLoad::Shear => found.of_sides,
                 SquareLoad::Traction if !is_largest => found.middle,
@@ -181,16 +182,18 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
 /// Tables 4 to 6 under a reading.
 fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
-    let mut memory = Memory::default();
+    let mut cache = ResultCache::default();
     let mut table = |table: &str, mode: &str| {
         known(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
                 return Ok(f64::NAN);
             }
-            let trial = with_law(Trial::of_file(MODES)?, reading)?
+            let case_run = with_law(CaseRun::from_file(MODES)?, reading)?
                 .set("lattice.set.base.bottom", rows)
                 .set("material.poisson", printed.number("nu")?);
-            let found = memory.result(trial.command(), || Frequencies::from_trial(&trial, ALONG));
+            let found = cache.result(case_run.command(), || {
+                Frequencies::from_case_run(&case_run, ALONG)
+            });
             found?.named(mode)
         })
     };
@@ -201,28 +204,28 @@ fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     ])
 }
 
-/// A trial with the model of a reading.
-fn with_law(trial: Trial, reading: Labels<'_>) -> anyhow::Result<Trial> {
-    Ok(trial
+/// A case run with the model of a reading.
+fn with_law(case_run: CaseRun, reading: Labels<'_>) -> anyhow::Result<CaseRun> {
+    Ok(case_run
         .set("model.law", reading.text("law")?)
         .set("model.calibration", reading.text("calibration")?)
         .set("model.rotational_factor", reading.number("k_theta")?)
         .set("correction.surface", reading.text("surface")?))
 }
 
-/// A trial with the load on the outermost `rows` rows of points.
-fn loaded_on(trial: Trial, load: SquareLoad, rows: u32) -> Trial {
+/// A case run with the load on the outermost `rows` rows of points.
+fn loaded_on(case_run: CaseRun, load: SquareLoad, rows: u32) -> CaseRun {
     match load {
-        SquareLoad::Traction => trial
+        SquareLoad::Traction => case_run
             .set("lattice.set.top.top", rows)
             .set("lattice.set.bottom.bottom", rows),
-        SquareLoad::Bending => trial
+        SquareLoad::Bending => case_run
             .set("lattice.set.left.left", rows)
             .set("lattice.set.right.right", rows),
         SquareLoad::Shear => {
             let (far, near) = (HALF_WIDTH, HALF_WIDTH - SPACING * f64::from(rows));
             let total = FORCE * f64::from(POINTS - 2 * rows);
-            trial
+            case_run
                 .set("lattice.set.top.box", [[-near, near], [near, far]])
                 .set("lattice.set.bottom.box", [[-near, -far], [near, -near]])
                 .set("lattice.set.left.box", [[-far, -near], [-near, near]])

@@ -2,7 +2,7 @@
 
 use ligament::run::Solution;
 
-use super::trial::displacements;
+use super::case_run::displacements;
 
 /// Relative distance from a radius within which a point lies on it.
 const ON_RIM: f64 = 1e-6;
@@ -75,7 +75,7 @@ pub(super) fn radial_displacements(solution: &Solution, ring: &Ring) -> RadialDi
         let ratios: Vec<f64> = points.map(|[r, u]| u / ring.lame(*r)).collect();
         ratios.iter().sum::<f64>() / ratios.len() as f64
     };
-    let apart: f64 = radial
+    let difference: f64 = radial
         .iter()
         .map(|[r, u]| (u - ring.lame(*r)).powi(2))
         .sum();
@@ -83,6 +83,6 @@ pub(super) fn radial_displacements(solution: &Solution, ring: &Ring) -> RadialDi
     RadialDisplacements {
         inside: on(ring.inner),
         outside: on(ring.outer),
-        difference: (apart / size).sqrt(),
+        difference: (difference / size).sqrt(),
     }
 }

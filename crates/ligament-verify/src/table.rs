@@ -5,20 +5,20 @@ use std::fmt;
 use anyhow::Context;
 
 use super::entry::{Entry, Verdict};
-use super::printed::{Allowed, Difference};
+use super::printed::{Difference, Tolerance};
 
 /// Extent of the computation of the tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extent {
     /// Entries of the fast subset, as in the tests.
     Fast,
-    /// All entries.
+    /// Full extent: all entries.
     Full,
 }
 
 /// A table of known values with their source, before the computation.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Known {
+pub(super) struct KnownTable {
     /// Heading of the table.
     pub(super) heading: Heading,
     /// Entries of the table, in their order.
@@ -85,14 +85,14 @@ pub(super) enum LabelError {
     /// The label is not a number.
     #[error("`{label}` of key `{key}` is neither a number nor a fraction such as 1/3")]
     NotANumber {
-        /// The key.
+        /// Key without the label.
         key: String,
-        /// The label.
+        /// Label that the key does not have.
         label: String,
     },
 }
 
-impl Known {
+impl KnownTable {
     /// Computes the entries of the table, or of its fast subset, and judges them.
     pub(super) fn judge(
         &self,
@@ -145,7 +145,7 @@ impl Table {
         let mut points = Vec::new();
         for row in &self.rows {
             let labels = self.labels(row);
-            if labels.are(of)? {
+            if labels.contain_labels(of)? {
                 points.push([labels.number(x)?, y(row)]);
             }
         }
@@ -158,7 +158,7 @@ impl Table {
         let is_amount = |row: &Row| {
             matches!(
                 row.entry.allowed,
-                Allowed::Absolute(_) | Allowed::Between(..)
+                Tolerance::Absolute(_) | Tolerance::Between(..)
             )
         };
         let known = row.entry.known.value();
@@ -183,7 +183,7 @@ impl<'a> Labels<'a> {
     }
 
     /// Whether all labels in a text such as `law=pds, of=lattice` are among these; true for an empty text.
-    pub(super) fn are(&self, of: &str) -> Result<bool, LabelError> {
+    pub(super) fn contain_labels(&self, of: &str) -> Result<bool, LabelError> {
         let mut belongs = true;
         for (key, label) in of.split(", ").filter_map(|it| it.split_once('=')) {
             belongs &= self.text(key)? == label;

@@ -1,14 +1,14 @@
 //! An orthotropic lamina with a hole in tension, compared with finite elements (OMPPD Figs 16, 17).
 
+use super::case_run::{CaseRun, ResultCache, displacement_at, displacements};
 use super::experiment::{Compute, Experiment, Findings};
 use super::published::known;
 use super::table::Extent;
-use super::trial::{Memory, Trial, displacement_at, displacements};
 use ligament::run::Solution;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_plot::plots::{Colour, Plot, Series};
 
-/// The experiment.
+/// Experiment of the plate in tension.
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "tension",
     title: "Orthotropic lamina with a hole in tension",
@@ -40,14 +40,14 @@ struct Edge {
 }
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
-    let elements = Sheet::parse("fem-hole-edge.csv", ELEMENTS)?;
+    let elements = CsvTable::parse("fem-hole-edge.csv", ELEMENTS)?;
     let elements = elements.numbers(["zeta", "x", "y", "ux", "uy"])?;
-    let mut memory = Memory::default();
+    let mut cache = ResultCache::default();
     let mut edges: Vec<Edge> = Vec::new();
     let table = known("omppd-tension")?.judge(extent, |labels| {
         let angle = labels.number("angle")?;
-        let trial = Trial::of_file(CASE)?.set("material.angle", angle.to_radians());
-        let edge = memory.reading(&trial, |it| {
+        let case_run = CaseRun::from_file(CASE)?.set("material.angle", angle.to_radians());
+        let edge = cache.reading(&case_run, |it| {
             let edge = Edge::from_solution(it, &elements, angle);
             edges.push(edge.clone());
             Ok(edge)

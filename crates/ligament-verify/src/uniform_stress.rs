@@ -11,7 +11,11 @@ const FACES: [[&str; 2]; 3] = [["left", "right"], ["front", "back"], ["bottom", 
 pub(super) fn loads(principal: &[f64], degrees: f64) -> anyhow::Result<String> {
     let axes @ [[c, minus_s], [s, _]] = about_z(degrees);
     Ok(match *principal {
-        [one, two] => tractions("force_per_length", &turned([one, two], axes), &SIDES),
+        [one, two] => tractions(
+            "force_per_length",
+            &rotated_stress([one, two], axes),
+            &SIDES,
+        ),
         [one, two, three] => {
             // The product of the two rotations.
             let axes = [
@@ -19,7 +23,11 @@ pub(super) fn loads(principal: &[f64], degrees: f64) -> anyhow::Result<String> {
                 [c * s, c * c, minus_s],
                 [s * s, s * c, c],
             ];
-            tractions("force_per_area", &turned([one, two, three], axes), &FACES)
+            tractions(
+                "force_per_area",
+                &rotated_stress([one, two, three], axes),
+                &FACES,
+            )
         }
         _ => bail!("{} principal stresses, expected 2 or 3", principal.len()),
     })
@@ -31,7 +39,7 @@ fn about_z(degrees: f64) -> [[f64; 2]; 2] {
 }
 
 /// The stress with principal values along the columns of `axes`.
-fn turned<const D: usize>(principal: [f64; D], axes: [[f64; D]; D]) -> [[f64; D]; D] {
+fn rotated_stress<const D: usize>(principal: [f64; D], axes: [[f64; D]; D]) -> [[f64; D]; D] {
     let component = |i: usize, j: usize| {
         let along = (0..D).map(|k| axes[i][k] * principal[k] * axes[j][k]);
         along.sum()

@@ -4,14 +4,14 @@ use anyhow::Context;
 use ligament_model::failure::{Calibration, Choice, frictional, sliding, stretch};
 use ligament_post::yielding::{Family, PrincipalStretches, lattice, printed_orientations};
 
+use super::case_run::CaseRun;
 use super::experiment::{Compute, Experiment, Findings};
 use super::published::known;
 use super::table::{Extent, Labels, Table};
-use super::trial::Trial;
 use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
-/// The experiment.
+/// Experiment of the first yield of families.
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "yielding",
     title: "First yield of lattices",
@@ -28,7 +28,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 const CASE: &str = "cases/verification/lattice.toml";
 
 /// Strengths as in the paper's tables.
-const STRENGTHS: Strengths = Strengths::OF_THE_TABLES;
+const STRENGTHS: Strengths = Strengths::TABLE_STRENGTHS;
 
 /// Young's modulus and tensile strength of the bar, Pa.
 const YOUNG: f64 = 70e9;
@@ -55,7 +55,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let first_yield = known("first-yield-frictional")?.judge(extent, |labels| {
         let directions = lattice::directions(labels.number("m")?);
         let criteria = frictional.criteria(&STRENGTHS, directions.len())?;
-        let family = Family::of_directions(&directions, &criteria);
+        let family = Family::from_directions(&directions, &criteria);
         let worst = family.worst_of(path(labels)?, printed_orientations());
         Ok(100.0 * worst.context("nothing yields")?.error)
     })?;
@@ -98,14 +98,14 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
         _ => vec![frictional(Calibration::Printed)],
     };
     let nu = labels.number("nu")?;
-    let trial = Trial::of_file(CASE)?.set("material.poisson", nu);
-    let trial = trial
+    let case_run = CaseRun::from_file(CASE)?.set("material.poisson", nu);
+    let case_run = case_run
         .set("material.tensile_strength", TENSILE_STRENGTH)
         .set("material.compressive_strength", 3.0 * TENSILE_STRENGTH)
         .set("fracture.steps", 1);
-    let model = trial.model_with(|setup| setup.criteria = choices)?;
+    let model = case_run.model_with(|setup| setup.criteria = choices)?;
     let middle = model.plane().cloud.nearest_point([0.0, 0.0]);
-    let family = Family::of_point(model.plane(), &model.criteria, middle);
+    let family = Family::at_point(model.plane(), &model.criteria, middle);
     let sign = match labels.text("bar")? {
         "tension" => 1.0,
         _ => -1.0,
@@ -123,7 +123,7 @@ fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
     for (ratio, colour) in RATIOS {
         let directions = lattice::directions(ratio);
         let criteria = combination.criteria(&STRENGTHS, directions.len())?;
-        let family = Family::of_directions(&directions, &criteria);
+        let family = Family::from_directions(&directions, &criteria);
         let point = |orientation: f64| {
             let error = family.error(extension, orientation)?;
             Some([orientation.to_degrees(), 100.0 * error])

@@ -30,7 +30,7 @@ pub(super) fn read_solver<'de, D: Deserializer<'de>>(
     match Form::<IgnoredAny, SolverSettings>::read(deserializer, expected)? {
         Form::Table(solver) => Ok(solver),
         Form::Word(word) if word == "auto" => Ok(SolverSettings::default()),
-        other => Err(other.misfit(expected)),
+        other => Err(other.wrong_form_error(expected)),
     }
 }
 

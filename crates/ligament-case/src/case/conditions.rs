@@ -15,7 +15,9 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::mesh_section::complete_path;
 use super::places::{Coordinates, Corners, Couple, Vector, place, place_or_everywhere};
-use super::values::{Point, exactly_one, missing, one_of, refuse, require, require_column_name};
+use super::values::{
+    Point, exactly_one, missing_key, one_of, refuse, require, require_column_name,
+};
 use super::word::word_of;
 use crate::point_table::Tables;
 
@@ -185,10 +187,10 @@ pub struct Load {
     /// Prescribed displacements, m, rotation in rad.
     pub displacement: Option<Displacement>,
     /// Prescribed velocities in a motion, m/s, of the rotation rad/s.
-    #[schemars(transform = of_rates)]
+    #[schemars(transform = describe_rates)]
     pub velocity: Option<Displacement>,
     /// Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2.
-    #[schemars(transform = of_rates)]
+    #[schemars(transform = describe_rates)]
     pub base_acceleration: Option<Displacement>,
     /// A force in total over the points, N.
     pub force: Option<Vector>,
@@ -254,7 +256,7 @@ impl Profile {
 
     /// The variation, with its table.
     fn setup(&self, key: &KeyPath, tables: Tables) -> Result<setup::Profile, KeyFault> {
-        let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing(key, name));
+        let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing_key(key, name));
         let linear = |along: Axis| {
             Ok(setup::Profile::Linear {
                 along,
@@ -352,7 +354,7 @@ impl Load {
 }
 
 /// Describes the components of velocities and accelerations, which have the unit of their key.
-fn of_rates(schema: &mut Schema) {
+fn describe_rates(schema: &mut Schema) {
     let components = schema.get_mut("properties").and_then(Json::as_object_mut);
     for component in components.into_iter().flat_map(|it| it.values_mut()) {
         let words = component["description"].as_str().unwrap_or_default();
@@ -429,7 +431,7 @@ impl Amplitude {
 
     /// The factor, with its table.
     pub(super) fn setup(&self, key: &KeyPath, tables: Tables) -> Result<Factor, KeyFault> {
-        let points = |it: &Vec<Point>| through(it, &key.child("points"));
+        let points = |it: &Vec<Point>| amplitude_through(it, &key.child("points"));
         let table = |file: &PathBuf| {
             let factor = tables.amplitude(file);
             factor.map_err(|reason| KeyFault::new(key.child("file"), reason))
@@ -437,7 +439,10 @@ impl Amplitude {
         let forms = [
             ("points", self.points.as_ref().map(points)),
             ("file", self.file.as_ref().map(table)),
-            ("shape", self.shape.map(|it| self.shaped(it, key))),
+            (
+                "shape",
+                self.shape.map(|it| self.amplitude_of_shape(it, key)),
+            ),
         ];
         let factor = one_of(key, forms)??;
         if self.shape.is_none() {
@@ -448,9 +453,9 @@ impl Amplitude {
         Ok(factor)
     }
 
-    fn shaped(&self, shape: Shape, key: &KeyPath) -> Result<Factor, KeyFault> {
+    fn amplitude_of_shape(&self, shape: Shape, key: &KeyPath) -> Result<Factor, KeyFault> {
         use load_program::Shape as S;
-        let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing(key, name));
+        let number = |name: &str, given: Option<f64>| given.ok_or_else(|| missing_key(key, name));
         let setting = format!("shape = \"{}\"", word_of(&shape));
         let refuse = |keys: &[&'static str], reason| refuse(key, self, keys, &setting, reason);
         let pulse = match shape {
@@ -486,7 +491,7 @@ impl Amplitude {
 }
 
 /// The amplitude through points, whose times must grow.
-fn through(points: &[Point], key: &KeyPath) -> Result<Factor, KeyFault> {
+fn amplitude_through(points: &[Point], key: &KeyPath) -> Result<Factor, KeyFault> {
     require(
         !points.is_empty(),
         || key.clone(),

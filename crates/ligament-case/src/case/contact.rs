@@ -11,7 +11,7 @@ use super::conditions::Amplitude;
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::places::{Coordinates, Vector};
-use super::values::{missing, refuse, require_column_name};
+use super::values::{missing_key, refuse, require_column_name};
 use super::word::word_of;
 use crate::point_table::Tables;
 
@@ -127,7 +127,7 @@ impl Rigid {
             refuse(key, self, &keys, &setting, "it belongs to another shape")
         };
         let along = |name: &str, given: Option<Coordinates>| {
-            let given = given.ok_or_else(|| missing(key, name))?;
+            let given = given.ok_or_else(|| missing_key(key, name))?;
             Ok(given.position())
         };
         match self.shape {
@@ -140,7 +140,7 @@ impl Rigid {
                     };
                     return Err(KeyFault::new(key.child("shape"), reason));
                 }
-                let radius = self.radius.ok_or_else(|| missing(key, "radius"))?;
+                let radius = self.radius.ok_or_else(|| missing_key(key, "radius"))?;
                 Ok(RigidForm::Ball { centre, radius })
             }
             RigidShape::Wall => {

@@ -53,15 +53,15 @@ impl CaseFile {
     /// # Errors
     ///
     /// If a key or value of the document or an override is wrong.
-    pub fn of_document(
+    pub fn from_document(
         path: &Path,
         document: Node,
         overrides: &[String],
     ) -> Result<Self, CaseError> {
-        Self::read(Source::of_document(path, document, overrides)?)
+        Self::read(Source::from_document(path, document, overrides)?)
     }
 
-    /// Reads a document as [`of_document`](Self::of_document) does, for a body in memory of a kind in place of the document's body.
+    /// Reads a document as [`from_document`](Self::from_document) does, for a body in memory of a kind in place of the document's body.
     ///
     /// # Errors
     ///
@@ -72,7 +72,7 @@ impl CaseFile {
         overrides: &[String],
         kind: BodyKind,
     ) -> Result<Self, CaseError> {
-        let source = Source::of_document(path, document, overrides)?;
+        let source = Source::from_document(path, document, overrides)?;
         let body = Some(kind);
         Self::read(Source { body, ..source })
     }
@@ -108,8 +108,8 @@ impl CaseFile {
     }
 
     /// The error of a faulty field of the setup, at the responsible key.
-    pub fn located(&self, error: SetupError) -> CaseError {
-        self.case.located(&self.source, error)
+    pub fn error_at_key(&self, error: SetupError) -> CaseError {
+        self.case.error_at_key(&self.source, error)
     }
 
     /// The error for a fault found after loading, located at its key.

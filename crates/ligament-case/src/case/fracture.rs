@@ -2,7 +2,7 @@
 
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
-use super::values::{Form, each, missing, refuse, require};
+use super::values::{Form, each, missing_key, refuse, require};
 use super::word::word_of;
 use ligament::setup::{self, Analysis};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
@@ -160,7 +160,7 @@ impl Fracture {
         let load_factors = match &self.steps {
             Some(steps) => steps.load_factors(),
             None if is_staged => Vec::new(),
-            None => return Err(missing(key, "steps")),
+            None => return Err(missing_key(key, "steps")),
         };
         let default = stepped();
         Ok(SteppedSettings {
@@ -197,7 +197,7 @@ impl<'de> Deserialize<'de> for Steps {
             )),
             Form::Number(_, Some(count)) if count > 0 => Ok(Self::Uniform(count as u32)),
             Form::List(factors) => Ok(Self::Factors(factors)),
-            other => Err(other.misfit(expected)),
+            other => Err(other.wrong_form_error(expected)),
         }
     }
 }
@@ -257,7 +257,7 @@ impl Scatter {
         let setting = format!("distribution = \"{}\"", word_of(&self.distribution));
         refuse(key, self, &[other], &setting, reason)?;
         let given = self.modulus.or(self.deviation);
-        let given = given.ok_or_else(|| missing(key, own))?;
+        let given = given.ok_or_else(|| missing_key(key, own))?;
         Ok(scatter::Scatter {
             of: self.of,
             distribution: match self.distribution {
@@ -286,7 +286,7 @@ impl<'de> Deserialize<'de> for Scatters {
         let mut all = match Form::<Scatter, Scatter>::read(deserializer, expected)? {
             Form::Table(one) => vec![one],
             Form::List(all) => all,
-            other => return Err(other.misfit(expected)),
+            other => return Err(other.wrong_form_error(expected)),
         };
         match all.first_mut() {
             Some(first) => first.seed.get_or_insert_default(),

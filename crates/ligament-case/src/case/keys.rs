@@ -19,7 +19,7 @@ static SCHEMA: LazyLock<Json> = LazyLock::new(schema);
 pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     let (mut schema, mut unit) = (&*SCHEMA, None);
     for part in &key.0 {
-        schema = below(schema, part)?;
+        schema = schema_below(schema, part)?;
         unit = schema[UNIT].as_str().or(unit);
     }
     unit.filter(|_| schema["type"] != "object")
@@ -33,7 +33,7 @@ pub(super) fn in_sections(name: &str) -> Vec<String> {
             Some(entry) => (format!("{section}.0"), entry),
             None => (section.clone(), schema),
         };
-        below(table, name)?;
+        schema_below(table, name)?;
         let is_own = table_of(table)["properties"].get(name).is_some();
         is_own.then(|| format!("{place}.{name}"))
     };
@@ -50,7 +50,7 @@ fn table_of(schema: &Json) -> &Json {
 }
 
 /// The schema of a key or an element within a schema; elements without a schema have that of their list.
-fn below<'a>(schema: &'a Json, part: &str) -> Option<&'a Json> {
+fn schema_below<'a>(schema: &'a Json, part: &str) -> Option<&'a Json> {
     if part.parse::<usize>().is_ok() {
         return Some(schema.get("items").unwrap_or(schema));
     }
@@ -82,7 +82,7 @@ pub(crate) fn check_dimensions(document: &Node, setup: Setup) -> Result<Setup, K
 /// Checks a value and those below it. Numbers in lists are left to the sections.
 fn check_below(node: &Node, schema: &Json, key: &KeyPath, check: Check) -> Result<(), KeyFault> {
     check(node, schema, key)?;
-    let child = |node: &Node, part: &str| match below(schema, part) {
+    let child = |node: &Node, part: &str| match schema_below(schema, part) {
         Some(schema) => check_below(node, schema, &key.child(part), check),
         None => Ok(()),
     };
@@ -168,7 +168,7 @@ fn range_of(schema: &Json) -> Option<String> {
 /// The rows of a Markdown table of the keys at a path and in tables below it: description, range and default.
 pub fn rows(path: &str) -> Vec<String> {
     let key = KeyPath::parse(path).unwrap_or_default();
-    let schema = (key.0.iter()).try_fold(&*SCHEMA, |schema, part| below(schema, part));
+    let schema = (key.0.iter()).try_fold(&*SCHEMA, |schema, part| schema_below(schema, part));
     let mut found = Vec::new();
     if let Some(schema) = schema {
         add_rows(schema, path, &mut found);

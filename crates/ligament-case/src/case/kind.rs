@@ -26,27 +26,27 @@ impl Case {
         Err(match (&mesh.unread, read_any_mesh(&mesh.file)) {
             (Some(reason), _) => {
                 let reason = format!("{reason}; paths are relative to the folder of the case file");
-                of_mesh(source, "read", mesh, &reason)
+                unreadable_mesh(source, "read", mesh, &reason)
             }
             (None, Err(MeshFileError::Parse { source: reason, .. })) => {
-                of_mesh(source, "use", mesh, &reason.to_string())
+                unreadable_mesh(source, "use", mesh, &reason.to_string())
             }
-            (None, _) => of_other_kind(error, mesh),
+            (None, _) => other_kind_error(error, mesh),
         })
     }
 
     /// Checks the case for a solid or for a body in the plane.
     fn check_as(&self, source: &Source, is_solid: bool) -> Result<(), CaseError> {
-        let body = self.stand_in(is_solid);
+        let body = self.substitute_body(is_solid);
         let setup = body.and_then(|it| self.setup_on(it, Tables::Unread));
         let setup = setup.and_then(|it| check_dimensions(&source.document, it));
         let setup = setup.map_err(|fault| source.error(fault))?;
-        (setup.check()).map_err(|error| self.located(source, error))
+        (setup.check()).map_err(|error| self.error_at_key(source, error))
     }
 }
 
 /// The error of an unreadable mesh that would determine the kind of the case.
-fn of_mesh(source: &Source, what: &str, mesh: &MeshSection, reason: &str) -> CaseError {
+fn unreadable_mesh(source: &Source, what: &str, mesh: &MeshSection, reason: &str) -> CaseError {
     let file = mesh.file.display();
     let reason = format!("cannot {what} the mesh {file}: {reason}");
     let key = KeyPath::default().child("mesh").child("file");
@@ -54,7 +54,7 @@ fn of_mesh(source: &Source, what: &str, mesh: &MeshSection, reason: &str) -> Cas
 }
 
 /// The error of a case that fits the other kind of body, with the kind of its mesh.
-fn of_other_kind(error: CaseError, mesh: &MeshSection) -> CaseError {
+fn other_kind_error(error: CaseError, mesh: &MeshSection) -> CaseError {
     let CaseError::Key {
         location,
         key,

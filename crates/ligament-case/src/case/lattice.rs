@@ -349,7 +349,7 @@ impl<const D: usize, S: LatticeShape<D>> Grid<D, S> {
     /// # Errors
     ///
     /// If a key is out of range.
-    pub(crate) fn stand_in(self) -> Result<BodyOnLattice<D, S>, KeyFault> {
+    pub(crate) fn substitute_body(self) -> Result<BodyOnLattice<D, S>, KeyFault> {
         self.holes()?;
         self.sets()?;
         let (spacing, corner) = (self.spacing, self.corner);
@@ -495,7 +495,7 @@ impl<'de> Deserialize<'de> for Spacing {
                 &[dx, dy] => Ok(Self([dx, dy])),
                 sides => Err(D::Error::invalid_length(sides.len(), &expected)),
             },
-            other => Err(other.misfit(expected)),
+            other => Err(other.wrong_form_error(expected)),
         }
     }
 }

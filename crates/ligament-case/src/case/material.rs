@@ -15,7 +15,7 @@ use super::decode::decode;
 use super::document::{Node, Value};
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use super::values::{RANGE, missing, require_unique, required};
+use super::values::{RANGE, missing_key, require_unique, required_key};
 
 /// Largest plausible coefficient of expansion, 1/K; a larger one is probably in other units.
 const LARGEST_EXPANSION: f64 = 0.01;
@@ -164,7 +164,7 @@ impl Orthotropic {
         }
         let needed = |name: &'static str, value: Option<f64>| {
             let reason = "because the other constants across the plane are given";
-            value.ok_or_else(|| required(key, name, reason))
+            value.ok_or_else(|| required_key(key, name, reason))
         };
         Ok(Some(OutOfPlane {
             young: needed("young_3", young)?,
@@ -189,7 +189,7 @@ impl Expansion {
         }
         let needed = |name: &'static str, value: Option<f64>| {
             let reason = "(in 1/K) because a coefficient along another axis is given";
-            value.ok_or_else(|| required(key, name, reason))
+            value.ok_or_else(|| required_key(key, name, reason))
         };
         let in_plane = [
             needed("thermal_expansion_1", one)?,
@@ -248,7 +248,7 @@ impl Kind {
     }
 
     /// The kind of a table, determined by a key that only this kind has.
-    fn of_table(table: &Node) -> &'static Self {
+    fn from_table(table: &Node) -> &'static Self {
         let tells = |kind: &&Self| kind.constants.keys().any(|key| table.get(key).is_some());
         KINDS.iter().rev().find(tells).unwrap_or(&KINDS[0])
     }
@@ -289,7 +289,7 @@ impl Kind {
 
 /// The place of a material.
 #[derive(Debug, Deserialize, JsonSchema)]
-struct Place {
+struct MaterialGroup {
     /// The physical surface of the mesh, or the set of the lattice, that the material fills.
     group: Option<String>,
 }
@@ -305,7 +305,7 @@ fn keys(mut table: Schema) -> Map<String, Json> {
 /// The keys of all kinds.
 fn all_keys() -> Map<String, Json> {
     let constants = KINDS.iter().flat_map(|it| it.constants.clone());
-    let place = keys(schema_for!(Place)).into_iter();
+    let place = keys(schema_for!(MaterialGroup)).into_iter();
     let others = keys(schema_for!(model::Material)).into_iter();
     let all = place.chain(constants).chain(others);
     all.chain(keys(schema_for!(Expansion))).collect()
@@ -367,11 +367,11 @@ pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
 /// Reads one material; one with a name must have a group.
 fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
     let key = key_of(name.as_ref());
-    let kind = Kind::of_table(table);
+    let kind = Kind::from_table(table);
     kind.refuse_others(table, &key)?;
-    let Place { group } = read_keys(table, &key)?;
+    let MaterialGroup { group } = read_keys(table, &key)?;
     if name.is_some() && group.is_none() {
-        return Err(missing(&key, "group"));
+        return Err(missing_key(&key, "group"));
     }
     Ok(Material {
         constants: (kind.read)(table, &key)?,

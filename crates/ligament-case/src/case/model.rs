@@ -47,16 +47,16 @@ pub struct ModelSection {
     pub allow_unstable: bool,
     /// What carries the stiffness that bonds cannot have above the Poisson's ratio of central forces (1/3 in plane stress, else 1/4).
     #[serde(default, skip_serializing_if = "by_cells")]
-    #[schemars(extend("description" = of_laws("What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3)", |it| it.options.poisson.is_some())))]
+    #[schemars(extend("description" = laws_text("What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3)", |it| it.options.poisson.is_some())))]
     pub poisson: Option<PoissonForm>,
     /// Where the constants of the law come from.
-    #[schemars(extend("description" = of_laws("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
+    #[schemars(extend("description" = laws_text("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
     pub calibration: Option<Calibration>,
     /// Stiffness against relative rotation.
-    #[schemars(extend("description" = of_laws("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
+    #[schemars(extend("description" = laws_text("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
     pub rotational_stiffness: Option<RotationalStiffness>,
     /// Stiffness against relative rotation over that of the law; 1 without the key.
-    #[schemars(transform = RotationalScale::FACTOR.keywords(), extend("description" = of_laws("Stiffness against relative rotation over that of the law; 1 without the \
+    #[schemars(transform = RotationalScale::FACTOR.keywords(), extend("description" = laws_text("Stiffness against relative rotation over that of the law; 1 without the \
         key", |it| it.shear_form.is_some())))]
     pub rotational_factor: Option<f64>,
     /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
@@ -146,7 +146,7 @@ impl ModelSection {
 }
 
 /// Description of a key with the laws to which it applies.
-fn of_laws(what: &str, takes: fn(&BondLaw) -> bool) -> String {
+fn laws_text(what: &str, takes: fn(&BondLaw) -> bool) -> String {
     let laws = LAWS.into_iter().filter(|it| takes(it));
     let words: Vec<String> = laws.map(|it| format!("`{}`", it.word)).collect();
     format!("{what}; of {}.", words.join(", "))

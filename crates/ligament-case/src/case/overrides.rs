@@ -35,7 +35,7 @@ pub(super) fn as_option(given: &str) -> String {
 /// Applies the override `given` (`key=value` or `-key`, with an index) to the document.
 pub(super) fn apply(document: &mut Node, given: &str, index: usize) -> Result<(), String> {
     if let Some(key) = given.strip_prefix(UNSET) {
-        return take_away(document, &key_path(key)?);
+        return remove_value(document, &key_path(key)?);
     }
     let origin = Origin::Override(index);
     let (key, text) = given
@@ -52,7 +52,7 @@ fn key_path(key: &str) -> Result<KeyPath, String> {
 }
 
 /// Removes a key, or an entry of a list, from the document.
-fn take_away(document: &mut Node, path: &KeyPath) -> Result<(), String> {
+fn remove_value(document: &mut Node, path: &KeyPath) -> Result<(), String> {
     let mut node = document;
     let mut above = KeyPath::default();
     let last = path.0.len().saturating_sub(1);

@@ -137,7 +137,7 @@ impl<'de> Deserialize<'de> for Couple {
         match Form::<IgnoredAny, Vector>::read(deserializer, expected)? {
             Form::Number(value, _) => Ok(Self::InPlane(value)),
             Form::Table(vector) => Ok(Self::About(vector)),
-            other => Err(other.misfit(expected)),
+            other => Err(other.wrong_form_error(expected)),
         }
     }
 }

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::places::Coordinates;
-use super::values::{Point, exactly_one, first_given, missing};
+use super::values::{Point, exactly_one, first_given, missing_key};
 use super::values::{not_exactly_one, one_of, refuse, require};
 use ligament::setup::{CrackShape, PreCrack};
 use ligament_model::bonds::precrack::Ends;
@@ -85,11 +85,11 @@ impl Precrack {
             Ok(CrackShape::Polygon(corners.collect()))
         });
         let disk = self.centre.map(|centre| {
-            let normal = self.normal.ok_or_else(|| missing(key, "normal"))?;
+            let normal = self.normal.ok_or_else(|| missing_key(key, "normal"))?;
             Ok(CrackShape::Disk {
                 centre: centre.position(),
                 normal: normal.position(),
-                radius: self.radius.ok_or_else(|| missing(key, "radius"))?,
+                radius: self.radius.ok_or_else(|| missing_key(key, "radius"))?,
             })
         });
         let group = self.group.clone().map(|it| Ok(CrackShape::Group(it)));
@@ -100,9 +100,9 @@ impl Precrack {
     }
 
     fn ends_of_line(&self, key: &KeyPath) -> Result<[Point; 2], KeyFault> {
-        let centre = self.centre.ok_or_else(|| missing(key, "centre"))?;
-        let length = self.length.ok_or_else(|| missing(key, "length"))?;
-        let angle = self.angle.ok_or_else(|| missing(key, "angle"))?;
+        let centre = self.centre.ok_or_else(|| missing_key(key, "centre"))?;
+        let length = self.length.ok_or_else(|| missing_key(key, "length"))?;
+        let angle = self.angle.ok_or_else(|| missing_key(key, "angle"))?;
         let ends = straight(centre.in_plane(), length, angle);
         require(
             ends[0] != ends[1],

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::places::Coordinates;
-use super::values::{exactly_one, one_of, require_column_name, required};
+use super::values::{exactly_one, one_of, require_column_name, required_key};
 use ligament::setup::{self, Axis, Reading};
 use ligament_analysis::Component;
 use ligament_analysis::probe::PointField;
@@ -72,7 +72,7 @@ impl Probe {
         }
         let reason = "with `between` or `section`, to say what to read";
         self.component
-            .ok_or_else(|| required(key, "component", reason))
+            .ok_or_else(|| required_key(key, "component", reason))
     }
 
     fn axis(&self, key: &KeyPath) -> Result<Axis, KeyFault> {
@@ -93,6 +93,6 @@ impl Probe {
             return Err(KeyFault::new(key.child("component"), reason));
         }
         self.field
-            .ok_or_else(|| required(key, "field", "with `at`, to say what to read"))
+            .ok_or_else(|| required_key(key, "field", "with `at`, to say what to read"))
     }
 }

@@ -3,7 +3,7 @@
 use toml_edit::visit_mut::{VisitMut, visit_value_mut};
 use toml_edit::{ArrayOfTables, DocumentMut, Item, Table, TableLike, Value};
 
-use super::not_with::keys_without_effect;
+use super::ineffective_keys::keys_without_effect;
 use super::sections::Case;
 
 /// The case as TOML, with a header for each section and nested tables inline.

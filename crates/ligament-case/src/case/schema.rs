@@ -15,7 +15,7 @@ use super::values::UNIT;
 pub fn schema() -> Value {
     let settings = SchemaSettings::draft07().with(|it| it.inline_subschemas = true);
     let mut schema = settings
-        .with_transform(ForToml)
+        .with_transform(TomlAdaptation)
         .into_generator()
         .into_root_schema_for::<Case>();
     schema.insert("title".to_owned(), "Case file of Ligament".into());
@@ -28,9 +28,9 @@ pub fn schema() -> Value {
 /// editors offer a key once for each alternative of a `oneOf`; their meanings go to the description, and to the key that taplo shows beside
 /// the word.
 #[derive(Debug, Clone)]
-struct ForToml;
+struct TomlAdaptation;
 
-impl Transform for ForToml {
+impl Transform for TomlAdaptation {
     fn transform(&mut self, schema: &mut Schema) {
         transform_subschemas(self, schema);
         schema.remove("format");

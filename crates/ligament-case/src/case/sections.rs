@@ -22,17 +22,17 @@ use super::decode::decode;
 use super::document::Node;
 use super::fault::{Fault as F, KeyFault};
 use super::fracture::{Control, Distribution, Fracture};
+use super::ineffective_keys::{Settings, refuse_keys_without_effect};
 use super::key_path::KeyPath;
 use super::lattice::{LatticeSection, SolidLatticeSection};
 use super::material::{self, Material};
 use super::mesh_section::{BodyKind, MeshSection};
 use super::model::{Correction, ModelSection};
-use super::not_with::{Settings, refuse_keys_without_effect};
 use super::places::{FarField, Region};
 use super::precrack::Precrack;
 use super::probe::Probe;
 use super::stage::Stage;
-use super::values::{each, exactly_one, metre, missing};
+use super::values::{each, exactly_one, metre, missing_key};
 use crate::point_table::Tables;
 
 /// A case: the sections of its file, with every default filled in.
@@ -175,12 +175,12 @@ impl Case {
     /// Sets the analysis, as given by the case or implied by its sections; refuses keys that do not apply in it.
     fn complete_analysis(&mut self, document: &Node) -> Result<(), KeyFault> {
         let is_breaking = self.fracture.is_some();
-        let meant = match (&self.motion, is_breaking) {
+        let default_analysis = match (&self.motion, is_breaking) {
             (Some(_), _) => Analysis::Motion,
             (None, true) => Analysis::Fracture,
             (None, false) => Analysis::Static,
         };
-        let analysis = *self.analysis.get_or_insert(meant);
+        let analysis = *self.analysis.get_or_insert(default_analysis);
         refuse_keys_without_effect(document, &self.settings())?;
         let needs = |reason| Err(KeyFault::new(at("analysis"), reason));
         match analysis {
@@ -387,7 +387,7 @@ impl Case {
         Ok(match (&self.motion, &self.modal, &self.fracture) {
             (Some(motion), _, _) => {
                 if !motion.is_explicit() && motion.step.is_none() {
-                    return Err(missing(&at("motion"), "step"));
+                    return Err(missing_key(&at("motion"), "step"));
                 }
                 let fracture = self.fracture.as_ref();
                 let breakages =
@@ -406,10 +406,10 @@ impl Case {
     }
 
     /// A substitute for the body before it is built, of the same kind, with at most one point.
-    pub(super) fn stand_in(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
+    pub(super) fn substitute_body(&self, is_solid: bool) -> Result<AnyBody, KeyFault> {
         Ok(match (is_solid, &self.lattice, &self.solid_lattice) {
-            (true, _, Some(lattice)) => AnyBody::from(lattice.grid().stand_in()?),
-            (false, Some(lattice), _) => AnyBody::from(lattice.grid().stand_in()?),
+            (true, _, Some(lattice)) => AnyBody::from(lattice.grid().substitute_body()?),
+            (false, Some(lattice), _) => AnyBody::from(lattice.grid().substitute_body()?),
             (true, _, None) => AnyMesh::Solid(SolidMesh::default()).into(),
             (false, None, _) => AnyMesh::Plane(Mesh::default()).into(),
         })

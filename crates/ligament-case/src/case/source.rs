@@ -37,7 +37,7 @@ impl Source {
     pub fn parse(path: &Path, text: String, overrides: &[String]) -> Result<Self, CaseError> {
         let document =
             Node::parse_document(&text).map_err(|error| syntax_error(path, &text, &error))?;
-        let source = Self::of_document(path, document, overrides)?;
+        let source = Self::from_document(path, document, overrides)?;
         Ok(Self { text, ..source })
     }
 
@@ -46,7 +46,7 @@ impl Source {
     /// # Errors
     ///
     /// If an override cannot be applied.
-    pub fn of_document(
+    pub fn from_document(
         path: &Path,
         document: Node,
         overrides: &[String],

@@ -130,7 +130,7 @@ impl<'de> Deserialize<'de> for Factors {
         let elements = match Form::<Element>::read(deserializer, EXPECTED)? {
             Form::Number(factor, _) => return Ok(Self::End(factor)),
             Form::List(elements) => elements,
-            other => return Err(other.misfit(EXPECTED)),
+            other => return Err(other.wrong_form_error(EXPECTED)),
         };
         let (mut factors, mut points) = (Vec::new(), Vec::new());
         for element in elements {
@@ -165,7 +165,7 @@ impl<'de> Deserialize<'de> for Element {
                 [] | [_] => Err(D::Error::invalid_length(list.len(), &expected)),
                 _ => Err(D::Error::invalid_length(list.len(), &"2 elements")),
             },
-            other => Err(other.misfit(expected)),
+            other => Err(other.wrong_form_error(expected)),
         }
     }
 }

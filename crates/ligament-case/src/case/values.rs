@@ -112,7 +112,7 @@ pub(super) fn first_given(section: &impl Serialize, keys: &[&'static str]) -> Op
 }
 
 /// The fault of a missing key that a table must have.
-pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
+pub(super) fn missing_key(table: &KeyPath, key: &str) -> KeyFault {
     let fault = Fault::MissingKey {
         key: key.to_owned(),
         table: table.table_title(),
@@ -122,7 +122,7 @@ pub(super) fn missing(table: &KeyPath, key: &str) -> KeyFault {
 }
 
 /// The fault of a missing key that is required for a reason.
-pub(super) fn required(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
+pub(super) fn required_key(table: &KeyPath, key: &'static str, reason: &str) -> KeyFault {
     let reason = reason.to_owned();
     KeyFault::new(table.child(key), Fault::Required { key, reason })
 }
@@ -203,7 +203,7 @@ impl<'de, Element: Deserialize<'de>, Keys: Deserialize<'de>> Form<Element, Keys>
     }
 
     /// The error of a form that the key does not have.
-    pub(super) fn misfit<E: Error>(&self, expected: &'static str) -> E {
+    pub(super) fn wrong_form_error<E: Error>(&self, expected: &'static str) -> E {
         let found = match self {
             Self::Number(_, Some(whole)) => Unexpected::Signed(*whole),
             Self::Number(value, None) => Unexpected::Float(*value),

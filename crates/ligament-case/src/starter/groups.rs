@@ -13,7 +13,7 @@ pub(super) enum LoadPlace<const D: usize> {
 
 /// A support and a load opposite to it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Ends<const D: usize> {
+pub(super) struct SupportAndLoad<const D: usize> {
     /// Place of the support.
     pub(super) support: LoadPlace<D>,
     /// Places fixed along the axis only, such as the second support of a beam.
@@ -60,7 +60,7 @@ const AT_THE_END: f64 = 0.1;
 
 /// Data of a mesh in D dimensions for the choice of ends.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Named<'a, const D: usize> {
+pub(super) struct MeshGroups<'a, const D: usize> {
     /// Physical groups.
     pub(super) groups: &'a [Group],
     /// Positions of the nodes, m.
@@ -69,19 +69,19 @@ pub(super) struct Named<'a, const D: usize> {
     pub(super) n_cells: usize,
 }
 
-impl<'a, const D: usize> Named<'a, D> {
+impl<'a, const D: usize> MeshGroups<'a, D> {
     /// The ends of a mesh within its bounding box `extent` (m): by the names of groups, otherwise by the positions of groups, otherwise by
     /// boxes.
-    pub(super) fn ends(&self, extent: [[f64; D]; 2], spacing: f64) -> Ends<D> {
+    pub(super) fn ends(&self, extent: [[f64; D]; 2], spacing: f64) -> SupportAndLoad<D> {
         self.beam(extent, spacing)
             .or_else(|| self.by_name())
             .or_else(|| self.by_place(extent))
-            .unwrap_or_else(|| at_the_rim(extent, spacing))
+            .unwrap_or_else(|| boxes_at_rim(extent, spacing))
     }
 
     /// The ends of a beam on two or more supports, loaded by a group with a name of loads, otherwise in the middle of the far side; `None`
     /// for other bodies.
-    fn beam(&self, extent: [[f64; D]; 2], spacing: f64) -> Option<Ends<D>> {
+    fn beam(&self, extent: [[f64; D]; 2], spacing: f64) -> Option<SupportAndLoad<D>> {
         let [[held, loaded], _, ends] = PAIRS;
         let mut supports = self.sides(held);
         let is_loaded = |group: &Group| has_word(&group.name, loaded);
@@ -94,9 +94,9 @@ impl<'a, const D: usize> Named<'a, D> {
             return None;
         };
         let last = rollers.last()?;
-        let apart: [f64; D] =
+        let offset: [f64; D] =
             std::array::from_fn(|axis| self.middle(last, axis) - self.middle(first, axis));
-        let along = farthest(apart);
+        let along = farthest(offset);
         // The supports are at a side of the body across the load.
         let to_a_side = |axis: usize| {
             let ([low, high], level) = (extent.map(|it| it[axis]), self.middle(first, axis));
@@ -116,7 +116,7 @@ impl<'a, const D: usize> Named<'a, D> {
                 } else {
                     low
                 };
-                let centre = self.middle(first, along) + 0.5 * apart[along];
+                let centre = self.middle(first, along) + 0.5 * offset[along];
                 let mut corners = extent;
                 for (corner, side) in corners.iter_mut().zip([-1.0, 1.0]) {
                     corner.iter_mut().for_each(|it| *it += side * spacing);
@@ -127,14 +127,14 @@ impl<'a, const D: usize> Named<'a, D> {
             }
         };
         let spot = |group: &&Group| LoadPlace::Group(group.name.clone());
-        Some(Ends {
+        Some(SupportAndLoad {
             support: spot(first),
             rollers: rollers.iter().map(spot).collect(),
             load,
             axis,
             away: (place - level).signum(),
             presses: true,
-            span: apart[along].abs(),
+            span: offset[along].abs(),
             found: "as a beam on supports by their names",
         })
     }
@@ -146,7 +146,7 @@ impl<'a, const D: usize> Named<'a, D> {
         sides.filter(|group| has_word(&group.name, words)).collect()
     }
 
-    fn by_name(&self) -> Option<Ends<D>> {
+    fn by_name(&self) -> Option<SupportAndLoad<D>> {
         let [[held, loaded], [below, _], [left, right]] = PAIRS;
         // A group with a name of loads acts against one with a name of supports, or of a side.
         let against_load = [held, below, left, right].map(|it| [it, loaded]);
@@ -180,7 +180,7 @@ impl<'a, const D: usize> Named<'a, D> {
     }
 
     /// Ends by groups at the highest and the lowest part of the body, or along another axis.
-    fn by_place(&self, extent: [[f64; D]; 2]) -> Option<Ends<D>> {
+    fn by_place(&self, extent: [[f64; D]; 2]) -> Option<SupportAndLoad<D>> {
         (0..D).rev().find_map(|axis| {
             let [low, high] = extent.map(|corner| corner[axis]);
             let near = AT_THE_END * (high - low);
@@ -207,12 +207,17 @@ impl<'a, const D: usize> Named<'a, D> {
     }
 
     /// Ends with a support and a load; `None` where both have the same position.
-    fn between(&self, support: &Group, load: &Group, found: &'static str) -> Option<Ends<D>> {
-        let apart: [f64; D] =
+    fn between(
+        &self,
+        support: &Group,
+        load: &Group,
+        found: &'static str,
+    ) -> Option<SupportAndLoad<D>> {
+        let offset: [f64; D] =
             std::array::from_fn(|axis| self.middle(load, axis) - self.middle(support, axis));
-        let axis = farthest(apart);
-        let distance = apart[axis];
-        (distance != 0.0).then(|| Ends {
+        let axis = farthest(offset);
+        let distance = offset[axis];
+        (distance != 0.0).then(|| SupportAndLoad {
             support: LoadPlace::Group(support.name.clone()),
             rollers: Vec::new(),
             load: LoadPlace::Group(load.name.clone()),
@@ -263,7 +268,7 @@ fn farthest<const D: usize>(components: [f64; D]) -> usize {
 }
 
 /// Boxes around the lowest and the highest nodes along the last axis, as deep as a cell.
-fn at_the_rim<const D: usize>([low, high]: [[f64; D]; 2], spacing: f64) -> Ends<D> {
+fn boxes_at_rim<const D: usize>([low, high]: [[f64; D]; 2], spacing: f64) -> SupportAndLoad<D> {
     let axis = D - 1;
     let around = |level: f64| {
         let mut corners = [low.map(|it| it - spacing), high.map(|it| it + spacing)];
@@ -271,7 +276,7 @@ fn at_the_rim<const D: usize>([low, high]: [[f64; D]; 2], spacing: f64) -> Ends<
         corners[1][axis] = level + spacing;
         LoadPlace::Box(corners)
     };
-    Ends {
+    SupportAndLoad {
         rollers: Vec::new(),
         support: around(low[axis]),
         load: around(high[axis]),

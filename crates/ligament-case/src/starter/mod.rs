@@ -8,7 +8,7 @@ use std::path::{Component, Path, PathBuf};
 use ligament_mesh::{AnyMesh, Group};
 
 use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
-use groups::{Ends, LoadPlace, Named};
+use groups::{LoadPlace, MeshGroups, SupportAndLoad};
 use ligament::setup::Law;
 use ligament::warning::large_body;
 use ligament_model::law::{listed, suited};
@@ -50,7 +50,7 @@ pub enum StarterError {
     #[error("\"{}\" is a law for lattices: take --lattice NX,NY,SPACING in the place of the mesh, or another --law", .0.name())]
     NeedsLattice(Law),
     /// The law is for bodies in the plane only.
-    #[error("\"{}\" is a law of the plane, and the body is a solid: take {} as --law", .0.name(), of_solids())]
+    #[error("\"{}\" is a law of the plane, and the body is a solid: take {} as --law", .0.name(), laws_for_solids())]
     NeedsPlane(Law),
 }
 
@@ -59,7 +59,7 @@ pub enum StarterError {
 /// # Errors
 ///
 /// If the file is not a mesh, or the law is not for meshes.
-pub fn of_mesh(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterError> {
+pub fn mesh_case(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterError> {
     let extension = path
         .extension()
         .unwrap_or_default()
@@ -84,13 +84,13 @@ pub fn of_mesh(path: &Path, folder: &Path, law: Law) -> Result<Starter, StarterE
         AnyMesh::Plane(mesh) => {
             let spacing = (mesh.area() / mesh.positions.len() as f64).sqrt();
             let named = named(&mesh.groups, &mesh.positions, mesh.cells.len());
-            Ok(of_parsed(named, spacing, [&file, &name], law))
+            Ok(case_of_mesh(named, spacing, [&file, &name], law))
         }
         AnyMesh::Solid(mesh) => {
             check_solid(law)?;
             let spacing = (mesh.volume() / mesh.positions.len() as f64).cbrt();
             let named = named(&mesh.groups, &mesh.positions, mesh.cells.len());
-            Ok(of_parsed(named, spacing, [&file, &name], law))
+            Ok(case_of_mesh(named, spacing, [&file, &name], law))
         }
     }
 }
@@ -99,8 +99,8 @@ fn named<'a, const D: usize>(
     groups: &'a [Group],
     positions: &'a [[f64; D]],
     n_cells: usize,
-) -> Named<'a, D> {
-    Named {
+) -> MeshGroups<'a, D> {
+    MeshGroups {
         groups,
         positions,
         n_cells,
@@ -115,15 +115,15 @@ fn check_solid(law: Law) -> Result<(), StarterError> {
 }
 
 /// List of the laws for solids.
-fn of_solids() -> String {
+fn laws_for_solids() -> String {
     listed(&suited(|it| it.exists_in(Space::Solid)), |it| {
         it.word.to_owned()
     })
 }
 
 /// The starter case of a mesh with a spacing of its points (m); `file` is its path in the case, `name` the name of the body.
-fn of_parsed<const D: usize>(
-    mesh: Named<'_, D>,
+fn case_of_mesh<const D: usize>(
+    mesh: MeshGroups<'_, D>,
     spacing: f64,
     [file, name]: [&str; 2],
     law: Law,
@@ -144,7 +144,7 @@ fn of_parsed<const D: usize>(
         parts: mesh.parts().iter().map(|it| it.name.clone()).collect(),
         extent,
         middle,
-        opening: opening(middle, sides[ends.axis], ends.axis)
+        opening: positions_beside_middle(middle, sides[ends.axis], ends.axis)
             .map(|place| on_body(mesh.positions, place, spacing)),
         spacing,
     };
@@ -163,7 +163,11 @@ fn on_body<const D: usize>(positions: &[[f64; D]], place: [f64; D], spacing: f64
 }
 
 /// Positions on either side of the middle, a fifth of the body's size apart along an axis.
-fn opening<const D: usize>(middle: [f64; D], size: f64, axis: usize) -> [[f64; D]; 2] {
+fn positions_beside_middle<const D: usize>(
+    middle: [f64; D],
+    size: f64,
+    axis: usize,
+) -> [[f64; D]; 2] {
     [-0.1, 0.1].map(|share| {
         let mut place = middle;
         place[axis] += share * size;
@@ -172,8 +176,8 @@ fn opening<const D: usize>(middle: [f64; D], size: f64, axis: usize) -> [[f64; D
 }
 
 /// The starter case of a lattice of square cells.
-pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
-    of_cells(cells, spacing, law)
+pub fn lattice_case(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
+    lattice_case_of_cells(cells, spacing, law)
 }
 
 /// The starter case of a lattice of cubes.
@@ -181,12 +185,16 @@ pub fn of_lattice(cells: [u32; 2], spacing: f64, law: Law) -> Starter {
 /// # Errors
 ///
 /// If the law is for bodies in the plane only.
-pub fn of_solid_lattice(cells: [u32; 3], spacing: f64, law: Law) -> Result<Starter, StarterError> {
+pub fn solid_lattice_case(
+    cells: [u32; 3],
+    spacing: f64,
+    law: Law,
+) -> Result<Starter, StarterError> {
     check_solid(law)?;
-    Ok(of_cells(cells, spacing, law))
+    Ok(lattice_case_of_cells(cells, spacing, law))
 }
 
-fn of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter {
+fn lattice_case_of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter {
     let sides = cells.map(|count| f64::from(count) * spacing);
     let (middle, axis) = (sides.map(|side| 0.5 * side), D - 1);
     let body = Body {
@@ -199,10 +207,10 @@ fn of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter 
         parts: Vec::new(),
         extent: [[0.0; D], sides],
         middle,
-        opening: opening(middle, sides[axis], axis),
+        opening: positions_beside_middle(middle, sides[axis], axis),
         spacing,
     };
-    let ends = Ends {
+    let ends = SupportAndLoad {
         support: LoadPlace::Group("bottom".to_owned()),
         rollers: Vec::new(),
         load: LoadPlace::Group("top".to_owned()),
@@ -217,7 +225,7 @@ fn of_cells<const D: usize>(cells: [u32; D], spacing: f64, law: Law) -> Starter 
 
 fn starter<const D: usize>(
     body: &Body<D>,
-    ends: &Ends<D>,
+    ends: &SupportAndLoad<D>,
     law: Law,
     warnings: Vec<String>,
 ) -> Starter {

@@ -54,8 +54,8 @@ fn read(text: &str, settings: &[&str]) -> Result<CaseFile, String> {
 fn motion(text: &str, settings: &[&str]) -> Result<MotionProblem, String> {
     let case = read(text, settings)?;
     let setup = case.setup(&mut ()).map_err(|it| it.to_string())?;
-    let model = Model::build(setup, &mut ()).map_err(|it| case.located(it).to_string())?;
-    let loading = Loading::new(&model).map_err(|it| case.located(it).to_string())?;
+    let model = Model::build(setup, &mut ()).map_err(|it| case.error_at_key(it).to_string())?;
+    let loading = Loading::new(&model).map_err(|it| case.error_at_key(it).to_string())?;
     let problem = loading.problem(&model);
     Ok(loading.motion(&problem).unwrap())
 }

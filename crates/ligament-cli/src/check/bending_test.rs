@@ -10,22 +10,22 @@ use ligament::setup::Surface;
 use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
-use super::report::Extent;
+use super::report::CheckExtent;
 use super::report::Report;
 
 /// Writes the stiffness of the body at its thinnest section over that of the continuum; returns a warning where it is too large.
 pub(super) fn write(
     report: &mut Report<'_>,
-    extent: Extent,
+    extent: CheckExtent,
     model: &Model,
     stages: &mut Stages,
 ) -> io::Result<Option<String>> {
-    if extent == Extent::Model {
+    if extent == CheckExtent::Model {
         return Ok(None);
     }
     report.head("strip at the thinnest section, bent");
     let (most_points, most_sides) = match extent {
-        Extent::PatchTest => (usize::MAX, usize::MAX),
+        CheckExtent::PatchTest => (usize::MAX, usize::MAX),
         _ => (most_points(model.setup.body.dimensions()), MOST_SIDES),
     };
     let section = match stages.time("section", || thinnest_section(model, most_sides)) {
@@ -62,7 +62,7 @@ fn write_test(report: &mut Report<'_>, test: &BendingTest) -> io::Result<()> {
         let more = 100.0 * (stiffness - 1.0);
         format!(
             "{} as stiff as the material ({more:+.1} %)",
-            times(stiffness)
+            ratio_text(stiffness)
         )
     };
     let of = format!("{}, a strip of {} points", words(test.bending), test.points);
@@ -74,7 +74,7 @@ fn write_test(report: &mut Report<'_>, test: &BendingTest) -> io::Result<()> {
 }
 
 /// Text of a ratio of stiffnesses, without digits above one hundred.
-fn times(stiffness: f64) -> String {
+fn ratio_text(stiffness: f64) -> String {
     match stiffness > 100.0 {
         true => "more than 100 times".to_owned(),
         false => format!("{stiffness:.3} times"),
@@ -85,7 +85,7 @@ fn warning(model: &Model, section: &Section, test: &BendingTest) -> String {
     let across = section.thickness / section.spacing;
     let torsion = test
         .torsion
-        .map(|it| format!(" and {} in torsion", times(it)));
+        .map(|it| format!(" and {} in torsion", ratio_text(it)));
     let is_patched = matches!(model.setup.correction.surface, Surface::Patch(_));
     let cure = match test.refinement() {
         Some(factor) if is_patched => {
@@ -100,7 +100,7 @@ fn warning(model: &Model, section: &Section, test: &BendingTest) -> String {
     format!(
         "the body is {} as stiff as its material in bending{} where it is thinnest, {} with {across:.1} distances of points across at \
          {}: {cure}",
-        times(test.bending),
+        ratio_text(test.bending),
         torsion.unwrap_or_default(),
         quantity(section.thickness, "m"),
         place(&section.place[..model.setup.body.dimensions()]),

@@ -24,7 +24,7 @@ pub(super) fn write(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
         let [work, area] = [quantity(given * area, "J"), quantity(area, "m^2")];
         format!("takes {work} ({area})")
     };
-    let ahead = ahead_of_precracks(model);
+    let ahead = extensions_of_precracks(model);
     for (tip, area) in &ahead {
         let words = format!("on from {} {}", place(tip), taken(*area));
         report.detail("a crack through", words)?;
@@ -62,7 +62,7 @@ fn sections_of<const D: usize>(cloud: &PointCloud<D>) -> [f64; D] {
 
 /// Ends of pre-cracks in the plane that lie in the body, with the areas (m^2) between them and the other side, or the next pre-crack, along
 /// their lines.
-fn ahead_of_precracks(model: &Model) -> Vec<([f64; 2], f64)> {
+fn extensions_of_precracks(model: &Model) -> Vec<([f64; 2], f64)> {
     let Some(system) = model.system.of_dimension::<2>() else {
         return Vec::new();
     };
@@ -74,7 +74,7 @@ fn ahead_of_precracks(model: &Model) -> Vec<([f64; 2], f64)> {
             continue;
         };
         for (from, tip) in [(line[1], *first), (line[line.len() - 2], *last)] {
-            let Some(ray) = Ray::new(from, tip) else {
+            let Some(ray) = CrackExtension::new(from, tip) else {
                 continue;
             };
             let spacing = cloud.spacing[cloud.nearest_points(&[tip])[0] as usize];
@@ -93,13 +93,13 @@ fn ahead_of_precracks(model: &Model) -> Vec<([f64; 2], f64)> {
 }
 
 /// A straight line from the tip of a pre-crack on.
-struct Ray {
+struct CrackExtension {
     tip: [f64; 2],
     /// Unit vector along the line.
     along: [f64; 2],
 }
 
-impl Ray {
+impl CrackExtension {
     /// The line through a tip, away from `from`; None if they are one place.
     fn new(from: [f64; 2], tip: [f64; 2]) -> Option<Self> {
         let along = [tip[0] - from[0], tip[1] - from[1]];
@@ -126,7 +126,7 @@ impl Ray {
 /// Length of a ray through the body, m: up to the farthest of the points that are nearest to its places, and on a lattice half a cell
 /// farther; right to half the distance of points. A place is in the body if its nearest point is not farther than three quarters of the
 /// distance between points.
-fn length_ahead(cloud: &PointCloud<2>, ray: &Ray) -> f64 {
+fn length_ahead(cloud: &PointCloud<2>, ray: &CrackExtension) -> f64 {
     let smallest = cloud.spacing.iter().copied().fold(f64::INFINITY, f64::min);
     let [width, height] = [0, 1].map(|axis| {
         let values = || cloud.positions.iter().map(|it| it[axis]);

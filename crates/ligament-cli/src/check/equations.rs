@@ -98,12 +98,12 @@ fn write_memory(
     model: &Model,
     stiffness: Option<&Stiffness>,
 ) -> io::Result<()> {
-    let bytes = memory::of_equations(&*model.system, stiffness);
+    let bytes = memory::equation_bytes(&*model.system, stiffness);
     report.entry("estimated memory", megabytes(bytes as f64))?;
-    if let Some(there) = memory::allowed(case) {
+    if let Some(there) = memory::allowed_memory(case) {
         report.detail("available memory", megabytes(there as f64))?;
     }
-    match memory::foresee(case, &*model.system, stiffness) {
+    match memory::check_memory(case, &*model.system, stiffness) {
         Ok(()) => Ok(()),
         Err(too_large) => report.line(format!("warning: {too_large}")),
     }

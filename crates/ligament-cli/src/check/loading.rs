@@ -1,45 +1,45 @@
-//! Report of `ligament check` on a case with loads.
+//! Report of `ligament check` on a case with loads: supports, loads, equations and disk space.
 
 use std::io;
 use std::path::Path;
 
 use ligament::Loading;
 use ligament::foresight::refuse;
-use ligament::setup::{Analysis, ELASTIC_ENERGY_TOLERANCE, Position, Reading as Given, Setup};
+use ligament::setup::{
+    Analysis, ELASTIC_ENERGY_TOLERANCE, Load, Position, Reading as Given, Setup, Support,
+};
 use ligament::units::Units;
-use ligament_analysis::gauges;
 use ligament_analysis::probe::{Reading, Shares};
-use ligament_analysis::{ControlKind, Equilibrium};
+use ligament_analysis::{ControlKind, Equilibrium, gauges};
 use ligament_case::case::CaseFile;
 use ligament_output::quantity::quantity;
 use ligament_run::disk::{self, FieldsOnDisk};
 use ligament_run::memory;
-use ligament_run::messages::named;
+use ligament_run::messages::with_point_names;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 use ligament_run::summary::temperature_change;
 
 use super::body::write_group;
-use super::foresight::Foreseen;
-use super::report::Extent;
-use super::report::{Report, megabytes, spread};
-use super::{equations, foresight, model, restraints};
+use super::first_failure::{self, PredictedRun};
+use super::report::{CheckExtent, Report, megabytes, spread};
+use super::{equations, model};
 
 /// Checks supports, loads and equations, and returns what a run would tell before its first load step.
 pub(super) fn check(
     case: &CaseFile,
-    extent: Extent,
+    extent: CheckExtent,
     model: &Model,
     stages: &mut Stages,
     report: &mut Report<'_>,
-) -> anyhow::Result<Foreseen> {
+) -> anyhow::Result<PredictedRun> {
     let loading = Loading::new(model);
-    let mut loading = loading.map_err(|it| case.located(it))?;
-    loading.solver.factor_memory = memory::for_factor(case, &*model.system);
+    let mut loading = loading.map_err(|it| case.error_at_key(it))?;
+    loading.solver.factor_memory = memory::factor_bytes(case, &*model.system);
     let problem = loading.problem(model);
     let equilibrium = match extent {
-        Extent::Model => None,
-        Extent::Matrix | Extent::PatchTest => Some(stages.time("analysis", || {
+        CheckExtent::Model => None,
+        CheckExtent::Matrix | CheckExtent::PatchTest => Some(stages.time("analysis", || {
             Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)
         })?),
     };
@@ -49,7 +49,7 @@ pub(super) fn check(
     // Contact may hold a free body.
     let free = gauges::of_intact_body(&*model.system, &*loading.boundary);
     for free in free.into_iter().filter(|_| !model.setup.has_contact()) {
-        let message = named(
+        let message = with_point_names(
             free.message(model.setup.closing),
             model.body(),
             &model.setup,
@@ -61,13 +61,13 @@ pub(super) fn check(
     if let Some(equilibrium) = &equilibrium {
         equations::write(report, case, model, equilibrium)?;
     }
-    refuse(&problem, &model.setup.analysis).map_err(|it| case.explained(it))?;
+    refuse(&problem, &model.setup.analysis).map_err(|it| case.error_in_case_terms(it))?;
     let Some(equilibrium) = equilibrium else {
-        return Ok(Foreseen::default());
+        return Ok(PredictedRun::default());
     };
-    let too_costly = foresight::too_costly(case, extent, &problem, &equilibrium);
+    let too_costly = first_failure::too_costly(case, extent, &problem, &equilibrium);
     drop(equilibrium);
-    foresight::write(report, case, model, &problem, too_costly, stages)
+    first_failure::write(report, case, model, &problem, too_costly, stages)
 }
 
 /// Writes the disk space of the fields, and a warning where the disk of the current folder has less.
@@ -107,7 +107,7 @@ pub(super) fn write_boundary(
     for group in &loading.boundary.groups {
         write_group(report, body, &group.name, &group.points)?;
     }
-    restraints::write(report, &model.setup)?;
+    write_restraints(report, &model.setup)?;
     if let Some(changes) = temperature_change(&loading.boundary) {
         report.entry("temperature change", spread(changes, "K"))?;
     }
@@ -184,4 +184,54 @@ fn write_loading(report: &mut Report<'_>, setup: &Setup) -> io::Result<()> {
         }
     };
     report.detail("analysis", loading)
+}
+
+/// Writes the fixed components and springs of each support, and the loads through springs or a platen.
+fn write_restraints(report: &mut Report<'_>, setup: &Setup) -> io::Result<()> {
+    for (index, support) in setup.supports.iter().enumerate() {
+        let name = format!("{} holds", support.name(index));
+        report.entry(
+            &name,
+            support_words(support, setup.body.dimensions()).join(", "),
+        )?;
+    }
+    for load in setup.loads.iter().filter(|it| it.is_restraint()) {
+        report.entry(&format!("{} acts", load.name), load_words(load).join(", "))?;
+    }
+    Ok(())
+}
+
+fn support_words(support: &Support, dimensions: usize) -> Vec<String> {
+    let mut words: Vec<String> = (support.components())
+        .map(|it| it.name().to_owned())
+        .collect();
+    for (component, total) in support.stiffness.along_axes().components() {
+        let unit = if component.is_rotation() {
+            "N m/rad"
+        } else {
+            "N/m"
+        };
+        words.push(format!(
+            "{} by springs of {}",
+            component.name(),
+            quantity(total, unit)
+        ));
+    }
+    if let Some(normal) = support.restrained_normal() {
+        let spring = support.stiffness.normal;
+        let spring = spring.map(|total| format!(" by springs of {}", quantity(total, "N/m")));
+        let normal: Vec<String> = normal[..dimensions].iter().map(f64::to_string).collect();
+        let normal = normal.join(", ");
+        words.push(format!("along ({normal}){}", spring.unwrap_or_default()));
+    }
+    words
+}
+
+fn load_words(load: &Load) -> Vec<String> {
+    let springs = load.stiffness;
+    let springs = springs.map(|total| format!("through springs of {}", quantity(total, "N/m")));
+    let platen = load
+        .tilts
+        .then(|| "by a rigid platen that may tilt".to_owned());
+    springs.into_iter().chain(platen).collect()
 }

@@ -6,14 +6,13 @@ mod characteristic_length;
 mod crack_work;
 mod criteria;
 mod equations;
-mod foresight;
+mod first_failure;
 mod loading;
 mod modal;
 mod model;
 mod motion;
 mod patch_test;
 mod report;
-mod restraints;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -30,13 +29,13 @@ use ligament::setup::Analysis;
 use ligament_case::case::CaseFile;
 use ligament_output::summary::Stage;
 use ligament_run::disk;
-use ligament_run::messages::counted;
+use ligament_run::messages::merged_messages;
 use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
-use foresight::Foreseen;
-pub use report::{Extent, Lines};
+use first_failure::PredictedRun;
+pub use report::{CheckExtent, Lines};
 use report::{Report, megabytes};
 
 /// Name of the file with the fields of the points.
@@ -46,7 +45,7 @@ pub const FIELDS: &str = "points.vtu";
 /// would end before its first load, if it would.
 pub fn check(
     case: &CaseFile,
-    extent: Extent,
+    extent: CheckExtent,
     fields: Option<&Path>,
     lines: Lines,
     out: &mut (dyn Write + Send),
@@ -70,18 +69,18 @@ pub fn check(
 /// Reports a model.
 fn write_report(
     case: &CaseFile,
-    extent: Extent,
+    extent: CheckExtent,
     (model, mut stages): (&Model, Stages),
     report: &mut Report<'_>,
 ) -> anyhow::Result<Option<String>> {
-    let Foreseen { messages, refused } = match model.setup.analysis {
+    let PredictedRun { messages, refused } = match model.setup.analysis {
         Analysis::Modal(settings) => {
             modal::check(case, settings, extent, model, &mut stages, report)?;
-            Foreseen::default()
+            PredictedRun::default()
         }
         Analysis::Motion(ref settings) => {
             motion::check(case, settings, extent, model, &mut stages, report)?;
-            Foreseen::default()
+            PredictedRun::default()
         }
         Analysis::Elastic { .. } | Analysis::Stepped(_) | Analysis::Event(_) => {
             loading::check(case, extent, model, &mut stages, report)?
@@ -97,7 +96,7 @@ fn write_report(
             "warning: the body consists of {loose} parts with no bond between them"
         ))?;
     }
-    for warning in counted(model.warnings.iter().cloned().chain(messages)) {
+    for warning in merged_messages(model.warnings.iter().cloned().chain(messages)) {
         report.line(format!("warning: {warning}"))?;
     }
     if let Some(warning) = too_stiff {

@@ -4,7 +4,7 @@ use ligament::Vibration;
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings, Rotations};
 
 use super::body::write_group;
-use super::report::Extent;
+use super::report::CheckExtent;
 use super::report::Report;
 use super::{equations, model};
 use ligament_case::case::CaseFile;
@@ -15,17 +15,17 @@ use ligament_run::stages::Stages;
 pub(super) fn check(
     case: &CaseFile,
     settings: ModalSettings,
-    extent: Extent,
+    extent: CheckExtent,
     model: &Model,
     stages: &mut Stages,
     report: &mut Report<'_>,
 ) -> anyhow::Result<()> {
     let vibration = Vibration::new(model);
-    let vibration = vibration.map_err(|error| case.located(error))?;
+    let vibration = vibration.map_err(|error| case.error_at_key(error))?;
     let problem = vibration.problem(model);
     let analysis = match extent {
-        Extent::Model => None,
-        Extent::Matrix | Extent::PatchTest => {
+        CheckExtent::Model => None,
+        CheckExtent::Matrix | CheckExtent::PatchTest => {
             Some(stages.time("analysis", || ModalAnalysis::new(&problem, settings))?)
         }
     };

@@ -12,7 +12,7 @@ use ligament_output::quantity::quantity;
 use ligament_run::model::Model;
 use ligament_run::stages::Stages;
 
-use super::report::Extent;
+use super::report::CheckExtent;
 use super::report::Report;
 use super::{loading, model};
 
@@ -23,19 +23,19 @@ const FEWEST_POINTS: f64 = 10.0;
 pub(super) fn check(
     case: &CaseFile,
     settings: &MotionSettings,
-    extent: Extent,
+    extent: CheckExtent,
     model: &Model,
     stages: &mut Stages,
     report: &mut Report<'_>,
 ) -> anyhow::Result<()> {
     let loads = Loading::new(model);
-    let loads = loads.map_err(|it| case.located(it))?;
+    let loads = loads.map_err(|it| case.error_at_key(it))?;
     let problem = loads.problem(model);
     let step = match (extent, loads.motion(&problem)) {
-        (Extent::Matrix | Extent::PatchTest, Some(motion)) => {
+        (CheckExtent::Matrix | CheckExtent::PatchTest, Some(motion)) => {
             Some(stages.time("critical step", || time_step(&motion, settings))?)
         }
-        (Extent::Model, _) | (_, None) => None,
+        (CheckExtent::Model, _) | (_, None) => None,
     };
     model::write(report, case, model)?;
     loading::write_boundary(report, model, &loads)?;

@@ -8,7 +8,7 @@ use ligament_model::tensor::SymTensor;
 use ligament_output::quantity::{place, quantity};
 use ligament_run::stages::Stages;
 
-use super::report::Extent;
+use super::report::CheckExtent;
 use super::report::Report;
 
 /// Largest number of points for which the test is done by default, in the plane and in space: at 10,000 points of thirty bonds it takes a
@@ -24,17 +24,17 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Writes the elastic constants of the free body, and the deviation of its bonds from uniform strains.
 pub(super) fn write(
     report: &mut Report<'_>,
-    extent: Extent,
+    extent: CheckExtent,
     model: &Model,
     stages: &mut Stages,
 ) -> io::Result<()> {
-    if extent == Extent::Model {
+    if extent == CheckExtent::Model {
         return Ok(());
     }
     report.head("free body under uniform stress");
     let kind = model.setup.body.dimensions() - 2;
     let (most, cost) = (MOST_POINTS[kind], COST[kind]);
-    if extent == Extent::Matrix && model.system.n_points() > most {
+    if extent == CheckExtent::Matrix && model.system.n_points() > most {
         let words =
             format!("it needs {cost}, and the body has more than {most} points; use --patch-test");
         return report.entry("not computed", words);

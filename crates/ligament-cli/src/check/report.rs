@@ -10,7 +10,7 @@ use crate::lines;
 
 /// Extent of a check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Extent {
+pub enum CheckExtent {
     /// Points, bonds and their correction, without a matrix.
     Model,
     /// The model, the symbolic analysis of the matrix, and the patch test of a body that is not too large.

@@ -3,14 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-
-use super::numbers::{number, positive};
-use super::output;
-use crate::build::BUILD;
-use crate::terminal;
 use ligament_analysis::solver::MOST_THREADS;
 use ligament_case::case::CaseFile;
 use ligament_study::calibrate::{Request, calibrate, line};
+
+use super::argument_parsers::{number, output_folder, positive_number};
+use crate::build::BUILD;
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -76,7 +75,7 @@ pub struct RunsArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
     /// Folder for the record and the runs [default: results/NAME-calibration with the name of the case's folder]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace an earlier calibration in the folder instead of going on with it
     #[arg(long)]
@@ -108,7 +107,7 @@ pub struct LineArgs {
 
 impl RunsArgs {
     /// The first of these options that is given.
-    fn given(&self) -> Option<&'static str> {
+    fn first_given(&self) -> Option<&'static str> {
         let options = [
             ("--set", !self.overrides.is_empty()),
             ("--within", self.within.is_some()),
@@ -127,7 +126,7 @@ impl RunsArgs {
 
 impl LineArgs {
     /// The first of these options that is given.
-    fn given(&self) -> Option<&'static str> {
+    fn first_given(&self) -> Option<&'static str> {
         let options = [
             ("--x", self.x.is_some()),
             ("--by", !self.by.is_empty()),
@@ -144,14 +143,14 @@ impl CalibrateArgs {
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         if line::is_table(&self.subject) {
-            return match self.runs.given() {
+            return match self.runs.first_given() {
                 Some(option) => anyhow::bail!(
                     "{option} goes with a case to run; this is a sweep or its table, of which a line is made"
                 ),
                 None => self.by_line(),
             };
         }
-        match self.line.given() {
+        match self.line.first_given() {
             Some(option) => anyhow::bail!(
                 "{option} goes with the folder or the table of a sweep; this is a case, which is run"
             ),
@@ -199,7 +198,7 @@ impl CalibrateArgs {
 
 /// A share on the command line, more than 0.
 fn share(text: &str) -> Result<f64, String> {
-    let share = positive(text);
+    let share = positive_number(text);
     share.ok_or_else(|| "expected a share greater than 0, such as 0.01 for 1 %".to_owned())
 }
 

@@ -8,9 +8,9 @@ use clap::Args;
 use ligament_output::check_file;
 use ligament_run::end::End;
 
+use super::argument_parsers::output_folder;
 use super::case_args::CaseArgs;
-use super::output;
-use crate::check::{Extent, FIELDS, Lines, check};
+use crate::check::{CheckExtent, FIELDS, Lines, check};
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -38,7 +38,7 @@ pub struct CheckArgs {
     #[arg(long)]
     pub all: bool,
     /// Write horizons, volumes and energy ratios of the points to points.vtu in this folder
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace points.vtu in the folder of --out if there is one
     #[arg(long)]
@@ -53,9 +53,9 @@ impl CheckArgs {
         }
         let case = self.case.load()?;
         let extent = match (self.model_only, self.patch_test) {
-            (true, _) => Extent::Model,
-            (false, false) => Extent::Matrix,
-            (false, true) => Extent::PatchTest,
+            (true, _) => CheckExtent::Model,
+            (false, false) => CheckExtent::Matrix,
+            (false, true) => CheckExtent::PatchTest,
         };
         let lines = match self.all {
             true => Lines::All,

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use ligament_case::case::CaseFile;
 
-use crate::cite::{cited, program};
+use crate::cite::{cited_references, program};
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -32,7 +32,7 @@ impl CiteArgs {
             return Ok(());
         };
         let file = CaseFile::load(&path, &[])?;
-        for reference in cited(&file.case.sources()) {
+        for reference in cited_references(&file.case.sources()) {
             write!(out, "\n{}", reference.bibtex())?;
         }
         Ok(())

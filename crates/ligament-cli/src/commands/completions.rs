@@ -7,7 +7,7 @@ use clap::{Args, Command};
 use clap_complete::Shell;
 use ligament_output::write_file;
 
-use super::output;
+use super::argument_parsers::output_file;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -22,7 +22,7 @@ pub struct CompletionsArgs {
     #[arg(value_name = "SHELL")]
     pub shell: Shell,
     /// The file to write [default: standard output]
-    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output_file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the file if there is one
     #[arg(long)]

@@ -12,11 +12,10 @@ use ligament_output::results::steps::{StepChoice, StepName, time_of};
 use ligament_output::results::{
     CRACK_FILES, CrackedBelow, SURFACE_FILES, write_cracks, write_series, write_surface,
 };
+use ligament_plot::picture::{IsosurfaceRequest, write_isosurfaces};
 use ligament_post::surfaces::CrackSurface;
 
-use ligament_plot::picture::{IsosurfaceRequest, write_isosurfaces};
-
-use super::numbers;
+use super::argument_parsers;
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -81,7 +80,7 @@ impl CrackArgs {
         let step = steps.first().map_or(0, |it| it.step);
         let lines = write_cracks(&self.results, &cracks, step)?;
         let mut out = terminal::stdout();
-        let when = when(&self.results, step)?;
+        let when = time_words(&self.results, step)?;
         let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         writeln!(
             out,
@@ -112,7 +111,7 @@ impl CrackArgs {
 }
 
 /// The step, or the time of a motion, in words.
-fn when(folder: &Path, step: usize) -> anyhow::Result<String> {
+fn time_words(folder: &Path, step: usize) -> anyhow::Result<String> {
     let time = time_of(folder, step)?;
     Ok(match time {
         Some(time) => format!("t = {}", quantity(time, "s")),
@@ -153,7 +152,7 @@ impl CrackArgs {
         let steps = choice.steps(&self.results, &cracks.steps())?;
         let step = steps.first().map_or(0, |it| it.step);
         let surface = write_surface(&self.results, &cracks, step)?;
-        write_measures(&mut out, &when(&self.results, step)?, &surface)?;
+        write_measures(&mut out, &time_words(&self.results, step)?, &surface)?;
         let names = SURFACE_FILES
             .into_iter()
             .filter(|it| self.results.join(it).is_file());
@@ -199,7 +198,7 @@ impl CrackArgs {
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    numbers::number(text).ok_or_else(|| format!("`{text}` is not a number"))
+    argument_parsers::number(text).ok_or_else(|| format!("`{text}` is not a number"))
 }
 
 /// Writes area, plane and parts of a surface.

@@ -4,16 +4,15 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-
-use super::case_args::CaseArgs;
-use super::numbers::positive;
-use super::output;
-use super::sweep::shard;
-use crate::stop_signal::StopSignal;
-use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_study::ensemble::{Request, Settings, Task, ensemble};
 use ligament_study::run_table::folder::Shard;
+
+use super::argument_parsers::{output_folder, positive_number};
+use super::case_args::CaseArgs;
+use super::sweep::shard;
+use crate::stop_signal::StopSignal;
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -54,7 +53,7 @@ pub struct EnsembleArgs {
     pub to: Option<f64>,
     /// Folder of the ensemble [default: results/NAME-ensemble, with the name of the case file, or of its folder where the file
     /// is case.toml]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Samples at once [default: one for each thread]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -80,7 +79,7 @@ impl EnsembleArgs {
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
         let case = self.case.load()?;
-        let stop = StopSignal::awaited()?;
+        let stop = StopSignal::install()?;
         let usual = || Path::new("results").join(format!("{}-ensemble", case.name()));
         let out = self.out.unwrap_or_else(usual);
         let task = match self.collect {
@@ -99,7 +98,7 @@ impl EnsembleArgs {
             points: self.points as usize,
             displacement: self.to,
             out: &out,
-            is_stopped: &|| stop.came(),
+            is_stopped: &|| stop.is_received(),
             task,
         };
         let end = ensemble(&request, &mut terminal::stdout())?;
@@ -108,5 +107,6 @@ impl EnsembleArgs {
 }
 
 fn displacement(text: &str) -> Result<f64, String> {
-    positive(text).ok_or_else(|| "expected a displacement greater than 0, such as 1e-5".to_owned())
+    positive_number(text)
+        .ok_or_else(|| "expected a displacement greater than 0, such as 1e-5".to_owned())
 }

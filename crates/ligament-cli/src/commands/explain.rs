@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use ligament_output::is_standard_output;
 
-use super::numbers::numbers;
-use super::output;
+use super::argument_parsers::{numbers, output_file};
 use crate::explain::{Position, Request, Subject, explain};
 use crate::terminal;
 
@@ -31,10 +30,10 @@ pub struct ExplainArgs {
     #[command(flatten)]
     pub subject: SubjectArgs,
     /// Write a table with a row per bond and step
-    #[arg(long, value_name = "FILE", value_parser = output::file())]
+    #[arg(long, value_name = "FILE", value_parser = output_file())]
     pub csv: Option<PathBuf>,
     /// Write limits, breakages and paths as JSON
-    #[arg(long, value_name = "FILE", value_parser = output::file())]
+    #[arg(long, value_name = "FILE", value_parser = output_file())]
     pub json: Option<PathBuf>,
     /// Replace the files of --csv and --json if there are some
     #[arg(long)]
@@ -78,7 +77,7 @@ impl ExplainArgs {
         };
         let is_spoilt = |it: &&PathBuf| is_standard_output(it);
         match request.csv.iter().chain(&request.json).find(is_spoilt) {
-            Some(file) => explain(&request, &mut terminal::beside(file)),
+            Some(file) => explain(&request, &mut terminal::for_messages(file)),
             None => explain(&request, &mut terminal::stdout()),
         }
     }

@@ -4,13 +4,12 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-
-use super::numbers::number;
-use super::output;
-use crate::inspect::write_summary;
-use crate::terminal;
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 use ligament_study::meshing::via_meshio::{ConversionRequest, convert, default_out};
+
+use super::argument_parsers::{number, output_file};
+use crate::inspect::write_summary;
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -46,7 +45,7 @@ pub struct MeshArgs {
     )]
     pub python: PathBuf,
     /// The mesh to write [default: FILE.msh next to the file]
-    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE.msh")]
+    #[arg(short, long, alias = "output", value_parser = output_file(), value_name = "FILE.msh")]
     pub out: Option<PathBuf>,
     /// Replace the mesh if there is one
     #[arg(long)]
@@ -83,7 +82,7 @@ impl MeshArgs {
             numbers: self.numbers,
         };
         let mesh = make_mesh(&request)?;
-        let mut out = terminal::beside(&request.out);
+        let mut out = terminal::for_messages(&request.out);
         Ok(write_summary(&mut out, &request.out, &mesh)?)
     }
 
@@ -96,7 +95,7 @@ impl MeshArgs {
             python: self.python,
         };
         let converted = convert(&request)?;
-        let mut out = terminal::beside(&request.out);
+        let mut out = terminal::for_messages(&request.out);
         write_summary(&mut out, &request.out, &converted.mesh)?;
         for remark in &converted.remarks {
             writeln!(out, "  note: {remark}")?;

@@ -1,5 +1,6 @@
 //! The command line: a file for each command, with its options, its help and its execution.
 
+pub mod argument_parsers;
 mod calibrate;
 mod case_args;
 mod check;
@@ -11,8 +12,6 @@ mod explain;
 mod inspect;
 mod mesh;
 mod new;
-mod numbers;
-pub mod output;
 mod plot;
 mod profile;
 mod repeat;

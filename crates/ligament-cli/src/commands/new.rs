@@ -6,14 +6,13 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use ligament_output::{check_file, is_stream, write_file};
-
-use super::numbers::positive;
-use super::output;
-use crate::terminal;
 use ligament::setup::Law;
 use ligament_case::case::MOST_CELLS;
-use ligament_case::starter::{of_lattice, of_mesh, of_solid_lattice};
+use ligament_case::starter::{lattice_case, mesh_case, solid_lattice_case};
+use ligament_output::{check_file, is_stream, write_file};
+
+use super::argument_parsers::{output_file, positive_number};
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -37,7 +36,7 @@ pub struct NewArgs {
     /// The case file to write
     #[arg(
         long,
-        short, alias = "output", value_parser = output::file(),
+        short, alias = "output", value_parser = output_file(),
         value_name = "CASE.toml",
         default_value = "case.toml"
     )]
@@ -62,10 +61,10 @@ impl NewArgs {
                 .with_context(|| format!("cannot make the folder {}", folder.display()))?;
         }
         let starter = match (&self.mesh, self.lattice) {
-            (Some(mesh), _) => of_mesh(mesh, folder, self.law)?,
-            (None, Some(Lattice::Plane(cells, spacing))) => of_lattice(cells, spacing, self.law),
+            (Some(mesh), _) => mesh_case(mesh, folder, self.law)?,
+            (None, Some(Lattice::Plane(cells, spacing))) => lattice_case(cells, spacing, self.law),
             (None, Some(Lattice::Solid(cells, spacing))) => {
-                of_solid_lattice(cells, spacing, self.law)?
+                solid_lattice_case(cells, spacing, self.law)?
             }
             (None, None) => anyhow::bail!("there is no mesh: give one, or --lattice NX,NY,SPACING"),
         };
@@ -73,12 +72,12 @@ impl NewArgs {
         for warning in &starter.warnings {
             writeln!(terminal::stderr(), "warning: {warning}")?;
         }
-        let mut told = terminal::beside(out);
+        let mut messages = terminal::for_messages(out);
         let out = out.display();
-        writeln!(told, "wrote {out}: {}", starter.choice)?;
+        writeln!(messages, "wrote {out}: {}", starter.choice)?;
         if is_kept {
             writeln!(
-                told,
+                messages,
                 "next: replace the EXAMPLE values, then\n  ligament check {out}\n  ligament run {out}"
             )?;
         }
@@ -119,7 +118,7 @@ fn lattice(text: &str) -> Result<Lattice, String> {
     if cells.is_none_or(|cells| cells > MOST_CELLS) {
         return Err(format!("a lattice has at most {MOST_CELLS} cells"));
     }
-    let spacing = positive(spacing).filter(|it| it.is_normal());
+    let spacing = positive_number(spacing).filter(|it| it.is_normal());
     let spacing = spacing.ok_or(format!("{expected}, with a spacing greater than 0"))?;
     match counts[..] {
         [x, y] => Ok(Lattice::Plane([x, y], spacing)),

@@ -5,9 +5,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-
-use super::{numbers, output};
-use crate::terminal;
 use ligament_output::results::steps::StepChoice;
 use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
@@ -16,6 +13,9 @@ use ligament_plot::picture::{
     CrackDrawing, FieldRequest, Format, Magnification, Section, SolidRequest, Target, View,
     animate, draw_each, draw_fields,
 };
+
+use super::argument_parsers::{self, numbers, output_file};
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -105,7 +105,7 @@ pub struct PlotArgs {
     pub labels: Vec<String>,
     /// The picture, .png, .svg or .pdf [default: picture-NAME.png in the folder of the results, which takes the place of an
     /// earlier one; of the curves of several results, in this one]
-    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output_file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the files of --out and --animate if there are some
     #[arg(long)]
@@ -115,16 +115,16 @@ pub struct PlotArgs {
     pub format: Option<Format>,
     /// An animation of the body over the steps, .gif, with fixed colours and one scale of the displacement [default steps: all, or 120
     /// evenly spread]
-    #[arg(long, value_name = "FILE", value_parser = output::file(), conflicts_with_all = ["out", "format", "curve"])]
+    #[arg(long, value_name = "FILE", value_parser = output_file(), conflicts_with_all = ["out", "format", "curve"])]
     pub animate: Option<PathBuf>,
     /// Pictures of the animation per second
-    #[arg(long, value_name = "N", default_value = "10", requires = "animate", value_parser = positive)]
+    #[arg(long, value_name = "N", default_value = "10", requires = "animate", value_parser = positive_number)]
     pub fps: f64,
     /// Width in mm [default: 90 for one body, 180 for several; 120 and 160 for curves]
-    #[arg(long, value_name = "MM", value_parser = positive)]
+    #[arg(long, value_name = "MM", value_parser = positive_number)]
     pub width: Option<f64>,
     /// Dots per inch of a PNG or an animation [default: 300, of an animation 150]
-    #[arg(long, value_name = "DPI", value_parser = positive)]
+    #[arg(long, value_name = "DPI", value_parser = positive_number)]
     pub dpi: Option<f64>,
 }
 
@@ -184,24 +184,24 @@ impl PlotArgs {
             }
         };
         for path in paths {
-            writeln!(terminal::beside(&path), "{}", path.display())?;
+            writeln!(terminal::for_messages(&path), "{}", path.display())?;
         }
         Ok(())
     }
 }
 
 fn number(text: &str) -> Result<f64, String> {
-    numbers::number(text).ok_or_else(|| format!("`{text}` is not a number"))
+    argument_parsers::number(text).ok_or_else(|| format!("`{text}` is not a number"))
 }
 
-fn positive(text: &str) -> Result<f64, String> {
+fn positive_number(text: &str) -> Result<f64, String> {
     let number = number(text)?;
-    let positive = (number > 0.0).then_some(number);
-    positive.ok_or_else(|| "it must be above zero".to_owned())
+    let positive_number = (number > 0.0).then_some(number);
+    positive_number.ok_or_else(|| "it must be above zero".to_owned())
 }
 
 fn magnification(text: &str) -> Result<Magnification, String> {
-    let factor = numbers::number(text).map(Magnification::Times);
+    let factor = argument_parsers::number(text).map(Magnification::Times);
     match text {
         "auto" => Ok(Magnification::Auto),
         _ => factor.ok_or_else(|| "expected a number, or auto".to_owned()),
@@ -209,12 +209,12 @@ fn magnification(text: &str) -> Result<Magnification, String> {
 }
 
 fn range(text: &str) -> Result<[f64; 2], String> {
-    let range = numbers::numbers(text).filter(|[low, high]| low < high);
+    let range = numbers(text).filter(|[low, high]| low < high);
     range.ok_or_else(|| "expected MIN,MAX with MIN below MAX, such as 0,0.5".to_owned())
 }
 
 fn window(text: &str) -> Result<[[f64; 2]; 2], String> {
-    match numbers::numbers(text) {
+    match numbers(text) {
         Some([x0, y0, x1, y1]) if x0 < x1 && y0 < y1 => Ok([[x0, y0], [x1, y1]]),
         _ => Err("expected X0,Y0,X1,Y1 in m, the lower left and the upper right corner".to_owned()),
     }
@@ -261,6 +261,6 @@ mod tests {
         assert_eq!(magnification("auto"), Ok(Magnification::Auto));
         assert_eq!(magnification("-20"), Ok(Magnification::Times(-20.0)));
         assert!(magnification("big").is_err_and(|it| it.contains("auto")));
-        assert!(positive("0").is_err());
+        assert!(positive_number("0").is_err());
     }
 }

@@ -8,8 +8,7 @@ use ligament_output::results::steps::StepChoice;
 use ligament_output::{check_file, write_file};
 use ligament_plot::picture::profile::{ProfileRequest, profile};
 
-use super::numbers::position;
-use super::output;
+use super::argument_parsers::{output_file, position};
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -42,7 +41,7 @@ pub struct ProfileArgs {
     #[arg(long, value_name = "COUNT", default_value = "101", value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     pub samples: u32,
     /// The table [default: standard output]
-    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output_file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the table if there is one
     #[arg(long)]
@@ -70,7 +69,11 @@ impl ProfileArgs {
             None => Ok(write!(terminal::stdout(), "{table}")?),
             Some(path) => {
                 write_file(&path, table.as_bytes(), self.force)?;
-                Ok(writeln!(terminal::beside(&path), "{}", path.display())?)
+                Ok(writeln!(
+                    terminal::for_messages(&path),
+                    "{}",
+                    path.display()
+                )?)
             }
         }
     }

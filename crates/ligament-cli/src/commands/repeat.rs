@@ -8,7 +8,7 @@ use ligament_analysis::solver::MOST_THREADS;
 use ligament_run::progress::ProgressMode;
 use ligament_run::repeat::Request;
 
-use super::output;
+use super::argument_parsers::output_folder;
 use crate::build::BUILD;
 use crate::stop_signal::StopSignal;
 use crate::terminal;
@@ -32,7 +32,7 @@ pub struct RepeatArgs {
     #[arg(value_name = "DIR")]
     pub folder: PathBuf,
     /// Keep the results of the repetition in this folder [default: DIR.repeat, which stays only if they differ]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// The mesh, if it has moved since the run
     #[arg(long, value_name = "FILE")]
@@ -48,14 +48,14 @@ pub struct RepeatArgs {
 impl RepeatArgs {
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
-        let stop = StopSignal::awaited()?;
+        let stop = StopSignal::install()?;
         let request = Request {
             folder: &self.folder,
             out: self.out.as_deref(),
             mesh: self.mesh.as_deref(),
             threads: self.threads,
             build: BUILD,
-            is_stopped: &|| stop.came(),
+            is_stopped: &|| stop.is_received(),
         };
         let repetition = request.repeat(ProgressMode::detect(self.quiet))?;
         repetition.write(&mut terminal::stdout())?;

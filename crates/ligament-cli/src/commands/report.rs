@@ -8,8 +8,7 @@ use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
 use ligament_report::{DIGITS, MEGABYTE, Request, SIZE, STEPS, write_report};
 
-use super::numbers::number;
-use super::output;
+use super::argument_parsers::{number, output_file};
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -30,7 +29,7 @@ pub struct ReportArgs {
     #[arg(value_name = "RESULT", required = true)]
     pub results: Vec<PathBuf>,
     /// The page [default: report.html in the first folder, which takes the place of an earlier one]
-    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE")]
+    #[arg(short, long, alias = "output", value_parser = output_file(), value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Replace the file of --out if there is one
     #[arg(long)]
@@ -67,7 +66,7 @@ impl ReportArgs {
             steps: self.steps as usize,
             size: (self.size * MEGABYTE) as usize,
         })?;
-        let mut out = terminal::beside(&written.path);
+        let mut out = terminal::for_messages(&written.path);
         for it in &written.contents {
             writeln!(
                 out,

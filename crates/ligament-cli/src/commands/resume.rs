@@ -47,14 +47,14 @@ pub struct ResumeArgs {
 impl ResumeArgs {
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<ExitCode> {
-        let stop = StopSignal::awaited()?;
+        let stop = StopSignal::install()?;
         let request = Request {
             folder: &self.folder,
             mesh: self.mesh.as_deref(),
             settings: &self.settings,
             threads: self.threads,
             build: BUILD,
-            is_stopped: &|| stop.came(),
+            is_stopped: &|| stop.is_received(),
             communicator: processes::join()?,
         };
         let report = request.resume(ProgressMode::detect(self.quiet))?;

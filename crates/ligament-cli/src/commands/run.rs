@@ -6,18 +6,17 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Args;
-
-use super::case_args::CaseArgs;
-use super::output;
-use crate::build::BUILD;
-use crate::processes;
-use crate::stop_signal::StopSignal;
-use crate::terminal;
 use ligament_analysis::distributed_matrix::Solo;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{Report, Request};
 use ligament_study::sweep::bind_to_parent;
+
+use super::argument_parsers::output_folder;
+use super::case_args::CaseArgs;
+use crate::build::BUILD;
+use crate::stop_signal::StopSignal;
+use crate::{processes, terminal};
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -46,7 +45,7 @@ pub struct RunArgs {
     pub case: CaseArgs,
     /// Folder for the results [default: results/NAME, with the name of the case file, or of its folder where the file is
     /// case.toml]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace results of an earlier run in the folder
     #[arg(long)]
@@ -76,7 +75,7 @@ impl RunArgs {
         let case = self.case.load()?;
         // Without load steps there is nothing to go on with later, and for a sweep the run starts anew.
         let stop = match (&self.leash, &case.case.fracture) {
-            (None, Some(_)) => StopSignal::awaited()?,
+            (None, Some(_)) => StopSignal::install()?,
             _ => StopSignal::default(),
         };
         let out = self
@@ -84,7 +83,7 @@ impl RunArgs {
             .unwrap_or_else(|| Path::new("results").join(case.name()));
         let request = Request {
             force: self.force,
-            is_stopped: &|| stop.came(),
+            is_stopped: &|| stop.is_received(),
             communicator,
             ..Request::new(&case, &out, BUILD)
         };

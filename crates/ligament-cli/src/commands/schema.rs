@@ -4,10 +4,10 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 
 use clap::Args;
+use ligament_case::case::schema;
 use ligament_output::write_file;
 
-use super::output;
-use ligament_case::case::schema;
+use super::argument_parsers::output_file;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -21,7 +21,7 @@ VS Code (extension Even Better TOML), Helix and Zed (language server taplo) a ca
 #[derive(Debug, Args)]
 pub struct SchemaArgs {
     /// The file to write [default: standard output]
-    #[arg(short, long, alias = "output", value_parser = output::file(), value_name = "FILE.json")]
+    #[arg(short, long, alias = "output", value_parser = output_file(), value_name = "FILE.json")]
     pub out: Option<PathBuf>,
     /// Replace the file if there is one
     #[arg(long)]

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-
-use super::case_args::CaseArgs;
-use super::output;
-use crate::terminal;
 use ligament_study::bond_stiffness::{Request, bond_stiffness};
+
+use super::argument_parsers::output_folder;
+use super::case_args::CaseArgs;
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -25,7 +25,7 @@ pub struct StiffnessArgs {
     #[arg(long, value_name = "SHARE", default_value_t = 0.5)]
     pub length: f64,
     /// Folder for the results [default: results/NAME-stiffness with the name of the case's folder]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace earlier results in the folder
     #[arg(long)]

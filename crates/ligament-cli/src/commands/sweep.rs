@@ -4,13 +4,12 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::Args;
-
-use super::numbers::positive;
-use super::output;
-use crate::terminal;
 use ligament_run::progress::ProgressMode;
 use ligament_study::run_table::folder::Shard;
 use ligament_study::sweep::{Request, Settings, Task, sweep};
+
+use super::argument_parsers::{output_folder, positive_number};
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -40,7 +39,7 @@ pub struct SweepArgs {
     pub study: PathBuf,
     /// Folder of the study [default: results/NAME with the name of the study's folder if the file is called study.toml, else
     /// with that of the file]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Runs at once [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -104,7 +103,7 @@ impl SweepArgs {
 }
 
 fn gigabytes(text: &str) -> Result<f64, String> {
-    positive(text).ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
+    positive_number(text).ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
 }
 
 pub(super) fn shard(text: &str) -> Result<Shard, String> {

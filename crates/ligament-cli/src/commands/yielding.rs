@@ -4,15 +4,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use ligament_model::failure::frictional::Calibration;
-
-use super::case_args::CaseArgs;
-use super::numbers::position;
-use super::output;
-use crate::terminal;
 use ligament_analysis::solver::MOST_THREADS;
+use ligament_model::failure::frictional::Calibration;
 use ligament_study::yielding::criteria::Combination;
-use ligament_study::yielding::{Families, Place, Request, yielding};
+use ligament_study::yielding::{BodyPoint, Families, Request, yielding};
+
+use super::argument_parsers::{output_folder, position};
+use super::case_args::CaseArgs;
+use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
 Examples:
@@ -69,7 +68,7 @@ pub struct YieldArgs {
     #[arg(long, value_name = "N", requires = "case", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
     /// Folder for the results [default: results/yield, or results/NAME-yield with the name of the case's folder]
-    #[arg(short, long, alias = "output", value_parser = output::folder(), value_name = "DIR")]
+    #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Replace earlier results in the folder
     #[arg(long)]
@@ -102,7 +101,10 @@ impl YieldArgs {
                 };
                 let case = Box::new(case.load()?);
                 let out = Path::new("results").join(format!("{}-yield", case.name()));
-                let place = self.at.map(Place::At).or(self.point.map(Place::Tag));
+                let place = self
+                    .at
+                    .map(BodyPoint::At)
+                    .or(self.point.map(BodyPoint::Tag));
                 let of = match place {
                     Some(place) => Families::Point(case, place),
                     None => Families::Field(case),

@@ -10,7 +10,7 @@ use ligament_output::results::stored::{
     Motions, StoredBreak, StoredCriterion, StoredRun, StoredStep,
 };
 
-use super::around::Around;
+use super::end_families::EndFamilies;
 use super::strains::Strains;
 use ligament::units::Units;
 use ligament_plot::stored_loading::StoredLoading;
@@ -19,20 +19,20 @@ use ligament_plot::stored_loading::StoredLoading;
 #[derive(Debug)]
 pub(super) struct BondHistories {
     /// Steps with fields, ascending.
-    pub(super) moments: Vec<StoredStep>,
+    pub(super) stored_steps: Vec<StoredStep>,
     /// The bonds, in the order of the pairs in the stored model, without absent bonds.
     pub(super) of_bonds: Vec<BondHistory>,
     /// Indices of the requested pairs that are absent bonds.
     pub(super) absent: Vec<usize>,
-    /// Whether a moment precedes the breakages of its step.
+    /// Whether a stored step precedes the breakages of its step.
     pub(super) before_breakages: bool,
     /// Whether bonds have strains of their own.
     pub(super) has_own_strains: bool,
-    /// Whether the moments are times of a motion.
+    /// Whether the stored steps are times of a motion.
     pub(super) in_time: bool,
     /// Names of the components of a deformation.
     pub(super) components: &'static [&'static str],
-    /// Units of the displacement and the reaction of the moments.
+    /// Units of the displacement and the reaction of the stored steps.
     pub(super) units: Units,
 }
 
@@ -49,16 +49,16 @@ pub(super) struct BondHistory {
     pub(super) direction: [f64; 3],
     /// Limits of the bond, one per criterion.
     pub(super) limits: Vec<Limit>,
-    /// Deformation of the bond at each moment, also after its breakage.
+    /// Deformation of the bond at each stored step, also after its breakage.
     pub(super) deformation: Vec<BondDeformation>,
-    /// Strain of its ends in each moment; empty where no criterion takes the stress around it.
+    /// Strain of its ends in each stored step; empty where no criterion takes the stress around it.
     pub(super) around: Vec<Option<StrainAround>>,
-    /// Number of moments at which the bond was intact.
+    /// Number of stored steps at which the bond was intact.
     pub(super) n_intact: usize,
     /// Breakage of the bond, and the index of the criterion by which it failed.
     pub(super) breakage: Option<(StoredBreak, Option<usize>)>,
     /// Largest utilisation of the bond.
-    pub(super) nearest: Option<Nearest>,
+    pub(super) nearest: Option<LargestUtilisation>,
 }
 
 /// A criterion and its limit for a bond.
@@ -73,7 +73,7 @@ pub(super) struct Limit {
 
 /// The largest utilisation of a bond, with its step and criterion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Nearest {
+pub(super) struct LargestUtilisation {
     pub(super) utilisation: f64,
     pub(super) step: usize,
     pub(super) criterion: usize,
@@ -101,7 +101,7 @@ impl BondHistories {
         let is_absent = |pair: &usize| run.model.bonds.absence[*pair].is_some();
         let (absent, bonds): (Vec<usize>, Vec<usize>) = pairs.into_iter().partition(is_absent);
         let mut lives = Self {
-            moments: Vec::new(),
+            stored_steps: Vec::new(),
             of_bonds: Vec::new(),
             absent,
             before_breakages: loading.follows_path,
@@ -118,13 +118,13 @@ impl BondHistories {
         let mut limits = lives.of_bonds.iter().flat_map(|it| &it.limits);
         let around = limits
             .any(|it| it.measure.takes_stress())
-            .then(|| Around::new(run, ends, loading.follows_path));
+            .then(|| EndFamilies::new(run, ends, loading.follows_path));
         for step in run.field_steps() {
             // During a run, fields of a step may be written before the step's row.
             let (Some(row), Some(motions)) = (run.step(step), run.motions(step)?) else {
                 continue;
             };
-            lives.moments.push(*row);
+            lives.stored_steps.push(*row);
             if let Some(strains) = &mut strains {
                 strains.go_to(step);
             }
@@ -140,7 +140,7 @@ impl BondHistories {
             }
         }
         for life in &mut lives.of_bonds {
-            life.complete(run, &lives.moments, loading.follows_path);
+            life.complete(run, &lives.stored_steps, loading.follows_path);
         }
         Ok(lives)
     }
@@ -224,31 +224,31 @@ impl BondHistory {
         }
     }
 
-    /// Sets breakage and largest utilisation after all moments are read.
-    fn complete(&mut self, run: &StoredRun, moments: &[StoredStep], before_breakages: bool) {
+    /// Sets breakage and largest utilisation after all stored steps are read.
+    fn complete(&mut self, run: &StoredRun, stored_steps: &[StoredStep], before_breakages: bool) {
         let tags = self.ends.map(|end| run.model.tags[end as usize]);
         let is_own = |it: &&StoredBreak| it.tags == tags || it.tags == [tags[1], tags[0]];
         self.breakage = run.breaks.iter().find(is_own).map(|it| {
             let criterion = self.limits.iter().position(|of| of.name == it.criterion);
             (it.clone(), criterion)
         });
-        let is_intact = |moment: &&StoredStep| match &self.breakage {
+        let is_intact = |stored_step: &&StoredStep| match &self.breakage {
             None => true,
-            Some((it, _)) if before_breakages => moment.step <= it.at.step,
-            Some((it, _)) => moment.step < it.at.step,
+            Some((it, _)) if before_breakages => stored_step.step <= it.at.step,
+            Some((it, _)) => stored_step.step < it.at.step,
         };
-        self.n_intact = moments.iter().take_while(is_intact).count();
+        self.n_intact = stored_steps.iter().take_while(is_intact).count();
         self.nearest = self
             .nearest_at_breakage()
             .or_else(|| self.nearest_of_run(run))
-            .or_else(|| self.nearest_of_moments(moments));
+            .or_else(|| self.nearest_of_stored_steps(stored_steps));
     }
 
-    fn nearest_at_breakage(&self) -> Option<Nearest> {
+    fn nearest_at_breakage(&self) -> Option<LargestUtilisation> {
         let (broke, criterion) = self.breakage.as_ref()?;
         let criterion = (*criterion)?;
         let limit = &self.limits[criterion];
-        Some(Nearest {
+        Some(LargestUtilisation {
             // The stress around a bond at its breakage is stored only in the table of broken bonds.
             utilisation: match limit.measure.takes_stress() {
                 true => broke.utilisation * limit.after.end(0),
@@ -260,9 +260,9 @@ impl BondHistory {
     }
 
     /// Largest utilisation over all steps of the run; `None` where the run did not end.
-    fn nearest_of_run(&self, run: &StoredRun) -> Option<Nearest> {
+    fn nearest_of_run(&self, run: &StoredRun) -> Option<LargestUtilisation> {
         let largest = run.model.largest.as_ref()?;
-        Some(Nearest {
+        Some(LargestUtilisation {
             utilisation: largest.utilisation[self.pair],
             step: usize::try_from(largest.step[self.pair]).ok()?,
             criterion: usize::try_from(largest.criterion[self.pair])
@@ -272,15 +272,15 @@ impl BondHistory {
     }
 
     /// Largest utilisation over the steps with fields.
-    fn nearest_of_moments(&self, moments: &[StoredStep]) -> Option<Nearest> {
-        let mut nearest: Option<Nearest> = None;
-        for (place, moment) in moments.iter().enumerate().take(self.n_intact) {
+    fn nearest_of_stored_steps(&self, stored_steps: &[StoredStep]) -> Option<LargestUtilisation> {
+        let mut nearest: Option<LargestUtilisation> = None;
+        for (place, stored_step) in stored_steps.iter().enumerate().take(self.n_intact) {
             for criterion in 0..self.limits.len() {
                 let utilisation = self.utilisation(criterion, place);
                 if nearest.is_none_or(|it| utilisation > it.utilisation) {
-                    nearest = Some(Nearest {
+                    nearest = Some(LargestUtilisation {
                         utilisation,
-                        step: moment.step,
+                        step: stored_step.step,
                         criterion,
                     });
                 }
@@ -289,21 +289,26 @@ impl BondHistory {
         nearest
     }
 
-    /// The measure of a criterion in a moment.
-    pub(super) fn measure(&self, criterion: usize, moment: usize) -> f64 {
-        let around = self.around.get(moment).copied().flatten();
-        self.limits[criterion].measure(&self.deformation[moment], around)
+    /// The measure of a criterion in a stored step.
+    pub(super) fn measure(&self, criterion: usize, stored_step: usize) -> f64 {
+        let around = self.around.get(stored_step).copied().flatten();
+        self.limits[criterion].measure(&self.deformation[stored_step], around)
     }
 
-    /// Measure over limit of a criterion in a moment, 0 where the measure is not positive.
-    pub(super) fn utilisation(&self, criterion: usize, moment: usize) -> f64 {
-        (self.measure(criterion, moment) / self.limits[criterion].limit).max(0.0)
+    /// Measure over limit of a criterion in a stored step, 0 where the measure is not positive.
+    pub(super) fn utilisation(&self, criterion: usize, stored_step: usize) -> f64 {
+        (self.measure(criterion, stored_step) / self.limits[criterion].limit).max(0.0)
     }
 
-    /// Softened state of the bond under a criterion at a moment, zero after its breakage.
-    pub(super) fn left(&self, criterion: usize, moments: &[StoredStep], moment: usize) -> Softened {
-        let softened = self.softened(criterion, moments, moment);
-        if moment < self.n_intact {
+    /// Softened state of the bond under a criterion at a stored step, zero after its breakage.
+    pub(super) fn remaining_softened_state(
+        &self,
+        criterion: usize,
+        stored_steps: &[StoredStep],
+        stored_step: usize,
+    ) -> Softened {
+        let softened = self.softened(criterion, stored_steps, stored_step);
+        if stored_step < self.n_intact {
             return softened;
         }
         Softened {
@@ -313,19 +318,21 @@ impl BondHistory {
         }
     }
 
-    /// Softened state of the bond under a criterion at a moment, from the largest known utilisation up to it.
+    /// Softened state of the bond under a criterion at a stored step, from the largest known utilisation up to it.
     pub(super) fn softened(
         &self,
         criterion: usize,
-        moments: &[StoredStep],
-        moment: usize,
+        stored_steps: &[StoredStep],
+        stored_step: usize,
     ) -> Softened {
         let limit = &self.limits[criterion];
-        let so_far = 0..=moment;
+        let so_far = 0..=stored_step;
         let kappa = so_far.map(|it| self.utilisation(criterion, it));
         let kappa = kappa.fold(0.0, f64::max);
-        // The utilisation may have been larger between moments.
-        let is_past = |it: &Nearest| it.criterion == criterion && it.step <= moments[moment].step;
+        // The utilisation may have been larger between stored steps.
+        let is_past = |it: &LargestUtilisation| {
+            it.criterion == criterion && it.step <= stored_steps[stored_step].step
+        };
         let nearest = self.nearest.filter(is_past);
         limit
             .after
@@ -368,23 +375,27 @@ mod tests {
         };
         let stretched = |stretch| BondDeformation::new([stretch, 0.0, 0.0]);
         let mut life = life_of(vec![limit], [1.0, 5.0, -3.0].map(stretched).to_vec());
-        let moments = [0, 5, 10].map(|step| StoredStep {
+        let stored_steps = [0, 5, 10].map(|step| StoredStep {
             step,
             load_factor: 0.0,
             displacement: 0.0,
             reaction: 0.0,
             at_rest: true,
         });
-        let state = |life: &BondHistory, moment| {
-            let softened = life.softened(0, &moments, moment);
+        let state = |life: &BondHistory, stored_step| {
+            let softened = life.softened(0, &stored_steps, stored_step);
             (softened.force, softened.secant)
         };
         assert_eq!(state(&life, 0), (1.0, 1.0));
         assert_eq!(state(&life, 1), (0.5, 0.2));
         assert_eq!(state(&life, 2), (0.5, 0.2));
-        assert_eq!(life.nearest_of_moments(&moments).map(|it| it.step), Some(5));
-        // Between the moments it was larger: kappa = 3.
-        life.nearest = Some(Nearest {
+        assert_eq!(
+            life.nearest_of_stored_steps(&stored_steps)
+                .map(|it| it.step),
+            Some(5)
+        );
+        // Between the stored steps it was larger: kappa = 3.
+        life.nearest = Some(LargestUtilisation {
             utilisation: 3.0,
             step: 7,
             criterion: 0,

@@ -28,17 +28,17 @@ pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
     let mut table = line(&columns);
     for life in &lives.of_bonds {
         let tags = life.ends.map(|end| run.model.tags[end as usize]);
-        for (place, (moment, deformation)) in
-            lives.moments.iter().zip(&life.deformation).enumerate()
+        for (place, (stored_step, deformation)) in
+            lives.stored_steps.iter().zip(&life.deformation).enumerate()
         {
             let is_intact = place < life.n_intact;
             let mut row: Vec<Value<'_>> = vec![
                 tags[0].into(),
                 tags[1].into(),
-                moment.step.into(),
-                moment.load_factor.into(),
-                moment.displacement.into(),
-                moment.reaction.into(),
+                stored_step.step.into(),
+                stored_step.load_factor.into(),
+                stored_step.displacement.into(),
+                stored_step.reaction.into(),
                 usize::from(is_intact).into(),
             ];
             let values = deformation.strains().into_iter();
@@ -53,7 +53,7 @@ pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
                 let measure = life.measure(criterion, place);
                 row.extend([limit.limit, measure, utilisation].map(Value::from));
                 if !limit.after.is_brittle() {
-                    let left = life.left(criterion, &lives.moments, place);
+                    let left = life.remaining_softened_state(criterion, &lives.stored_steps, place);
                     row.extend([left.force, left.secant].map(Value::from));
                 }
             }
@@ -107,18 +107,18 @@ fn bond(run: &StoredRun, lives: &BondHistories, life: &BondHistory) -> serde_jso
             "criterion": life.limits[it.criterion].name,
         })
     });
-    let path = lives.moments.iter().zip(&life.deformation).enumerate();
-    let path = path.map(|(place, (moment, deformation))| {
+    let path = lives.stored_steps.iter().zip(&life.deformation).enumerate();
+    let path = path.map(|(place, (stored_step, deformation))| {
         let utilisation = (0..life.limits.len()).map(|it| life.utilisation(it, place));
-        let moment = json!({
-            "step": moment.step,
-            "load_factor": moment.load_factor,
-            "displacement": moment.displacement,
-            "reaction": moment.reaction,
+        let stored_step = json!({
+            "step": stored_step.step,
+            "load_factor": stored_step.load_factor,
+            "displacement": stored_step.displacement,
+            "reaction": stored_step.reaction,
             "intact": place < life.n_intact,
             "utilisation": utilisation.collect::<Vec<f64>>(),
         });
-        with_components(moment, lives, deformation)
+        with_components(stored_step, lives, deformation)
     });
     let mut document = json!({
         "ends": life.ends.map(|end| run.model.tags[end as usize]),

@@ -3,8 +3,8 @@
 //! Limits, factors and horizons come from `model.vtu`, breakages from `breaks.csv`, loads from `history.csv`, and the deformation of a bond
 //! from the displacements and rotations of the fields, by the kinematics of the bonds.
 
-mod around;
 mod bond_history;
+mod end_families;
 mod files;
 mod report;
 mod strains;

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use std::ops::Add;
 
 use ligament_model::Absence;
-use ligament_output::quantity::{quantity, settled};
+use ligament_output::quantity::{quantity, zero_if_rounding};
 use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
 use super::bond_history::{BondHistories, BondHistory};
@@ -25,7 +25,7 @@ pub(super) fn bond(
     entry(out, "to", place(run, b))?;
     let Some(life) = lives.of_bonds.first() else {
         let pair = lives.absent.first().copied();
-        return sentences(out, words::no_bond(run, [a, b], pair));
+        return sentences(out, words::reasons_without_bond(run, [a, b], pair));
     };
     let length = metres(life.length);
     let along = match run.model.in_space {
@@ -153,7 +153,7 @@ fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::R
             "note: the run is incomplete; the largest utilisations are those of the steps with fields only"
         )?;
     }
-    let (shown, all) = (lives.moments.len(), run.history.len());
+    let (shown, all) = (lives.stored_steps.len(), run.history.len());
     if shown < all {
         writeln!(
             out,
@@ -163,7 +163,7 @@ fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::R
     Ok(())
 }
 
-/// Writes a table with a row for each moment.
+/// Writes a table with a row for each stored step.
 fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io::Result<()> {
     let when = match (lives.in_time, lives.before_breakages) {
         (true, _) => "times with fields",
@@ -183,28 +183,31 @@ fn load_header(lives: &BondHistories) -> Vec<String> {
     names.map(str::to_owned).to_vec()
 }
 
-/// Cells of the load of a moment; values negligible beside the largest of all moments are zero.
-fn load(moment: &StoredStep, lives: &BondHistories) -> Vec<String> {
+/// Cells of the load of a stored step; values negligible beside the largest of all stored steps are zero.
+fn load(stored_step: &StoredStep, lives: &BondHistories) -> Vec<String> {
     let shown = |of: fn(&StoredStep) -> f64, unit: &str| {
-        let sizes = lives.moments.iter().map(|it| of(it).abs());
-        quantity(settled(of(moment), sizes.fold(0.0, f64::max)), unit)
+        let sizes = lives.stored_steps.iter().map(|it| of(it).abs());
+        quantity(
+            zero_if_rounding(of(stored_step), sizes.fold(0.0, f64::max)),
+            unit,
+        )
     };
     vec![
-        if moment.at_rest {
-            moment.step.to_string()
+        if stored_step.at_rest {
+            stored_step.step.to_string()
         } else {
-            format!("{} (not converged)", moment.step)
+            format!("{} (not converged)", stored_step.step)
         },
         match lives.in_time {
             true => shown(|it| it.load_factor, "s"),
-            false => format!("{:.6}", moment.load_factor),
+            false => format!("{:.6}", stored_step.load_factor),
         },
         shown(|it| it.displacement, lives.units.displacement),
         shown(|it| it.reaction, lives.units.force),
     ]
 }
 
-/// Deformation and utilisations of a bond over the moments.
+/// Deformation and utilisations of a bond over the stored steps.
 fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
     let mut header = load_header(lives);
     let names: &[&str] = match lives.components {
@@ -219,8 +222,10 @@ fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
         }
     }
     let mut table = Columns::new(header);
-    for (place, (moment, deformation)) in lives.moments.iter().zip(&life.deformation).enumerate() {
-        let mut row = load(moment, lives);
+    for (place, (stored_step, deformation)) in
+        lives.stored_steps.iter().zip(&life.deformation).enumerate()
+    {
+        let mut row = load(stored_step, lives);
         let values = deformation.strains().into_iter();
         row.extend(values.take(names.len()).map(number));
         for (criterion, limit) in life.limits.iter().enumerate() {
@@ -231,7 +236,7 @@ fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
                 "broken".to_owned()
             });
             if !limit.after.is_brittle() {
-                let left = life.left(criterion, &lives.moments, place);
+                let left = life.remaining_softened_state(criterion, &lives.stored_steps, place);
                 row.extend([left.force, left.secant].map(|it| format!("{it:.4}")));
             }
         }
@@ -293,14 +298,14 @@ fn other_end([a, b]: [u32; 2], point: u32) -> usize {
     (if a == point { b } else { a }) as usize
 }
 
-/// Table of the number of intact bonds, damage and the bond nearest to breakage over the moments.
+/// Table of the number of intact bonds, damage and the bond nearest to breakage over the stored steps.
 fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let tagged = run.model.tagged;
     let mut header = load_header(lives);
     header.extend(["intact", "damage", "largest"].map(str::to_owned));
     header.extend([format!("to {tagged}"), "by".to_owned()]);
     let mut table = Columns::new(header);
-    for (place, moment) in lives.moments.iter().enumerate() {
+    for (place, stored_step) in lives.stored_steps.iter().enumerate() {
         let intact = || lives.of_bonds.iter().filter(|life| place < life.n_intact);
         let mut worst: Option<(f64, &BondHistory, usize)> = None;
         for life in intact() {
@@ -312,7 +317,7 @@ fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
                 }
             }
         }
-        let mut row = load(moment, lives);
+        let mut row = load(stored_step, lives);
         row.push(intact().count().to_string());
         row.push(format!("{:.4}", damage(run, lives, place)));
         row.extend(match worst {

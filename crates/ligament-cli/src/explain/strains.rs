@@ -10,7 +10,7 @@ pub(super) struct Strains {
     /// Step in which each bond broke, shape (n_bonds).
     broke_in: Vec<Option<usize>>,
     intact: Vec<bool>,
-    /// Whether a moment precedes the breakages of its step.
+    /// Whether a stored step precedes the breakages of its step.
     before_breakages: bool,
 }
 
@@ -36,7 +36,7 @@ impl Strains {
         })
     }
 
-    /// Sets the state to the moment of a step.
+    /// Sets the state to a stored step.
     pub(super) fn go_to(&mut self, step: usize) {
         for (intact, broke_in) in self.intact.iter_mut().zip(&self.broke_in) {
             *intact = broke_in.is_none_or(|broke| {

@@ -6,7 +6,7 @@ use ligament_model::failure::{Measure, Softened};
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
-use super::bond_history::{BondHistories, BondHistory, Limit, Nearest};
+use super::bond_history::{BondHistories, BondHistory, LargestUtilisation, Limit};
 
 /// Text of a number without a unit.
 pub(super) fn number(value: f64) -> String {
@@ -218,12 +218,15 @@ fn nearest_words(
     run: &StoredRun,
     lives: &BondHistories,
     life: &BondHistory,
-    nearest: Nearest,
+    nearest: LargestUtilisation,
 ) -> String {
     let limit = &life.limits[nearest.criterion];
-    let moment = lives.moments.iter().position(|it| it.step == nearest.step);
-    let seen = moment.map(|moment| {
-        let deformation = &life.deformation[moment];
+    let stored_step = lives
+        .stored_steps
+        .iter()
+        .position(|it| it.step == nearest.step);
+    let seen = stored_step.map(|stored_step| {
+        let deformation = &life.deformation[stored_step];
         format!(" ({})", deformed(lives, deformation))
     });
     let row = run.step(nearest.step).filter(|_| lives.in_time);
@@ -237,14 +240,14 @@ fn nearest_words(
     )
 }
 
-/// Description of an intact bond at the last moment, if that is not the moment nearest to its limit.
+/// Description of an intact bond at the last stored step, if that is not the stored step nearest to its limit.
 fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
-    let (moment, deformation) = (lives.moments.last()?, life.deformation.last()?);
-    let is_told = |it: Nearest| it.step == moment.step && it.utilisation > 0.0;
+    let (stored_step, deformation) = (lives.stored_steps.last()?, life.deformation.last()?);
+    let is_told = |it: LargestUtilisation| it.step == stored_step.step && it.utilisation > 0.0;
     if life.nearest.is_some_and(is_told) {
         return None;
     }
-    let last = lives.moments.len() - 1;
+    let last = lives.stored_steps.len() - 1;
     let largest = (0..life.limits.len()).map(|it| life.utilisation(it, last));
     let largest = largest.fold(0.0, f64::max);
     let why = if largest == 0.0 && is_pressed(lives, deformation) {
@@ -253,8 +256,8 @@ fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
         ""
     };
     let end = match lives.in_time {
-        true => quantity(moment.load_factor, "s"),
-        false => format!("step {}", moment.step),
+        true => quantity(stored_step.load_factor, "s"),
+        false => format!("step {}", stored_step.step),
     };
     let deformed = deformed(lives, deformation);
     Some(format!(
@@ -262,14 +265,14 @@ fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
     ))
 }
 
-/// Softened state of a bond beyond limits, at the last moment, with the names of the criteria.
+/// Softened state of a bond beyond limits, at the last stored step, with the names of the criteria.
 fn softened<'a>(lives: &BondHistories, life: &'a BondHistory) -> Vec<(&'a str, Softened)> {
-    let Some(last) = lives.moments.len().checked_sub(1) else {
+    let Some(last) = lives.stored_steps.len().checked_sub(1) else {
         return Vec::new();
     };
     let each = life.limits.iter().enumerate();
     each.map(|(criterion, limit)| {
-        let softened = life.softened(criterion, &lives.moments, last);
+        let softened = life.softened(criterion, &lives.stored_steps, last);
         (limit.name.as_str(), softened)
     })
     .filter(|(_, softened)| *softened != Softened::SOUND)
@@ -312,7 +315,11 @@ pub(super) fn short_bond_description(
 }
 
 /// Reasons why two points have no bond, one sentence per line.
-pub(super) fn no_bond(run: &StoredRun, [a, b]: [u32; 2], pair: Option<usize>) -> Vec<String> {
+pub(super) fn reasons_without_bond(
+    run: &StoredRun,
+    [a, b]: [u32; 2],
+    pair: Option<usize>,
+) -> Vec<String> {
     let model = &run.model;
     let [p, q] = [a, b].map(|end| model.positions[end as usize]);
     let distance = distance(p, q);
@@ -349,7 +356,7 @@ mod tests {
     use super::*;
     use crate::explain::bond_history::life_of;
 
-    fn said(measure: Measure, limit: f64, after: AfterLimit) -> String {
+    fn limit_text(measure: Measure, limit: f64, after: AfterLimit) -> String {
         let coefficients: &[f64] = match measure {
             Measure::Friction => &[0.5],
             Measure::MixedModeY => &[0.25, 4.0, 2.0],
@@ -400,7 +407,7 @@ mod tests {
                 "breaks at sqrt(max(S_yy, 0)^2 + q S_xy^2) = 0.01000, q = 0.2500, G_IIc/G_Ic = 4.000, eta = 2.000",
             ),
         ] {
-            assert_eq!(said(measure, limit, after), expected);
+            assert_eq!(limit_text(measure, limit, after), expected);
         }
     }
 }

@@ -1,6 +1,5 @@
 //! `ligament inspect`: summary of a mesh.
 
-mod groups;
 mod plane;
 mod solid;
 mod words;

@@ -6,9 +6,9 @@ use ligament_case::mesh_file::bounding_box;
 use ligament_mesh::{Cell, Group, Mesh};
 use ligament_output::quantity::quantity;
 
-use super::groups;
 use super::words::{
-    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_remarks, write_size_note,
+    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_groups, write_remarks,
+    write_size_note,
 };
 use crate::lines::entry;
 
@@ -26,7 +26,7 @@ pub(super) fn write(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
     line("area", quantity(mesh.area(), "m^2"))?;
     line("bounding box", box_in_words(corners))?;
     line("edges", edges_in_words(lengths))?;
-    groups::write(out, &mesh.groups, |group| kind_and_size(group, mesh))?;
+    write_groups(out, &mesh.groups, |group| kind_and_size(group, mesh))?;
     write_fields(out, &mesh.fields)?;
     write_remarks(out, &mesh.remarks)?;
     write_size_note(out, corners)

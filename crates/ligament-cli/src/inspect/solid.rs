@@ -6,9 +6,9 @@ use ligament_case::mesh_file::bounding_box;
 use ligament_mesh::{Cell, Faces, Group, SolidCell, SolidMesh};
 use ligament_output::quantity::{between, place, quantity};
 
-use super::groups;
 use super::words::{
-    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_remarks, write_size_note,
+    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_groups, write_remarks,
+    write_size_note,
 };
 use crate::lines::entry;
 
@@ -32,11 +32,11 @@ pub(super) fn write(out: &mut dyn Write, mesh: &SolidMesh) -> io::Result<()> {
     line("bounding box", box_in_words(corners))?;
     line("edges", edges_in_words(lengths))?;
     line("spacing", spacing_in_words(mesh, &edges))?;
-    let quality = Quality::of_tetrahedra(mesh);
+    let quality = Quality::from_mesh(mesh);
     if let Some(quality) = &quality {
         line("quality", quality.in_words())?;
     }
-    groups::write(out, &mesh.groups, |group| {
+    write_groups(out, &mesh.groups, |group| {
         kind_and_size(group, mesh, &faces)
     })?;
     write_fields(out, &mesh.fields)?;
@@ -97,7 +97,7 @@ struct Quality {
 
 impl Quality {
     /// The quality of the tetrahedra of a mesh; `None` without tetrahedra.
-    fn of_tetrahedra(mesh: &SolidMesh) -> Option<Self> {
+    fn from_mesh(mesh: &SolidMesh) -> Option<Self> {
         let ratio = |cell: &SolidCell| Some((cell.radius_ratio(&mesh.positions)?, *cell));
         let ratios: Vec<(f64, SolidCell)> = mesh.cells.iter().filter_map(ratio).collect();
         let (worst, cell) = ratios.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
@@ -115,13 +115,13 @@ impl Quality {
     }
 
     fn in_words(&self) -> String {
-        let (worst, mean) = (of_quality(self.worst.0), of_quality(self.mean));
+        let (worst, mean) = (quality_text(self.worst.0), quality_text(self.mean));
         format!("radius ratio of the tetrahedra {worst} at worst, {mean} in the mean; 1 is regular")
     }
 
     fn note(&self) -> Option<String> {
         let (count, all, (worst, at)) = (self.slivers, self.tetrahedra, self.worst);
-        let worst = of_quality(worst);
+        let worst = quality_text(worst);
         (count > 0).then(|| {
             format!(
                 "{count} of {all} tetrahedra are slivers (radius ratio below {SLIVER}; the worst, {worst}, at {}): volumes and bonds are \
@@ -133,7 +133,7 @@ impl Quality {
 }
 
 /// Text of a radius ratio.
-fn of_quality(ratio: f64) -> String {
+fn quality_text(ratio: f64) -> String {
     if ratio < 0.01 {
         format!("{ratio:.1e}")
     } else {

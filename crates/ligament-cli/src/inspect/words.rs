@@ -1,10 +1,13 @@
-//! Common texts for meshes in the plane and in space.
+//! Common texts for meshes in the plane and in space, and the table of their groups.
 
 use std::io::{self, Write};
 
 use ligament::warning::large_body;
-use ligament_mesh::{NodeField, Remark};
+use ligament_mesh::{Group, NodeField, Remark};
+use ligament_output::columns::MAX_COLUMN_WIDTH;
 use ligament_output::quantity::{between, quantity};
+
+use crate::lines::entry;
 
 /// Length of the longest name of an entry.
 pub(super) const NAMES: usize = 13;
@@ -75,6 +78,33 @@ pub(super) fn write_size_note<const D: usize>(
     let length = sides.fold(0.0, f64::max);
     if let Some(message) = large_body(length) {
         writeln!(out, "  note: {message}")?;
+    }
+    Ok(())
+}
+
+/// Writes one line per group, with its kind and size by `kind_and_size`.
+pub(super) fn write_groups(
+    out: &mut dyn Write,
+    groups: &[Group],
+    kind_and_size: impl Fn(&Group) -> (&'static str, String),
+) -> io::Result<()> {
+    if groups.is_empty() {
+        let none = "none: a case can select by `box` or `at` only";
+        return entry(out, NAMES, "groups", none);
+    }
+    let letters = groups.iter().map(|group| group.name.chars().count());
+    let width = letters.fold(4, usize::max).min(MAX_COLUMN_WIDTH);
+    writeln!(out, "  groups")?;
+    writeln!(
+        out,
+        "    {:width$}  {:7}  {:>6}  {:>8}  size",
+        "name", "kind", "number", "nodes"
+    )?;
+    for group in groups {
+        let (kind, size) = kind_and_size(group);
+        let (name, number, nodes) = (&group.name, group.number, group.nodes.len());
+        let line = format!("    {name:width$}  {kind:7}  {number:>6}  {nodes:>8}  {size}");
+        writeln!(out, "{}", line.trim_end())?;
     }
     Ok(())
 }

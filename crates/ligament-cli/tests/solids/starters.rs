@@ -4,8 +4,8 @@ use std::path::Path;
 
 use ligament::setup::Law;
 use ligament_case::case::{CaseFile, schema};
-use ligament_case::starter::{StarterError, of_mesh, of_solid_lattice};
-use ligament_cli::check::{Extent, Lines, check};
+use ligament_case::starter::{StarterError, mesh_case, solid_lattice_case};
+use ligament_cli::check::{CheckExtent, Lines, check};
 
 use super::block::Block;
 use super::{folder_with, meshes};
@@ -18,7 +18,7 @@ fn case(text: &str, folder: &Path) -> CaseFile {
 
 fn checked(case: &CaseFile) -> String {
     let mut report = Vec::new();
-    check(case, Extent::Model, None, Lines::All, &mut report)
+    check(case, CheckExtent::Model, None, Lines::All, &mut report)
         .unwrap_or_else(|error| panic!("{error:#}\n{}", case.source.text));
     String::from_utf8(report).unwrap()
 }
@@ -41,7 +41,7 @@ fn meshes_of_the_repository_have_cases_that_check() {
         ("thick-disk.msh", "platen-bottom", "platen-top", 1, -1.0),
         ("cavity.msh", "plane-z", "top", 2, 1.0),
     ] {
-        let starter = of_mesh(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
+        let starter = mesh_case(&meshes().join(mesh), folder.path(), Law::NHPD).unwrap();
         let case = case(&starter.text, folder.path());
         assert!(case.case.is_solid());
         assert_eq!(case.case.supports[0].group.as_deref(), Some(held), "{mesh}");
@@ -52,7 +52,7 @@ fn meshes_of_the_repository_have_cases_that_check() {
         assert_eq!(moved.iter().flatten().count(), 1, "{mesh}: {moved:?}");
     }
     // One of them with everything: the pre-crack cuts bonds, probes and output are known.
-    let starter = of_mesh(&meshes().join("thick-disk.msh"), folder.path(), Law::PDS);
+    let starter = mesh_case(&meshes().join("thick-disk.msh"), folder.path(), Law::PDS);
     let report = checked(&case(
         &with_all_settings(&starter.unwrap().text),
         folder.path(),
@@ -79,7 +79,7 @@ fn a_load_between_two_ends_bends() {
     }
     let file = folder.path().join("beam.msh");
     std::fs::write(&file, text + "$EndElements\n").unwrap();
-    let starter = of_mesh(&file, folder.path(), Law::NHPD).unwrap();
+    let starter = mesh_case(&file, folder.path(), Law::NHPD).unwrap();
     let case = case(&starter.text, folder.path()).case;
     let [left, right] = case.supports.as_slice() else {
         panic!("{}", starter.text);
@@ -130,7 +130,7 @@ fn lattices_take_the_laws_of_solids() {
     let index = compiler.compile("case.json", &mut schemas).unwrap();
     let mut count = 0;
     for law in Law::ALL {
-        match of_solid_lattice([6, 6, 12], 0.01, law) {
+        match solid_lattice_case([6, 6, 12], 0.01, law) {
             Ok(starter) => {
                 count += 1;
                 checked(&case(&starter.text, Path::new("")));

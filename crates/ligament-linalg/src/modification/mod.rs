@@ -4,7 +4,6 @@
 //! never grows as long as the entries of a vector are pairwise in the pattern of the matrix (Davis and Hager 2001). A right-hand side that
 //! is zero outside the same rows follows the same path, so the forward substitution is done while a panel is in the cache.
 
-mod diagonal;
 mod panel;
 mod rotation;
 mod square;
@@ -13,16 +12,17 @@ mod terms;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use crate::panels::{FactorKind, Panels};
-use crate::rank_one::RankOne;
-use crate::substitution;
-use crate::supernodes::Supernodes;
 use panel::Panel;
 use square::Rows;
 use terms::{TERMS_AT_ONCE, Terms};
 
-pub(crate) use diagonal::DiagonalEntry;
-pub use diagonal::VANISHING_PIVOT;
+use crate::factorisation::RankOne;
+use crate::panels::{FactorKind, Panels};
+use crate::substitution;
+use crate::supernodes::Supernodes;
+
+pub(crate) use square::DiagonalEntry;
+pub use square::VANISHING_PIVOT;
 
 /// Working memory for changing a factor in place. Rows are in the order of elimination.
 pub(crate) struct Modification {
@@ -62,7 +62,7 @@ pub(crate) struct VanishingPivot(pub(crate) usize);
 
 impl Modification {
     pub(crate) fn new(supernodes: Supernodes<'_>) -> Self {
-        let supernode_of_row = supernodes.of_rows();
+        let supernode_of_row = supernodes.supernode_of_rows();
         Self {
             on_the_way: vec![0.0; TERMS_AT_ONCE * supernode_of_row.len()],
             supernode_of_row,
@@ -93,12 +93,12 @@ impl Modification {
                 }
             }
             let right_hand_side = is_last.then_some(&mut *right_hand_side);
-            let walk = Walk {
+            let pass = TreePass {
                 modification: self,
                 target,
                 right_hand_side,
             };
-            if let Err(vanishing) = walk.walk() {
+            if let Err(vanishing) = pass.pass() {
                 self.on_the_way.fill(0.0);
                 self.is_touched.fill(false);
                 self.touched.clear();
@@ -138,14 +138,14 @@ impl Modification {
 }
 
 /// One pass of terms up the elimination tree, from the leaves to the root.
-struct Walk<'a, 'b> {
+struct TreePass<'a, 'b> {
     modification: &'a mut Modification,
     target: &'a mut Target<'b>,
     right_hand_side: Option<&'a mut [f64]>,
 }
 
-impl Walk<'_, '_> {
-    fn walk(mut self) -> Result<(), VanishingPivot> {
+impl TreePass<'_, '_> {
+    fn pass(mut self) -> Result<(), VanishingPivot> {
         while let Some(Reverse(supernode)) = self.modification.touched.pop() {
             let supernode = supernode as usize;
             self.modification.is_touched[supernode] = false;

@@ -9,8 +9,7 @@ use std::ops::Range;
 use pulp::Arch;
 use rayon::prelude::*;
 
-use super::diagonal::DiagonalEntry;
-use super::square::{AppliedRotations, Below, Rows, Square};
+use super::square::{AppliedRotations, DiagonalEntry, Rows, RowsBelow, Square};
 use crate::panels::FactorKind;
 use crate::substitution::BLOCK;
 
@@ -45,26 +44,28 @@ impl Panel<'_> {
         let mut tile = self.tile(0);
         // On one thread an undivided panel gives the same bits in less time.
         if tile.rows_of_task.is_none() || rayon::current_num_threads() == 1 {
-            return self.whole().map(|turned| turned.more_negative);
+            return self
+                .update_undivided()
+                .map(|rotations| rotations.more_negative);
         }
         let of_first = |column| tile.columns.start + column;
-        let mut turned = self.turn(&tile).map_err(of_first)?;
-        let mut more_negative = turned.more_negative;
+        let mut rotations = self.rotate(&tile).map_err(of_first)?;
+        let mut more_negative = rotations.more_negative;
         while tile.columns.end < n_columns {
             let next = self.tile(tile.columns.end);
-            let before = (tile, turned);
+            let before = (tile, rotations);
             let of_next = match next.rows_of_task {
                 Some(_) => self.update_below_and_next_square(&before, &next),
                 None => {
                     self.update_rows_below(&before);
-                    self.turn(&next)
+                    self.rotate(&next)
                 }
             };
-            turned = of_next.map_err(|column| next.columns.start + column)?;
-            more_negative += turned.more_negative;
+            rotations = of_next.map_err(|column| next.columns.start + column)?;
+            more_negative += rotations.more_negative;
             tile = next;
         }
-        self.update_rows_below(&(tile, turned));
+        self.update_rows_below(&(tile, rotations));
         Ok(more_negative)
     }
 
@@ -88,7 +89,7 @@ impl Panel<'_> {
     }
 
     /// Updates all rows of an undivided panel.
-    fn whole(self) -> Result<AppliedRotations, usize> {
+    fn update_undivided(self) -> Result<AppliedRotations, usize> {
         Arch::new().dispatch(Square {
             kind: self.kind,
             diagonal: self.diagonal,
@@ -98,18 +99,18 @@ impl Panel<'_> {
     }
 
     /// Updates the square of a tile, or all of its rows where they are not divided.
-    fn turn(&mut self, tile: &Tile) -> Result<AppliedRotations, usize> {
+    fn rotate(&mut self, tile: &Tile) -> Result<AppliedRotations, usize> {
         let Range { start, end } = tile.columns;
         let n_rows = match tile.rows_of_task {
             Some(_) => end - start,
             None => self.rows.columns[start].len() - start,
         };
-        let cut = Cut {
+        let division = RowDivision {
             from: start,
             n_first: n_rows,
             n_each: usize::MAX,
         };
-        let pieces = cut.pieces(&mut self.rows, tile.columns.clone());
+        let pieces = division.pieces(&mut self.rows, tile.columns.clone());
         Arch::new().dispatch(Square {
             kind: self.kind,
             diagonal: &self.diagonal[tile.columns.clone()],
@@ -119,27 +120,27 @@ impl Panel<'_> {
     }
 
     /// Updates the rows below the square of a tile.
-    fn update_rows_below(&mut self, (tile, turned): &(Tile, AppliedRotations)) {
+    fn update_rows_below(&mut self, (tile, rotations): &(Tile, AppliedRotations)) {
         let Some(n_each) = tile.rows_of_task else {
             return;
         };
-        let cut = Cut {
+        let division = RowDivision {
             from: tile.columns.end,
             n_first: 0,
             n_each,
         };
-        let pieces = cut.pieces(&mut self.rows, tile.columns.clone());
-        update_in_parallel(pieces.into_iter().skip(1).collect(), turned);
+        let pieces = division.pieces(&mut self.rows, tile.columns.clone());
+        update_in_parallel(pieces.into_iter().skip(1).collect(), rotations);
     }
 
     /// Updates the rows below the square of a tile, and with them the square of the next tile.
     fn update_below_and_next_square(
         &mut self,
-        (before, turned): &(Tile, AppliedRotations),
+        (before, rotations): &(Tile, AppliedRotations),
         tile: &Tile,
     ) -> Result<AppliedRotations, usize> {
         let Range { start, end } = tile.columns;
-        let cut = Cut {
+        let division = RowDivision {
             from: start,
             n_first: end - start,
             n_each: before.rows_of_task.unwrap_or(usize::MAX),
@@ -147,12 +148,12 @@ impl Panel<'_> {
         let mut later = self.rows.columns.split_off(start);
         let of_square = later[..end - start].iter_mut();
         let columns = of_square.map(|column| &mut column[start..end]).collect();
-        let pieces = cut.pieces(&mut self.rows, before.columns.clone());
+        let pieces = division.pieces(&mut self.rows, before.columns.clone());
         let mut pieces = pieces.into_iter();
         let mut first = pieces.next().unwrap_or_default();
         let square = || {
             let rows = &mut first;
-            Arch::new().dispatch(Below { rows, turned });
+            Arch::new().dispatch(RowsBelow { rows, rotations });
             Arch::new().dispatch(Square {
                 kind: self.kind,
                 diagonal: &self.diagonal[start..end],
@@ -160,30 +161,31 @@ impl Panel<'_> {
                 rows: Rows { columns, ..first },
             })
         };
-        let (turned, ()) = rayon::join(square, || update_in_parallel(pieces.collect(), turned));
+        let (rotations, ()) =
+            rayon::join(square, || update_in_parallel(pieces.collect(), rotations));
         self.rows.columns.append(&mut later);
-        turned
+        rotations
     }
 }
 
 /// Updates rows below the pivots of columns, as parallel tasks.
-fn update_in_parallel(pieces: Vec<Rows<'_>>, turned: &AppliedRotations) {
+fn update_in_parallel(pieces: Vec<Rows<'_>>, rotations: &AppliedRotations) {
     let tasks = pieces.into_par_iter().with_max_len(1);
     tasks.for_each(|mut rows| {
         let rows = &mut rows;
-        Arch::new().dispatch(Below { rows, turned });
+        Arch::new().dispatch(RowsBelow { rows, rotations });
     });
 }
 
 /// Division of the rows of a panel: a first piece, then pieces of equal size.
 #[derive(Clone, Copy)]
-struct Cut {
+struct RowDivision {
     from: usize,
     n_first: usize,
     n_each: usize,
 }
 
-impl Cut {
+impl RowDivision {
     fn divide(self, rows: &mut [f64]) -> impl Iterator<Item = &mut [f64]> {
         let (first, rest) = rows[self.from..].split_at_mut(self.n_first);
         std::iter::once(first).chain(rest.chunks_mut(self.n_each))
@@ -215,7 +217,7 @@ impl Cut {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::modification::diagonal::VANISHING_PIVOT;
+    use crate::modification::square::VANISHING_PIVOT;
 
     /// Columns that fill no last block, and rows that fill no last vector.
     const N_COLUMNS: usize = 437;
@@ -223,14 +225,14 @@ mod tests {
 
     /// A panel with terms and a right-hand side.
     #[derive(Clone, PartialEq, Debug)]
-    struct Case {
+    struct UpdateTest {
         values: Vec<f64>,
         weights: Vec<f64>,
         terms: Vec<f64>,
         right_hand_side: Vec<f64>,
     }
 
-    impl Case {
+    impl UpdateTest {
         /// A factor whose small entries below the diagonal leave the size of the terms unchanged. Every fifth pivot of L D L^T is negative.
         fn new(kind: FactorKind, n_terms: usize) -> Self {
             let number = |k: usize| ((k * 7_919 % 10_007) as f64 / 5_003.5 - 1.0) / 30.0;
@@ -262,7 +264,7 @@ mod tests {
     }
 
     /// Changes a panel in tiles, and a copy of it as a whole.
-    fn both(kind: FactorKind, start: &Case) -> [(Case, Result<isize, usize>); 2] {
+    fn both(kind: FactorKind, start: &UpdateTest) -> [(UpdateTest, Result<isize, usize>); 2] {
         let diagonal = [DiagonalEntry::new(1.0); N_COLUMNS];
         let (mut divided, mut whole) = (start.clone(), start.clone());
         let panel = divided.panel(kind, &diagonal);
@@ -279,8 +281,8 @@ mod tests {
         // A pool of one thread would not divide the panel.
         let pool = rayon::ThreadPoolBuilder::new().num_threads(2).build();
         let of_divided = pool.expect("two threads").install(|| panel.change());
-        let of_whole = whole.panel(kind, &diagonal).whole();
-        let of_whole = of_whole.map(|turned| turned.more_negative);
+        let of_whole = whole.panel(kind, &diagonal).update_undivided();
+        let of_whole = of_whole.map(|rotations| rotations.more_negative);
         [(divided, of_divided), (whole, of_whole)]
     }
 
@@ -288,7 +290,7 @@ mod tests {
     fn tiles_have_the_bits_of_a_panel_that_is_not_divided() {
         for kind in [FactorKind::Llt, FactorKind::Ldlt] {
             for n_terms in [3, 8] {
-                let start = Case::new(kind, n_terms);
+                let start = UpdateTest::new(kind, n_terms);
                 let [divided, whole] = both(kind, &start);
                 assert!(whole.1.is_ok() && whole.0 != start, "{kind:?}");
                 assert!(divided == whole, "{kind:?}, {n_terms} terms");
@@ -301,7 +303,7 @@ mod tests {
     fn a_pivot_that_vanishes_has_the_same_column() {
         for kind in [FactorKind::Llt, FactorKind::Ldlt] {
             for column in [100, 251, 390, 436] {
-                let mut start = Case::new(kind, 4);
+                let mut start = UpdateTest::new(kind, 4);
                 let pivot = start.values[column * HEIGHT + column];
                 start.terms.fill(0.0);
                 start.terms[3 * HEIGHT + column] = pivot;

@@ -2,10 +2,33 @@
 
 use pulp::{Simd, WithSimd};
 
-use super::diagonal::{DiagonalEntry, VANISHING_PIVOT};
 use super::rotation::{BLOCK, Rotation, rotate, rotate_root, rotate_rows};
 use crate::panels::FactorKind;
 use crate::substitution::{self, forward_block, subtract_block};
+
+/// Ratio below which a pivot counts as zero, relative to the largest value of its diagonal entry of the matrix since the factorisation:
+/// downdates leave rounding of some 1e-14 of that entry in place of a zero.
+pub const VANISHING_PIVOT: f64 = 1e-10;
+
+/// A diagonal entry of the matrix.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DiagonalEntry {
+    value: f64,
+    /// Largest absolute value of the entry since the matrix was factorised, which scales the rounding errors of the factor.
+    pub(super) largest: f64,
+}
+
+impl DiagonalEntry {
+    pub(crate) fn new(value: f64) -> Self {
+        let largest = value.abs();
+        Self { value, largest }
+    }
+
+    pub(super) fn add(&mut self, change: f64) {
+        self.value += change;
+        self.largest = self.largest.max(self.value.abs());
+    }
+}
 
 /// Some rows of a panel.
 #[derive(Default)]
@@ -86,12 +109,12 @@ impl WithSimd for Square<'_, '_> {
 }
 
 /// Rows below the pivots of columns.
-pub(super) struct Below<'a, 'b> {
+pub(super) struct RowsBelow<'a, 'b> {
     pub(super) rows: &'a mut Rows<'b>,
-    pub(super) turned: &'a AppliedRotations,
+    pub(super) rotations: &'a AppliedRotations,
 }
 
-impl WithSimd for Below<'_, '_> {
+impl WithSimd for RowsBelow<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -101,8 +124,8 @@ impl WithSimd for Below<'_, '_> {
             terms,
             right_hand_side,
         } = self.rows;
-        let mut rotations = self.turned.rotations.chunks_exact(terms.len());
-        let mut solved = self.turned.solved.chunks(substitution::BLOCK);
+        let mut rotations = self.rotations.rotations.chunks_exact(terms.len());
+        let mut solved = self.rotations.solved.chunks(substitution::BLOCK);
         for columns in columns.chunks_mut(substitution::BLOCK) {
             for block in columns.chunks_mut(BLOCK) {
                 let rotations = rotations.next().unwrap_or_default();

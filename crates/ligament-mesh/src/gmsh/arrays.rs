@@ -7,7 +7,7 @@ use super::element_type::Shape;
 use super::error::GmshError;
 use super::records::{self, Node, Records};
 use super::{plane, solid};
-use crate::any_mesh::AnyMesh;
+use crate::mesh::AnyMesh;
 
 /// An element, given by its corners, and its group; an element in several groups occurs once for each.
 #[derive(Debug, Clone, PartialEq)]

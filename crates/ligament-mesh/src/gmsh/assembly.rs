@@ -7,11 +7,11 @@ use super::tags::NodeIndices;
 use crate::remark::Remark;
 
 /// Number of a corner whose node was dropped.
-pub(super) const DROPPED: u32 = u32::MAX;
+pub(super) const DROPPED_NODE: u32 = u32::MAX;
 
 /// Use of a node by the cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Use {
+enum NodeUse {
     None,
     Inner,
     Corner,
@@ -25,9 +25,9 @@ pub(super) struct Assembly {
     pub(super) by_tag: NodeIndices,
     /// New number of every node record; `None` for a dropped node.
     pub(super) numbers: Vec<Option<u32>>,
-    /// New numbers of the corners of all elements, one after the other; [`DROPPED`] for a dropped node.
+    /// New numbers of the corners of all elements, one after the other; [`DROPPED_NODE`] for a dropped node.
     pub(super) corners: Vec<u32>,
-    uses: Vec<Use>,
+    uses: Vec<NodeUse>,
 }
 
 impl Assembly {
@@ -44,7 +44,7 @@ impl Assembly {
         let uses = node_uses(cursor, records, &corners, &by_tag, dimension)?;
         let (nodes, numbers) = number_nodes(&records.nodes, &uses);
         for index in &mut corners {
-            *index = numbers[*index as usize].unwrap_or(DROPPED);
+            *index = numbers[*index as usize].unwrap_or(DROPPED_NODE);
         }
         Ok(Self {
             nodes,
@@ -65,10 +65,10 @@ impl Assembly {
         if higher_order_cells > 0 {
             remarks.push(Remark::HigherOrderCells {
                 cells: higher_order_cells,
-                nodes: count(Use::Inner),
+                nodes: count(NodeUse::Inner),
             });
         }
-        let unused = count(Use::None);
+        let unused = count(NodeUse::None);
         if unused > 0 {
             remarks.push(Remark::UnusedNodes { nodes: unused });
         }
@@ -107,20 +107,20 @@ fn node_uses(
     corners: &[u32],
     by_tag: &NodeIndices,
     dimension: u8,
-) -> Result<Vec<Use>, GmshError> {
-    let mut uses = vec![Use::None; records.nodes.len()];
+) -> Result<Vec<NodeUse>, GmshError> {
+    let mut uses = vec![NodeUse::None; records.nodes.len()];
     for (tag, element) in &records.inner_nodes {
         let element = &records.elements[*element as usize];
         let index = by_tag.get(*tag);
         let index = index.ok_or_else(|| missing_node(cursor, element, *tag))?;
         if element.shape.dimension() == dimension {
-            uses[index as usize] = Use::Inner;
+            uses[index as usize] = NodeUse::Inner;
         }
     }
     for element in &records.elements {
         if element.shape.dimension() == dimension {
             for index in &corners[element.corners()] {
-                uses[*index as usize] = Use::Corner;
+                uses[*index as usize] = NodeUse::Corner;
             }
         }
     }
@@ -128,10 +128,10 @@ fn node_uses(
 }
 
 /// Nodes that are kept, and the new number of every node record; `None` for a dropped node.
-fn number_nodes(nodes: &[Node], uses: &[Use]) -> (Vec<Node>, Vec<Option<u32>>) {
+fn number_nodes(nodes: &[Node], uses: &[NodeUse]) -> (Vec<Node>, Vec<Option<u32>>) {
     let mut kept = Vec::with_capacity(nodes.len());
-    let number = |(node, node_use): (&Node, &Use)| {
-        (*node_use == Use::Corner).then(|| {
+    let number = |(node, node_use): (&Node, &NodeUse)| {
+        (*node_use == NodeUse::Corner).then(|| {
             kept.push(*node);
             kept.len() as u32 - 1
         })

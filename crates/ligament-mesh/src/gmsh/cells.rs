@@ -16,7 +16,7 @@ pub(super) struct Cells<C> {
 
 impl<C> Cells<C> {
     /// Cells made by `cell` from the shapes of elements and their corners (numbers of nodes), and oriented by `oriented`.
-    pub(super) fn of_elements(
+    pub(super) fn from_elements(
         cursor: &Cursor<'_>,
         records: &Records,
         assembly: &Assembly,
@@ -38,7 +38,7 @@ impl<C> Cells<C> {
     }
 
     /// Number of cells made from elements of higher order.
-    pub(super) fn of_higher_order(&self, records: &Records) -> usize {
+    pub(super) fn n_higher_order(&self, records: &Records) -> usize {
         let elements = self.elements.iter();
         let higher = elements.filter(|element| records.elements[**element as usize].higher_order);
         higher.count()
@@ -80,7 +80,7 @@ pub(super) fn merge_repeated<const D: usize, C: MeshCell<D>>(
     mut all: Cells<C>,
     n_nodes: usize,
 ) -> Result<(Cells<C>, Vec<Option<u32>>), GmshError> {
-    let first = first_alike(cursor, records, &all, n_nodes)?;
+    let first = first_with_same_corners(cursor, records, &all, n_nodes)?;
     let is_first = || (0..).zip(&first).map(|(cell, first)| cell == *first);
     let mut numbers: Vec<u32> = Vec::with_capacity(first.len());
     let mut n_once = 0;
@@ -127,7 +127,7 @@ where
 }
 
 /// First cell with the corners of each cell, shape (n_cells).
-fn first_alike<const D: usize, C: MeshCell<D>>(
+fn first_with_same_corners<const D: usize, C: MeshCell<D>>(
     cursor: &Cursor<'_>,
     records: &Records,
     all: &Cells<C>,

@@ -1,6 +1,6 @@
 //! Sequential reading of values from the bytes of a file.
 
-use super::error::{GmshError, Place};
+use super::error::{FilePosition, GmshError};
 
 /// Encoding of the numbers in the sections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,16 +64,16 @@ impl<'a> Cursor<'a> {
     }
 
     /// Position of a byte, as a line or an offset by the kind of file.
-    pub(super) fn place(&self, offset: usize) -> Place {
+    pub(super) fn place(&self, offset: usize) -> FilePosition {
         if self.is_ascii() {
             let before = &self.bytes[..offset.min(self.bytes.len())];
-            Place::Line(1 + before.iter().filter(|byte| **byte == b'\n').count())
+            FilePosition::Line(1 + before.iter().filter(|byte| **byte == b'\n').count())
         } else {
-            Place::Byte(offset)
+            FilePosition::Byte(offset)
         }
     }
 
-    pub(super) fn truncated(&self) -> GmshError {
+    pub(super) fn truncation_error(&self) -> GmshError {
         let (name, begin) = self.section;
         GmshError::TruncatedSection {
             place: self.place(begin),
@@ -90,7 +90,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// The error for the text `found` at `offset` instead of the expected value.
-    pub(super) fn unexpected(
+    pub(super) fn unexpected_text_error(
         &self,
         offset: usize,
         expected: &'static str,
@@ -125,12 +125,12 @@ impl<'a> Cursor<'a> {
         }
         self.skip_while(is_blank);
         match self.bytes.get(self.offset) {
-            None => Err(self.truncated()),
+            None => Err(self.truncation_error()),
             Some(b'\n') => Ok(()),
             Some(_) => {
                 let begin = self.offset;
                 let found = self.rest_of_line();
-                Err(self.unexpected(begin, "the end of the line", shown(found)))
+                Err(self.unexpected_text_error(begin, "the end of the line", shortened_text(found)))
             }
         }
     }
@@ -150,7 +150,7 @@ impl<'a> Cursor<'a> {
         let begin = self.offset;
         let line = self.rest_of_line();
         if self.remaining() == 0 {
-            return Err(self.truncated());
+            return Err(self.truncation_error());
         }
         self.offset += 1;
         Ok((begin, line))
@@ -163,7 +163,7 @@ impl<'a> Cursor<'a> {
             .ok()
             .and_then(|text| text.parse().ok())
             .map(|count| (begin, count))
-            .ok_or_else(|| self.unexpected(begin, expected, shown(line)))
+            .ok_or_else(|| self.unexpected_text_error(begin, expected, shortened_text(line)))
     }
 
     /// Next word of an ASCII row.
@@ -173,8 +173,8 @@ impl<'a> Cursor<'a> {
         self.skip_while(|byte| !byte.is_ascii_whitespace());
         if begin == self.offset {
             return Err(match self.bytes.get(begin) {
-                None => self.truncated(),
-                Some(_) => self.unexpected(begin, expected, "the end of the line"),
+                None => self.truncation_error(),
+                Some(_) => self.unexpected_text_error(begin, expected, "the end of the line"),
             });
         }
         Ok(&self.bytes[begin..self.offset])
@@ -185,13 +185,19 @@ impl<'a> Cursor<'a> {
         std::str::from_utf8(token)
             .ok()
             .and_then(|text| text.parse().ok())
-            .ok_or_else(|| self.unexpected(self.offset - token.len(), expected, shown(token)))
+            .ok_or_else(|| {
+                self.unexpected_text_error(
+                    self.offset - token.len(),
+                    expected,
+                    shortened_text(token),
+                )
+            })
     }
 
     fn raw<const N: usize>(&mut self) -> Result<[u8; N], GmshError> {
         let chunk = self.bytes[self.offset..]
             .first_chunk()
-            .ok_or_else(|| self.truncated())?;
+            .ok_or_else(|| self.truncation_error())?;
         self.offset += N;
         Ok(*chunk)
     }
@@ -209,7 +215,8 @@ impl<'a> Cursor<'a> {
     pub(super) fn unsigned_int(&mut self, expected: &'static str) -> Result<u64, GmshError> {
         let begin = self.offset;
         let value = self.int(expected)?;
-        u64::try_from(value).map_err(|_| self.unexpected(begin, expected, value.to_string()))
+        u64::try_from(value)
+            .map_err(|_| self.unexpected_text_error(begin, expected, value.to_string()))
     }
 
     /// Next `size_t`.
@@ -259,7 +266,9 @@ impl<'a> Cursor<'a> {
         let name = line
             .strip_prefix(b"$")
             .and_then(|name| std::str::from_utf8(name).ok());
-        let name = name.ok_or_else(|| self.unexpected(begin, "the $ of a section", shown(line)))?;
+        let name = name.ok_or_else(|| {
+            self.unexpected_text_error(begin, "the $ of a section", shortened_text(line))
+        })?;
         self.section = (name, begin);
         // Binary values begin directly behind the end of the line.
         self.offset = self.bytes.len().min(self.offset + 1);
@@ -275,9 +284,13 @@ impl<'a> Cursor<'a> {
             Some(name) if name == self.section.0.as_bytes() => Ok(()),
             // A file that ends within the word is truncated; the word is not wrong.
             _ if self.remaining() == 0 && self.end_mark().starts_with(line) => {
-                Err(self.truncated())
+                Err(self.truncation_error())
             }
-            _ => Err(self.unexpected(begin, "the end of the section", shown(line))),
+            _ => Err(self.unexpected_text_error(
+                begin,
+                "the end of the section",
+                shortened_text(line),
+            )),
         }
     }
 
@@ -299,7 +312,7 @@ impl<'a> Cursor<'a> {
             }
             rest = &rest[1..];
         }
-        Err(self.truncated())
+        Err(self.truncation_error())
     }
 }
 
@@ -309,7 +322,7 @@ fn is_blank(byte: u8) -> bool {
 }
 
 /// Text from the file, shortened for a message.
-pub(super) fn shown(found: &[u8]) -> String {
+pub(super) fn shortened_text(found: &[u8]) -> String {
     const LENGTH: usize = 40;
     if found.is_empty() {
         return "nothing".to_owned();

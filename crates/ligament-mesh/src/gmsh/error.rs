@@ -6,18 +6,18 @@ use thiserror::Error;
 
 /// A position in a mesh file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
+pub enum FilePosition {
     /// Line of an ASCII file, counted from 1.
     Line(usize),
     /// Offset in a binary file, bytes from its beginning.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for FilePosition {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Place::Line(line) => write!(f, "line {line}"),
-            Place::Byte(offset) => write!(f, "byte {offset}"),
+            FilePosition::Line(line) => write!(f, "line {line}"),
+            FilePosition::Byte(offset) => write!(f, "byte {offset}"),
         }
     }
 }
@@ -42,7 +42,7 @@ pub enum GmshError {
     )]
     UnsupportedVersion {
         /// Position of the version.
-        place: Place,
+        place: FilePosition,
         /// The version found.
         version: String,
     },
@@ -53,7 +53,7 @@ pub enum GmshError {
     )]
     UnsupportedDataSize {
         /// Position of the data size.
-        place: Place,
+        place: FilePosition,
         /// The data size found.
         bytes: u64,
     },
@@ -64,13 +64,13 @@ pub enum GmshError {
     )]
     UnknownByteOrder {
         /// Position of the integer.
-        place: Place,
+        place: FilePosition,
     },
     /// A section that is not part of a mesh.
     #[error("{place}: unknown section ${name}; save the mesh by Gmsh, without extra data")]
     UnknownSection {
         /// Position of the beginning of the section.
-        place: Place,
+        place: FilePosition,
         /// Name of the section, without the dollar sign.
         name: String,
     },
@@ -80,7 +80,7 @@ pub enum GmshError {
     )]
     TruncatedSection {
         /// Position of the beginning of the section.
-        place: Place,
+        place: FilePosition,
         /// Name of the section, without the dollar sign.
         name: String,
     },
@@ -96,7 +96,7 @@ pub enum GmshError {
     #[error("{place}: expected {expected}, found {found}; the file is damaged, save it again")]
     Unexpected {
         /// Position of the value.
-        place: Place,
+        place: FilePosition,
         /// Description of the expected value.
         expected: &'static str,
         /// The text found instead.
@@ -108,10 +108,10 @@ pub enum GmshError {
     )]
     CountBeyondFile {
         /// Position of the count.
-        place: Place,
+        place: FilePosition,
         /// Kind of the counted items.
         items: &'static str,
-        /// The count.
+        /// Number that the file gives.
         count: u64,
     },
     /// The memory does not suffice for the mesh.
@@ -129,7 +129,7 @@ pub enum GmshError {
     )]
     CountMismatch {
         /// Position of the count.
-        place: Place,
+        place: FilePosition,
         /// Kind of the counted items.
         items: &'static str,
         /// The count in the head of the section.
@@ -144,7 +144,7 @@ pub enum GmshError {
     )]
     UnknownElementType {
         /// Position of the type.
-        place: Place,
+        place: FilePosition,
         /// Gmsh's number of the element type.
         code: i32,
     },
@@ -155,7 +155,7 @@ pub enum GmshError {
     )]
     VolumeElement {
         /// Position of the type.
-        place: Place,
+        place: FilePosition,
         /// Gmsh's number of the element type.
         code: i32,
     },
@@ -165,21 +165,21 @@ pub enum GmshError {
     )]
     BadCoordinate {
         /// Position of the node.
-        place: Place,
+        place: FilePosition,
         /// Tag of the node.
         tag: u64,
-        /// The coordinate.
+        /// Coordinate that is not a finite number.
         value: f64,
     },
     /// Two nodes of the same tag.
     #[error("{place}: the node tag {tag} was already given at {first}; renumber the mesh")]
     DuplicateNodeTag {
         /// Position of the second of the two nodes.
-        place: Place,
+        place: FilePosition,
         /// The tag that both nodes have.
         tag: u64,
         /// Position of the first of the two nodes.
-        first: Place,
+        first: FilePosition,
     },
     /// An element refers to a node that the file does not have.
     #[error(
@@ -187,7 +187,7 @@ pub enum GmshError {
     )]
     MissingNode {
         /// Position of the element.
-        place: Place,
+        place: FilePosition,
         /// Tag of the element.
         element: u64,
         /// Tag of the node.
@@ -209,7 +209,7 @@ pub enum GmshError {
     )]
     NotPlanar {
         /// Position of the node.
-        place: Place,
+        place: FilePosition,
         /// Tag of the node.
         tag: u64,
         /// Height z of the node, m.
@@ -224,7 +224,7 @@ pub enum GmshError {
     )]
     CoincidentNodes {
         /// Position in the file of the second of the two nodes.
-        place: Place,
+        place: FilePosition,
         /// Tag of the second node.
         tag: u64,
         /// Tag of the first node.
@@ -238,7 +238,7 @@ pub enum GmshError {
     #[error("{place}: cell {element} has node {node} at two corners; mesh the geometry again")]
     RepeatedCorner {
         /// Position of the cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the cell.
         element: u64,
         /// Tag of the node.
@@ -248,7 +248,7 @@ pub enum GmshError {
     #[error("{place}: cell {element} has no area; mesh the geometry again")]
     ZeroArea {
         /// Position of the cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the cell.
         element: u64,
     },
@@ -258,7 +258,7 @@ pub enum GmshError {
     )]
     NotConvex {
         /// Position of the cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the cell.
         element: u64,
     },
@@ -269,7 +269,7 @@ pub enum GmshError {
     )]
     OverlappingCells {
         /// Position of the second cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the second cell.
         element: u64,
         /// Tag of the first cell.
@@ -282,13 +282,13 @@ pub enum GmshError {
     )]
     CoveringCells {
         /// Position of the second cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the second cell.
         element: u64,
         /// Tag of the first cell.
         other: u64,
         /// Position of the first cell.
-        other_place: Place,
+        other_place: FilePosition,
     },
     /// Two nodes of a solid mesh at one position.
     #[error(
@@ -298,7 +298,7 @@ pub enum GmshError {
     )]
     CoincidentNodesInSpace {
         /// Position in the file of the second of the two nodes.
-        place: Place,
+        place: FilePosition,
         /// Tag of the second node.
         tag: u64,
         /// Tag of the first node.
@@ -313,7 +313,7 @@ pub enum GmshError {
     )]
     FlatCell {
         /// Position of the cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the cell.
         element: u64,
         /// Name of the shape.
@@ -330,7 +330,7 @@ pub enum GmshError {
     )]
     NotConvexSolid {
         /// Position of the cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the cell.
         element: u64,
         /// Name of the shape.
@@ -343,7 +343,7 @@ pub enum GmshError {
     )]
     OverlappingSolids {
         /// Position of the second cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the second cell.
         element: u64,
         /// Tag of the first cell.
@@ -356,7 +356,7 @@ pub enum GmshError {
     )]
     LooseFace {
         /// Position of the element.
-        place: Place,
+        place: FilePosition,
         /// Tag of the element.
         element: u64,
         /// Name of the group, or its number in decimal.
@@ -369,7 +369,7 @@ pub enum GmshError {
     )]
     DuplicateCell {
         /// Position of the second cell.
-        place: Place,
+        place: FilePosition,
         /// Tag of the second cell.
         element: u64,
         /// Tag of the first cell.

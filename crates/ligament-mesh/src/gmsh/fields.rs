@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::cursor::{Cursor, shown};
+use super::cursor::{Cursor, shortened_text};
 use super::error::GmshError;
 use super::records::{FieldRecord, Records, reserve};
 use super::tags::NodeIndices;
-use crate::field::NodeField;
+use crate::mesh::NodeField;
 
 /// Reads `$NodeData` after its first line: texts, real numbers and integers on a line each, also in a binary file, and a row (node, values)
 /// for each node. The integers are the time step, the number of components and the number of rows.
@@ -23,7 +23,11 @@ pub(super) fn read_node_data(
     let integers = tag_lines(cursor, "the number of integer tags")?;
     let &[step, components, count, ..] = integers.as_slice() else {
         let expected = "the integer tags time step, number of components, number of nodes";
-        return Err(cursor.unexpected(begin, expected, format!("{} of them", integers.len())));
+        return Err(cursor.unexpected_text_error(
+            begin,
+            expected,
+            format!("{} of them", integers.len()),
+        ));
     };
     let time_step = number(cursor, step, "a time step")?;
     let (components, count_offset): (u64, _) = (
@@ -76,7 +80,7 @@ fn number<T: std::str::FromStr>(
 ) -> Result<T, GmshError> {
     let text = std::str::from_utf8(line).ok();
     text.and_then(|text| text.parse().ok())
-        .ok_or_else(|| cursor.unexpected(offset, expected, shown(line)))
+        .ok_or_else(|| cursor.unexpected_text_error(offset, expected, shortened_text(line)))
 }
 
 /// Fields on the nodes that are kept (`numbers`: new number of every node record); values at other nodes are left out, since a file may

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::assembly::{Assembly, DROPPED};
+use super::assembly::{Assembly, DROPPED_NODE};
 use super::records::Records;
 use crate::cell::Cell;
-use crate::group::Group;
+use crate::mesh::Group;
 use crate::remark::Remark;
 
 /// Groups of all elements, in the order of dimension and number; adds remarks on groups left out.
@@ -15,7 +15,7 @@ pub(super) fn collect(
     cell_of_element: &[Option<u32>],
     remarks: &mut Vec<Remark>,
 ) -> Vec<Group> {
-    let mut groups = announced(records);
+    let mut groups = named_groups(records);
     let mut undescribed = 0;
     for (element, cell) in records.elements.iter().zip(cell_of_element) {
         let corners = &assembly.corners[element.corners()];
@@ -28,10 +28,10 @@ pub(super) fn collect(
             let Some(group) = groups.get_mut(&(dimension, *number)) else {
                 continue;
             };
-            let kept = corners.iter().filter(|corner| **corner != DROPPED);
+            let kept = corners.iter().filter(|corner| **corner != DROPPED_NODE);
             group.nodes.extend(kept);
             group.cells.extend(cell);
-            if corners.contains(&DROPPED) {
+            if corners.contains(&DROPPED_NODE) {
                 continue;
             }
             match (dimension, corners) {
@@ -46,7 +46,7 @@ pub(super) fn collect(
             elements: undescribed,
         });
     }
-    finished(groups, assembly.nodes.len(), remarks)
+    nonempty_groups(groups, assembly.nodes.len(), remarks)
 }
 
 /// The face of a solid cell with given corners.
@@ -59,7 +59,7 @@ pub(super) fn face(corners: &[u32]) -> Option<Cell> {
 }
 
 /// All groups that the file names or uses, still empty.
-fn announced(records: &Records) -> BTreeMap<(u8, i32), Group> {
+fn named_groups(records: &Records) -> BTreeMap<(u8, i32), Group> {
     let used = records
         .physicals
         .iter()
@@ -89,7 +89,7 @@ fn announced(records: &Records) -> BTreeMap<(u8, i32), Group> {
 }
 
 /// Groups with sorted lists; empty groups become remarks.
-fn finished(
+fn nonempty_groups(
     groups: BTreeMap<(u8, i32), Group>,
     n_nodes: usize,
     remarks: &mut Vec<Remark>,

@@ -22,7 +22,6 @@ mod element_type;
 mod error;
 mod fields;
 mod groups;
-mod kind;
 mod nodes;
 mod plane;
 mod records;
@@ -33,13 +32,15 @@ mod v2;
 mod v4;
 mod write;
 
-pub use arrays::{Element, assemble};
-pub use error::{GmshError, Place};
-pub use kind::holds_solid;
-pub use write::write;
+use cursor::Cursor;
+use records::Records;
+use sections::{Version, read_format};
 
-use crate::any_mesh::AnyMesh;
-use crate::mesh::Mesh;
+use crate::mesh::{AnyMesh, Mesh};
+
+pub use arrays::{Element, assemble};
+pub use error::{FilePosition, GmshError};
+pub use write::write;
 
 /// Reads the bytes of a Gmsh mesh file of a planar mesh.
 ///
@@ -63,4 +64,33 @@ pub fn parse_any(bytes: &[u8]) -> Result<AnyMesh, GmshError> {
     } else {
         plane::assemble(&cursor, records).map(AnyMesh::Plane)
     }
+}
+
+/// Whether a Gmsh mesh file that begins with these bytes contains volumes, i.e. a solid mesh; files of 4.1 are judged by their entities.
+/// `None` where the bytes end before this is known, or cannot be read.
+pub fn holds_solid(bytes: &[u8]) -> Option<bool> {
+    has_volumes(&mut Cursor::new(bytes)).ok().flatten()
+}
+
+fn has_volumes(cursor: &mut Cursor<'_>) -> Result<Option<bool>, GmshError> {
+    let version = read_format(cursor)?;
+    let mut records = Records::default();
+    while let Some(name) = cursor.begin_section()? {
+        match (name, version) {
+            ("Entities", Version::V4) => {
+                cursor.begin_row();
+                let mut count = || cursor.size("a number of entities");
+                let [_, _, _, volumes] = [count()?, count()?, count()?, count()?];
+                return Ok(Some(volumes > 0));
+            }
+            ("Elements", Version::V2) => v2::read_elements(cursor, &mut records)?,
+            ("Elements", Version::V4) => v4::read_elements(cursor, &mut records)?,
+            _ => {
+                cursor.skip_section()?;
+                continue;
+            }
+        }
+        return Ok(Some(records.first_solid.is_some()));
+    }
+    Ok(None)
 }

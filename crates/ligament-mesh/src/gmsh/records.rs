@@ -79,7 +79,7 @@ pub(super) struct Records {
     pub(super) physicals: HashMap<(u8, i32), Vec<i32>>,
     /// Values at the nodes.
     pub(super) fields: Vec<FieldRecord>,
-    /// Whether a cell in several groups occurs once per group (2.2) rather than once (4.1).
+    /// Whether a cell in several groups has a record for each group, as in format 2.2, and not a single one, as in format 4.1.
     pub(super) repeats_cells: bool,
 }
 

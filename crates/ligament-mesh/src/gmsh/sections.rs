@@ -1,6 +1,6 @@
 //! Reading the sections of a file in order.
 
-use super::cursor::{Cursor, shown};
+use super::cursor::{Cursor, shortened_text};
 use super::error::GmshError;
 use super::records::Records;
 use super::{fields, v2, v4};
@@ -102,7 +102,7 @@ fn read_encoding(cursor: &mut Cursor<'_>) -> Result<(), GmshError> {
     match file_type {
         0 => return Ok(()),
         1 => {}
-        _ => return Err(cursor.unexpected(begin, FILE_TYPE, file_type.to_string())),
+        _ => return Err(cursor.unexpected_text_error(begin, FILE_TYPE, file_type.to_string())),
     }
     if data_size != 8 {
         let place = cursor.place(size_offset);
@@ -121,10 +121,10 @@ fn read_physical_names(cursor: &mut Cursor<'_>, records: &mut Records) -> Result
     for _ in 0..count {
         let (begin, line) = cursor.text_line()?;
         let (key, name) = physical_name(line).ok_or_else(|| {
-            cursor.unexpected(
+            cursor.unexpected_text_error(
                 begin,
                 "a dimension, a number and a name in quotes",
-                shown(line),
+                shortened_text(line),
             )
         })?;
         if !name.is_empty() {

@@ -79,14 +79,14 @@ fn skip_ints(cursor: &mut Cursor<'_>, count: u64, expected: &'static str) -> Res
     Ok(())
 }
 
-/// Head of `$Nodes` or `$Elements`.
-struct Head {
+/// First row of a section `$Nodes` or `$Elements`.
+struct SectionHead {
     offset: usize,
     blocks: u64,
     total: u64,
 }
 
-impl Head {
+impl SectionHead {
     fn read(cursor: &mut Cursor<'_>) -> Result<Self, GmshError> {
         cursor.begin_row();
         let offset = cursor.offset();
@@ -128,14 +128,14 @@ fn dimension(cursor: &mut Cursor<'_>) -> Result<u8, GmshError> {
     let dimension = cursor.int(EXPECTED)?;
     match u8::try_from(dimension) {
         Ok(dimension @ 0..=3) => Ok(dimension),
-        _ => Err(cursor.unexpected(offset, EXPECTED, dimension.to_string())),
+        _ => Err(cursor.unexpected_text_error(offset, EXPECTED, dimension.to_string())),
     }
 }
 
 /// Reads `$Nodes` after its first line.
 pub(super) fn read_nodes(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<(), GmshError> {
     let before = records.nodes.len();
-    let head = Head::read(cursor)?;
+    let head = SectionHead::read(cursor)?;
     let mut tags = Vec::new();
     for _ in 0..head.blocks {
         read_node_block(cursor, records, &mut tags)?;
@@ -205,7 +205,7 @@ pub(super) fn read_elements(
     records: &mut Records,
 ) -> Result<(), GmshError> {
     let before = records.elements.len();
-    let head = Head::read(cursor)?;
+    let head = SectionHead::read(cursor)?;
     for _ in 0..head.blocks {
         read_element_block(cursor, records)?;
     }
@@ -224,7 +224,7 @@ fn read_element_block(cursor: &mut Cursor<'_>, records: &mut Records) -> Result<
     let element_type = records.element_type(cursor, record)?;
     if element_type.0.dimension() != dimension {
         let expected = "an element type of the dimension of its entity";
-        return Err(cursor.unexpected(record.offset, expected, record.code.to_string()));
+        return Err(cursor.unexpected_text_error(record.offset, expected, record.code.to_string()));
     }
     let count_offset = cursor.offset();
     let count = cursor.size("a number of elements")?;

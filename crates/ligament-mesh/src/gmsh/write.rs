@@ -4,8 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use crate::cell::MeshCell;
-use crate::group::Group;
-use crate::mesh::Mesh;
+use crate::mesh::{Group, Mesh};
 
 /// Text of a Gmsh file (4.1, ASCII) of a planar or solid mesh, from which [`parse_any`](super::parse_any) makes an equal mesh: nodes with
 /// their tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also for elements in several

@@ -57,10 +57,10 @@ impl<'a> Faces<'a> {
     /// Sides of cells at a face, ascending by cell: none, one on the outline, or two inside. The corners of the face may begin anywhere and
     /// run either way around it.
     pub fn sides_at(&self, face: &Cell) -> Vec<Side> {
-        let wanted = around(face) >> ORIENTATION;
+        let wanted = face_key(face) >> ORIENTATION;
         let sides = self.sides_of(lowest(face));
         sides
-            .filter(|side| around(&side.face) >> ORIENTATION == wanted)
+            .filter(|side| face_key(&side.face) >> ORIENTATION == wanted)
             .collect()
     }
 
@@ -108,7 +108,7 @@ impl<'a> Faces<'a> {
             keys.clear();
             let numbered = (0..).zip(&sides);
             keys.extend(
-                numbered.map(|(place, side): (u128, &Side)| around(&side.face) << PLACE | place),
+                numbered.map(|(place, side): (u128, &Side)| face_key(&side.face) << PLACE | place),
             );
             keys.sort_unstable();
             for at_face in
@@ -139,7 +139,7 @@ fn lowest(face: &Cell) -> u32 {
 
 /// Key of a face among the faces with the same lowest node: its other corners, beginning with the neighbour of the lowest one that has the
 /// smaller number, 32 bits each, with zero for the middle one of a triangle; and a bit for the direction of this order around the face.
-fn around(face: &Cell) -> u128 {
+fn face_key(face: &Cell) -> u128 {
     let ordered = |first: u32, middle: u32, last: u32| {
         let (low, high) = (first.min(last), first.max(last));
         let corners = u128::from(low) << 64 | u128::from(middle) << 32 | u128::from(high);

@@ -36,7 +36,7 @@ impl SolidMesh {
     pub fn outward_areas(&self, faces: &[Cell]) -> Result<Vec<(u32, [f64; 3])>, NotOnOutline> {
         let of_cells = Faces::new(&self.cells, self.positions.len());
         let mut areas: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
-        for face in once(faces) {
+        for face in distinct_faces(faces) {
             let sides = of_cells.sides_at(&face);
             let [side] = sides.as_slice() else {
                 return Err(self.off_surface(&face, sides.len()));
@@ -56,7 +56,7 @@ impl SolidMesh {
     /// may lie inside the body.
     pub fn areas_at_nodes(&self, faces: &[Cell]) -> Vec<(u32, f64)> {
         let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
-        for face in once(faces) {
+        for face in distinct_faces(faces) {
             for (corners, weight) in thirds(&face) {
                 let [x, y, z] = Cell::Triangle(corners).area_vector(&self.positions);
                 for corner in corners {
@@ -88,7 +88,7 @@ impl SolidMesh {
 }
 
 /// Faces, each once.
-fn once(faces: &[Cell]) -> Vec<Cell> {
+fn distinct_faces(faces: &[Cell]) -> Vec<Cell> {
     let mut faces = faces.to_vec();
     faces.sort_by_key(Cell::sorted_corners);
     faces.dedup_by_key(|face| face.sorted_corners());

@@ -1,11 +1,11 @@
 //! One damaged or unfit file for each refusal of the reader, with the place it is refused at.
 
 use super::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
-use ligament_mesh::gmsh::{GmshError, Place, parse};
+use ligament_mesh::gmsh::{FilePosition, GmshError, parse};
 
 fn unexpected(line: usize, expected: &'static str, found: &str) -> GmshError {
     GmshError::Unexpected {
-        place: Place::Line(line),
+        place: FilePosition::Line(line),
         expected,
         found: found.to_owned(),
     }
@@ -37,7 +37,7 @@ fn empty_files_and_other_files_are_refused() {
 
 #[test]
 fn other_versions_are_refused_with_the_command_that_converts() {
-    let place = Place::Line(2);
+    let place = FilePosition::Line(2);
     let error = refusal("2.2 0 8", "4 0 8");
     assert_eq!(
         error,
@@ -52,7 +52,7 @@ fn other_versions_are_refused_with_the_command_that_converts() {
         ("refused-version-4.msh", 2, "4"),
     ] {
         let (bytes, _) = golden(name, "$");
-        let place = Place::Line(line);
+        let place = FilePosition::Line(line);
         let expected = GmshError::UnsupportedVersion {
             place,
             version: version.to_owned(),
@@ -68,7 +68,7 @@ fn odd_encodings_are_refused() {
         unexpected(2, "the file type 0 (ASCII) or 1 (binary)", "2")
     );
     let expected = GmshError::UnsupportedDataSize {
-        place: Place::Line(2),
+        place: FilePosition::Line(2),
         bytes: 4,
     };
     assert_eq!(refusal("2.2 0 8", "2.2 1 4"), expected);
@@ -77,7 +77,7 @@ fn odd_encodings_are_refused() {
     assert_eq!(
         parse(&bytes),
         Err(GmshError::UnknownByteOrder {
-            place: Place::Byte(at - 5)
+            place: FilePosition::Byte(at - 5)
         })
     );
 }
@@ -86,14 +86,14 @@ fn odd_encodings_are_refused() {
 fn unknown_sections_are_refused() {
     let error = refusal("$EndNodes\n", "$EndNodes\n$Colours\n3\n$EndColours\n");
     let expected = GmshError::UnknownSection {
-        place: Place::Line(11),
+        place: FilePosition::Line(11),
         name: "Colours".to_owned(),
     };
     assert_eq!(error, expected);
     // Entities are of format 4.1.
     let error = refusal("$Nodes\n", "$Entities\n0 0 0 0\n$EndEntities\n$Nodes\n");
     let expected = GmshError::UnknownSection {
-        place: Place::Line(4),
+        place: FilePosition::Line(4),
         name: "Entities".to_owned(),
     };
     assert_eq!(error, expected);
@@ -135,7 +135,7 @@ fn truncated_sections_are_refused() {
         let square = SQUARE.replace("1 0 0 0", "1 0.00000000000000000 0 0");
         let text = &square[..square.find(end).unwrap() + end.len()];
         let expected = GmshError::TruncatedSection {
-            place: Place::Line(line),
+            place: FilePosition::Line(line),
             name: name.to_owned(),
         };
         assert_eq!(parse(text.as_bytes()), Err(expected), "cut behind {end:?}");
@@ -147,7 +147,7 @@ fn truncated_sections_are_refused() {
     truncated("1 1 3 4\n", 11, "Elements");
     let error = parse(format!("{SQUARE}$NodeData\n1\n").as_bytes()).unwrap_err();
     let expected = GmshError::TruncatedSection {
-        place: Place::Line(17),
+        place: FilePosition::Line(17),
         name: "NodeData".to_owned(),
     };
     assert_eq!(error, expected);
@@ -158,7 +158,7 @@ fn truncated_binary_sections_are_refused_at_their_offset() {
     let (bytes, at) = golden("triangles-41-binary.msh", "$Entities");
     let error = parse(&bytes[..at + 100]).unwrap_err();
     let expected = GmshError::TruncatedSection {
-        place: Place::Byte(at),
+        place: FilePosition::Byte(at),
         name: "Entities".to_owned(),
     };
     assert_eq!(error, expected);
@@ -242,7 +242,7 @@ fn wrong_words_are_refused_with_what_was_expected() {
 fn counts_that_the_file_cannot_hold_are_refused() {
     let beyond = |line, items, count| {
         Err(GmshError::CountBeyondFile {
-            place: Place::Line(line),
+            place: FilePosition::Line(line),
             items,
             count,
         })
@@ -277,7 +277,7 @@ fn blocks_beyond_the_count_are_refused_in_binary_files() {
     // One block of four triangles.
     let count = at + "$Elements\n".len();
     bytes[count] = b'3';
-    let place = Place::Byte(count);
+    let place = FilePosition::Byte(count);
     let expected = GmshError::CountMismatch {
         place,
         items: "elements",
@@ -294,7 +294,7 @@ fn counts_that_lie_are_refused_in_binary_files() {
     let count = at + "$Elements\n99\n".len() + 4;
     bytes[count..count + 4].copy_from_slice(&i32::MAX.to_le_bytes());
     let expected = GmshError::CountBeyondFile {
-        place: Place::Byte(count),
+        place: FilePosition::Byte(count),
         items: "elements",
         count: i32::MAX as u64,
     };
@@ -304,7 +304,7 @@ fn counts_that_lie_are_refused_in_binary_files() {
     let total = at + "$Nodes\n".len() + 8;
     bytes[total..total + 8].copy_from_slice(&7_u64.to_le_bytes());
     let expected = GmshError::CountMismatch {
-        place: Place::Byte(total - 8),
+        place: FilePosition::Byte(total - 8),
         items: "nodes",
         announced: 7,
         found: 22,
@@ -315,7 +315,7 @@ fn counts_that_lie_are_refused_in_binary_files() {
 #[test]
 fn blocks_that_hold_another_number_are_refused() {
     let error = refusal_of(SQUARE_41, "1 4 1 4", "1 5 1 5");
-    let place = Place::Line(5);
+    let place = FilePosition::Line(5);
     assert_eq!(
         error,
         GmshError::CountMismatch {
@@ -326,7 +326,7 @@ fn blocks_that_hold_another_number_are_refused() {
         }
     );
     let error = refusal_of(SQUARE_41, "2 3 1 3", "1 3 1 3");
-    let place = Place::Line(17);
+    let place = FilePosition::Line(17);
     assert_eq!(
         error,
         GmshError::CountMismatch {

@@ -1,7 +1,7 @@
 //! Values at nodes: what is read of `$NodeData`, and what is refused.
 
 use super::square::{SQUARE, SQUARE_41, golden};
-use ligament_mesh::gmsh::{self, GmshError, Place};
+use ligament_mesh::gmsh::{self, FilePosition, GmshError};
 use ligament_mesh::{Mesh, NodeField};
 
 /// A scalar at nodes 1, 3 and at one that the file does not have; its rows are lines 26 to 28 behind the square.
@@ -70,7 +70,7 @@ fn fields_of_gmsh_are_read_in_every_encoding() {
 fn damaged_fields_are_refused_with_their_place() {
     let refused = |old: &str, new: &str| with(&SCALAR.replacen(old, new, 1)).unwrap_err();
     let unexpected = |line, expected, found: &str| GmshError::Unexpected {
-        place: Place::Line(line),
+        place: FilePosition::Line(line),
         expected,
         found: found.to_owned(),
     };
@@ -93,7 +93,7 @@ fn damaged_fields_are_refused_with_their_place() {
     assert_eq!(
         refused("1\n3\n1 20.5", "1\n3000\n1 20.5"),
         GmshError::CountBeyondFile {
-            place: Place::Line(25),
+            place: FilePosition::Line(25),
             items: "values at nodes",
             count: 3000
         }

@@ -1,11 +1,11 @@
 //! One file for each refusal of what is no planar mesh, with the place it is refused at.
 
 use super::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
-use ligament_mesh::gmsh::{GmshError, Place, parse};
+use ligament_mesh::gmsh::{FilePosition, GmshError, parse};
 
 #[test]
 fn unknown_and_volume_elements_are_refused() {
-    let place = Place::Line(14);
+    let place = FilePosition::Line(14);
     for code in [0, -1, 34, 141] {
         let error = refusal("2 2 2 2 1 1 2 3", &format!("2 {code} 2 2 1 1 2 3"));
         assert_eq!(error, GmshError::UnknownElementType { place, code });
@@ -21,7 +21,7 @@ fn unknown_and_volume_elements_are_refused() {
 
 #[test]
 fn coordinates_that_are_no_numbers_are_refused() {
-    let place = Place::Line(8);
+    let place = FilePosition::Line(8);
     for (word, value) in [
         ("inf", f64::INFINITY),
         ("-1e400", f64::NEG_INFINITY),
@@ -44,7 +44,7 @@ fn coordinates_that_are_no_numbers_are_refused() {
 #[test]
 fn duplicate_node_tags_are_refused() {
     let error = refusal("4 0 1 0", "2 0 1 0");
-    let (place, first) = (Place::Line(9), Place::Line(7));
+    let (place, first) = (FilePosition::Line(9), FilePosition::Line(7));
     assert_eq!(
         error,
         GmshError::DuplicateNodeTag {
@@ -67,7 +67,7 @@ fn tags_far_apart_are_read_and_refused_alike() {
     assert_eq!(
         parse(far(SQUARE).as_bytes()),
         Err(GmshError::MissingNode {
-            place: Place::Line(15),
+            place: FilePosition::Line(15),
             element: 3,
             node: 4,
         })
@@ -76,9 +76,9 @@ fn tags_far_apart_are_read_and_refused_alike() {
     assert_eq!(
         parse(twice.as_bytes()),
         Err(GmshError::DuplicateNodeTag {
-            place: Place::Line(9),
+            place: FilePosition::Line(9),
             tag: 2_000_000_000,
-            first: Place::Line(8),
+            first: FilePosition::Line(8),
         })
     );
 }
@@ -86,7 +86,7 @@ fn tags_far_apart_are_read_and_refused_alike() {
 #[test]
 fn missing_nodes_are_refused() {
     let missing = |line, element| GmshError::MissingNode {
-        place: Place::Line(line),
+        place: FilePosition::Line(line),
         element,
         node: 9,
     };
@@ -114,7 +114,7 @@ fn meshes_without_cells_are_refused() {
 #[test]
 fn meshes_out_of_one_plane_are_refused() {
     let error = refusal("3 1 1 0\n", "3 1 1 1e-6\n");
-    let place = Place::Line(8);
+    let place = FilePosition::Line(8);
     assert_eq!(
         error,
         GmshError::NotPlanar {
@@ -141,7 +141,7 @@ fn meshes_out_of_one_plane_are_refused() {
 
 #[test]
 fn nodes_at_one_place_are_refused() {
-    let place = Place::Line(9);
+    let place = FilePosition::Line(9);
     for (x, y) in [
         (1.0, 1.0),
         (1.0 - 4e-13, 1.0 + 4e-13),
@@ -168,7 +168,7 @@ fn nodes_at_one_place_are_refused() {
 
 #[test]
 fn cells_without_area_are_refused() {
-    let place = Place::Line(14);
+    let place = FilePosition::Line(14);
     let error = refusal("2 1 0 0\n", "2 0.5 0.5 0\n");
     assert_eq!(error, GmshError::ZeroArea { place, element: 2 });
     let error = refusal("2 1 0 0\n", "2 0.7 0.6999999999999999 0\n");
@@ -194,7 +194,7 @@ fn quadrangles_that_are_not_convex_are_refused() {
     let begin = SQUARE.find("2 2 2 2 1").unwrap();
     let text = format!("{}{quadrangle}$EndElements\n", &SQUARE[..begin])
         .replace("$Elements\n3", "$Elements\n2");
-    let place = Place::Line(14);
+    let place = FilePosition::Line(14);
     assert_eq!(parse(text.as_bytes()).unwrap().area(), 1.0);
     // An arrow head, a crossed one with area, and one whose two halves cancel.
     for row in ["3 0.4 0.4 0", "3 -0.5 0.5 0"] {
@@ -219,7 +219,7 @@ fn quadrangles_that_are_not_convex_are_refused() {
 #[test]
 fn overlapping_cells_are_refused() {
     let expected = GmshError::OverlappingCells {
-        place: Place::Line(15),
+        place: FilePosition::Line(15),
         element: 3,
         other: 2,
     };
@@ -252,10 +252,10 @@ fn coarse_cells_over_fine_ones_are_refused() {
     assert_eq!(parse(file(&[]).as_bytes()).unwrap().area(), 4.0);
     // Elements begin in line 18; the first cell lies in the first large triangle.
     let expected = |other: u64| GmshError::CoveringCells {
-        place: Place::Line(26),
+        place: FilePosition::Line(26),
         element: 9,
         other,
-        other_place: Place::Line(17 + other as usize),
+        other_place: FilePosition::Line(17 + other as usize),
     };
     let error = parse(file(&["1 3 9", "1 9 7"]).as_bytes()).unwrap_err();
     assert!(
@@ -275,7 +275,7 @@ fn coarse_cells_over_fine_ones_are_refused() {
 
 #[test]
 fn duplicate_cells_are_refused() {
-    let place = Place::Line(15);
+    let place = FilePosition::Line(15);
     let expected = GmshError::DuplicateCell {
         place,
         element: 3,
@@ -292,7 +292,7 @@ fn duplicate_cells_are_refused() {
         .collect();
     assert!(groups.iter().all(|group| group.cells == [0]) && groups.len() == 2);
     // In format 4.1 it is not.
-    let place = Place::Line(22);
+    let place = FilePosition::Line(22);
     let expected = GmshError::DuplicateCell {
         place,
         element: 3,

@@ -1,7 +1,7 @@
 //! One file for each refusal of what is no solid mesh, with the place it is refused at.
 
 use super::small_files::{CHAPEL, changed};
-use ligament_mesh::gmsh::{GmshError, Place, parse_any};
+use ligament_mesh::gmsh::{FilePosition, GmshError, parse_any};
 
 fn refusal(old: &str, new: &str) -> GmshError {
     parse_any(changed(old, new).as_bytes()).unwrap_err()
@@ -21,7 +21,7 @@ fn flat_cells_are_refused() {
         else {
             panic!("{error}")
         };
-        assert_eq!(place, Place::Line(23));
+        assert_eq!(place, FilePosition::Line(23));
         assert!(
             (fraction - (height - 1.0) / 3.0).abs() < 1e-15,
             "{fraction}"
@@ -51,7 +51,7 @@ fn flat_cells_are_refused() {
 #[test]
 fn cells_that_are_not_convex_are_refused() {
     let expected = |line, element, shape| GmshError::NotConvexSolid {
-        place: Place::Line(line),
+        place: FilePosition::Line(line),
         element,
         shape,
     };
@@ -74,7 +74,7 @@ fn cells_that_are_not_convex_are_refused() {
 fn a_corner_that_stands_twice_is_refused() {
     let error = refusal("5 1 1 2 3 4 5 6 7 8", "5 1 1 2 3 4 5 6 7 7");
     let expected = GmshError::RepeatedCorner {
-        place: Place::Line(22),
+        place: FilePosition::Line(22),
         element: 5,
         node: 7,
     };
@@ -90,7 +90,7 @@ fn cells_twice_or_over_each_other_are_refused() {
         );
         parse_any(text.replace("$Elements\n6", "$Elements\n7").as_bytes()).unwrap_err()
     };
-    let place = Place::Line(24);
+    let place = FilePosition::Line(24);
     let duplicate = GmshError::DuplicateCell {
         place,
         element: 7,
@@ -135,10 +135,10 @@ fn coarse_solids_over_fine_ones_are_refused() {
         panic!("{error}")
     };
     let expected = GmshError::CoveringCells {
-        place: Place::Line(44),
+        place: FilePosition::Line(44),
         element: 9,
         other,
-        other_place: Place::Line(35 + other as usize),
+        other_place: FilePosition::Line(35 + other as usize),
     };
     assert_eq!(error, expected);
 }
@@ -148,7 +148,7 @@ fn nodes_at_one_place_are_refused() {
     let near =
         changed("6 1 5 6 7 8 9", "6 1 5 6 7 8 9").replace("9 0.5 0.5 2", "9 1 1 1.0000000000001");
     let expected = GmshError::CoincidentNodesInSpace {
-        place: Place::Line(14),
+        place: FilePosition::Line(14),
         tag: 9,
         other: 7,
         position: [1.0, 1.0, 1.000_000_000_000_1],
@@ -163,7 +163,7 @@ fn faces_of_no_cell_are_refused() {
         .replace("3 1 1 2 3 4", "3 1 1 2 21 20");
     for text in [shell, changed("3 3 2 3 1 1 2 3 4", "3 2 2 3 1 1 2 3")] {
         let expected = |line| GmshError::LooseFace {
-            place: Place::Line(line),
+            place: FilePosition::Line(line),
             element: 3,
             group: "3".to_owned(),
         };

@@ -10,13 +10,13 @@ use crate::{Error, read_text};
 
 /// A table in memory, all values as texts.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Sheet {
+pub struct CsvTable {
     path: PathBuf,
     columns: Vec<String>,
     rows: Vec<StringRecord>,
 }
 
-impl Sheet {
+impl CsvTable {
     /// Reads a table. A last row without a line feed, which a run is just writing, is left out.
     ///
     /// # Errors
@@ -112,10 +112,10 @@ impl Sheet {
 
     fn place(&self, column: &str) -> Result<usize, Error> {
         let place = self.columns.iter().position(|name| name == column);
-        place.ok_or_else(|| self.strange(format!("it has no column `{column}`")))
+        place.ok_or_else(|| self.malformed(format!("it has no column `{column}`")))
     }
 
-    fn strange(&self, reason: String) -> Error {
+    fn malformed(&self, reason: String) -> Error {
         let path = self.path.clone();
         Error::Unreadable { path, reason }
     }
@@ -124,7 +124,7 @@ impl Sheet {
 /// A row of a table.
 #[derive(Debug, Clone, Copy)]
 pub struct Row<'a> {
-    sheet: &'a Sheet,
+    sheet: &'a CsvTable,
     /// Number of the row, from 0.
     number: usize,
 }
@@ -163,7 +163,7 @@ impl Row<'_> {
     fn no_value(&self, column: &str, text: &str) -> Error {
         let row = self.number + 1;
         let reason = format!("`{text}` in column `{column}`, row {row}, is no value");
-        self.sheet.strange(reason)
+        self.sheet.malformed(reason)
     }
 }
 
@@ -199,7 +199,7 @@ mod tests {
             for (text, number, count) in &rows {
                 table.append(&[text.as_str().into(), (*number).into(), (*count).into()]).unwrap();
             }
-            let sheet = Sheet::read(&path).unwrap();
+            let sheet = CsvTable::read(&path).unwrap();
             let texts: Vec<&str> = sheet.texts("a, \"text\"").unwrap().collect();
             prop_assert_eq!(texts, rows.iter().map(|row| row.0.as_str()).collect::<Vec<_>>());
             let numbers: Vec<f64> = sheet.values("number").unwrap();
@@ -212,11 +212,11 @@ mod tests {
         }
     }
 
-    fn read(text: &str) -> Result<Sheet, Error> {
+    fn read(text: &str) -> Result<CsvTable, Error> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("table.csv");
         fs::write(&path, text).unwrap();
-        Sheet::read(path)
+        CsvTable::read(path)
     }
 
     #[test]

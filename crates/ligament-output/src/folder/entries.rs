@@ -6,10 +6,10 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::kind::{Kind, REPORT, unfinished};
+use super::kind::{Kind, REPORT, final_name};
 use crate::Error;
 use crate::atomic::remove_file;
-use crate::remedy::{Place, Remedy};
+use crate::remedy::{PathKind, Remedy};
 
 /// Names of the entries of a folder.
 ///
@@ -39,11 +39,11 @@ pub(super) fn remove_files(folder: &Path, is_one: impl Fn(&str) -> bool) -> Resu
 ///
 /// If the folder cannot be listed, or a page cannot be removed.
 pub fn remove_unfinished_pages(folder: &Path) -> Result<(), Error> {
-    remove_files(folder, |name| unfinished(name) == Some(REPORT))
+    remove_files(folder, |name| final_name(name) == Some(REPORT))
 }
 
 /// The folder of a path, with links resolved and without a separator at the end.
-pub(super) fn resolved(path: &Path) -> PathBuf {
+pub(super) fn resolve_links(path: &Path) -> PathBuf {
     let plain: PathBuf = path.components().collect();
     let is_link = fs::symlink_metadata(&plain).is_ok_and(|it| it.is_symlink());
     match fs::canonicalize(&plain) {
@@ -62,7 +62,7 @@ pub fn refuse_link(path: &Path) -> Result<(), Error> {
         Ok(found) if found.is_symlink() => Err(Error::Link(path.to_path_buf())),
         // A pipe would block until it is opened at its other end.
         Ok(found) if !found.is_file() && !found.is_dir() => {
-            let remedy = Remedy::Elsewhere(Place::File, None);
+            let remedy = Remedy::OtherPath(PathKind::File, None);
             Err(Error::NoPlaceForFile(path.to_path_buf(), remedy))
         }
         _ => Ok(()),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::atomic::PASSING;
+use crate::atomic::UNSYNCED_MARKER;
 use crate::vtu;
 
 /// File that every run writes first; the marker of a folder with the results of a run.
@@ -76,12 +76,12 @@ impl Kind {
     /// The kind of the results of a run.
     pub const RUN: Self = Self {
         marker: RESOLVED_CASE,
-        owns: is_of_a_run,
+        owns: is_run_file,
         holds_run: |_| false,
     };
 
     /// A kind whose results always have the same files.
-    pub const fn marked(marker: &'static str) -> Self {
+    pub const fn with_marker(marker: &'static str) -> Self {
         Self {
             marker,
             owns: |_| false,
@@ -91,8 +91,8 @@ impl Kind {
 
     /// Whether a file of this name may be removed with the results.
     pub(super) fn may_remove(self, name: &str) -> bool {
-        name == self.marker || [LOCK, REPLACED, PASSING].contains(&name) || {
-            let whole = unfinished(name).unwrap_or(name);
+        name == self.marker || [LOCK, REPLACED, UNSYNCED_MARKER].contains(&name) || {
+            let whole = final_name(name).unwrap_or(name);
             (self.owns)(whole) || self.is_unfinished(name)
         }
     }
@@ -100,28 +100,28 @@ impl Kind {
     /// Whether a file of this name is an unfinished file of the program.
     pub(super) fn is_unfinished(self, name: &str) -> bool {
         let is_own = |whole| whole == self.marker || whole == REPORT || (self.owns)(whole);
-        unfinished(name).is_some_and(is_own)
+        final_name(name).is_some_and(is_own)
     }
 }
 
 /// Final name `NAME` of a temporary file `.NAME.PROCESS.partial`; `None` for other files.
-pub(super) fn unfinished(name: &str) -> Option<&str> {
+pub(super) fn final_name(name: &str) -> Option<&str> {
     let inner = name.strip_prefix('.')?.strip_suffix(".partial")?;
     let (whole, process) = inner.rsplit_once('.')?;
     is_number(process).then_some(whole)
 }
 
 /// Whether a file of this name is a lock or another mark, or an unfinished file of the program.
-pub(super) fn is_own_trace(name: &str) -> bool {
-    [LOCK, PASSING].contains(&name) || Kind::RUN.is_unfinished(name)
+pub(super) fn is_lock_or_temporary(name: &str) -> bool {
+    [LOCK, UNSYNCED_MARKER].contains(&name) || Kind::RUN.is_unfinished(name)
 }
 
-fn is_of_a_run(name: &str) -> bool {
+fn is_run_file(name: &str) -> bool {
     let is_model = vtu::stem(name) == Some(MODEL_STEM);
     OF_A_RUN.contains(&name)
         || is_model
         || is_numbered(name, &NUMBERED)
-        || is_made_later(name)
+        || is_derived_file(name)
         || name.starts_with("checkpoint")
         || is_input(name)
 }
@@ -141,7 +141,7 @@ pub fn input_name(key: &str, file: &Path) -> String {
 }
 
 /// Whether a file of this name is derived from the results of a run later: of its cracks, or of another surface.
-pub fn is_made_later(name: &str) -> bool {
+pub fn is_derived_file(name: &str) -> bool {
     OF_SURFACES.contains(&name) || is_numbered(name, &NUMBERED_SURFACES)
 }
 
@@ -166,10 +166,10 @@ mod tests {
         assert!(
             later
                 .iter()
-                .all(|name| is_made_later(name) && Kind::RUN.may_remove(name))
+                .all(|name| is_derived_file(name) && Kind::RUN.may_remove(name))
         );
         let of_the_run = ["fields_0007.vtu", "history.csv", "crack_a.vtu", "iso.stl"];
-        assert!(!of_the_run.iter().any(|name| is_made_later(name)));
+        assert!(!of_the_run.iter().any(|name| is_derived_file(name)));
     }
 
     #[test]

@@ -7,19 +7,19 @@ use std::path::{Path, PathBuf};
 use super::kind::LOCK;
 use crate::Error;
 use crate::atomic::process_number;
-use crate::remedy::{Place, Remedy, Way};
+use crate::remedy::{PathKind, Remedy, Resolution};
 
 /// A lock on a folder, which is released with this value or at the end of the process.
 ///
 /// The lock is the system's on an open file, so that a killed process leaves none; the file has the number of the process. On file systems
 /// without locks there is no lock.
 #[derive(Debug)]
-pub(super) struct Lock {
+pub(super) struct FolderLock {
     path: PathBuf,
     _file: File,
 }
 
-impl Lock {
+impl FolderLock {
     /// Locks an existing folder.
     ///
     /// # Errors
@@ -36,8 +36,8 @@ impl Lock {
                 .open(&path);
             let mut file = options.map_err(Error::system("write", &path))?;
             match file.try_lock() {
-                Err(TryLockError::WouldBlock) => return Err(busy(folder, &mut file)),
-                Err(TryLockError::Error(error)) if !is_unknown(&error) => {
+                Err(TryLockError::WouldBlock) => return Err(busy_error(folder, &mut file)),
+                Err(TryLockError::Error(error)) if !is_unsupported(&error) => {
                     return Err(Error::system("lock", &path)(error));
                 }
                 // The previous process with the lock may have removed the file since it was opened.
@@ -60,36 +60,36 @@ impl Lock {
             return Ok(());
         };
         match file.try_lock_shared() {
-            Err(TryLockError::WouldBlock) => Err(busy(folder, &mut file)),
+            Err(TryLockError::WouldBlock) => Err(busy_error(folder, &mut file)),
             _ => Ok(()),
         }
     }
 
     /// Sets the path of the lock after its folder was renamed.
-    pub(super) fn moved_to(&mut self, folder: &Path) {
+    pub(super) fn set_folder(&mut self, folder: &Path) {
         self.path = folder.join(LOCK);
     }
 }
 
-impl Drop for Lock {
+impl Drop for FolderLock {
     fn drop(&mut self) {
         // A remaining file is harmless: only its lock counts.
         let _ = fs::remove_file(&self.path);
     }
 }
 
-fn is_unknown(error: &io::Error) -> bool {
+fn is_unsupported(error: &io::Error) -> bool {
     error.kind() == io::ErrorKind::Unsupported
 }
 
-fn busy(folder: &Path, file: &mut File) -> Error {
+fn busy_error(folder: &Path, file: &mut File) -> Error {
     let mut process = String::new();
     // A process that has just taken the lock may not have written its number yet.
     let _ = file.take(20).read_to_string(&mut process);
     Error::Busy {
         path: folder.to_path_buf(),
         process: process.trim().parse().ok(),
-        remedy: Remedy::Elsewhere(Place::Folder, Some(Way::Wait)),
+        remedy: Remedy::OtherPath(PathKind::Folder, Some(Resolution::Wait)),
     }
 }
 

@@ -12,7 +12,7 @@ use super::entries::{names, refuse_link};
 use super::kind::{Kind, REPLACED};
 use crate::Error;
 use crate::atomic::rename;
-use crate::remedy::{Place, Remedy, Way};
+use crate::remedy::{PathKind, Remedy, Resolution};
 use crate::replace_file;
 
 /// A folder with `suffix` behind its name.
@@ -22,7 +22,7 @@ use crate::replace_file;
 /// If the path has no name, such as `..`.
 pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
     let name = folder.file_name();
-    let remedy = Remedy::Elsewhere(Place::Folder, None);
+    let remedy = Remedy::OtherPath(PathKind::Folder, None);
     let name = name.ok_or_else(|| Error::UnnamedFolder(folder.to_path_buf(), remedy))?;
     let mut longer = OsString::from(name);
     longer.push(suffix);
@@ -34,25 +34,25 @@ pub(super) fn sibling(folder: &Path, suffix: &str) -> Result<PathBuf, Error> {
 /// # Errors
 ///
 /// If the path has no name, or is a link.
-pub(super) fn beside(folder: &Path) -> Result<PathBuf, Error> {
+pub(super) fn path_of_new_results(folder: &Path) -> Result<PathBuf, Error> {
     let new = sibling(folder, ".new")?;
     refuse_link(&new)?;
     Ok(new)
 }
 
 /// The folder whose new results are written to this folder; `None` for other names.
-pub(super) fn behind(new: &Path) -> Option<PathBuf> {
+pub(super) fn folder_of_new_results(new: &Path) -> Option<PathBuf> {
     let name = new.file_name()?.to_str()?.strip_suffix(".new")?;
     Some(new.with_file_name(name))
 }
 
 /// Path to which old results are moved; it must not exist.
-pub(super) fn free_place_aside(folder: &Path) -> Result<PathBuf, Error> {
+pub(super) fn path_of_old_results(folder: &Path) -> Result<PathBuf, Error> {
     let aside = sibling(folder, ".replaced")?;
     // `exists` would follow a dangling link.
     match fs::symlink_metadata(&aside) {
         Ok(_) => {
-            let remedy = Remedy::Elsewhere(Place::Folder, Some(Way::Remove));
+            let remedy = Remedy::OtherPath(PathKind::Folder, Some(Resolution::Remove));
             Err(Error::ReplacedExists(aside, remedy))
         }
         Err(_) => Ok(aside),
@@ -65,7 +65,7 @@ pub(super) fn free_place_aside(folder: &Path) -> Result<PathBuf, Error> {
 ///
 /// If the path is a link, or a folder cannot be renamed; the old results are then unchanged. Files that cannot be removed remain in
 /// `NAME.replaced`.
-pub fn put_in_place(
+pub fn replace_folder(
     new: &Path,
     folder: &Path,
     kind: Kind,
@@ -73,7 +73,7 @@ pub fn put_in_place(
 ) -> Result<(), Error> {
     // The target of a link must not be replaced.
     refuse_link(folder)?;
-    let aside = free_place_aside(folder)?;
+    let aside = path_of_old_results(folder)?;
     let mark = folder.join(REPLACED);
     replace_file(&mark, b"")?;
     fs::rename(folder, &aside).map_err(Error::system("move aside", folder))?;
@@ -100,7 +100,7 @@ pub fn recover(folder: &Path, kind: Kind) -> Result<(), Error> {
         return Ok(());
     }
     if fs::symlink_metadata(folder).is_err() {
-        let new = beside(folder)?;
+        let new = path_of_new_results(folder)?;
         // The old results are restored if there are no new ones.
         let whole = if new.join(kind.marker).is_file() {
             &new

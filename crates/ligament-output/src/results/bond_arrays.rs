@@ -6,7 +6,7 @@ use std::path::Path;
 use super::cracks::{columns_of_ends, tag_pair};
 use super::location;
 use super::model_file::{DISSIPATED_ENERGY, model_file};
-use crate::csv::read::Sheet;
+use crate::csv::read::CsvTable;
 use crate::vtu::Cell;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
@@ -68,7 +68,7 @@ impl BondArrays {
 /// The step in which each bond broke, from the table of broken bonds.
 fn steps_of_breaking(folder: &Path, model: &VtuFile, ends: &[[u32; 2]]) -> Result<Vec<i64>, Error> {
     let (_, tags) = model.tags(FieldLocation::Point)?;
-    let sheet = Sheet::read(folder.join("breaks.csv"))?;
+    let sheet = CsvTable::read(folder.join("breaks.csv"))?;
     let columns = columns_of_ends(&sheet);
     let broken = sheet.rows(|row| Ok((tag_pair(row, &columns)?, row.value("step")?)))?;
     let broken: HashMap<[i64; 2], i64> = broken.into_iter().collect();

@@ -15,7 +15,7 @@ use ligament_post::crack::CrackLine;
 use super::columns::{CRACK, CRACK_TIPS, TIP_SPEED, names};
 use super::crack_growth::{CrackSize, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
-use super::opened_files::{OPENED, write_opened_plane};
+use super::opened_files::{OPENED, write_opened_plane_cells};
 use super::surface_files::fields_until;
 use crate::Error;
 use crate::atomic::remove_file;
@@ -32,7 +32,7 @@ pub const CRACK_FILES: [&str; 5] = [
 ];
 
 /// A record of the history with its cracks.
-struct WithLines<'a> {
+struct RecordWithLines<'a> {
     record: &'a CrackRecord,
     lines: Vec<CrackLine>,
 }
@@ -52,14 +52,14 @@ pub fn write_cracks(
     write_grid(&folder.join(CRACK_FILES[1]), &lines)?;
     let opened = folder.join(CRACK_FILES[4]);
     let has_cells = match fields_until(folder, step)? {
-        Some(fields) => write_opened_plane(&opened, cracks, step, &fields)?,
+        Some(fields) => write_opened_plane_cells(&opened, cracks, step, &fields)?,
         None => false,
     };
     if !has_cells {
         remove_file(&opened)?;
     }
-    let grown: Vec<WithLines<'_>> = (cracks.grown_records().into_iter())
-        .map(|record| WithLines {
+    let grown: Vec<RecordWithLines<'_>> = (cracks.records_with_growth().into_iter())
+        .map(|record| RecordWithLines {
             lines: cracks.lines_at(record),
             record,
         })
@@ -123,7 +123,11 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     vtu::write_vtu(path, &grid)
 }
 
-fn write_tips(path: &Path, cracks: &StoredCracks, grown: &[WithLines<'_>]) -> Result<(), Error> {
+fn write_tips(
+    path: &Path,
+    cracks: &StoredCracks,
+    grown: &[RecordWithLines<'_>],
+) -> Result<(), Error> {
     let mut columns = names(CRACK_TIPS, false);
     if cracks.in_time {
         columns.extend(names(TIP_SPEED, false));
@@ -131,10 +135,10 @@ fn write_tips(path: &Path, cracks: &StoredCracks, grown: &[WithLines<'_>]) -> Re
     let mut table = Table::create(path, &columns)?;
     let reach = cracks.mean_horizon();
     let (mut earlier, mut time) = (Vec::new(), f64::NAN);
-    for WithLines { record, lines } in grown {
+    for RecordWithLines { record, lines } in grown {
         let tips: Vec<[f64; 2]> = lines.iter().flat_map(CrackLine::tips).collect();
         for (number, line) in (1_u32..).zip(lines) {
-            let ways = line.ways_of_tips(&earlier, reach);
+            let ways = line.advances_of_tips(&earlier, reach);
             for ([x, y], way) in line.tips().zip(ways) {
                 let speed = way.map(|it| it / (record.load_factor - time));
                 let mut row = vec![
@@ -157,8 +161,8 @@ fn write_tips(path: &Path, cracks: &StoredCracks, grown: &[WithLines<'_>]) -> Re
 }
 
 /// Sizes of the cracks at the records.
-fn sizes<'a>(cracks: &StoredCracks, records: &[WithLines<'a>]) -> Vec<CrackSize<'a>> {
-    let size = |WithLines { record, lines }: &WithLines<'a>| {
+fn sizes<'a>(cracks: &StoredCracks, records: &[RecordWithLines<'a>]) -> Vec<CrackSize<'a>> {
+    let size = |RecordWithLines { record, lines }: &RecordWithLines<'a>| {
         // The sum of an empty iterator would be -0.0.
         let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         let tips = lines.iter().flat_map(CrackLine::tips).count();

@@ -7,14 +7,16 @@ use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_mesh::Cell;
 use ligament_model::Canvas;
 use ligament_post::OpenedCells;
-use ligament_post::crack::{CrackLine, Faces, Part, crack_lines, opened_cells, sides_of_cells};
+use ligament_post::crack::{
+    CrackLine, FaceState, Faces, crack_lines, opened_cells, sides_of_cells,
+};
 
 use super::columns::is_in_time;
 use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::point_fields::location;
 use super::softening_table::{self, CrackedBelow};
-use crate::csv::read::{Row, Sheet};
-use crate::vtu::read::{TAGGED, VtuFile};
+use crate::csv::read::{CsvTable, Row};
+use crate::vtu::read::{TAG_NOUNS, VtuFile};
 use crate::{Error, FieldLocation, vtu};
 
 /// The faces of a body with the order in which a run opened them.
@@ -30,16 +32,16 @@ pub struct StoredCracks {
     horizon: Vec<f64>,
     /// Faces that a pre-crack separates.
     cut: Vec<usize>,
-    /// Faces that opened, with the moment of opening.
-    opened: Vec<(usize, Moment)>,
+    /// Faces that opened, with the event of opening.
+    opened: Vec<(usize, OpeningEvent)>,
     records: Vec<CrackRecord>,
     /// Whether the run is a motion, whose load factor is the time.
     pub(super) in_time: bool,
 }
 
-/// The moment from which a face is open.
+/// The event from which a face is open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Moment {
+pub(super) enum OpeningEvent {
     /// Breakage of a bond, by its number in the order of all breakages, from 1.
     Breakage(usize),
     /// Opening of a softening bond in this step.
@@ -100,10 +102,10 @@ impl StoredCracks {
         };
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let breaks = (1..).zip(broken_pairs(folder)?);
-        let breaks = breaks.map(|(order, tags)| (tags, Moment::Breakage(order)));
+        let breaks = breaks.map(|(order, tags)| (tags, OpeningEvent::Breakage(order)));
         let all = breaks.chain(softened_pairs(folder, cracked)?);
-        let opened = all.filter_map(|(tags, moment)| Some((place(tags)?, moment)));
-        let history = Sheet::read(folder.join("history.csv"))?;
+        let opened = all.filter_map(|(tags, event)| Some((place(tags)?, event)));
+        let history = CsvTable::read(folder.join("history.csv"))?;
         Ok(Self {
             thickness: body.thickness,
             cut: cut.into_iter().filter_map(place).collect(),
@@ -128,19 +130,19 @@ impl StoredCracks {
 
     /// The cracks in the state of a record.
     pub fn lines_at(&self, record: &CrackRecord) -> Vec<CrackLine> {
-        crack_lines(&self.faces, &self.parts(Some(record)), &self.horizon)
+        crack_lines(&self.faces, &self.face_states(Some(record)), &self.horizon)
     }
 
     /// The cells between the points of the body, opened along the cracks and the pre-cracks in the state of a step, or of the last step
     /// before it.
     pub fn opened_cells(&self, step: usize) -> OpenedCells<Cell> {
-        opened_cells((&self.positions, &self.cells), self.is_parted(step))
+        opened_cells((&self.positions, &self.cells), self.is_separated(step))
     }
 
     /// Sides of the cracks and the pre-cracks on which the corners of the [cells](Self::cells) lie in the state of a step, or of the last
     /// step before it, shape (n_cells).
     pub fn sides(&self, step: usize) -> Vec<[u8; 4]> {
-        sides_of_cells(&self.cells, self.is_parted(step))
+        sides_of_cells(&self.cells, self.is_separated(step))
     }
 
     /// The cells between the points of the body, in the order of the files; empty for a lattice.
@@ -149,36 +151,36 @@ impl StoredCracks {
     }
 
     /// Whether the face between a pair of points is open in the state of a step, or of the last step before it.
-    fn is_parted(&self, step: usize) -> impl Fn([u32; 2]) -> bool {
+    fn is_separated(&self, step: usize) -> impl Fn([u32; 2]) -> bool {
         let record = self.records.iter().take_while(|it| it.step <= step).last();
-        let parts = self.parts(record);
+        let parts = self.face_states(record);
         move |pair| {
             let face = self.faces.between(pair);
-            face.is_some_and(|it| parts[it] != Part::Whole)
+            face.is_some_and(|it| parts[it] != FaceState::Whole)
         }
     }
 
     /// State of each face in a record, shape (n_faces); without a record, before the first load.
-    fn parts(&self, record: Option<&CrackRecord>) -> Vec<Part> {
-        let mut parts = vec![Part::Whole; self.faces.len()];
+    fn face_states(&self, record: Option<&CrackRecord>) -> Vec<FaceState> {
+        let mut parts = vec![FaceState::Whole; self.faces.len()];
         for &face in &self.cut {
-            parts[face] = Part::PreCrack;
+            parts[face] = FaceState::PreCrack;
         }
-        for (face, moment) in &self.opened {
-            if record.is_some_and(|it| it.is_after(*moment)) {
-                parts[*face] = Part::Open;
+        for (face, event) in &self.opened {
+            if record.is_some_and(|it| it.is_after(*event)) {
+                parts[*face] = FaceState::Open;
             }
         }
         parts
     }
 
     /// The records in which faces opened; if there are very many, an even selection with the last.
-    pub fn grown_records(&self) -> Vec<&CrackRecord> {
+    pub fn records_with_growth(&self) -> Vec<&CrackRecord> {
         let open = |record: &CrackRecord| {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));
             open.count()
         };
-        grown(&self.records, open, MOST_RECORDS)
+        records_with_growth(&self.records, open, MOST_RECORDS)
     }
 
     /// Mean horizon of the points, m.
@@ -193,33 +195,33 @@ impl StoredCracks {
 }
 
 /// The records with more open faces or pairs than before; if there are more than `most`, an even selection with the last.
-pub(super) fn grown(
+pub(super) fn records_with_growth(
     records: &[CrackRecord],
     open: impl Fn(&CrackRecord) -> usize,
     most: usize,
 ) -> Vec<&CrackRecord> {
     let mut before = 0;
-    let mut grown: Vec<&CrackRecord> = Vec::new();
+    let mut records_with_growth: Vec<&CrackRecord> = Vec::new();
     for record in records {
         let now = open(record);
         if now > before {
-            grown.push(record);
+            records_with_growth.push(record);
         }
         before = now;
     }
-    let stride = grown.len().div_ceil(most).max(1);
-    let last = grown.len().saturating_sub(1);
-    let numbered = grown.into_iter().enumerate();
+    let stride = records_with_growth.len().div_ceil(most).max(1);
+    let last = records_with_growth.len().saturating_sub(1);
+    let numbered = records_with_growth.into_iter().enumerate();
     let chosen = numbered.filter(|(place, _)| (last - place).is_multiple_of(stride));
     chosen.map(|(_, record)| record).collect()
 }
 
 impl CrackRecord {
-    /// Whether the record's state is after a moment. On the exact path the state precedes the breakages of its event.
-    pub(super) fn is_after(&self, moment: Moment) -> bool {
-        match moment {
-            Moment::Breakage(order) => order <= self.broken_bonds,
-            Moment::Step(step) => step <= self.step,
+    /// Whether the record's state is after a event. On the exact path the state precedes the breakages of its event.
+    pub(super) fn is_after(&self, event: OpeningEvent) -> bool {
+        match event {
+            OpeningEvent::Breakage(order) => order <= self.broken_bonds,
+            OpeningEvent::Step(step) => step <= self.step,
         }
     }
 
@@ -245,25 +247,25 @@ pub(super) fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
     sheet.rows(|row| tag_pair(row, &columns))
 }
 
-/// Tags of the ends of the softening bonds whose force fell below a share, with the moment in which it did.
+/// Tags of the ends of the softening bonds whose force fell below a share, with the event in which it did.
 pub(super) fn softened_pairs(
     folder: &Path,
     cracked: CrackedBelow,
-) -> Result<Vec<([i64; 2], Moment)>, Error> {
+) -> Result<Vec<([i64; 2], OpeningEvent)>, Error> {
     let Some(sheet) = table(&folder.join(softening_table::FILE))? else {
         return Ok(Vec::new());
     };
     let columns = columns_of_ends(&sheet);
     let rows = sheet.rows(|row| {
         let opens = row.value::<String>("event")? == cracked.event();
-        let moment = Moment::Step(row.value("step")?);
-        Ok(opens.then_some((tag_pair(row, &columns)?, moment)))
+        let event = OpeningEvent::Step(row.value("step")?);
+        Ok(opens.then_some((tag_pair(row, &columns)?, event)))
     })?;
     Ok(rows.into_iter().flatten().collect())
 }
 
-fn table(path: &Path) -> Result<Option<Sheet>, Error> {
-    path.is_file().then(|| Sheet::read(path)).transpose()
+fn table(path: &Path) -> Result<Option<CsvTable>, Error> {
+    path.is_file().then(|| CsvTable::read(path)).transpose()
 }
 
 /// Tags of the ends of the bond of a row, from the columns that hold them.
@@ -272,14 +274,14 @@ pub(super) fn tag_pair(row: Row<'_>, [a, b]: &[String; 2]) -> Result<[i64; 2], E
 }
 
 /// Names of the columns with the tags of the ends of bonds in a table.
-pub fn columns_of_ends(sheet: &Sheet) -> [String; 2] {
+pub fn columns_of_ends(sheet: &CsvTable) -> [String; 2] {
     let has = |tagged: &&str| {
         sheet
             .columns()
             .iter()
             .any(|it| *it == format!("{tagged}_a"))
     };
-    let tagged = TAGGED.into_iter().find(has).unwrap_or(TAGGED[0]);
+    let tagged = TAG_NOUNS.into_iter().find(has).unwrap_or(TAG_NOUNS[0]);
     ["a", "b"].map(|end| format!("{tagged}_{end}"))
 }
 
@@ -300,7 +302,7 @@ impl StoredBody {
         let corners = file.points_in_plane()?;
         let cells: Option<Vec<Cell>> = file.cells()?.iter().map(vtu::Cell::planar).collect();
         let cells =
-            cells.ok_or_else(|| file.strange("its cells are no triangles or quadrangles"))?;
+            cells.ok_or_else(|| file.malformed("its cells are no triangles or quadrangles"))?;
         let area: f64 = cells.iter().map(|cell| cell.area(&corners).abs()).sum();
         let location = location(&file);
         let (positions, canvas) = if location == FieldLocation::Point {

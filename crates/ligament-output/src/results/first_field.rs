@@ -11,12 +11,12 @@ use super::outputs::{OutputKind, Outputs};
 use super::point_fields::location;
 use super::softening_table;
 use crate::Error;
-use crate::csv::read::Sheet;
+use crate::csv::read::CsvTable;
 use crate::vtu::read::VtuFile;
 
-/// Fate of the bonds of a run.
+/// Outcome of a run for its bonds: whether any broke or softened.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Happened {
+pub enum BondOutcome {
     /// No bond broke or softened.
     Nothing,
     /// Bonds broke, and none softened.
@@ -32,18 +32,18 @@ const OF_SOFTENING: [&ResultField; 3] = [&DAMAGE_TENSION, &DAMAGE_SLIDING, &DAMA
 ///
 /// Where bonds soften, few of them break before the crack is open: the damage of their main mode of softening shows the crack from its
 /// beginning.
-pub fn first_field(happened: Happened, largest: impl Fn(&str) -> f64) -> &'static ResultField {
-    let by_way = || {
+pub fn first_field(outcome: BondOutcome, largest: impl Fn(&str) -> f64) -> &'static ResultField {
+    let by_failure_mode = || {
         let sizes = OF_SOFTENING.map(|it| (it, largest(it.name)));
         let most = sizes
             .into_iter()
             .reduce(|most, it| if it.1 > most.1 { it } else { most });
         most.filter(|it| it.1 > 0.0).map(|it| it.0)
     };
-    match happened {
-        Happened::Nothing => &DISPLACEMENT,
-        Happened::Broke => &DAMAGE,
-        Happened::Softened => by_way().unwrap_or(&DAMAGE),
+    match outcome {
+        BondOutcome::Nothing => &DISPLACEMENT,
+        BondOutcome::Broke => &DAMAGE,
+        BondOutcome::Softened => by_failure_mode().unwrap_or(&DAMAGE),
     }
 }
 
@@ -56,12 +56,12 @@ pub fn first_field_of(outputs: &Outputs) -> Result<&'static ResultField, Error> 
     if outputs.kind == OutputKind::Modes {
         return Ok(&STRAIN_ENERGY_DENSITY);
     }
-    let happened = if has_rows(&outputs.folder.join(softening_table::FILE))? {
-        Happened::Softened
+    let outcome = if has_rows(&outputs.folder.join(softening_table::FILE))? {
+        BondOutcome::Softened
     } else if has_rows(&outputs.folder.join("breaks.csv"))? {
-        Happened::Broke
+        BondOutcome::Broke
     } else {
-        Happened::Nothing
+        BondOutcome::Nothing
     };
     let last = outputs.files.last_key_value();
     let last = last.map(|(_, path)| VtuFile::open(path)).transpose()?;
@@ -71,14 +71,14 @@ pub fn first_field_of(outputs: &Outputs) -> Result<&'static ResultField, Error> 
             .and_then(|file| file.numbers(location(file), name).ok()?);
         values.into_iter().flatten().fold(0.0, f64::max)
     };
-    Ok(first_field(happened, largest))
+    Ok(first_field(outcome, largest))
 }
 
 fn has_rows(path: &Path) -> Result<bool, Error> {
     if !path.is_file() {
         return Ok(false);
     }
-    let steps = Sheet::read(path)?.values::<usize>("step")?;
+    let steps = CsvTable::read(path)?.values::<usize>("step")?;
     Ok(!steps.is_empty())
 }
 
@@ -95,17 +95,17 @@ mod tests {
                 0.25
             }
         };
-        for (happened, expected) in [
-            (Happened::Nothing, "displacement"),
-            (Happened::Broke, "damage"),
-            (Happened::Softened, "damage_sliding"),
+        for (outcome, expected) in [
+            (BondOutcome::Nothing, "displacement"),
+            (BondOutcome::Broke, "damage"),
+            (BondOutcome::Softened, "damage_sliding"),
         ] {
-            assert_eq!(first_field(happened, sliding).name, expected);
+            assert_eq!(first_field(outcome, sliding).name, expected);
         }
         assert_eq!(
-            first_field(Happened::Softened, |_| 0.25).name,
+            first_field(BondOutcome::Softened, |_| 0.25).name,
             "damage_tension"
         );
-        assert_eq!(first_field(Happened::Softened, |_| 0.0).name, "damage");
+        assert_eq!(first_field(BondOutcome::Softened, |_| 0.0).name, "damage");
     }
 }

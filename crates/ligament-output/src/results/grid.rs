@@ -9,7 +9,7 @@ use ligament_model::subdomain::Subdomain;
 use ligament_model::{BodyGrid, Canvas, box_corners, raised};
 
 use crate::Error;
-use crate::vtu::{self, Chosen, Field, Held, SharedCells, UnstructuredGrid};
+use crate::vtu::{self, Field, GlobalIndices, SelectedValues, SharedCells, UnstructuredGrid};
 
 /// Fields of a model that do not change in a run.
 pub(super) fn fixed_fields(model: ModelPoints<'_>) -> impl Iterator<Item = Field<'_>> {
@@ -31,7 +31,7 @@ pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Resul
 }
 
 /// Bonds as lines between the points of a body, in the order of the file.
-pub(super) struct Lines {
+pub(super) struct BondLines {
     cells: Vec<vtu::Cell>,
     /// First end of each bond; the owner of this point owns the bond.
     first_ends: Vec<u32>,
@@ -39,7 +39,7 @@ pub(super) struct Lines {
     order: Option<Vec<u32>>,
 }
 
-impl Lines {
+impl BondLines {
     /// The lines of bonds, given by their ends (n_bonds), then the lines of absent bonds.
     pub(super) fn new(body: &BodyGrid, bonds: &[[u32; 2]], absent: &[[u32; 2]]) -> Self {
         let numbering = &body.numbering;
@@ -91,7 +91,7 @@ impl Lines {
         let shared = SharedCells {
             subdomain,
             points: &self.first_ends,
-            held: Held {
+            global: GlobalIndices {
                 points: &numbers_in_order(body),
                 cells: None,
             },
@@ -109,7 +109,7 @@ pub(super) fn write_grid(
     (subdomain, field_data): (&Subdomain, &[(&str, f64)]),
 ) -> Result<(), Error> {
     if matches!(body.canvas, Canvas::Around(_) | Canvas::Boxes(_)) {
-        return write_around(path, body, fields, (subdomain, field_data));
+        return write_point_cells(path, body, fields, (subdomain, field_data));
     }
     let order = body.numbering.order_of_file();
     let (numbering, numbers) = (&body.numbering, numbers_in_order(body));
@@ -121,7 +121,7 @@ pub(super) fn write_grid(
     let shared = SharedCells {
         subdomain,
         points: &points_of_cells,
-        held: Held {
+        global: GlobalIndices {
             points: &numbers,
             cells: Some(&body.cell_numbers),
         },
@@ -138,7 +138,7 @@ pub(super) fn write_grid(
 
 /// Writes fields on cells around the points, in the order of the file; where the body is divided, each process writes the cells of its
 /// owned points. Corners of cells move with their points.
-fn write_around(
+fn write_point_cells(
     path: &Path,
     body: &BodyGrid,
     fields: &[Field<'_>],
@@ -147,8 +147,8 @@ fn write_around(
     let numbering = &body.numbering;
     let points: Vec<u32> = subdomain.owned().collect();
     let points = numbering.sorted(&points);
-    let canvas = around(&body.canvas, &points);
-    let chosen: Vec<Chosen> = fields.iter().map(|it| it.at(&points)).collect();
+    let canvas = cells_around(&body.canvas, &points);
+    let chosen: Vec<SelectedValues> = fields.iter().map(|it| it.at(&points)).collect();
     let in_order = fields.iter().zip(&chosen).map(|(field, it)| field.with(it));
     let in_order: Vec<Field<'_>> = in_order.collect();
     let (corners, n_corners) = match &canvas {
@@ -173,7 +173,7 @@ fn write_around(
     let shared = SharedCells {
         subdomain,
         points: &points,
-        held: Held {
+        global: GlobalIndices {
             points: &corners_in_file,
             cells: Some(&in_file),
         },
@@ -190,16 +190,16 @@ fn numbers_in_order(body: &BodyGrid) -> Vec<u32> {
 }
 
 /// The cells around some points.
-fn around(canvas: &Canvas, points: &[u32]) -> Canvas {
+fn cells_around(canvas: &Canvas, points: &[u32]) -> Canvas {
     match canvas {
-        Canvas::Around(corners) => Canvas::Around(at(corners, points)),
-        Canvas::Boxes(boxes) => Canvas::Boxes(at(boxes, points)),
+        Canvas::Around(corners) => Canvas::Around(values_at(corners, points)),
+        Canvas::Boxes(boxes) => Canvas::Boxes(values_at(boxes, points)),
         Canvas::Between(_) | Canvas::Solid(_) => canvas.clone(),
     }
 }
 
 /// The values of some points.
-fn at<T: Copy>(values: &[T], points: &[u32]) -> Vec<T> {
+fn values_at<T: Copy>(values: &[T], points: &[u32]) -> Vec<T> {
     points.iter().map(|&point| values[point as usize]).collect()
 }
 

@@ -14,56 +14,56 @@ const SAME: f64 = 1.0 + 2e-7;
 
 /// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct Largest {
-    of_bonds: Vec<Seen>,
+pub(super) struct LargestUtilisations {
+    of_bonds: Vec<LargestUtilisation>,
 }
 
 /// The largest utilisation of a bond so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-struct Seen {
+struct LargestUtilisation {
     utilisation: f32,
     step: u32,
     criterion: u32,
 }
 
-/// Arrays for a file.
-pub(super) struct Columns {
+/// Largest utilisations of all bonds as the columns of a file.
+pub(super) struct UtilisationColumns {
     utilisation: Vec<f32>,
     step: Vec<i64>,
     criterion: Vec<i64>,
 }
 
-impl Largest {
+impl LargestUtilisations {
     /// Whether the utilisations match a number of bonds and of criteria.
     pub(super) fn fits(&self, n_bonds: usize, n_criteria: usize) -> bool {
-        let mut seen = self.of_bonds.iter();
-        self.of_bonds.len() == n_bonds && seen.all(|it| (it.criterion as usize) < n_criteria)
+        let mut largest = self.of_bonds.iter();
+        self.of_bonds.len() == n_bonds && largest.all(|it| (it.criterion as usize) < n_criteria)
     }
 
     pub(super) fn new(n_bonds: usize) -> Self {
         Self {
-            of_bonds: vec![Seen::default(); n_bonds],
+            of_bonds: vec![LargestUtilisation::default(); n_bonds],
         }
     }
 
     /// Updates the utilisations of the bonds that are intact at the end of a step.
-    pub(super) fn see(&mut self, step: usize, view: &View<'_>) {
+    pub(super) fn update(&mut self, step: usize, view: &View<'_>) {
         let (criteria, intact) = (view.criteria, &view.state.intact);
         let deformations = &view.balanced.deformations;
         let parts = self.of_bonds.par_chunks_mut(TASK).enumerate();
-        parts.for_each(|(part, seen)| {
-            let bonds = part * TASK..part * TASK + seen.len();
+        parts.for_each(|(part, largest)| {
+            let bonds = part * TASK..part * TASK + largest.len();
             let (intact, deformations) = (&intact[bonds.clone()], &deformations[bonds.clone()]);
             for place in 0..criteria.criteria().list.len() {
                 let limits = &criteria.limits(place)[bonds.clone()];
                 let arrays = intact.iter().zip(deformations).zip(limits);
-                for (bond, (seen, ((&is_intact, deformation), &limit))) in
-                    bonds.clone().zip(seen.iter_mut().zip(arrays))
+                for (bond, (largest, ((&is_intact, deformation), &limit))) in
+                    bonds.clone().zip(largest.iter_mut().zip(arrays))
                 {
                     let measure = criteria.measure(place, bond, deformation);
                     // No division; false for an infinite limit, for which the product is infinite or not a number.
-                    if is_intact && measure > SAME * f64::from(seen.utilisation) * limit {
-                        *seen = Seen {
+                    if is_intact && measure > SAME * f64::from(largest.utilisation) * limit {
+                        *largest = LargestUtilisation {
                             utilisation: (measure / limit) as f32,
                             step: step as u32,
                             criterion: place as u32,
@@ -75,8 +75,8 @@ impl Largest {
     }
 
     /// The largest utilisations as arrays, with `n_absent` entries at their end for absent bonds.
-    pub(super) fn columns(&self, n_absent: usize) -> Columns {
-        let nothing = Seen {
+    pub(super) fn columns(&self, n_absent: usize) -> UtilisationColumns {
+        let nothing = LargestUtilisation {
             utilisation: f32::NAN,
             ..Default::default()
         };
@@ -85,7 +85,7 @@ impl Largest {
                 .iter()
                 .chain(std::iter::repeat_n(&nothing, n_absent))
         };
-        Columns {
+        UtilisationColumns {
             utilisation: all().map(|largest| largest.utilisation).collect(),
             step: all().map(|largest| i64::from(largest.step)).collect(),
             criterion: all().map(|largest| i64::from(largest.criterion)).collect(),
@@ -93,7 +93,7 @@ impl Largest {
     }
 }
 
-impl Columns {
+impl UtilisationColumns {
     pub(super) fn fields(&self) -> [Field<'_>; 3] {
         [
             Field::single("largest_utilisation", &self.utilisation),

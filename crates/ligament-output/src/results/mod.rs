@@ -17,14 +17,15 @@
 //! ([`write_modes`]).
 
 pub mod bond_arrays;
+mod checkpoint_state;
 pub mod columns;
 mod crack_growth;
 mod crack_tables;
 pub mod cracks;
 mod first_field;
 mod grid;
+mod isosurface_files;
 mod largest;
-mod level_files;
 mod model_file;
 mod modes;
 mod opened_files;
@@ -32,7 +33,6 @@ pub mod outputs;
 mod pieces;
 mod point_fields;
 mod rule;
-mod so_far;
 mod softening_table;
 pub mod solid_body;
 pub mod solid_cracks;
@@ -50,23 +50,23 @@ use ligament_model::{BodyGrid, ConstantFields};
 pub use ligament_analysis::result_fields as fields;
 
 use crate::Error;
+use crate::file_digest::FileDigest;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
 use crate::vtu::{self, Field};
-use crate::written::Written;
 
+pub use checkpoint_state::OutputState;
 pub use crack_tables::{CRACK_FILES, write_cracks};
-pub use first_field::{Happened, first_field, first_field_of};
-use grid::Lines;
+pub use first_field::{BondOutcome, first_field, first_field_of};
+use grid::BondLines;
 pub use grid::{point_grid, write_points};
-use largest::Largest;
-pub use level_files::write_level_set;
+pub use isosurface_files::write_level_set;
+use largest::LargestUtilisations;
 pub use modes::write_modes;
 use outputs::remove_others;
 pub use pieces::PieceWriter;
 pub use point_fields::location;
 pub use rule::WriteRule;
-pub use so_far::OutputState;
 pub use softening_table::CrackedBelow;
 use softening_table::SofteningTable;
 pub use surface_files::{SURFACE_FILES, stored_jumps, write_series, write_surface};
@@ -92,9 +92,9 @@ pub struct ResultWriter<'a> {
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
     step_of_breaking: Vec<i64>,
     /// Largest utilisation of each bond so far, where the model is written.
-    largest: Option<Largest>,
+    largest: Option<LargestUtilisations>,
     /// Names of the completed files, with their contents' lengths and digests.
-    whole: Vec<(String, Written)>,
+    whole: Vec<(String, FileDigest)>,
 }
 
 impl<'a> ResultWriter<'a> {
@@ -111,7 +111,8 @@ impl<'a> ResultWriter<'a> {
         }
         // Where the body is divided, each process would have the largest utilisations of its own bonds only.
         let can_fail = !problem.criteria.list.is_empty() && problem.system.subdomain.is_whole();
-        let largest = (rule.model && can_fail).then(|| Largest::new(problem.system.ends.len()));
+        let largest =
+            (rule.model && can_fail).then(|| LargestUtilisations::new(problem.system.ends.len()));
         let mut writer = Self {
             folder,
             grid,
@@ -128,16 +129,16 @@ impl<'a> ResultWriter<'a> {
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
             whole: Vec::new(),
         };
-        writer.keep(CRITERIA_FILE)?;
+        writer.record_file(CRITERIA_FILE)?;
         Ok(writer)
     }
 
-    /// Continues the results of a run from a moment: later rows and files are removed, and the model is rewritten.
+    /// Continues the results of a run from a checkpoint: later rows and files are removed, and the model is rewritten.
     ///
     /// # Errors
     ///
     /// If a file cannot be written, cut back or removed.
-    pub fn cut_back(
+    pub fn resume(
         folder: &'a ResultFolder,
         grid: &'a BodyGrid,
         fixed: &'a ConstantFields,
@@ -164,7 +165,7 @@ impl<'a> ResultWriter<'a> {
         remove_others(folder, "fields", &fields)?;
         remove_others(folder, "bonds", &bonds)?;
         let mut step_of_breaking = vec![-1; fixed.domain_factor.len()];
-        mark(&mut step_of_breaking, problem, &breaks);
+        set_steps_of_breaking(&mut step_of_breaking, problem, &breaks);
         Ok(Self {
             folder,
             grid,
@@ -172,9 +173,9 @@ impl<'a> ResultWriter<'a> {
             problem: problem.clone(),
             fixed,
             rule,
-            tables: Tables::cut_back(folder, problem, grid.tagged, &tables)?,
+            tables: Tables::resume(folder, problem, grid.tagged, &tables)?,
             softening: softening
-                .map(|told| SofteningTable::cut_back(folder, problem, told))
+                .map(|progress| SofteningTable::resume(folder, problem, progress))
                 .transpose()?,
             first,
             fields_collection: Collection::with_outputs(folder.file("fields.pvd"), fields)?,
@@ -190,13 +191,13 @@ impl<'a> ResultWriter<'a> {
     /// # Errors
     ///
     /// If a file cannot be synced.
-    pub fn so_far(&self) -> Result<OutputState, Error> {
+    pub fn output_state(&self) -> Result<OutputState, Error> {
         Ok(OutputState {
             tables: self.tables.progress()?,
             softening: self
                 .softening
                 .as_ref()
-                .map(SofteningTable::told)
+                .map(SofteningTable::progress)
                 .transpose()?,
             first: self.first,
             fields: self.fields_collection.outputs().to_vec(),
@@ -213,9 +214,9 @@ impl<'a> ResultWriter<'a> {
     }
 
     /// Records length and digest of a completed file, on which a resumed run relies.
-    fn keep(&mut self, name: &str) -> Result<(), Error> {
+    fn record_file(&mut self, name: &str) -> Result<(), Error> {
         let path = self.folder.file(name);
-        let written = Written::now(&path).map_err(Error::system("read", &path))?;
+        let written = FileDigest::of_file(&path).map_err(Error::system("read", &path))?;
         self.whole.push((name.to_owned(), written));
         Ok(())
     }
@@ -229,7 +230,7 @@ impl<'a> ResultWriter<'a> {
             self.rule,
             (record, view),
         )?;
-        self.keep(&name)?;
+        self.record_file(&name)?;
         self.fields_collection.append(rule::time(record), name)
     }
 
@@ -247,7 +248,7 @@ impl<'a> ResultWriter<'a> {
         let intact = view.state.intact.iter();
         let state: Vec<i64> = intact.map(|&intact| i64::from(intact)).collect();
         let displacement = displacements(view);
-        let lines = Lines::new(self.grid, &system.ends, &[]);
+        let lines = BondLines::new(self.grid, &system.ends, &[]);
         let mut cell_fields = vec![
             Field::integer("intact", &state),
             Field::scalar("utilisation", &utilisation),
@@ -267,7 +268,7 @@ impl<'a> ResultWriter<'a> {
             [&displacement, &cell_fields],
             (&system.subdomain, &rule::field_data(record)),
         )?;
-        self.keep(&name)?;
+        self.record_file(&name)?;
         self.bonds_collection.append(rule::time(record), name)
     }
 }
@@ -290,7 +291,7 @@ impl Observer for ResultWriter<'_> {
         residual: f64,
         stored_energy: f64,
     ) -> Result<(), ObserverError> {
-        failed(self.tables.iteration(iteration, residual, stored_energy))
+        observer_result(self.tables.iteration(iteration, residual, stored_energy))
     }
 
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
@@ -299,8 +300,8 @@ impl Observer for ResultWriter<'_> {
             self.breaks.push((record.ends, record.step as u32));
         }
         let new = &self.breaks[self.breaks.len() - records.len()..];
-        mark(&mut self.step_of_breaking, &self.problem, new);
-        failed(self.tables.breaks(records, self.grid))
+        set_steps_of_breaking(&mut self.step_of_breaking, &self.problem, new);
+        observer_result(self.tables.breaks(records, self.grid))
     }
 
     fn looks(&self, step: usize) -> bool {
@@ -309,20 +310,20 @@ impl Observer for ResultWriter<'_> {
 
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         if self.rule.writes_fields(record, view) {
-            failed(self.write_fields(record, view))?;
+            observer_result(self.write_fields(record, view))?;
             if self.rule.bonds {
-                failed(self.write_bonds(record, view))?;
+                observer_result(self.write_bonds(record, view))?;
             }
         }
         self.first.step(record, view)?;
         if let Some(table) = &mut self.softening {
-            failed(table.step(record, view, self.grid))?;
+            observer_result(table.step(record, view, self.grid))?;
         }
         if let Some(largest) = self.largest.as_mut().filter(|_| view.is_whole) {
-            largest.see(record.step, view);
+            largest.update(record.step, view);
             if view.is_last {
                 let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);
-                failed(model_file::write(
+                observer_result(model_file::write(
                     folder.path(),
                     grid,
                     fixed,
@@ -331,12 +332,16 @@ impl Observer for ResultWriter<'_> {
                 ))?;
             }
         }
-        failed(self.tables.step(record, view))
+        observer_result(self.tables.step(record, view))
     }
 }
 
 /// Sets the steps of breaking of the bonds on this process.
-fn mark(step_of_breaking: &mut [i64], problem: &Problem, breaks: &[([u32; 2], u32)]) {
+fn set_steps_of_breaking(
+    step_of_breaking: &mut [i64],
+    problem: &Problem,
+    breaks: &[([u32; 2], u32)],
+) {
     let (ends, subdomain) = (&problem.system.ends, &problem.system.subdomain);
     for (of_bond, step) in breaks {
         let [a, b] = of_bond.map(|end| subdomain.point(end));
@@ -353,6 +358,6 @@ fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
     vtu::file_name(&stem, &view.system.subdomain)
 }
 
-fn failed(result: Result<(), Error>) -> Result<(), ObserverError> {
+fn observer_result(result: Result<(), Error>) -> Result<(), ObserverError> {
     result.map_err(|error| ObserverError(Box::new(error)))
 }

@@ -23,8 +23,8 @@ use ligament_analysis::load_program::BoundaryGroup;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_model::{BodyGrid, ConstantFields};
 
-use super::grid::Lines;
-use super::largest::Largest;
+use super::grid::BondLines;
+use super::largest::LargestUtilisations;
 use super::tables::criterion_labels;
 use crate::Error;
 use crate::vtu::{self, Field};
@@ -40,7 +40,8 @@ const MODEL: &str = "model";
 
 /// Path of the model file in a result folder, if it exists.
 pub(super) fn model_file(folder: &Path) -> Option<PathBuf> {
-    let names = [vtu::SINGLE, vtu::IN_PIECES].map(|it| folder.join(format!("{MODEL}.{it}")));
+    let names =
+        [vtu::FILE_EXTENSION, vtu::PIECES_EXTENSION].map(|it| folder.join(format!("{MODEL}.{it}")));
     names.into_iter().find(|path| path.is_file())
 }
 
@@ -64,12 +65,12 @@ pub(super) fn write(
     grid: &BodyGrid,
     fixed: &ConstantFields,
     problem: &Problem,
-    at_end: Option<(&Largest, &[f64])>,
+    at_end: Option<(&LargestUtilisations, &[f64])>,
 ) -> Result<(), Error> {
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
     let of_absent: Vec<[u32; 2]> = absent.iter().map(|pair| pair.ends).collect();
-    let lines = Lines::new(grid, &system.ends, &of_absent);
+    let lines = BondLines::new(grid, &system.ends, &of_absent);
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
     let absence: Vec<i64> = std::iter::repeat_n(0, system.ends.len())
         .chain(absent.iter().map(|pair| pair.absence.number()))
@@ -88,7 +89,7 @@ pub(super) fn write(
         .collect();
     let limits = limits(problem, n_absent);
     let largest = at_end.map(|(largest, _)| largest.columns(n_absent));
-    let dissipated = at_end.map(|(_, dissipated)| with_absent(dissipated, n_absent));
+    let dissipated = at_end.map(|(_, dissipated)| with_nan_for_absent(dissipated, n_absent));
 
     let mut cell_fields = vec![
         Field::integer("absent", &absence),
@@ -132,7 +133,7 @@ fn groups(problem: &Problem) -> Vec<(String, Vec<i64>)> {
 }
 
 /// Values of the bonds, followed by NaN for each absent bond.
-fn with_absent(values: &[f64], n_absent: usize) -> Vec<f64> {
+fn with_nan_for_absent(values: &[f64], n_absent: usize) -> Vec<f64> {
     let nothing = std::iter::repeat_n(f64::NAN, n_absent);
     values.iter().copied().chain(nothing).collect()
 }

@@ -25,7 +25,7 @@ pub(super) fn has_cells(cracks: &SolidCracks) -> bool {
 }
 
 /// Writes the cells of a solid, cut by the crack of a step, with stored fields.
-pub(super) fn write_opened(
+pub(super) fn write_opened_cells(
     path: &Path,
     cracks: &SolidCracks,
     step: usize,
@@ -41,7 +41,7 @@ pub(super) fn write_opened(
 }
 
 /// Writes the cells of a body in the plane, cut by the cracks of a step, with stored fields; returns whether it has cells between points.
-pub(super) fn write_opened_plane(
+pub(super) fn write_opened_plane_cells(
     path: &Path,
     cracks: &StoredCracks,
     step: usize,

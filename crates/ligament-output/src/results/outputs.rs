@@ -25,7 +25,7 @@ pub enum OutputKind {
 /// The outputs in a folder.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outputs {
-    /// The folder.
+    /// Folder that holds the outputs.
     pub folder: PathBuf,
     /// The kind of all outputs in the folder.
     pub kind: OutputKind,

@@ -7,7 +7,7 @@ use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
 use ligament_model::{BodyGrid, ConstantFields};
 
 use super::rule::WriteRule;
-use super::{failed, fields_file, model_file, point_fields};
+use super::{fields_file, model_file, observer_result, point_fields};
 use crate::Error;
 
 /// Observer that writes the pieces of a rank other than 0 into the folder of rank 0, whenever the [`super::ResultWriter`] of rank 0 writes
@@ -50,7 +50,7 @@ impl Observer for PieceWriter<'_> {
             return Ok(());
         }
         let path = self.folder.join(fields_file(record, view));
-        failed(point_fields::write(
+        observer_result(point_fields::write(
             &path,
             self.grid,
             self.fixed,

@@ -56,7 +56,7 @@ pub(super) fn write(
 /// The fields of a state in the order of the files, with the stresses demanded by the rule; where the body is divided, values are right at
 /// owned points only.
 pub(super) fn point_fields(rule: WriteRule, view: &View<'_>) -> PointFields {
-    let fields = FIELDS.iter().filter(|it| rule.has(&it.reading));
+    let fields = FIELDS.iter().filter(|it| rule.includes(&it.reading));
     fields
         .filter_map(|field| Some((*field, field.values(view)?)))
         .collect()

@@ -48,7 +48,7 @@ pub(super) fn field_data(record: &StepRecord) -> [(&'static str, f64); 4] {
 
 impl WriteRule {
     /// Whether the rule includes a field, given by its reading.
-    pub(super) fn has(&self, reading: &FieldReading) -> bool {
+    pub(super) fn includes(&self, reading: &FieldReading) -> bool {
         match reading {
             FieldReading::MaterialStress(MaterialStress::Carried, ..) => self.material_stress,
             FieldReading::MaterialStress(MaterialStress::Effective, ..) => self.effective_stress,

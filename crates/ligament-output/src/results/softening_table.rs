@@ -10,8 +10,8 @@ use super::columns::{SOFTENED_BY, SOFTENING, names};
 use super::tables::{ends, labels_of};
 use crate::Error;
 use crate::csv::{Table, Value};
+use crate::file_digest::FileDigest;
 use crate::folder::ResultFolder;
-use crate::written::Written;
 
 /// Name of the file.
 pub(super) const FILE: &str = "softening.csv";
@@ -66,12 +66,12 @@ pub(super) struct SofteningTable {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SoftenedBonds {
     /// Number of reported events of each bond, shape (n_bonds).
-    told: Vec<u8>,
+    n_reported: Vec<u8>,
 }
 
 /// A bond with new events.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct SoftenedBond {
+pub(super) struct NewEvents {
     /// Number of the bond.
     pub bond: usize,
     /// Number of the criterion.
@@ -85,7 +85,7 @@ pub(super) struct SoftenedBond {
 /// State of the table in a checkpoint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub(super) struct SofteningProgress {
-    pub(super) written: Written,
+    pub(super) written: FileDigest,
     pub(super) of_bonds: Vec<u8>,
 }
 
@@ -119,26 +119,26 @@ impl SofteningTable {
     }
 
     /// The table of a resumed run, truncated to its state in the checkpoint.
-    pub(super) fn cut_back(
+    pub(super) fn resume(
         folder: &ResultFolder,
         problem: &Problem,
-        told: SofteningProgress,
+        progress: SofteningProgress,
     ) -> Result<Self, Error> {
         let n_columns = SOFTENING.len() + 2 + SOFTENED_BY.len();
         Ok(Self {
-            table: Table::cut_back(folder.file(FILE), n_columns, told.written.length)?,
+            table: Table::open_truncated(folder.file(FILE), n_columns, progress.written.length)?,
             criteria: labels_of(problem),
             softened: SoftenedBonds {
-                told: told.of_bonds,
+                n_reported: progress.of_bonds,
             },
         })
     }
 
     /// Syncs the table to disk and returns its state.
-    pub(super) fn told(&self) -> Result<SofteningProgress, Error> {
+    pub(super) fn progress(&self) -> Result<SofteningProgress, Error> {
         Ok(SofteningProgress {
-            written: self.table.synced()?,
-            of_bonds: self.softened.told.clone(),
+            written: self.table.sync()?,
+            of_bonds: self.softened.n_reported.clone(),
         })
     }
 
@@ -172,31 +172,31 @@ impl SoftenedBonds {
     /// A record of `n_bonds` bonds without events.
     pub(super) fn new(n_bonds: usize) -> Self {
         Self {
-            told: vec![0; n_bonds],
+            n_reported: vec![0; n_bonds],
         }
     }
 
     /// Bonds with new events in a state, first the bonds farthest beyond their limits; the events then count as reported.
-    pub(super) fn step(&mut self, view: &View<'_>) -> Vec<SoftenedBond> {
-        let changed = self.changed(view);
-        let told = |(bond, criterion, now)| SoftenedBond {
+    pub(super) fn step(&mut self, view: &View<'_>) -> Vec<NewEvents> {
+        let changed = self.unreported_events(view);
+        let n_reported = |(bond, criterion, now)| NewEvents {
             bond,
             criterion,
-            before: std::mem::replace(&mut self.told[bond], now),
+            before: std::mem::replace(&mut self.n_reported[bond], now),
             now,
         };
-        changed.into_iter().map(told).collect()
+        changed.into_iter().map(n_reported).collect()
     }
 
     /// Bonds with unreported events: index of the bond, index of the criterion, and number of events.
-    fn changed(&self, view: &View<'_>) -> Vec<(usize, usize, u8)> {
+    fn unreported_events(&self, view: &View<'_>) -> Vec<(usize, usize, u8)> {
         let softening = &view.state.softening;
         let mut changed = Vec::new();
         for (criterion, largest) in softening.largest.iter().enumerate() {
             let weakened = view.criteria.criteria().list[criterion].measure.weakens();
             let opens = matches!(weakened, Weakened::Opening | Weakened::Whole);
             for (bond, &largest) in largest.iter().enumerate() {
-                if largest <= 1.0 || usize::from(self.told[bond]) == EVENTS.len() {
+                if largest <= 1.0 || usize::from(self.n_reported[bond]) == EVENTS.len() {
                     continue;
                 }
                 let force = softening
@@ -206,7 +206,7 @@ impl SoftenedBonds {
                     .iter()
                     .filter(|it| opens && force < it.share());
                 let now = 1 + below.count() as u8;
-                if now > self.told[bond] {
+                if now > self.n_reported[bond] {
                     changed.push((largest, bond, criterion, now));
                 }
             }
@@ -218,8 +218,8 @@ impl SoftenedBonds {
             other.0.total_cmp(&one.0).then_with(tied)
         });
         // For a bond that two criteria weaken, only the first entry is kept.
-        let mut said = vec![false; self.told.len()];
-        changed.retain(|it| !std::mem::replace(&mut said[it.1], true));
+        let mut is_listed = vec![false; self.n_reported.len()];
+        changed.retain(|it| !std::mem::replace(&mut is_listed[it.1], true));
         changed
             .into_iter()
             .map(|(_, bond, criterion, now)| (bond, criterion, now))

@@ -44,7 +44,7 @@ impl SolidBody {
             _ => None,
         };
         let cells: Option<Vec<SolidCell>> = file.cells()?.into_iter().map(solid).collect();
-        let cells = cells.ok_or_else(|| file.strange("its cells are not those of a solid"))?;
+        let cells = cells.ok_or_else(|| file.malformed("its cells are not those of a solid"))?;
         let location = location(file);
         let is_mesh = location == FieldLocation::Point;
         let (tagged, tags) = file.tags(location)?;
@@ -98,7 +98,7 @@ impl SolidBody {
         let (vectors, rest) = values.as_chunks::<3>();
         match rest.is_empty() && vectors.len() == self.grid.positions.len() {
             true => Ok(vectors.to_vec()),
-            false => Err(file.strange(format!("{name} has no vector a point"))),
+            false => Err(file.malformed(format!("{name} has no vector a point"))),
         }
     }
 }

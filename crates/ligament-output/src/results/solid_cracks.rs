@@ -9,12 +9,12 @@ use ligament_post::surfaces::{
 };
 
 use super::columns::is_in_time;
-use super::cracks::{CrackRecord, Moment, broken_pairs, grown, softened_pairs};
+use super::cracks::{CrackRecord, OpeningEvent, broken_pairs, records_with_growth, softened_pairs};
 use super::outputs::{OutputKind, Outputs, bonded_pairs, cut_pairs};
 use super::softening_table::CrackedBelow;
 use super::solid_body::{SolidBody, is_solid};
 use crate::Error;
-use crate::csv::read::Sheet;
+use crate::csv::read::CsvTable;
 use crate::vtu::read::VtuFile;
 
 /// A solid with the order in which a run separated its points.
@@ -26,8 +26,8 @@ pub struct SolidCracks {
     pub(super) tetrahedra: Tetrahedra,
     /// Connections of the pairs of points that are not bonded before the first load.
     at_first: Links,
-    /// Separated pairs, with the moment and the step of separation, in their order.
-    opened: Vec<([u32; 2], Moment, usize)>,
+    /// Separated pairs, with the event and the step of separation, in their order.
+    opened: Vec<([u32; 2], OpeningEvent, usize)>,
     /// Rows of the history.
     pub(super) records: Vec<CrackRecord>,
     /// Whether the run is a motion, whose load factor is the time.
@@ -79,9 +79,9 @@ impl SolidCracks {
         let file = VtuFile::open(path)?;
         let body = SolidBody::read(&file)?;
         let horizon = file.finite_numbers(body.location, HORIZON.name)?;
-        let history = Sheet::read(folder.join("history.csv"))?;
+        let history = CsvTable::read(folder.join("history.csv"))?;
         let records = history.rows(CrackRecord::read)?;
-        let opened = opened((folder, cracked), &body, &records)?;
+        let opened = separated_pairs((folder, cracked), &body, &records)?;
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let cut: Vec<[u32; 2]> = cut.into_iter().filter_map(|it| body.points(it)).collect();
         let parted: HashSet<[u32; 2]> = (opened.iter().map(|it| it.0))
@@ -89,7 +89,8 @@ impl SolidCracks {
             .map(ascending)
             .collect();
         let tetrahedra = Tetrahedra::new(&body.grid).with_edges(|pair| parted.contains(&pair));
-        let mut at_first = unbonded(&tetrahedra, bonds_among(folder, &body, &tetrahedra)?);
+        let mut at_first =
+            edges_without_bond(&tetrahedra, edges_with_bond(folder, &body, &tetrahedra)?);
         for pair in cut {
             at_first.name(pair, Link::PreCrack);
         }
@@ -154,18 +155,18 @@ impl SolidCracks {
     }
 
     /// Step in which each pair separated.
-    pub(super) fn steps_of_parting(&self) -> HashMap<[u32; 2], usize> {
+    pub(super) fn steps_of_separation(&self) -> HashMap<[u32; 2], usize> {
         let opened = self.opened.iter().rev();
         opened.map(|(pair, _, step)| (*pair, *step)).collect()
     }
 
     /// The records with newly separated pairs; if there are very many, an even selection with the last.
-    pub fn grown_records(&self) -> Vec<&CrackRecord> {
+    pub fn records_with_growth(&self) -> Vec<&CrackRecord> {
         let open = |record: &CrackRecord| {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));
             open.count()
         };
-        grown(&self.records, open, MOST_RECORDS)
+        records_with_growth(&self.records, open, MOST_RECORDS)
     }
 
     /// Mean horizon of the points, m.
@@ -179,33 +180,33 @@ impl SolidCracks {
     }
 }
 
-/// Separated pairs in their order, with the moment and the step of separation.
-fn opened(
+/// Separated pairs in their order, with the event and the step of separation.
+fn separated_pairs(
     (folder, cracked): (&Path, CrackedBelow),
     body: &SolidBody,
     records: &[CrackRecord],
-) -> Result<Vec<([u32; 2], Moment, usize)>, Error> {
+) -> Result<Vec<([u32; 2], OpeningEvent, usize)>, Error> {
     let breaks = (1..).zip(broken_pairs(folder)?);
-    let breaks = breaks.map(|(order, tags)| (tags, Moment::Breakage(order)));
+    let breaks = breaks.map(|(order, tags)| (tags, OpeningEvent::Breakage(order)));
     let mut opened = Vec::new();
-    for (tags, moment) in breaks.chain(softened_pairs(folder, cracked)?) {
-        let step = match moment {
-            Moment::Step(step) => step,
+    for (tags, event) in breaks.chain(softened_pairs(folder, cracked)?) {
+        let step = match event {
+            OpeningEvent::Step(step) => step,
             // During a run, broken bonds of a step may be written before the step's row.
-            Moment::Breakage(_) => records
+            OpeningEvent::Breakage(_) => records
                 .iter()
-                .find(|it| it.is_after(moment))
+                .find(|it| it.is_after(event))
                 .map_or(0, |it| it.step),
         };
         if let Some(pair) = body.points(tags) {
-            opened.push((ascending(pair), moment, step));
+            opened.push((ascending(pair), event, step));
         }
     }
     Ok(opened)
 }
 
 /// The edges of tetrahedra that are bonds; `None` where the run wrote no model.
-fn bonds_among(
+fn edges_with_bond(
     folder: &Path,
     body: &SolidBody,
     tetrahedra: &Tetrahedra,
@@ -221,7 +222,7 @@ fn bonds_among(
 }
 
 /// The edges of tetrahedra that are not bonds.
-fn unbonded(tetrahedra: &Tetrahedra, bonds: Option<HashSet<[u32; 2]>>) -> Links {
+fn edges_without_bond(tetrahedra: &Tetrahedra, bonds: Option<HashSet<[u32; 2]>>) -> Links {
     let mut links = Links::default();
     let Some(bonds) = bonds else {
         return links;

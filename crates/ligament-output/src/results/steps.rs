@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use super::columns::{TIME, is_in_time};
 use crate::Error;
-use crate::csv::read::Sheet;
+use crate::csv::read::CsvTable;
 use crate::remedy::Remedy;
 
 /// Selection of a load step, of an event of the exact path, or of a time of a motion.
@@ -32,7 +32,7 @@ pub enum StepName {
 pub enum StepChoice {
     /// All stored steps.
     All,
-    /// One step.
+    /// The one step that a name selects.
     One(StepName),
 }
 
@@ -56,7 +56,7 @@ pub enum StepError {
         "{path} has no history.csv with steps, so that none is known as `{name}`; give a number"
     )]
     NoHistory {
-        /// The folder.
+        /// Folder of the results.
         path: PathBuf,
         /// Requested name.
         name: StepName,
@@ -64,7 +64,7 @@ pub enum StepError {
     /// A time was given for a run in statics.
     #[error("{path} has no times: it is no motion; choose steps by number, first, peak or last")]
     NoTimes {
-        /// The folder.
+        /// Folder of the results.
         path: PathBuf,
     },
     /// The run ended before the event.
@@ -76,7 +76,7 @@ pub enum StepError {
         }
     )]
     DidNotHappen {
-        /// The folder.
+        /// Folder of the results.
         path: PathBuf,
         /// Requested name.
         name: StepName,
@@ -84,7 +84,7 @@ pub enum StepError {
     /// A step counted from the end, where fewer steps are stored.
     #[error("{path} has no step -{back}: there is output of {n_stored} steps")]
     TooFewSteps {
-        /// The folder.
+        /// Folder of the results.
         path: PathBuf,
         /// Place from the end, from 1.
         back: usize,
@@ -94,13 +94,13 @@ pub enum StepError {
     /// The step with the number is not stored.
     #[error("{path} has no output of step {number}; there are {}", listed(stored))]
     NotStored {
-        /// The folder.
+        /// Folder of the results.
         path: PathBuf,
         /// Requested number.
         number: usize,
         /// Numbers of the stored steps.
         stored: Vec<usize>,
-        /// What the user can do.
+        /// Remedy for the user.
         #[source]
         remedy: Remedy,
     },
@@ -222,7 +222,7 @@ fn nearest(time: f64, folder: &Path, stored: &[usize]) -> Result<usize, StepErro
         path: folder.to_path_buf(),
     };
     let path = folder.join("history.csv");
-    let sheet = Sheet::read(path)?;
+    let sheet = CsvTable::read(path)?;
     if !is_in_time(sheet.columns()) {
         return Err(no_times());
     }
@@ -242,7 +242,7 @@ fn event(name: StepName, folder: &Path) -> Result<(&'static str, usize), StepErr
             name,
         });
     }
-    let sheet = Sheet::read(&path)?;
+    let sheet = CsvTable::read(&path)?;
     let found = match name {
         StepName::First => {
             let rows = sheet.numbers(["step", "broken_in_step", "dissipated_energy"])?;
@@ -272,7 +272,7 @@ fn event(name: StepName, folder: &Path) -> Result<(&'static str, usize), StepErr
 ///
 /// If the history cannot be used.
 pub fn time_of(folder: &Path, step: usize) -> Result<Option<f64>, Error> {
-    let sheet = Sheet::read(folder.join("history.csv"))?;
+    let sheet = CsvTable::read(folder.join("history.csv"))?;
     if !is_in_time(sheet.columns()) {
         return Ok(None);
     }

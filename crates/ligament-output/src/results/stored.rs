@@ -13,8 +13,8 @@ use ligament_model::thermal::StressFreeStrains;
 
 use super::model_file::{COEFFICIENTS, GROUP, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
-use super::tables::told;
-use crate::csv::read::{Row, Sheet};
+use super::tables::stored_names;
+use crate::csv::read::{CsvTable, Row};
 use crate::remedy::Remedy;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
@@ -165,14 +165,14 @@ impl StoredRun {
     pub fn open(folder: &Path) -> Result<Self, Error> {
         require_run(folder)?;
         let model = StoredModel::read(folder)?;
-        let broken = Sheet::read(folder.join("breaks.csv"))?;
-        let [pairs, strains] =
-            [ElementKind::Beam, ElementKind::Imaginary].map(|kind| told(kind.strain_names()));
+        let broken = CsvTable::read(folder.join("breaks.csv"))?;
+        let [pairs, strains] = [ElementKind::Beam, ElementKind::Imaginary]
+            .map(|kind| stored_names(kind.strain_names()));
         let has_strains = broken.columns().iter().any(|column| column == strains[0]);
         let deformation_names = if has_strains { strains } else { pairs };
         Ok(Self {
             deformation_names,
-            history: Sheet::read(folder.join("history.csv"))?.rows(StoredStep::of_history)?,
+            history: CsvTable::read(folder.join("history.csv"))?.rows(StoredStep::from_history)?,
             breaks: broken.rows(|row| StoredBreak::read(row, model.tagged, deformation_names))?,
             fields: numbered_files(folder, "fields")?,
             folder: folder.to_path_buf(),
@@ -220,7 +220,7 @@ impl StoredRun {
             None => Vec::new(),
         };
         if rotation.len() != n_points {
-            return Err(file.strange(format!(
+            return Err(file.malformed(format!(
                 "it does not have the {n_points} points of the model"
             )));
         }
@@ -314,15 +314,15 @@ impl StoredBonds {
         Ok(Self {
             ends: file.lines()?,
             horizon: file.finite_numbers(FieldLocation::Cell, "horizon")?,
-            length_factor: of_bonds(file, "length_factor", &absence)?,
-            domain_factor: of_bonds(file, "domain_factor", &absence)?,
+            length_factor: bond_values(file, "length_factor", &absence)?,
+            domain_factor: bond_values(file, "domain_factor", &absence)?,
             absence,
         })
     }
 }
 
 /// Values of a field that all bonds must have; absent bonds have none.
-fn of_bonds(file: &VtuFile, name: &str, absence: &[Option<Absence>]) -> Result<Vec<f64>, Error> {
+fn bond_values(file: &VtuFile, name: &str, absence: &[Option<Absence>]) -> Result<Vec<f64>, Error> {
     let values = file.required_numbers(FieldLocation::Cell, name)?;
     let mut bonds = values
         .iter()
@@ -330,7 +330,7 @@ fn of_bonds(file: &VtuFile, name: &str, absence: &[Option<Absence>]) -> Result<V
         .filter(|(_, absence)| absence.is_none());
     match bonds.any(|(value, _)| value.is_nan()) {
         false => Ok(values),
-        true => Err(file.strange(format!("bonds have no {name}"))),
+        true => Err(file.malformed(format!("bonds have no {name}"))),
     }
 }
 
@@ -339,12 +339,14 @@ fn criteria(
     file: &VtuFile,
     absence: &[Option<Absence>],
 ) -> Result<Vec<StoredCriterion>, Error> {
-    Sheet::read(folder.join("criteria.csv"))?.rows(|row| {
+    CsvTable::read(folder.join("criteria.csv"))?.rows(|row| {
         let name: String = row.value("criterion")?;
         let field = |what: &str| {
             let name = format!("{what}.{name}");
             let is_there = file.components(FieldLocation::Cell, &name).is_some();
-            is_there.then(|| of_bonds(file, &name, absence)).transpose()
+            is_there
+                .then(|| bond_values(file, &name, absence))
+                .transpose()
         };
         let mut coefficients = Vec::new();
         for what in COEFFICIENTS {
@@ -353,7 +355,7 @@ fn criteria(
         Ok(StoredCriterion {
             measure: row.value("measure")?,
             after: row.value("after")?,
-            limit: of_bonds(file, &format!("limit.{name}"), absence)?,
+            limit: bond_values(file, &format!("limit.{name}"), absence)?,
             coefficients,
             parameter: field("after")?.unwrap_or_default(),
             name,
@@ -368,7 +370,7 @@ impl StoredLargest {
             return Ok(None);
         }
         Ok(Some(Self {
-            utilisation: of_bonds(file, name, absence)?,
+            utilisation: bond_values(file, name, absence)?,
             step: file.required_integers(location, "step_of_largest")?,
             criterion: file.required_integers(location, "criterion_of_largest")?,
         }))
@@ -376,7 +378,7 @@ impl StoredLargest {
 }
 
 impl StoredStep {
-    fn of_history(row: Row<'_>) -> Result<Self, Error> {
+    fn from_history(row: Row<'_>) -> Result<Self, Error> {
         let at_rest = row.value::<u8>("at_rest")? != 0;
         Self::read(row, at_rest)
     }

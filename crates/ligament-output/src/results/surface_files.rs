@@ -17,7 +17,7 @@ use ligament_analysis::result_fields::{DISPLACEMENT, OPENING, SLIDING};
 use ligament_post::surfaces::CrackSurface;
 
 use super::crack_growth::{CrackSize, write_growth};
-use super::opened_files::{OPENED, has_cells, write_opened};
+use super::opened_files::{OPENED, has_cells, write_opened_cells};
 use super::outputs::Outputs;
 use super::solid_cracks::SolidCracks;
 use crate::Error;
@@ -49,7 +49,7 @@ pub fn write_surface(
         false => replace_file(&stl, &stl_of(&surface))?,
     }
     match fields.filter(|_| has_cells(cracks)) {
-        Some(fields) => write_opened(&opened, cracks, step, &fields)?,
+        Some(fields) => write_opened_cells(&opened, cracks, step, &fields)?,
         None => remove_file(&opened)?,
     }
     let least = cracks.mean_horizon().powi(2);
@@ -78,7 +78,7 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
         }
         if has_cells(cracks) {
             let name = format!("opened_{step:04}.vtu");
-            write_opened(&folder.join(&name), cracks, step, &fields)?;
+            write_opened_cells(&folder.join(&name), cracks, step, &fields)?;
             bodies.append(time, name)?;
         }
     }
@@ -132,7 +132,7 @@ fn write_grid(
     let jumps = jumps(cracks, surface, fields)?;
     let [opening, sliding]: [Vec<f64>; 2] =
         [0, 1].map(|place| jumps.iter().map(|it| it[place]).collect());
-    let steps = cracks.steps_of_parting();
+    let steps = cracks.steps_of_separation();
     let parted = surface.parted.iter();
     let last = |pairs: &Vec<[u32; 2]>| pairs.iter().filter_map(|it| steps.get(it)).max().copied();
     let step: Vec<Option<usize>> = parted.map(last).collect();
@@ -205,7 +205,7 @@ fn unit_normal([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
 
 /// Sizes of the surface at the records of the history in which it grew.
 fn sizes(cracks: &SolidCracks) -> Vec<CrackSize<'_>> {
-    let surfaces = cracks.grown_records().into_iter();
+    let surfaces = cracks.records_with_growth().into_iter();
     let surfaces = surfaces.map(|record| (record, cracks.surface(record.step)));
     surfaces
         .map(|(record, surface)| CrackSize {

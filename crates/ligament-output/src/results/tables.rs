@@ -13,8 +13,8 @@ use super::columns::{
 };
 use crate::Error;
 use crate::csv::{Table, Value};
+use crate::file_digest::FileDigest;
 use crate::folder::ResultFolder;
-use crate::written::Written;
 
 /// Names of the tables that grow during a run.
 pub(super) const FILES: [&str; 4] = ["history.csv", "iterations.csv", "breaks.csv", "timings.csv"];
@@ -70,13 +70,13 @@ fn stage_columns(problem: &Problem) -> Vec<String> {
 }
 
 /// Function that opens a table, given by its index in [`FILES`] and its columns.
-type Opening<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
+type OpenTable<'a> = &'a dyn Fn(usize, &[&str]) -> Result<Table, Error>;
 
 /// State of the tables of a run in a checkpoint.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub(super) struct Progress {
+pub(super) struct TablesProgress {
     /// Length and digest of each of [`FILES`].
-    pub(super) of_files: [Written; 4],
+    pub(super) of_files: [FileDigest; 4],
     /// Costs up to the last row of timings.
     costs: Costs,
 }
@@ -99,19 +99,19 @@ pub(super) struct Tables {
 
 /// Names of the components of a bond's deformation in results, without the relative rotation of the ends, which enters no criterion.
 pub(super) fn deformation_names(system: &dyn Bonds) -> &'static [&'static str] {
-    told(system.element.strain_names())
+    stored_names(system.element.strain_names())
 }
 
 /// Names of the stored components of a bond's deformation: all names but a last `rotation`.
-pub(super) fn told(names: &'static [&'static str]) -> &'static [&'static str] {
+pub(super) fn stored_names(names: &'static [&'static str]) -> &'static [&'static str] {
     match names {
-        [told @ .., "rotation"] => told,
+        [stored @ .., "rotation"] => stored,
         all => all,
     }
 }
 
 /// Names of the columns of a contact or a rigid body with a given name.
-fn named<R>(columns: &'static [Reading<R>], name: &str, in_space: bool) -> Vec<String> {
+fn names_of_body<R>(columns: &'static [Reading<R>], name: &str, in_space: bool) -> Vec<String> {
     let of_it = |column: &Reading<R>| match column.0.name.split_once('.') {
         Some((_, quantity)) => format!("{name}.{quantity}"),
         None => column.0.name.to_owned(),
@@ -132,9 +132,9 @@ pub fn history_columns(problem: &Problem) -> Vec<String> {
     let motion = MOTION.iter().filter(|_| problem.loads.is_in_time());
     let in_space = problem.system.layout.is_in_space();
     let contacts = problem.contact.contacts.iter().map(|it| &it.name);
-    let contacts = contacts.flat_map(|it| named(CONTACTS, it, in_space));
+    let contacts = contacts.flat_map(|it| names_of_body(CONTACTS, it, in_space));
     let rigid = problem.contact.rigid_bodies.iter().map(|it| &it.name);
-    let rigid = rigid.flat_map(|it| named(RIGID_BODIES, it, in_space));
+    let rigid = rigid.flat_map(|it| names_of_body(RIGID_BODIES, it, in_space));
     (HISTORY.iter().map(|it| it.0.name.to_owned()))
         .chain(stage_columns(problem))
         .chain(closing.map(|it| it.0.name.to_owned()))
@@ -227,39 +227,39 @@ impl Tables {
         write_criteria(folder, problem, &labels_of(problem))?;
         let create =
             |place: usize, columns: &[&str]| Table::create(folder.file(FILES[place]), columns);
-        Self::with(problem, tagged, Costs::default(), &create)
+        Self::open_all(problem, tagged, Costs::default(), &create)
     }
 
     /// The tables of a resumed run, truncated to their state in the checkpoint.
-    pub(super) fn cut_back(
+    pub(super) fn resume(
         folder: &ResultFolder,
         problem: &Problem,
         tagged: &str,
-        progress: &Progress,
+        progress: &TablesProgress,
     ) -> Result<Self, Error> {
-        let cut_back = |place: usize, columns: &[&str]| {
+        let resume = |place: usize, columns: &[&str]| {
             let length = progress.of_files[place].length;
-            Table::cut_back(folder.file(FILES[place]), columns.len(), length)
+            Table::open_truncated(folder.file(FILES[place]), columns.len(), length)
         };
-        Self::with(problem, tagged, progress.costs, &cut_back)
+        Self::open_all(problem, tagged, progress.costs, &resume)
     }
 
     /// Syncs the tables to disk and returns their state.
-    pub(super) fn progress(&self) -> Result<Progress, Error> {
+    pub(super) fn progress(&self) -> Result<TablesProgress, Error> {
         let [history, iterations, breaks, timings] =
-            [&self.history, &self.iterations, &self.breaks, &self.timings].map(Table::synced);
-        Ok(Progress {
+            [&self.history, &self.iterations, &self.breaks, &self.timings].map(Table::sync);
+        Ok(TablesProgress {
             of_files: [history?, iterations?, breaks?, timings?],
             costs: self.costs_before,
         })
     }
 
     /// The tables, each opened by `table`.
-    fn with(
+    fn open_all(
         problem: &Problem,
         tagged: &str,
         costs_before: Costs,
-        table: Opening<'_>,
+        table: OpenTable<'_>,
     ) -> Result<Self, Error> {
         let [history, breaks] = [history_columns(problem), break_columns(problem, tagged)];
         let [history, breaks] =

@@ -5,7 +5,7 @@ use ligament_analysis::termination::{ENDS, End, Verdict};
 use super::Summary;
 
 /// Message about a run that ended without equilibrium after other states.
-pub const UP_TO_THERE: &str =
+pub const INCOMPLETE_RUN_NOTE: &str =
     "no equilibrium was found at the load where the run ended; the results reach up to there";
 
 /// The verdict on the results by the short name of an end; for a name of another version, the verdict on a complete run.
@@ -41,7 +41,7 @@ impl Summary {
                 "NO EQUILIBRIUM",
                 "there is no equilibrium under any load, so there are no results",
             ],
-            (End::NoEquilibrium, _) => ["NO EQUILIBRIUM", UP_TO_THERE],
+            (End::NoEquilibrium, _) => ["NO EQUILIBRIUM", INCOMPLETE_RUN_NOTE],
             (End::Invalid, _) => [
                 "NOT TO BE TRUSTED",
                 "ignore the last state; the results reach up to the one before",

@@ -29,9 +29,9 @@ pub struct Field<'a> {
     component_names: &'a [&'a str],
 }
 
-/// Values of some of the points or cells of a field.
+/// Values of a field at selected points or cells.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Chosen {
+pub(crate) enum SelectedValues {
     Double(Vec<f64>),
     Single(Vec<f32>),
     Integer(Vec<i64>),
@@ -113,7 +113,7 @@ impl<'a> Field<'a> {
     }
 
     /// Values of some points or cells, given by their indices in the file.
-    pub(crate) fn at(&self, rows: &[u32]) -> Chosen {
+    pub(crate) fn at(&self, rows: &[u32]) -> SelectedValues {
         let taken: Vec<u32>;
         let rows = match self.order {
             None => rows,
@@ -128,23 +128,23 @@ impl<'a> Field<'a> {
         }
         let n = self.n_components;
         match self.numbers {
-            Numbers::Double(values) => Chosen::Double(chosen(values, n, rows)),
-            Numbers::Single(values) => Chosen::Single(chosen(values, n, rows)),
-            Numbers::Integer(values) => Chosen::Integer(chosen(values, n, rows)),
-            Numbers::Byte(values) => Chosen::Byte(chosen(values, n, rows)),
+            Numbers::Double(values) => SelectedValues::Double(chosen(values, n, rows)),
+            Numbers::Single(values) => SelectedValues::Single(chosen(values, n, rows)),
+            Numbers::Integer(values) => SelectedValues::Integer(chosen(values, n, rows)),
+            Numbers::Byte(values) => SelectedValues::Byte(chosen(values, n, rows)),
         }
     }
 
     /// The field with other values.
-    pub(crate) fn with<'b>(&self, chosen: &'b Chosen) -> Field<'b>
+    pub(crate) fn with<'b>(&self, chosen: &'b SelectedValues) -> Field<'b>
     where
         'a: 'b,
     {
         let numbers = match chosen {
-            Chosen::Double(values) => Numbers::Double(values),
-            Chosen::Single(values) => Numbers::Single(values),
-            Chosen::Integer(values) => Numbers::Integer(values),
-            Chosen::Byte(values) => Numbers::Byte(values),
+            SelectedValues::Double(values) => Numbers::Double(values),
+            SelectedValues::Single(values) => Numbers::Single(values),
+            SelectedValues::Integer(values) => Numbers::Integer(values),
+            SelectedValues::Byte(values) => Numbers::Byte(values),
         };
         Field {
             numbers,

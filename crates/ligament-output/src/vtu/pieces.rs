@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use ligament_model::subdomain::Subdomain;
 
-use super::field::Chosen;
+use super::field::SelectedValues;
 use super::{Cell, Field, UnstructuredGrid, field_data_xml, push_fields, write_vtu};
 use crate::Error;
 use crate::replace_file;
@@ -26,16 +26,16 @@ pub(super) const POINT_NUMBER: &str = "point_number";
 pub(super) const CELL_NUMBER: &str = "cell_number";
 
 /// File extension of a grid in one file.
-pub const SINGLE: &str = "vtu";
+pub const FILE_EXTENSION: &str = "vtu";
 
 /// File extension of a grid in pieces.
-pub const IN_PIECES: &str = "pvtu";
+pub const PIECES_EXTENSION: &str = "pvtu";
 
 /// Name of the file of a grid, in pieces where the body is divided between processes.
 pub fn file_name(stem: &str, subdomain: &Subdomain) -> String {
     let ending = match subdomain.is_whole() {
-        true => SINGLE,
-        false => IN_PIECES,
+        true => FILE_EXTENSION,
+        false => PIECES_EXTENSION,
     };
     format!("{stem}.{ending}")
 }
@@ -48,8 +48,8 @@ pub fn stem(name: &str) -> Option<&str> {
         rank.parse::<usize>().is_ok().then_some(stem)
     };
     match ending {
-        SINGLE => Some(of_piece().unwrap_or(rest)),
-        IN_PIECES => Some(rest),
+        FILE_EXTENSION => Some(of_piece().unwrap_or(rest)),
+        PIECES_EXTENSION => Some(rest),
         _ => None,
     }
 }
@@ -67,12 +67,12 @@ pub struct SharedCells<'a> {
     /// For each cell, the point of the body whose owner owns the cell, shape (n_cells).
     pub points: &'a [u32],
     /// Indices of the points and cells in the whole grid.
-    pub held: Held<'a>,
+    pub global: GlobalIndices<'a>,
 }
 
 /// Indices in the whole grid of the points and cells of one of several processes; empty on one process.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Held<'a> {
+pub struct GlobalIndices<'a> {
     /// Indices of the points, shape (n_points).
     pub points: &'a [u32],
     /// Indices of the cells, shape (n_cells); none where they have no order in the whole grid.
@@ -80,7 +80,7 @@ pub struct Held<'a> {
 }
 
 /// The indices at some places.
-fn at(indices: &[u32], places: &[u32]) -> Vec<i64> {
+fn indices_at(indices: &[u32], places: &[u32]) -> Vec<i64> {
     let chosen = places.iter().map(|&place| indices[place as usize]);
     chosen.map(i64::from).collect()
 }
@@ -109,7 +109,7 @@ pub fn write_shared(
     let written = if own.is_empty() {
         Ok(())
     } else {
-        write_piece(&piece(path, communicator.rank()), grid, &own, shared.held)
+        write_piece(&piece(path, communicator.rank()), grid, &own, shared.global)
     };
     let counts = shared.subdomain.all_gather_list(vec![[
         own.len() as f64,
@@ -128,7 +128,7 @@ pub fn write_shared(
     let ranks = counts.iter().enumerate();
     let with_cells = ranks.filter(|(_, [count, _])| *count > 0.0);
     let pieces: Vec<PathBuf> = with_cells.map(|(rank, _)| piece(path, rank)).collect();
-    replace_file(path, outline(grid, &pieces, shared.held).as_bytes())
+    replace_file(path, outline(grid, &pieces, shared.global).as_bytes())
 }
 
 /// Writes some cells of a grid with their points.
@@ -136,7 +136,7 @@ fn write_piece(
     path: &Path,
     grid: &UnstructuredGrid<'_>,
     own: &[u32],
-    held: Held<'_>,
+    global: GlobalIndices<'_>,
 ) -> Result<(), Error> {
     grid.check(path)?;
     let corners = |&cell: &u32| grid.cells[cell as usize].points();
@@ -152,15 +152,15 @@ fn write_piece(
         .iter()
         .map(|&point| grid.points[point as usize])
         .collect();
-    let point_numbers = at(held.points, &points);
-    let cell_numbers = held.cells.map(|it| at(it, own));
+    let point_numbers = indices_at(global.points, &points);
+    let cell_numbers = global.cells.map(|it| indices_at(it, own));
     let [of_points, of_cells] = [(grid.point_fields, &points[..]), (grid.cell_fields, own)]
         .map(|(fields, rows)| fields.iter().map(|it| it.at(rows)).collect());
-    let of_points: Vec<Chosen> = of_points;
-    let of_cells: Vec<Chosen> = of_cells;
-    let mut point_fields: Vec<Field<'_>> = chosen(grid.point_fields, &of_points);
+    let of_points: Vec<SelectedValues> = of_points;
+    let of_cells: Vec<SelectedValues> = of_cells;
+    let mut point_fields: Vec<Field<'_>> = selected_fields(grid.point_fields, &of_points);
     point_fields.push(Field::integer(POINT_NUMBER, &point_numbers));
-    let mut cell_fields: Vec<Field<'_>> = chosen(grid.cell_fields, &of_cells);
+    let mut cell_fields: Vec<Field<'_>> = selected_fields(grid.cell_fields, &of_cells);
     if let Some(numbers) = &cell_numbers {
         cell_fields.push(Field::integer(CELL_NUMBER, numbers));
     }
@@ -174,13 +174,13 @@ fn write_piece(
     write_vtu(path, &piece)
 }
 
-fn chosen<'a>(fields: &'a [Field<'a>], numbers: &'a [Chosen]) -> Vec<Field<'a>> {
+fn selected_fields<'a>(fields: &'a [Field<'a>], numbers: &'a [SelectedValues]) -> Vec<Field<'a>> {
     let pairs = fields.iter().zip(numbers);
     pairs.map(|(field, numbers)| field.with(numbers)).collect()
 }
 
 /// The document that names the pieces.
-fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], held: Held<'_>) -> String {
+fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], global: GlobalIndices<'_>) -> String {
     let mut xml = String::from(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
@@ -190,7 +190,7 @@ fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], held: Held<'_>) -> S
     let mut point_fields = grid.point_fields.to_vec();
     point_fields.push(Field::integer(POINT_NUMBER, &[]));
     let mut cell_fields = grid.cell_fields.to_vec();
-    if held.cells.is_some() {
+    if global.cells.is_some() {
         cell_fields.push(Field::integer(CELL_NUMBER, &[]));
     }
     push_fields(&mut xml, "PPointData", &point_fields, |it| it.outline());

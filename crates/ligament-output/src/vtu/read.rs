@@ -11,10 +11,10 @@ use std::path::{Path, PathBuf};
 use super::pieces::{CELL_NUMBER, POINT_NUMBER};
 use super::{Cell, TIME_VALUE};
 use crate::{Error, FieldLocation};
-use text::{Entry, Section, Text, sources, strange};
+use text::{ArrayEntry, ArraySection, VtuText, malformed, sources};
 
 /// Nouns for the points of a model whose tags a file has: nodes of a mesh, cells of a lattice, points of a table.
-pub const TAGGED: [&str; 3] = ["node", "cell", "point"];
+pub const TAG_NOUNS: [&str; 3] = ["node", "cell", "point"];
 
 /// Size that no result reaches: squares and quotients of smaller numbers are finite.
 const BEYOND: f64 = 1e100;
@@ -31,17 +31,17 @@ pub struct VtuFile {
 /// A piece of a grid, with the places of its points and cells in the whole grid.
 #[derive(Debug)]
 struct Piece {
-    text: Text,
-    points: Places,
-    cells: Places,
+    text: VtuText,
+    points: RowNumbers,
+    cells: RowNumbers,
 }
 
-/// Places of the rows of a piece among the rows of the grid.
+/// Numbers in the whole grid of the rows of a piece.
 #[derive(Debug)]
-enum Places {
-    /// Consecutive places from this one on.
+enum RowNumbers {
+    /// Consecutive numbers from this one on.
     From(usize),
-    /// The place of each row.
+    /// The number of each row.
     Numbers(Vec<u32>),
 }
 
@@ -54,31 +54,31 @@ impl VtuFile {
     pub fn open(path: impl Into<PathBuf>) -> Result<Self, Error> {
         let path = path.into();
         if path.extension().is_none_or(|it| it != "pvtu") {
-            let text = Text::open(&path)?;
+            let text = VtuText::open(&path)?;
             return Ok(Self {
                 path,
                 n_points: text.n_points(),
                 n_cells: text.n_cells(),
                 pieces: vec![Piece {
                     text,
-                    points: Places::From(0),
-                    cells: Places::From(0),
+                    points: RowNumbers::From(0),
+                    cells: RowNumbers::From(0),
                 }],
             });
         }
-        Self::of_pieces(path)
+        Self::open_pieces(path)
     }
 
     /// Reads the pieces of a grid.
-    fn of_pieces(path: PathBuf) -> Result<Self, Error> {
+    fn open_pieces(path: PathBuf) -> Result<Self, Error> {
         let mut pieces = Vec::new();
         let mut before = [0, 0];
         for source in sources(&path)? {
             // A piece lies beside the file that names it: a path in its name is ignored.
             let name = Path::new(&source).file_name().unwrap_or_default();
-            let text = Text::open(&path.with_file_name(name))?;
-            let points = Places::read(&text, FieldLocation::Point, before[0])?;
-            let cells = Places::read(&text, FieldLocation::Cell, before[1])?;
+            let text = VtuText::open(&path.with_file_name(name))?;
+            let points = RowNumbers::read(&text, FieldLocation::Point, before[0])?;
+            let cells = RowNumbers::read(&text, FieldLocation::Cell, before[1])?;
             before = [before[0] + text.n_points(), before[1] + text.n_cells()];
             pieces.push(Piece {
                 text,
@@ -86,8 +86,8 @@ impl VtuFile {
                 cells,
             });
         }
-        let n_points = count(pieces.iter().map(|it| (&it.points, it.text.n_points())));
-        let n_cells = count(pieces.iter().map(|it| (&it.cells, it.text.n_cells())));
+        let n_points = grid_size(pieces.iter().map(|it| (&it.points, it.text.n_points())));
+        let n_cells = grid_size(pieces.iter().map(|it| (&it.cells, it.text.n_cells())));
         match n_points.zip(n_cells) {
             Some((n_points, n_cells)) => Ok(Self {
                 path,
@@ -95,7 +95,7 @@ impl VtuFile {
                 n_points,
                 n_cells,
             }),
-            None => Err(strange(&path, "its pieces do not make a whole")),
+            None => Err(malformed(&path, "its pieces do not make a whole")),
         }
     }
 
@@ -106,7 +106,7 @@ impl VtuFile {
 
     /// Names of the fields on the points or cells, in their order.
     pub fn fields(&self, location: FieldLocation) -> impl Iterator<Item = &str> {
-        let section = Section::Fields(location);
+        let section = ArraySection::Fields(location);
         let arrays = self.pieces[0].text.arrays(section);
         let names = arrays.map(|array| array.name.as_str());
         names.filter(|name| ![POINT_NUMBER, CELL_NUMBER].contains(name))
@@ -119,8 +119,8 @@ impl VtuFile {
     /// If they are damaged.
     pub fn field_data(&self) -> Result<Vec<(&str, f64)>, Error> {
         let text = &self.pieces[0].text;
-        let arrays = text.arrays(Section::FieldData);
-        let number = |it: &'_ Entry| text.floats(it).map(|values| values[0]);
+        let arrays = text.arrays(ArraySection::FieldData);
+        let number = |it: &'_ ArrayEntry| text.floats(it).map(|values| values[0]);
         arrays
             .map(|it| Ok((it.name.as_str(), number(it)?)))
             .collect()
@@ -140,7 +140,7 @@ impl VtuFile {
     /// The number of values that a field has for each point or cell, and the names of these components if they have any;
     /// None where there is no such field.
     pub fn components(&self, location: FieldLocation, name: &str) -> Option<(usize, &[String])> {
-        let entry = self.find(Section::Fields(location), name)?;
+        let entry = self.find(ArraySection::Fields(location), name)?;
         Some((entry.n_components, &entry.components))
     }
 
@@ -161,7 +161,7 @@ impl VtuFile {
     ///
     /// If it is damaged, or does not hold numbers.
     pub fn numbers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<f64>>, Error> {
-        self.joined(Section::Fields(location), name, Text::floats)
+        self.values_of_pieces(ArraySection::Fields(location), name, VtuText::floats)
     }
 
     /// The integers of a field; None where there is no such field.
@@ -170,7 +170,7 @@ impl VtuFile {
     ///
     /// If it is damaged, or does not hold integers.
     pub fn integers(&self, location: FieldLocation, name: &str) -> Result<Option<Vec<i64>>, Error> {
-        self.joined(Section::Fields(location), name, Text::whole)
+        self.values_of_pieces(ArraySection::Fields(location), name, VtuText::integers)
     }
 
     /// The numbers of a field that the file must have.
@@ -180,7 +180,7 @@ impl VtuFile {
     /// If it is missing or damaged, or does not hold numbers.
     pub fn required_numbers(&self, location: FieldLocation, name: &str) -> Result<Vec<f64>, Error> {
         let values = self.numbers(location, name)?;
-        values.ok_or_else(|| self.missing(location, name))
+        values.ok_or_else(|| self.missing_field(location, name))
     }
 
     /// The numbers of a field that the file must have, all finite and of a size that results can have.
@@ -189,7 +189,7 @@ impl VtuFile {
     ///
     /// If it is missing or damaged, or holds something else.
     pub fn finite_numbers(&self, location: FieldLocation, name: &str) -> Result<Vec<f64>, Error> {
-        self.finite(name, self.required_numbers(location, name)?)
+        self.require_finite(name, self.required_numbers(location, name)?)
     }
 
     /// The integers of a field that the file must have.
@@ -203,21 +203,21 @@ impl VtuFile {
         name: &str,
     ) -> Result<Vec<i64>, Error> {
         let values = self.integers(location, name)?;
-        values.ok_or_else(|| self.missing(location, name))
+        values.ok_or_else(|| self.missing_field(location, name))
     }
 
-    /// The tags of the points of a model, with the noun of [`TAGGED`] for these points.
+    /// The tags of the points of a model, with the noun of [`TAG_NOUNS`] for these points.
     ///
     /// # Errors
     ///
     /// If there are none, or they are damaged.
     pub fn tags(&self, location: FieldLocation) -> Result<(&'static str, Vec<i64>), Error> {
-        for tagged in TAGGED {
+        for tagged in TAG_NOUNS {
             if let Some(tags) = self.integers(location, tagged)? {
                 return Ok((tagged, tags));
             }
         }
-        Err(self.strange(format!("its {location}s have no tags")))
+        Err(self.malformed(format!("its {location}s have no tags")))
     }
 
     /// Positions of the points, shape (n_points); z = 0 of a planar grid.
@@ -226,9 +226,9 @@ impl VtuFile {
     ///
     /// If they are damaged or missing.
     pub fn points(&self) -> Result<Vec<[f64; 3]>, Error> {
-        let values = self.joined(Section::Points, "Points", Text::floats)?;
-        let values = values.ok_or_else(|| self.without("Points"))?;
-        let values = self.finite("Points", values)?;
+        let values = self.values_of_pieces(ArraySection::Points, "Points", VtuText::floats)?;
+        let values = values.ok_or_else(|| self.missing_array("Points"))?;
+        let values = self.require_finite("Points", values)?;
         Ok(values.as_chunks().0.to_vec())
     }
 
@@ -241,7 +241,7 @@ impl VtuFile {
         let in_plane = |[x, y, z]: [f64; 3]| (z == 0.0).then_some([x, y]);
         let points: Option<Vec<[f64; 2]>> = self.points()?.into_iter().map(in_plane).collect();
         points.ok_or_else(|| {
-            self.strange(
+            self.malformed(
                 "its points do not lie in the plane z = 0: the body is a solid, and this shows only bodies in the plane",
             )
         })
@@ -256,28 +256,29 @@ impl VtuFile {
         let mut cells = vec![None; self.n_cells];
         for piece in &self.pieces {
             for (place, cell) in self.cells_of(piece)?.into_iter().enumerate() {
-                cells[piece.cells.at(place)] = cell;
+                cells[piece.cells.global_number(place)] = cell;
             }
         }
         let cells: Option<Vec<Cell>> = cells.into_iter().collect();
-        cells
-            .ok_or_else(|| self.strange("its cells are of a kind that this program does not write"))
+        cells.ok_or_else(|| {
+            self.malformed("its cells are of a kind that this program does not write")
+        })
     }
 
     /// The cells of a piece, with the numbers of their points in the whole grid; `None` for a cell of another kind.
     fn cells_of(&self, piece: &Piece) -> Result<Vec<Option<Cell>>, Error> {
         let text = &piece.text;
         let array = |name| {
-            text.find(Section::Cells, name)
-                .ok_or_else(|| self.without(name))
+            text.find(ArraySection::Cells, name)
+                .ok_or_else(|| self.missing_array(name))
         };
-        let connectivity = text.whole(array("connectivity")?)?;
-        let offsets = text.whole(array("offsets")?)?;
+        let connectivity = text.integers(array("connectivity")?)?;
+        let offsets = text.integers(array("offsets")?)?;
         let types = text.bytes(array("types")?)?;
         let point = |number: &i64| {
             let number = usize::try_from(*number).ok();
             let number = number.filter(|point| *point < text.n_points());
-            number.map(|place| piece.points.at(place) as u32)
+            number.map(|place| piece.points.global_number(place) as u32)
         };
         let mut from = 0;
         let cell = |(vtk_type, to): (u8, i64)| {
@@ -289,7 +290,7 @@ impl VtuFile {
         let cells: Vec<Option<Cell>> = types.into_iter().zip(offsets).map(cell).collect();
         match cells.len() == text.n_cells() {
             true => Ok(cells),
-            false => Err(self.strange("array types is damaged")),
+            false => Err(self.malformed("array types is damaged")),
         }
     }
 
@@ -304,42 +305,42 @@ impl VtuFile {
             _ => None,
         };
         let lines: Option<Vec<[u32; 2]>> = self.cells()?.into_iter().map(ends).collect();
-        lines.ok_or_else(|| self.strange("its cells are no pairs of its points"))
+        lines.ok_or_else(|| self.malformed("its cells are no pairs of its points"))
     }
 
     /// The error for a file with an invalid part, given the reason.
-    pub(crate) fn strange(&self, reason: impl Into<String>) -> Error {
-        strange(&self.path, reason)
+    pub(crate) fn malformed(&self, reason: impl Into<String>) -> Error {
+        malformed(&self.path, reason)
     }
 
-    fn finite(&self, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
+    fn require_finite(&self, name: &str, values: Vec<f64>) -> Result<Vec<f64>, Error> {
         match values
             .iter()
             .find(|value| value.is_nan() || value.abs() >= BEYOND)
         {
             None => Ok(values),
-            Some(value) => Err(self.strange(format!("array {name} holds {value}"))),
+            Some(value) => Err(self.malformed(format!("array {name} holds {value}"))),
         }
     }
 
-    fn missing(&self, location: FieldLocation, name: &str) -> Error {
-        self.strange(format!("it has no {location} field {name}"))
+    fn missing_field(&self, location: FieldLocation, name: &str) -> Error {
+        self.malformed(format!("it has no {location} field {name}"))
     }
 
-    fn without(&self, name: &str) -> Error {
-        self.strange(format!("it has no array {name}"))
+    fn missing_array(&self, name: &str) -> Error {
+        self.malformed(format!("it has no array {name}"))
     }
 
-    fn find(&self, section: Section, name: &str) -> Option<&Entry> {
+    fn find(&self, section: ArraySection, name: &str) -> Option<&ArrayEntry> {
         self.pieces[0].text.find(section, name)
     }
 
     /// The values of an array over all pieces; None where there is no such array.
-    fn joined<T: Copy + Default>(
+    fn values_of_pieces<T: Copy + Default>(
         &self,
-        section: Section,
+        section: ArraySection,
         name: &str,
-        values: impl Fn(&Text, &Entry) -> Result<Vec<T>, Error>,
+        values: impl Fn(&VtuText, &ArrayEntry) -> Result<Vec<T>, Error>,
     ) -> Result<Option<Vec<T>>, Error> {
         let Some(first) = self.find(section, name) else {
             return Ok(None);
@@ -349,7 +350,7 @@ impl VtuFile {
         }
         let (n, is_of_cells) = (
             first.n_components,
-            section == Section::Fields(FieldLocation::Cell),
+            section == ArraySection::Fields(FieldLocation::Cell),
         );
         let n_rows = if is_of_cells {
             self.n_cells
@@ -362,38 +363,38 @@ impl VtuFile {
                 .text
                 .find(section, name)
                 .filter(|it| it.n_components == n);
-            let of_piece = values(&piece.text, entry.ok_or_else(|| self.without(name))?)?;
+            let of_piece = values(&piece.text, entry.ok_or_else(|| self.missing_array(name))?)?;
             let places = if is_of_cells {
                 &piece.cells
             } else {
                 &piece.points
             };
             for (place, row) in of_piece.chunks_exact(n).enumerate() {
-                all[n * places.at(place)..][..n].copy_from_slice(row);
+                all[n * places.global_number(place)..][..n].copy_from_slice(row);
             }
         }
         Ok(Some(all))
     }
 }
 
-impl Places {
+impl RowNumbers {
     /// Places of the rows of a piece: by their stored numbers, otherwise following the `before` rows of the pieces before it.
-    fn read(text: &Text, location: FieldLocation, before: usize) -> Result<Self, Error> {
+    fn read(text: &VtuText, location: FieldLocation, before: usize) -> Result<Self, Error> {
         let name = match location {
             FieldLocation::Point => POINT_NUMBER,
             FieldLocation::Cell => CELL_NUMBER,
         };
-        let Some(entry) = text.find(Section::Fields(location), name) else {
+        let Some(entry) = text.find(ArraySection::Fields(location), name) else {
             return Ok(Self::From(before));
         };
-        let numbers = text.whole(entry)?.into_iter().map(u32::try_from);
+        let numbers = text.integers(entry)?.into_iter().map(u32::try_from);
         let numbers: Result<Vec<u32>, _> = numbers.collect();
-        let numbers = numbers.map_err(|_| text.strange(format!("array {name} is damaged")))?;
+        let numbers = numbers.map_err(|_| text.malformed(format!("array {name} is damaged")))?;
         Ok(Self::Numbers(numbers))
     }
 
     /// Place in the grid of a row of the piece.
-    fn at(&self, row: usize) -> usize {
+    fn global_number(&self, row: usize) -> usize {
         match self {
             Self::From(first) => first + row,
             Self::Numbers(numbers) => numbers[row] as usize,
@@ -402,12 +403,12 @@ impl Places {
 }
 
 /// Number of the rows of a grid, with the places and the number of rows of each piece; None where a place is missing.
-fn count<'a>(pieces: impl Iterator<Item = (&'a Places, usize)> + Clone) -> Option<usize> {
+fn grid_size<'a>(pieces: impl Iterator<Item = (&'a RowNumbers, usize)> + Clone) -> Option<usize> {
     let most = pieces.clone().map(|(_, n)| n).sum();
     let mut is_there = vec![false; most];
     for (places, n) in pieces {
         for row in 0..n {
-            *is_there.get_mut(places.at(row))? = true;
+            *is_there.get_mut(places.global_number(row))? = true;
         }
     }
     let n_rows = is_there.iter().rposition(|it| *it)? + 1;

@@ -55,7 +55,7 @@ impl Axes<'_> {
         (beside + widths.fold(0.0, f64::max)).max(LEFT * self.letters)
     }
 
-    /// Draws them around a frame.
+    /// Draws the axes around a frame.
     pub(crate) fn draw(&self, drawing: &mut Drawing, frame: Frame) {
         let [left, top] = frame.at;
         let [right, bottom] = [left + frame.size()[0], top + frame.size()[1]];

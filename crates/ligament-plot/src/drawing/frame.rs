@@ -45,7 +45,7 @@ impl Frame {
     }
 
     /// Whether a polygon may reach into the part.
-    pub(crate) fn meets(&self, points: &[[f64; 2]]) -> bool {
+    pub(crate) fn may_intersect(&self, points: &[[f64; 2]]) -> bool {
         bounds(points).is_some_and(|[low, high]| {
             (0..2).all(|axis| low[axis] <= self.high[axis] && high[axis] >= self.low[axis])
         })
@@ -53,7 +53,7 @@ impl Frame {
 
     /// Adds the outline of a polygon that reaches into the part.
     pub(crate) fn add(&self, path: &mut PathData, outline: &[[f64; 2]]) {
-        if self.meets(outline) && outline.iter().flatten().all(|it| it.is_finite()) {
+        if self.may_intersect(outline) && outline.iter().flatten().all(|it| it.is_finite()) {
             path.outline(outline.iter().map(|&point| self.to_pixels(point)));
         }
     }

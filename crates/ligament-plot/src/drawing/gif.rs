@@ -37,7 +37,7 @@ pub(crate) fn to_gif(pictures: &[Pixels], hundredths: u16) -> Result<Vec<u8>, Gi
     let [Ok(across), Ok(down)] = [width, height].map(u16::try_from) else {
         return Err(GifError::Size(width, height));
     };
-    let palette = Palette::common_to(pictures);
+    let palette = Palette::most_frequent_colours(pictures);
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, across, down, palette.colours.as_flattened())?;
     encoder.set_repeat(Repeat::Infinite)?;
@@ -46,7 +46,7 @@ pub(crate) fn to_gif(pictures: &[Pixels], hundredths: u16) -> Result<Vec<u8>, Gi
     for (place, picture) in pictures.iter().enumerate() {
         let places = (picture.colours.iter()).map(|colour| palette.place(*colour, &mut known));
         let dots: Vec<u8> = places.collect();
-        let [left, top, columns, rows] = changed(before.as_deref(), &dots, width as usize);
+        let [left, top, columns, rows] = changed_box(before.as_deref(), &dots, width as usize);
         let lines = (top..top + rows).flat_map(|row| {
             let start = row * width as usize + left;
             &dots[start..start + columns]
@@ -74,7 +74,7 @@ pub(crate) fn to_gif(pictures: &[Pixels], hundredths: u16) -> Result<Vec<u8>, Gi
 }
 
 /// The box (left, top, columns, rows) of the dots that differ from the picture before; a single dot where none differs.
-fn changed(before: Option<&[u8]>, dots: &[u8], width: usize) -> [usize; 4] {
+fn changed_box(before: Option<&[u8]>, dots: &[u8], width: usize) -> [usize; 4] {
     let Some(before) = before else {
         return [0, 0, width, dots.len() / width];
     };
@@ -97,7 +97,7 @@ struct Palette {
 impl Palette {
     /// The most frequent colours of all pictures, of equally frequent colours the darker ones first. Areas keep their exact colours; the
     /// colours that are left out are blends at their rims.
-    fn common_to(pictures: &[Pixels]) -> Self {
+    fn most_frequent_colours(pictures: &[Pixels]) -> Self {
         let mut dots: HashMap<[u8; 3], usize> = HashMap::new();
         for colour in pictures.iter().flat_map(|picture| &picture.colours) {
             *dots.entry(*colour).or_default() += 1;
@@ -196,7 +196,7 @@ mod tests {
             size: [305, 1],
             colours: [&greys[..], &often].concat(),
         };
-        let palette = Palette::common_to(std::slice::from_ref(&picture));
+        let palette = Palette::most_frequent_colours(std::slice::from_ref(&picture));
         assert_eq!(
             (palette.colours.len(), palette.colours[0]),
             (256, [9, 9, 9])
@@ -208,9 +208,9 @@ mod tests {
     #[test]
     fn changes_are_boxed() {
         let (before, after) = ([0; 12], [0, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0, 0]);
-        assert_eq!(changed(Some(&before), &after, 4), [1, 1, 2, 2]);
-        assert_eq!(changed(Some(&before), &before, 4), [0, 0, 1, 1]);
-        assert_eq!(changed(None, &after, 4), [0, 0, 4, 3]);
+        assert_eq!(changed_box(Some(&before), &after, 4), [1, 1, 2, 2]);
+        assert_eq!(changed_box(Some(&before), &before, 4), [0, 0, 1, 1]);
+        assert_eq!(changed_box(None, &after, 4), [0, 0, 4, 3]);
         assert!(matches!(to_gif(&[], 10), Err(GifError::Empty)));
     }
 }

@@ -55,7 +55,7 @@ fn attributes(paint: &Paint, units: f64) -> String {
             attributes,
             " stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\" stroke-linecap=\"{}\"",
             hex(colour),
-            rounded(width * units),
+            rounded_length(width * units),
             if paint.dashes.is_some() {
                 "butt"
             } else {
@@ -64,14 +64,14 @@ fn attributes(paint: &Paint, units: f64) -> String {
         );
     }
     if let Some(dashes) = paint.dashes {
-        let [dash, gap] = dashes.map(|it| rounded(it * units));
+        let [dash, gap] = dashes.map(|it| rounded_length(it * units));
         let _ = write!(attributes, " stroke-dasharray=\"{dash} {gap}\"");
     }
     attributes
 }
 
 /// A length to a hundredth.
-fn rounded(length: f64) -> f64 {
+fn rounded_length(length: f64) -> f64 {
     (100.0 * length).round() / 100.0
 }
 
@@ -86,7 +86,7 @@ fn text_element(line: &TextLine) -> String {
         Anchor::Middle => " text-anchor=\"middle\"",
         Anchor::End => " text-anchor=\"end\"",
     };
-    let (size, text) = (rounded(line.size), escaped(&line.text));
+    let (size, text) = (rounded_length(line.size), escaped(&line.text));
     format!("<text {place} font-size=\"{size}\"{anchor}>{text}</text>")
 }
 

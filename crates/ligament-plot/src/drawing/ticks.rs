@@ -1,6 +1,6 @@
 //! Round numbers along an axis.
 
-use crate::picture::units::with_decimals_of;
+use crate::picture::units::text_with_decimals_of;
 
 /// Range of an axis: all finite values and a twentieth more at each end; `None` without values.
 pub(crate) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
@@ -16,7 +16,7 @@ pub(crate) fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
 }
 
 /// The least product of a factor (1 to 5, ascending) and a power of ten that is not below a number.
-pub(crate) fn rounded_up(least: f64, factors: &[f64]) -> f64 {
+pub(crate) fn round_number_above(least: f64, factors: &[f64]) -> f64 {
     let power = 10f64.powf(least.log10().floor());
     let reaches = |step: &f64| *step >= least * (1.0 - 1e-9);
     let mut steps = factors.iter().map(|factor| factor * power);
@@ -30,13 +30,13 @@ pub(crate) fn ticks([low, high]: [f64; 2], most: f64) -> Vec<(f64, String)> {
     if !(least > 0.0 && least.is_finite()) {
         return Vec::new();
     }
-    let step = rounded_up(least, &[1.0, 2.0, 5.0]);
+    let step = round_number_above(least, &[1.0, 2.0, 5.0]);
     let within = 1e-6 * step;
     let first = ((low - within) / step).ceil() as i64;
     let last = ((high + within) / step).floor() as i64;
     let tick = |place: i64| {
         let value = place as f64 * step;
-        (value, with_decimals_of(value, step))
+        (value, text_with_decimals_of(value, step))
     };
     (first..=last).map(tick).collect()
 }

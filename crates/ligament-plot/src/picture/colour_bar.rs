@@ -1,13 +1,13 @@
 //! The colour bar beside the bodies.
 
 use super::panel::Scale;
-use super::units::{Shown, with_decimals_of};
+use super::units::{AxisUnit, text_with_decimals_of};
 use crate::drawing::{Anchor, Drawing, OUTLINE, Paint, text_width};
 
 /// Width of the bar, pixels.
 const WIDTH: f64 = 11.0;
 
-/// Size of its labels, pixels.
+/// Size of the labels of a colour bar, pixels.
 const SIZE: f64 = 8.5;
 
 /// Length of a tick, and room on both sides of a text.
@@ -28,15 +28,15 @@ impl<'a> ColourBar<'a> {
     pub(super) fn new(scale: &'a Scale, quantity: &str, unit: &str, range: [f64; 2]) -> Self {
         let levels = &scale.levels;
         let [low, high] = levels.range();
-        let shown = Shown::new(unit, low.abs().max(high.abs()));
+        let shown = AxisUnit::new(unit, low.abs().max(high.abs()));
         let labelled = &levels.labelled;
-        let apart = match labelled.as_slice() {
+        let spacing = match labelled.as_slice() {
             [first, second, ..] => levels.bounds[*second] - levels.bounds[*first],
             _ => high - low,
         };
         let label = |&place: &usize| {
             let value = levels.bounds[place];
-            let number = with_decimals_of(value * shown.factor, apart * shown.factor);
+            let number = text_with_decimals_of(value * shown.factor, spacing * shown.factor);
             let rounding = 1e-9 * (high - low);
             let sign = match place {
                 0 if range[0] < low - rounding => "≤ ",
@@ -67,7 +67,7 @@ impl<'a> ColourBar<'a> {
         text_width(&self.title, SIZE).max(90.0)
     }
 
-    /// Draws it with its upper left corner at a place, pixels.
+    /// Draws the colour bar with its upper left corner at a place, pixels.
     pub(super) fn draw(&self, drawing: &mut Drawing, [x, y]: [f64; 2], height: f64) {
         let colours = &self.scale.colours;
         let n_bands = colours.len() as f64;

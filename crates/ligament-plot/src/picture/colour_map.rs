@@ -21,7 +21,7 @@ pub enum ColourMap {
 }
 
 impl ColourMap {
-    /// All maps.
+    /// All colour maps.
     pub const ALL: [Self; 5] = [
         Self::Viridis,
         Self::Cividis,
@@ -31,7 +31,7 @@ impl ColourMap {
     ];
 
     /// The usual map of a field by its name, on which sound material is light; None where the map follows from the values.
-    pub(super) fn usual(field: &str) -> Option<Self> {
+    pub(super) fn default_for(field: &str) -> Option<Self> {
         field.starts_with(DAMAGE.name).then_some(Self::Orange)
     }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::results::columns::{HISTORY, TIME, is_in_time, unit_of, unit_of_crack};
 use ligament_output::results::steps::{StepChoice, StepName};
 
@@ -36,7 +36,7 @@ const TABLES: [&str; 3] = ["history.csv", "crack_growth.csv", "crack_tips.csv"];
 /// The tables of a run whose columns are drawn.
 pub(super) struct Tables<'a> {
     folder: &'a Path,
-    history: Sheet,
+    history: CsvTable,
     loading: Option<StoredLoading>,
 }
 
@@ -57,7 +57,7 @@ pub(super) struct Curve {
 impl<'a> Tables<'a> {
     /// The tables in a folder.
     pub(super) fn open(folder: &'a Path) -> Result<Self, PictureError> {
-        let history = Sheet::read(folder.join(TABLES[0]))?;
+        let history = CsvTable::read(folder.join(TABLES[0]))?;
         // A table that is not the history of a run is refused.
         history.values::<usize>("step")?;
         let loading = stored_loading(folder).ok();
@@ -77,9 +77,9 @@ impl<'a> Tables<'a> {
     }
 
     /// The columns that names select: single ones, all energies that can be seen beside the largest, or all probes.
-    pub(super) fn meant(&self, names: &[String]) -> Result<Vec<String>, PictureError> {
+    pub(super) fn selected_columns(&self, names: &[String]) -> Result<Vec<String>, PictureError> {
         let has = |name: &str| self.history.columns().iter().any(|it| it == name);
-        let mut meant = Vec::new();
+        let mut selected = Vec::new();
         for name in names {
             match name.as_str() {
                 ENERGIES if !has(ENERGIES) => {
@@ -90,28 +90,28 @@ impl<'a> Tables<'a> {
                     }
                     let largest = sizes.iter().fold(0.0, |most, it| it.1.max(most));
                     let seen = sizes.iter().filter(|it| it.1 > SEEN * largest);
-                    meant.extend(seen.map(|it| it.0.to_owned()));
+                    selected.extend(seen.map(|it| it.0.to_owned()));
                 }
                 PROBES if !has(PROBES) => {
                     let probes = self.loading.iter().flat_map(|it| it.probes.keys());
-                    meant.extend(probes.filter(|it| has(it)).cloned());
+                    selected.extend(probes.filter(|it| has(it)).cloned());
                 }
-                name => meant.push(name.to_owned()),
+                name => selected.push(name.to_owned()),
             }
         }
-        match meant.is_empty() {
+        match selected.is_empty() {
             true => Err(self.unknown(&names.join(", "), &self.history)),
-            false => Ok(meant),
+            false => Ok(selected),
         }
     }
 
     /// The curve of a column over another one of the same table.
     pub(super) fn curve(&self, x: &str, y: &str) -> Result<Curve, PictureError> {
-        let beside = || -> Result<Option<(usize, Sheet)>, PictureError> {
+        let beside = || -> Result<Option<(usize, CsvTable)>, PictureError> {
             for (place, file) in TABLES.iter().enumerate().skip(1) {
                 let path = self.folder.join(file);
                 if path.is_file() {
-                    let sheet = Sheet::read(path)?;
+                    let sheet = CsvTable::read(path)?;
                     if sheet.columns().iter().any(|it| it == y) {
                         return Ok(Some((place, sheet)));
                     }
@@ -145,10 +145,10 @@ impl<'a> Tables<'a> {
         let points: Vec<[f64; 2]> = of_x.into_iter().zip(of_y).map(|(x, y)| [x, y]).collect();
         let steps = sheet.values::<usize>("step")?;
         Ok(Curve {
-            name: in_words(y),
+            name: name_in_words(y),
             at_rest: at_rest(sheet, points.len())?,
             is_scattered: place == 2,
-            first: first(self.folder, &steps, &points).filter(|_| place < 2),
+            first: first_failure(self.folder, &steps, &points).filter(|_| place < 2),
             points,
             units: [x, y].map(|it| self.unit_of(it, place).to_owned()),
         })
@@ -165,7 +165,7 @@ impl<'a> Tables<'a> {
         of_crack.filter(|_| !of_load).unwrap_or_else(of_history)
     }
 
-    fn unknown(&self, name: &str, sheet: &Sheet) -> PictureError {
+    fn unknown(&self, name: &str, sheet: &CsvTable) -> PictureError {
         let nearest = hint(name, sheet.columns(), "columns", '`');
         let all = sheet.columns().join(", ");
         let mut beside = TABLES[1..].iter();
@@ -184,12 +184,12 @@ impl<'a> Tables<'a> {
 }
 
 /// Name of a column in words.
-pub(super) fn in_words(column: &str) -> String {
+pub(super) fn name_in_words(column: &str) -> String {
     column.replace('_', " ")
 }
 
 /// Common name of several columns with one unit.
-pub(super) fn in_common(unit: &str) -> &'static str {
+pub(super) fn common_name(unit: &str) -> &'static str {
     match unit {
         "J" => "energy",
         "m" => "displacement",
@@ -202,7 +202,7 @@ pub(super) fn in_common(unit: &str) -> &'static str {
 }
 
 /// Whether each of the rows is in equilibrium with its load; in tables without this column, of earlier versions or of other kinds, all are.
-fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
+fn at_rest(sheet: &CsvTable, n_rows: usize) -> Result<Vec<bool>, PictureError> {
     if !sheet.columns().iter().any(|name| name == "at_rest") {
         return Ok(vec![true; n_rows]);
     }
@@ -211,7 +211,11 @@ fn at_rest(sheet: &Sheet, n_rows: usize) -> Result<Vec<bool>, PictureError> {
 }
 
 /// Description and point of the first breakage or softening.
-fn first(folder: &Path, steps: &[usize], points: &[[f64; 2]]) -> Option<(&'static str, [f64; 2])> {
+fn first_failure(
+    folder: &Path,
+    steps: &[usize],
+    points: &[[f64; 2]],
+) -> Option<(&'static str, [f64; 2])> {
     let choice = StepChoice::One(StepName::First);
     let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;
     let row = steps.iter().position(|it| *it == step)?;

@@ -16,7 +16,7 @@ pub(super) struct Surface {
 }
 
 /// End of a piece of an outline: at a node (twice the same), or on an edge between two, the smaller number first.
-type Place = [u32; 2];
+type OutlinePoint = [u32; 2];
 
 impl Surface {
     /// The triangles over which `has_value` holds at all corners; orientations are judged by the positions.
@@ -27,13 +27,17 @@ impl Surface {
     ) -> Self {
         let with_values = |triangle: &[u32; 3]| triangle.iter().all(|&node| has_value(node));
         let triangles = triangles.into_iter().filter(with_values);
-        Self::of_oriented(triangles.map(|it| oriented(it, positions)).collect())
+        Self::from_counter_clockwise(
+            triangles
+                .map(|it| counter_clockwise(it, positions))
+                .collect(),
+        )
     }
 
     /// Triangles whose corners are counter-clockwise already.
-    pub(super) fn of_oriented(triangles: Vec<[u32; 3]>) -> Self {
+    pub(super) fn from_counter_clockwise(triangles: Vec<[u32; 3]>) -> Self {
         // For each edge, the number of triangles that run along it from its smaller to its larger node minus the number of others.
-        let mut edges: Vec<(Place, i32)> = triangles
+        let mut edges: Vec<(OutlinePoint, i32)> = triangles
             .iter()
             .flat_map(edges_of)
             .map(|[a, b]| ([a.min(b), a.max(b)], if a < b { 1 } else { -1 }))
@@ -57,7 +61,7 @@ impl Surface {
     /// The outlines of the whole surface, as nodes; the surface at their left.
     pub(super) fn outlines(&self, positions: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
         let pieces = self.boundary.iter().map(|&[a, b]| [[a, a], [b, b]]);
-        joined(pieces.collect(), |[a, _]| positions[a as usize])
+        closed_outlines(pieces.collect(), |[a, _]| positions[a as usize])
     }
 
     /// The outlines of the region in which the field (one value per node) is at least `level`; the region at their left.
@@ -87,7 +91,7 @@ impl Surface {
             };
             Some([find(true)?, find(false)?])
         });
-        let position = |[a, b]: Place| {
+        let position = |[a, b]: OutlinePoint| {
             let ([xa, ya], [xb, yb]) = (positions[a as usize], positions[b as usize]);
             if a == b {
                 return [xa, ya];
@@ -95,12 +99,12 @@ impl Surface {
             let share = (level - value(a)) / (value(b) - value(a));
             [xa + share * (xb - xa), ya + share * (yb - ya)]
         };
-        joined(along_boundary.chain(across_triangles).collect(), position)
+        closed_outlines(along_boundary.chain(across_triangles).collect(), position)
     }
 }
 
 /// A triangle with its corners counter-clockwise.
-pub(super) fn oriented([a, b, c]: [u32; 3], positions: &[[f64; 2]]) -> [u32; 3] {
+pub(super) fn counter_clockwise([a, b, c]: [u32; 3], positions: &[[f64; 2]]) -> [u32; 3] {
     let at = |node: u32| positions[node as usize];
     if doubled_area(at(a), at(b), at(c)) < 0.0 {
         [a, c, b]
@@ -110,7 +114,7 @@ pub(super) fn oriented([a, b, c]: [u32; 3], positions: &[[f64; 2]]) -> [u32; 3] 
 }
 
 /// A quadrangle as two triangles.
-pub(super) fn halves([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+pub(super) fn triangles_of_quadrangle([a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
     [[a, b, c], [a, c, d]]
 }
 
@@ -123,8 +127,11 @@ fn doubled_area(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 }
 
 /// Closed outlines from directed pieces, in the order of the pieces; as many pieces end at every place as begin there.
-fn joined(pieces: Vec<[Place; 2]>, position: impl Fn(Place) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
-    let mut from: HashMap<Place, Vec<usize>> = HashMap::with_capacity(pieces.len());
+fn closed_outlines(
+    pieces: Vec<[OutlinePoint; 2]>,
+    position: impl Fn(OutlinePoint) -> [f64; 2],
+) -> Vec<Vec<[f64; 2]>> {
+    let mut from: HashMap<OutlinePoint, Vec<usize>> = HashMap::with_capacity(pieces.len());
     for (piece, [start, _]) in pieces.iter().enumerate().rev() {
         from.entry(*start).or_default().push(piece);
     }
@@ -168,7 +175,7 @@ mod tests {
                 corner(i + 1, j + 1),
                 corner(i, j + 1),
             ];
-            let [a, [p, q, r]] = halves(quad);
+            let [a, [p, q, r]] = triangles_of_quadrangle(quad);
             if keep(i, j) {
                 triangles.extend([a, [p, r, q]]);
             }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::results::cracks::columns_of_ends;
 use ligament_output::results::outputs::cut_pairs;
 
@@ -19,8 +19,8 @@ const OVER_FIELD: Rgb = [0; 3];
 
 /// Bonds that broke by one criterion, or that a pre-crack cut.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Broken {
-    /// The criterion.
+pub(super) struct BrokenBonds {
+    /// Name of the criterion.
     pub(super) name: String,
     /// Colour of the criterion.
     pub(super) colour: Rgb,
@@ -32,7 +32,7 @@ pub(super) struct Broken {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Crack {
     /// Bonds cut by a pre-crack, then broken bonds by criterion.
-    pub(super) kinds: Vec<Broken>,
+    pub(super) kinds: Vec<BrokenBonds>,
     /// Whether the output of a step shows the bonds that break in it still whole.
     breaks_after_output: bool,
 }
@@ -41,12 +41,12 @@ impl Crack {
     /// Reads the bonds that a pre-crack cut in a run, and the bonds that broke.
     pub(super) fn read(folder: &Path, follows_path: bool) -> Result<Self, PictureError> {
         let cut = cut_pairs(folder)?.unwrap_or_default();
-        let cut = (!cut.is_empty()).then(|| Broken {
+        let cut = (!cut.is_empty()).then(|| BrokenBonds {
             name: "pre-crack".to_owned(),
             colour: CUT,
             bonds: cut.into_iter().map(|ends| (ends, 0)).collect(),
         });
-        let broken = broken(&Sheet::read(folder.join("breaks.csv"))?)?;
+        let broken = bonds_by_criterion(&CsvTable::read(folder.join("breaks.csv"))?)?;
         Ok(Self {
             kinds: cut.into_iter().chain(broken).collect(),
             breaks_after_output: follows_path,
@@ -54,7 +54,7 @@ impl Crack {
     }
 
     /// The bonds of a kind that are broken in the output of a step, by the tags of their ends.
-    pub(super) fn until(&self, kind: &Broken, step: usize) -> Vec<[i64; 2]> {
+    pub(super) fn broken_until(&self, kind: &BrokenBonds, step: usize) -> Vec<[i64; 2]> {
         let is_broken =
             |at: usize| kind.is_cut() || at < step || (at == step && !self.breaks_after_output);
         let bonds = kind.bonds.iter().filter(|(_, at)| is_broken(*at));
@@ -62,7 +62,7 @@ impl Crack {
     }
 }
 
-impl Broken {
+impl BrokenBonds {
     /// Whether a pre-crack cut these bonds.
     pub(super) fn is_cut(&self) -> bool {
         self.colour == CUT
@@ -70,7 +70,7 @@ impl Broken {
 }
 
 /// The broken bonds of a table by their criteria.
-fn broken(sheet: &Sheet) -> Result<Vec<Broken>, PictureError> {
+fn bonds_by_criterion(sheet: &CsvTable) -> Result<Vec<BrokenBonds>, PictureError> {
     let ends = columns_of_ends(sheet);
     let mut by_name: BTreeMap<String, Vec<_>> = BTreeMap::new();
     let rows = sheet.rows(|row| {
@@ -80,7 +80,7 @@ fn broken(sheet: &Sheet) -> Result<Vec<Broken>, PictureError> {
     for (name, bond) in rows {
         by_name.entry(name).or_default().push(bond);
     }
-    let of_name = |(name, bonds)| Broken {
+    let of_name = |(name, bonds)| BrokenBonds {
         name,
         colour: OVER_FIELD,
         bonds,
@@ -122,7 +122,7 @@ mod tests {
         let crack = crack(BREAKS, false);
         let names: Vec<&str> = crack.kinds.iter().map(|it| it.name.as_str()).collect();
         assert_eq!(names, ["frictional", "tension"]);
-        let of = |kind: usize, step| crack.until(&crack.kinds[kind], step);
+        let of = |kind: usize, step| crack.broken_until(&crack.kinds[kind], step);
         assert_eq!(of(1, 2), [[5, 6]]);
         assert_eq!(of(1, 9), [[5, 6], [8, 9]]);
         assert!(of(0, 2).is_empty());
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn on_the_exact_path_bonds_break_after_the_output() {
         let crack = crack(BREAKS, true);
-        assert_eq!(crack.until(&crack.kinds[1], 2).len(), 0);
-        assert_eq!(crack.until(&crack.kinds[1], 3).len(), 1);
+        assert_eq!(crack.broken_until(&crack.kinds[1], 2).len(), 0);
+        assert_eq!(crack.broken_until(&crack.kinds[1], 3).len(), 1);
     }
 }

@@ -6,8 +6,8 @@ use ligament_output::remedy::Remedy;
 use ligament_output::results::outputs::{OutputKind, kind_of, require_results};
 use ligament_output::summary::{self, Summary};
 
-use super::columns::{Curve, Tables, in_common, in_words};
-use super::units::Shown;
+use super::columns::{Curve, Tables, common_name, name_in_words};
+use super::units::AxisUnit;
 use super::{PictureError, Target, labels_of};
 use crate::plots::{Colour, Mark, Plot, Series};
 
@@ -67,7 +67,7 @@ struct Axes {
     curves: Vec<(String, Curve)>,
     /// Names of the quantities along x and y, with their units.
     names: [String; 2],
-    shown: [Shown; 2],
+    shown: [AxisUnit; 2],
     /// First peak of the load of each result, on curves of force over displacement.
     first_peaks: Vec<Option<[f64; 2]>>,
 }
@@ -75,18 +75,18 @@ struct Axes {
 impl Axes {
     fn read(request: &CurveRequest, labels: &[String]) -> Result<Self, PictureError> {
         let (mut curves, mut first_peaks) = (Vec::new(), Vec::new());
-        let (mut x, mut meant) = (request.x.clone(), Vec::new());
+        let (mut x, mut columns) = (request.x.clone(), Vec::new());
         for (folder, label) in request.folders.iter().zip(labels) {
             require_history(folder)?;
             let tables = Tables::open(folder)?;
             let x = x.get_or_insert_with(|| tables.usual_x().to_owned());
-            if meant.is_empty() {
-                meant = tables.meant(&request.y)?;
+            if columns.is_empty() {
+                columns = tables.selected_columns(&request.y)?;
             }
-            let is_of_load = x == "displacement" && meant == ["reaction"];
-            for y in &meant {
+            let is_of_load = x == "displacement" && columns == ["reaction"];
+            for y in &columns {
                 let curve = tables.curve(x, y)?;
-                let label = match (meant.len(), request.folders.len()) {
+                let label = match (columns.len(), request.folders.len()) {
                     (1, _) => label.clone(),
                     (_, 1) => curve.name.clone(),
                     _ => format!("{label}, {}", curve.name),
@@ -97,12 +97,15 @@ impl Axes {
             }
         }
         let x = x.unwrap_or_default();
-        let y = match meant.as_slice() {
-            [only] => in_words(only),
-            _ => in_common(&curves[0].1.units[1]).to_owned(),
+        let y = match columns.as_slice() {
+            [only] => name_in_words(only),
+            _ => common_name(&curves[0].1.units[1]).to_owned(),
         };
-        let names = [in_words(&x), y];
-        let shown = [shown(&curves, 0, &names[0])?, shown(&curves, 1, &names[1])?];
+        let names = [name_in_words(&x), y];
+        let shown = [
+            axis_unit(&curves, 0, &names[0])?,
+            axis_unit(&curves, 1, &names[1])?,
+        ];
         Ok(Self {
             curves,
             names,
@@ -193,7 +196,7 @@ fn require_history(folder: &Path) -> Result<(), PictureError> {
         return Err(PictureError::Modes {
             path: folder.to_path_buf(),
             what: "history",
-            remedy: Remedy::LeaveOut("curve"),
+            remedy: Remedy::OmitOption("curve"),
         });
     }
     Ok(())
@@ -206,7 +209,11 @@ fn first_peak(folder: &Path) -> Option<[f64; 2]> {
 }
 
 /// The unit in which an axis is shown.
-fn shown(curves: &[(String, Curve)], axis: usize, name: &str) -> Result<Shown, PictureError> {
+fn axis_unit(
+    curves: &[(String, Curve)],
+    axis: usize,
+    name: &str,
+) -> Result<AxisUnit, PictureError> {
     let unit = &curves[0].1.units[axis];
     let mut units = curves.iter().map(|it| &it.1.units[axis]);
     if let Some(other) = units.find(|it| *it != unit) {
@@ -219,5 +226,5 @@ fn shown(curves: &[(String, Curve)], axis: usize, name: &str) -> Result<Shown, P
     let points = curves.iter().flat_map(|it| &it.1.points);
     let values = points.map(|point| point[axis].abs());
     let largest = values.filter(|it| it.is_finite()).fold(0.0, f64::max);
-    Ok(Shown::new(unit, largest))
+    Ok(AxisUnit::new(unit, largest))
 }

@@ -112,7 +112,7 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
 }
 
 /// Scales the values so that the quantile of their absolute values becomes 1: the amplitude of a mode is arbitrary.
-pub(super) fn relate_to_largest(field: &mut Field) {
+pub(super) fn normalise_by_quantile(field: &mut Field) {
     let mut sizes: Vec<f64> = field
         .values
         .iter()

@@ -20,7 +20,7 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
     let subject = Subject::open(request)?;
     let file = request.target.file(|| subject.default_file(request))?;
     request.target.check(&file)?;
-    let (drawing, title) = drawn(request, &subject)?;
+    let (drawing, title) = drawing_with_title(request, &subject)?;
     request.target.write(file, &drawing, &title)
 }
 
@@ -30,10 +30,13 @@ pub fn draw_fields(request: &FieldRequest) -> Result<PathBuf, PictureError> {
 ///
 /// If there are no such results, outputs or fields.
 pub fn picture_of_fields(request: &FieldRequest) -> Result<(Drawing, String), PictureError> {
-    drawn(request, &Subject::open(request)?)
+    drawing_with_title(request, &Subject::open(request)?)
 }
 
-fn drawn(request: &FieldRequest, subject: &Subject) -> Result<(Drawing, String), PictureError> {
+fn drawing_with_title(
+    request: &FieldRequest,
+    subject: &Subject,
+) -> Result<(Drawing, String), PictureError> {
     let outputs = outputs(&subject.sources, &request.choice)?;
     let mut panels = Vec::new();
     for output in &outputs {

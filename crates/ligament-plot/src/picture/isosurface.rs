@@ -29,13 +29,13 @@ pub struct IsosurfaceRequest {
 /// A surface that was written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isosurface {
-    /// The step.
+    /// Step of the surface.
     pub step: usize,
     /// Area in the body without load, m^2.
     pub area: f64,
     /// Number of triangles; without any there is no file.
     pub triangles: usize,
-    /// The file.
+    /// File of the surface.
     pub path: PathBuf,
 }
 
@@ -81,7 +81,7 @@ fn write(
     if !is_solid(file)? {
         return Err(PictureError::Plane(
             request.folder.clone(),
-            Remedy::LeaveOut("iso"),
+            Remedy::OmitOption("iso"),
         ));
     }
     let body = SolidBody::read(file)?;

@@ -1,6 +1,6 @@
 //! The levels between the bands of a contour plot, and which of them are labelled.
 
-use crate::drawing::ticks::rounded_up;
+use crate::drawing::ticks::round_number_above;
 
 /// Largest number of bands of a scale that the program chooses.
 const MOST_BANDS: f64 = 20.0;
@@ -25,7 +25,7 @@ pub(super) struct Rule {
 /// Ascending levels, two or more: bands lie between them.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Levels {
-    /// The levels.
+    /// Levels of the scale, ascending.
     pub(super) bounds: Vec<f64>,
     /// Indices of the levels with labels, ascending.
     pub(super) labelled: Vec<usize>,
@@ -38,7 +38,7 @@ impl Levels {
             .range
             .unwrap_or_else(|| span([least, largest], rule.centred));
         if let Some(bands) = rule.bands {
-            return Self::equal([low, high], bands);
+            return Self::with_equal_bands([low, high], bands);
         }
         let step = round_step((high - low) / MOST_BANDS);
         let is_multiple = |it: f64| (it / step - (it / step).round()).abs() < 1e-6;
@@ -48,7 +48,7 @@ impl Levels {
             Some(_) if is_multiple(low) && is_multiple(high) => {
                 [low, high].map(|it| (it / step).round())
             }
-            Some(_) => return Self::equal([low, high], 16),
+            Some(_) => return Self::with_equal_bands([low, high], 16),
         };
         let count = (last - first) as usize;
         let bounds: Vec<f64> = (0..=count).map(|it| (first + it as f64) * step).collect();
@@ -59,7 +59,7 @@ impl Levels {
         Self { bounds, labelled }
     }
 
-    fn equal([low, high]: [f64; 2], bands: usize) -> Self {
+    fn with_equal_bands([low, high]: [f64; 2], bands: usize) -> Self {
         let at = |it: usize| low + (high - low) * it as f64 / bands as f64;
         let few = bands.div_ceil(MOST_LABELS);
         let every = (few..=bands)
@@ -111,7 +111,7 @@ fn span([least, largest]: [f64; 2], centred: bool) -> [f64; 2] {
 
 /// The least of 1, 2, 2.5 and 5 times a power of ten that is not below a number.
 fn round_step(least: f64) -> f64 {
-    rounded_up(least, &[1.0, 2.0, 2.5, 5.0])
+    round_number_above(least, &[1.0, 2.0, 2.5, 5.0])
 }
 
 #[cfg(test)]

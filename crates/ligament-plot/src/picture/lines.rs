@@ -27,7 +27,7 @@ pub(super) struct Lines {
     pub(super) name: String,
     /// Additional words of the legend for a single state.
     pub(super) detail: String,
-    /// Colour.
+    /// Colour of the lines.
     pub(super) colour: Rgb,
     /// Width, pixels.
     width: f64,
@@ -39,7 +39,7 @@ pub(super) struct Lines {
 
 impl Lines {
     /// The cracks in the state of a step, with their tips.
-    pub(super) fn of_cracks(cracks: &StoredCracks, step: usize) -> Self {
+    pub(super) fn from_cracks(cracks: &StoredCracks, step: usize) -> Self {
         let lines = cracks.lines(step);
         let length: f64 = lines.iter().map(|line| line.length()).sum();
         Self {
@@ -53,7 +53,7 @@ impl Lines {
     }
 
     /// The pre-cracks of the case of a run.
-    pub(super) fn of_precracks(folder: &Path) -> Result<Self, PictureError> {
+    pub(super) fn from_precracks(folder: &Path) -> Result<Self, PictureError> {
         Ok(Self {
             name: "pre-crack".to_owned(),
             detail: String::new(),
@@ -65,7 +65,7 @@ impl Lines {
     }
 
     /// The lines of a table `x,y` (m) without quotes, separated by empty lines; a first row of words is its header.
-    pub(super) fn of_table(path: &Path, place: usize) -> Result<Self, PictureError> {
+    pub(super) fn from_table(path: &Path, place: usize) -> Result<Self, PictureError> {
         let text = read_text(path)?;
         let name = path.file_stem().unwrap_or_default();
         let colours = [Colour::Blue, Colour::Green, Colour::Purple, Colour::Orange];

@@ -7,9 +7,9 @@ use super::PictureError;
 use super::body::{Body, MODE_SHARE, common_scale};
 use super::colour_bar::ColourBar;
 use super::colour_map::ColourMap;
-use super::field::{Field, relate_to_largest};
+use super::field::{Field, normalise_by_quantile};
 use super::panel::{Panel, Scale};
-use super::strip::{Entry, Strip};
+use super::strip::{LegendEntry, Strip};
 use super::style::magnification_words;
 use crate::drawing::{Drawing, PIXELS_PER_MM};
 
@@ -27,9 +27,9 @@ pub struct MappedBody {
 pub struct Maps {
     /// Name of the file, without its extension.
     pub name: String,
-    /// Title.
+    /// Title of the map.
     pub title: String,
-    /// The quantity.
+    /// Quantity that the maps show.
     pub quantity: String,
     /// SI unit of the quantity; `-` without one.
     pub unit: &'static str,
@@ -44,7 +44,7 @@ pub struct Maps {
 
 impl MappedBody {
     /// A mesh with a displacement (m) and a value at each node, both of shape (n_nodes).
-    pub fn of_mesh(
+    pub fn from_mesh(
         title: impl Into<String>,
         nodes: Vec<[f64; 2]>,
         cells: Vec<Cell>,
@@ -61,7 +61,7 @@ impl MappedBody {
 
     /// A lattice, each of whose points has a square as wide as the spacing (m) that moves with it, a displacement (m) and a
     /// value; all of shape (n_points).
-    pub fn of_lattice(
+    pub fn from_lattice(
         title: impl Into<String>,
         points: &[[f64; 2]],
         spacing: f64,
@@ -74,12 +74,12 @@ impl MappedBody {
             signs.map(|[sx, sy]| [x + sx * half, y + sy * half])
         };
         let squares: Vec<[[f64; 2]; 4]> = points.iter().map(around).collect();
-        Self::of_squares(title, &squares, displacements, values)
+        Self::from_squares(title, &squares, displacements, values)
     }
 
     /// A body whose points have a square each, by its corners (m), that moves with it, a displacement (m) and a value; all of shape
     /// (n_points).
-    pub fn of_squares(
+    pub fn from_squares(
         title: impl Into<String>,
         squares: &[[[f64; 2]; 4]],
         displacements: &[[f64; 2]],
@@ -124,7 +124,7 @@ impl Maps {
                 values: it.values.clone(),
             };
             if self.are_modes {
-                relate_to_largest(&mut field);
+                normalise_by_quantile(&mut field);
             }
             Panel {
                 solid: None,
@@ -141,14 +141,14 @@ impl Maps {
         let range = (fields.filter_map(Field::range))
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
             .ok_or_else(|| PictureError::NoValues(self.quantity.clone()))?;
-        let asked = self.are_modes.then_some([range[0].signum().min(0.0), 1.0]);
-        let map = ColourMap::usual(&self.quantity);
-        let scale = Scale::new(range, asked, None, map);
+        let requested = self.are_modes.then_some([range[0].signum().min(0.0), 1.0]);
+        let map = ColourMap::default_for(&self.quantity);
+        let scale = Scale::new(range, requested, None, map);
         let unit = if self.are_modes { "-" } else { self.unit };
         let strip = Strip {
             scale: Some(&scale),
             bar: Some(ColourBar::new(&scale, &self.quantity, unit, range)),
-            legend: vec![Entry {
+            legend: vec![LegendEntry {
                 colour: None,
                 words: format!("{}; {}", self.title, magnification_words(common)),
             }],
@@ -169,7 +169,7 @@ mod tests {
     fn lattice() -> MappedBody {
         let points = [[0.0, 0.0], [1.0, 0.0]];
         let moved = [[0.0, 0.0], [0.01, 0.0]];
-        MappedBody::of_lattice("lattice", &points, 1.0, &moved, vec![0.0, 1.0])
+        MappedBody::from_lattice("lattice", &points, 1.0, &moved, vec![0.0, 1.0])
     }
 
     #[test]
@@ -177,7 +177,7 @@ mod tests {
         let nodes = vec![[-0.5, -0.5], [1.5, -0.5], [1.5, 0.5], [-0.5, 0.5]];
         let cells = vec![Cell::Quad([0, 1, 2, 3])];
         let moved = vec![[0.0, 0.0], [0.01, 0.0], [0.01, 0.0], [0.0, 0.0]];
-        let mesh = MappedBody::of_mesh("mesh", nodes, cells, moved, vec![0.0, 1.0, 1.0, 0.0]);
+        let mesh = MappedBody::from_mesh("mesh", nodes, cells, moved, vec![0.0, 1.0, 1.0, 0.0]);
         let mut maps = Maps {
             name: "u".to_owned(),
             title: "A bar".to_owned(),
@@ -203,7 +203,7 @@ mod tests {
             title: "A bar".to_owned(),
             quantity: "damage".to_owned(),
             unit: "-",
-            bodies: vec![MappedBody::of_lattice(
+            bodies: vec![MappedBody::from_lattice(
                 "lattice",
                 &[[0.0, 0.0], [1.0, 0.0]],
                 1.0,

@@ -1,7 +1,7 @@
 //! `ligament plot`: pictures of the results of runs, as SVG, PNG or PDF, and animations.
 //!
 //! Outputs are chosen ([`select`]), read (`body`, `field`, `crack`), moved by the displacement, cut into bands of colour
-//! (`levels`, `contour`, `joined`) and arranged (`strip`) in one [`drawing`](crate::drawing), several of them over the steps (`series`).
+//! (`levels`, `contour`, `merged_corners`) and arranged (`strip`) in one [`drawing`](crate::drawing), several of them over the steps (`series`).
 //! Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in memory.
 
 mod body;
@@ -14,14 +14,14 @@ pub mod curve;
 mod field;
 mod fields;
 mod isosurface;
-mod joined;
 mod levels;
 mod lines;
 pub mod maps;
-mod of_run;
+mod merged_corners;
 mod panel;
 pub mod profile;
 mod request;
+mod run_pictures;
 pub mod select;
 mod series;
 mod solid;
@@ -40,8 +40,8 @@ use thiserror::Error;
 pub use fields::{draw_fields, picture_of_fields};
 pub use isosurface::{Isosurface, IsosurfaceRequest, write_isosurfaces};
 pub use lines::stored_precracks;
-pub use of_run::{asks_for_pictures, draw_run};
 pub use request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
+pub use run_pictures::{asks_for_pictures, draw_run};
 pub use series::{animate, draw_each};
 pub use solid::{Section, View};
 pub use target::{Format, Target};
@@ -63,17 +63,17 @@ pub enum PictureError {
         known.join(", ")
     )]
     UnknownField {
-        /// The name.
+        /// Name of a field that does not exist.
         name: String,
         /// The nearest name.
         suggestion: Option<String>,
-        /// All names.
+        /// Names of all fields.
         known: Vec<String>,
     },
     /// A field with several components was requested without a component.
     #[error("`{field}` has several components; name one of {}", choices.join(", "))]
     NoComponent {
-        /// The field.
+        /// Field of which a component is needed.
         field: String,
         /// Names that can be drawn.
         choices: Vec<String>,
@@ -84,9 +84,9 @@ pub enum PictureError {
     /// There is no mode of this number.
     #[error("{path} has no output of mode {number}; there are {}", listed(known))]
     NoSuchMode {
-        /// The folder.
+        /// Folder of the modes.
         path: PathBuf,
-        /// The number.
+        /// Number of a mode that does not exist.
         number: usize,
         /// Numbers of the existing modes.
         known: Vec<usize>,
@@ -126,7 +126,7 @@ pub enum PictureError {
     /// Modes have no curves and no cracks.
     #[error("{path} has natural modes, and so no {what}")]
     Modes {
-        /// The folder.
+        /// Folder of the modes.
         path: PathBuf,
         /// The requested drawing.
         what: &'static str,
@@ -134,7 +134,7 @@ pub enum PictureError {
         #[source]
         remedy: Remedy,
     },
-    /// There are as many labels as results, or none.
+    /// The number of labels differs from the number of results.
     #[error(
         "{n_labels} labels for {n_results} results; give one label for each result, in the same order"
     )]
@@ -150,9 +150,9 @@ pub enum PictureError {
     /// No column has the name.
     #[error("{path} has no column `{name}`{hint}")]
     UnknownColumn {
-        /// The table.
+        /// Table without the column.
         path: PathBuf,
-        /// The name.
+        /// Name of a column that does not exist.
         name: String,
         /// The nearest name, and all.
         hint: String,
@@ -162,7 +162,7 @@ pub enum PictureError {
         "there are values of {axis} in different units ({first} and {other}); draw them separately"
     )]
     Units {
-        /// The column.
+        /// Column along the axis.
         axis: String,
         /// Unit of the first.
         first: String,
@@ -177,7 +177,7 @@ pub enum PictureError {
     /// The file name ends like another format than the requested one.
     #[error("{path} does not end in .{format}; leave out --format, or name another file")]
     OtherEnding {
-        /// The file.
+        /// File of the picture.
         path: PathBuf,
         /// Ending of the requested format.
         format: &'static str,

@@ -5,11 +5,11 @@ use ligament_output::vtu::Cell;
 
 use super::body::Body;
 use super::colour_map::ColourMap;
-use super::contour::{Surface, halves, oriented};
+use super::contour::{Surface, counter_clockwise, triangles_of_quadrangle};
 use super::field::Field;
-use super::joined::Joined;
 use super::levels::{Levels, Rule, has_both_signs};
 use super::lines::Lines;
+use super::merged_corners::MergedCorners;
 use super::solid::{Scene, View};
 use crate::drawing::{Drawing, Frame, OUTLINE, Paint, PathData, Rgb};
 
@@ -30,7 +30,7 @@ const BOND_WIDTH: f64 = 0.4;
 pub(super) struct Panel {
     /// Words of its title, long and short.
     pub(super) title: Vec<[String; 2]>,
-    /// The body.
+    /// Body of the panel.
     pub(super) body: Body,
     /// Deformed positions of the corners of its cells.
     pub(super) positions: Vec<[f64; 2]>,
@@ -41,13 +41,13 @@ pub(super) struct Panel {
     /// Lines over the body.
     pub(super) lines: Vec<Lines>,
     /// The scene that is drawn of a solid, in place of the body's cells.
-    pub(super) solid: Option<Seen>,
+    pub(super) solid: Option<SolidView>,
 }
 
 /// A scene of a solid with the side from which it is seen.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Seen {
-    /// The scene.
+pub(super) struct SolidView {
+    /// Scene of the solid.
     pub(super) scene: Scene,
     /// The side from which the scene is seen.
     pub(super) view: View,
@@ -69,11 +69,11 @@ impl Scale {
     /// the values.
     pub(super) fn new(
         range: [f64; 2],
-        asked: Option<[f64; 2]>,
+        requested: Option<[f64; 2]>,
         bands: Option<usize>,
         map: Option<ColourMap>,
     ) -> Self {
-        let map = map.unwrap_or(if has_both_signs(asked.unwrap_or(range)) {
+        let map = map.unwrap_or(if has_both_signs(requested.unwrap_or(range)) {
             ColourMap::Diverging
         } else {
             ColourMap::Viridis
@@ -81,7 +81,7 @@ impl Scale {
         let centred = map == ColourMap::Diverging;
         let rule = Rule {
             bands,
-            range: asked,
+            range: requested,
             centred,
         };
         let levels = Levels::new(range, rule);
@@ -107,7 +107,7 @@ impl Panel {
         }
         for (colour, bonds) in &self.broken {
             let mut path = PathData::default();
-            for ends in bonds.iter().filter(|ends| frame.meets(*ends)) {
+            for ends in bonds.iter().filter(|ends| frame.may_intersect(*ends)) {
                 path.segment(ends.map(|end| frame.to_pixels(end)));
             }
             drawing.path(path, Paint::stroke(*colour, BOND_WIDTH));
@@ -118,7 +118,7 @@ impl Panel {
     }
 
     /// Colour of cells without a value.
-    fn bare(&self) -> Rgb {
+    fn colour_without_value(&self) -> Rgb {
         match self.field.is_none() && !self.lines.is_empty() {
             true => LIGHT,
             false => BARE,
@@ -127,11 +127,11 @@ impl Panel {
 
     /// Contours of values at the points, each region over the one of the level below.
     fn draw_surface(&self, drawing: &mut Drawing, frame: Frame, field: Option<(&Field, &Scale)>) {
-        let triangles = || self.body.cells.iter().flat_map(halves_of);
+        let triangles = || self.body.cells.iter().flat_map(triangles_of_cell);
         let reference = &self.body.reference;
         let whole = Surface::new(triangles(), reference, |_| true);
         let outline = path_of(whole.outlines(&self.positions), frame);
-        drawing.path(outline.clone(), Paint::fill(self.bare()));
+        drawing.path(outline.clone(), Paint::fill(self.colour_without_value()));
         if let Some((field, Scale { levels, colours })) = field {
             let values = &field.values;
             let surface = Surface::new(triangles(), reference, |node| {
@@ -150,7 +150,7 @@ impl Panel {
     /// Cells with a colour each, painted band by band: a band and all bands above it are painted over the band below.
     fn draw_cells(&self, drawing: &mut Drawing, frame: Frame, field: Option<(&Field, &Scale)>) {
         let (body, cells) = (&self.body, &self.body.cells);
-        let joined = Joined::new(cells, &body.reference, &self.positions);
+        let joined = MergedCorners::new(cells, &body.reference, &self.positions);
         let band_of = |cell: usize| {
             let (field, scale) = field?;
             let value = field.values[cell];
@@ -160,16 +160,16 @@ impl Panel {
         let bands: Vec<Option<usize>> = (0..cells.len()).map(band_of).collect();
         let mut draw = |from: Option<usize>, paint: Paint| {
             let chosen = cells.iter().zip(&bands).filter(|(_, band)| **band >= from);
-            let triangles = chosen.flat_map(|(cell, _)| halves_of(cell));
+            let triangles = chosen.flat_map(|(cell, _)| triangles_of_cell(cell));
             // Corners of one cell differ, so that orientations are seen without load.
-            let named = triangles.map(|corners| oriented(corners, &body.reference));
+            let named = triangles.map(|corners| counter_clockwise(corners, &body.reference));
             let named = named.map(|it| it.map(|corner| joined.place_of[corner as usize]));
-            let surface = Surface::of_oriented(named.collect());
+            let surface = Surface::from_counter_clockwise(named.collect());
             drawing.path(path_of(surface.outlines(&joined.places), frame), paint);
         };
         let rim = Some((OUTLINE, OUTLINE_WIDTH)).filter(|_| !self.lines.is_empty());
         let stroke = rim.filter(|_| field.is_none());
-        let bare = Paint::fill(self.bare());
+        let bare = Paint::fill(self.colour_without_value());
         draw(None, Paint { stroke, ..bare });
         let colours = field.iter().flat_map(|(_, scale)| &scale.colours);
         for (band, colour) in colours.enumerate() {
@@ -179,10 +179,10 @@ impl Panel {
 }
 
 /// The triangles of a cell.
-fn halves_of(cell: &Cell) -> Vec<[u32; 3]> {
+fn triangles_of_cell(cell: &Cell) -> Vec<[u32; 3]> {
     match *cell {
         Cell::Triangle(corners) => vec![corners],
-        Cell::Quad(corners) => halves(corners).to_vec(),
+        Cell::Quad(corners) => triangles_of_quadrangle(corners).to_vec(),
         Cell::Vertex(_) | Cell::Line(_) | Cell::Solid(_) => Vec::new(),
     }
 }

@@ -25,7 +25,7 @@ pub struct ProfileRequest {
     pub folder: PathBuf,
     /// Fields, named as in pictures, each a column.
     pub fields: Vec<String>,
-    /// The steps.
+    /// Steps of the profile.
     pub step: StepChoice,
     /// Both ends of the line, in the coordinates of the case and of the body without load, m.
     pub ends: [[f64; 2]; 2],
@@ -56,7 +56,7 @@ pub fn profile(request: &ProfileRequest) -> Result<String, PictureError> {
         let Some(path) = outputs.files.get(&step.step) else {
             continue;
         };
-        let sampled = Sampled::read(&VtuFile::open(path)?, request)?;
+        let sampled = SampledField::read(&VtuFile::open(path)?, request)?;
         for (along, [x, y], values) in sampled.rows {
             let place: [Value<'_>; 4] = [step.step.into(), along.into(), x.into(), y.into()];
             let values = values
@@ -71,11 +71,11 @@ pub fn profile(request: &ProfileRequest) -> Result<String, PictureError> {
 /// Length along the line, place and values of the fields.
 type Row = (f64, [f64; 2], Vec<Option<f64>>);
 
-struct Sampled {
+struct SampledField {
     rows: Vec<Row>,
 }
 
-impl Sampled {
+impl SampledField {
     fn read(file: &VtuFile, request: &ProfileRequest) -> Result<Self, PictureError> {
         if is_solid(file)? {
             return Err(PictureError::Solid("a profile"));
@@ -88,7 +88,7 @@ impl Sampled {
         let fields = fields?;
         let positions = file.points_in_plane()?;
         let triangles: Vec<Triangle> = (file.cells()?.iter().enumerate())
-            .flat_map(|(cell, corners)| Triangle::of_cell(cell, corners.points(), &positions))
+            .flat_map(|(cell, corners)| Triangle::from_cell(cell, corners.points(), &positions))
             .collect();
         let [from, to] = request.ends;
         let length = (to[0] - from[0]).hypot(to[1] - from[1]);
@@ -121,7 +121,7 @@ struct Triangle {
 }
 
 impl Triangle {
-    fn of_cell(cell: usize, corners: &[u32], positions: &[[f64; 2]]) -> Vec<Self> {
+    fn from_cell(cell: usize, corners: &[u32], positions: &[[f64; 2]]) -> Vec<Self> {
         let Some((first, others)) = corners.split_first() else {
             return Vec::new();
         };
@@ -166,7 +166,7 @@ mod tests {
         let positions = [[0.0, 0.0], [2.0, 0.0], [3.0, 1.0], [0.0, 1.0]];
         let linear = |[x, y]: [f64; 2]| 1.0 + 2.0 * x - 3.0 * y;
         let values = positions.map(linear);
-        let halves = Triangle::of_cell(7, &[0, 1, 2, 3], &positions);
+        let halves = Triangle::from_cell(7, &[0, 1, 2, 3], &positions);
         assert_eq!((halves.len(), halves[1].cell), (2, 7));
         let value = |place| {
             let mut found = halves

@@ -15,7 +15,7 @@ pub(super) const WIDTHS: [f64; 2] = [90.0, 180.0];
 pub enum Magnification {
     /// The largest displacement is about a twentieth of the body, in a mode a tenth.
     Auto,
-    /// By this factor.
+    /// Magnification by a given factor.
     Times(f64),
 }
 
@@ -30,7 +30,7 @@ pub enum CrackDrawing {
 
 impl FieldRequest {
     /// The usual picture of the results in a folder, of the usual size.
-    pub fn usual(folder: PathBuf) -> Self {
+    pub fn default_for(folder: PathBuf) -> Self {
         Self {
             folders: vec![folder],
             labels: Vec::new(),
@@ -68,7 +68,7 @@ pub struct SolidRequest {
 
 impl SolidRequest {
     /// The side from which solids are seen.
-    pub(super) fn seen_from(&self) -> View {
+    pub(super) fn view(&self) -> View {
         // A plane across y is seen from in front, with x to the right.
         let from = |[x, y, z]: [f64; 3]| match x == 0.0 && z == 0.0 {
             true => [0.0, -y.abs(), 0.0],
@@ -79,14 +79,14 @@ impl SolidRequest {
     }
 
     /// Name of a given option that applies to solids only, if any.
-    pub(super) fn asked(&self) -> Option<&'static str> {
+    pub(super) fn option_for_solids(&self) -> Option<&'static str> {
         let options = [
             ("view", self.view.is_some()),
             ("section", self.section.is_some()),
             ("iso", self.level.is_some()),
         ];
-        let asked = options.into_iter().find(|(_, is_asked)| *is_asked);
-        asked.map(|it| it.0)
+        let requested = options.into_iter().find(|(_, is_asked)| *is_asked);
+        requested.map(|it| it.0)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::remedy::Remedy;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::steps::{NamedStep, StepChoice, StepName};
@@ -28,7 +28,7 @@ pub enum Choice {
 
 /// The row of the history of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Moment {
+pub(super) struct HistoryRow {
     /// Load factor; in a motion the time, s.
     pub(super) load_factor: f64,
     /// Displacement of the first load.
@@ -40,29 +40,29 @@ pub(super) struct Moment {
 }
 
 /// The rows of a history by their steps; none where there is no history.
-pub(super) fn moments(folder: &Path) -> Result<BTreeMap<usize, Moment>, PictureError> {
+pub(super) fn history_rows(folder: &Path) -> Result<BTreeMap<usize, HistoryRow>, PictureError> {
     let path = folder.join("history.csv");
     if !path.is_file() {
         return Ok(BTreeMap::new());
     }
-    let rows = Sheet::read(path)?.rows(|row| {
+    let rows = CsvTable::read(path)?.rows(|row| {
         let displacement = row.value("displacement")?;
         let reaction = row.value("reaction")?;
-        let moment = Moment {
+        let history_row = HistoryRow {
             // A history without load factors has NaN.
             load_factor: row.number("load_factor").unwrap_or(f64::NAN),
             displacement,
             reaction,
             at_rest: row.value::<u8>("at_rest").map_or(true, |it| it != 0),
         };
-        Ok((row.value("step")?, moment))
+        Ok((row.value("step")?, history_row))
     })?;
     Ok(rows.into_iter().collect())
 }
 
 /// An output to draw.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Chosen {
+pub(super) struct SelectedOutput {
     /// Number of the step or the mode.
     pub(super) number: usize,
     /// File of the output.
@@ -72,11 +72,11 @@ pub(super) struct Chosen {
 }
 
 /// The chosen outputs, in the order of the choice.
-pub(super) fn chosen(
+pub(super) fn selected_outputs(
     outputs: &Outputs,
     choice: &Choice,
-    moments: &BTreeMap<usize, Moment>,
-) -> Result<Vec<Chosen>, PictureError> {
+    rows: &BTreeMap<usize, HistoryRow>,
+) -> Result<Vec<SelectedOutput>, PictureError> {
     let all: Vec<usize> = outputs.files.keys().copied().collect();
     let last = all.len() - 1;
     let numbers = match choice {
@@ -84,7 +84,7 @@ pub(super) fn chosen(
             all.iter().copied().take(FIRST_MODES).collect()
         }
         Choice::Default | Choice::Strip(1) => vec![all[last]],
-        Choice::Steps(steps) => return named(outputs, steps, &all),
+        Choice::Steps(steps) => return outputs_by_name(outputs, steps, &all),
         Choice::Strip(count) => {
             let count = (*count).min(all.len());
             let place = |it: usize| (2 * it * last + count - 1) / (2 * (count - 1)).max(1);
@@ -92,11 +92,11 @@ pub(super) fn chosen(
         }
         Choice::Displacements(displacements) => {
             let of_outputs = || {
-                let rows = all.iter().map(|step| Some((*step, moments.get(step)?)));
+                let rows = all.iter().map(|step| Some((*step, rows.get(step)?)));
                 rows.flatten()
             };
             let nearest = |wanted: &f64| {
-                let away = |(_, moment): &(usize, &Moment)| (moment.displacement - wanted).abs();
+                let away = |(_, row): &(usize, &HistoryRow)| (row.displacement - wanted).abs();
                 let nearest = of_outputs().min_by(|a, b| away(a).total_cmp(&away(b)));
                 nearest.map(|(step, _)| step)
             };
@@ -104,7 +104,7 @@ pub(super) fn chosen(
             found.ok_or_else(|| PictureError::NoHistory(outputs.folder.clone()))?
         }
     };
-    let output = |number: usize| Chosen {
+    let output = |number: usize| SelectedOutput {
         number,
         path: outputs.files[&number].clone(),
         happened: None,
@@ -113,11 +113,11 @@ pub(super) fn chosen(
 }
 
 /// The outputs with these names, of all there are.
-fn named(
+fn outputs_by_name(
     outputs: &Outputs,
     names: &[StepChoice],
     all: &[usize],
-) -> Result<Vec<Chosen>, PictureError> {
+) -> Result<Vec<SelectedOutput>, PictureError> {
     let mut found: Vec<NamedStep> = Vec::new();
     for name in names {
         if outputs.kind == OutputKind::Modes {
@@ -125,7 +125,7 @@ fn named(
         }
         found.extend(name.steps(&outputs.folder, all)?);
     }
-    let output = |it: &NamedStep| Chosen {
+    let output = |it: &NamedStep| SelectedOutput {
         number: it.step,
         path: outputs.files[&it.step].clone(),
         happened: it.words(),
@@ -150,7 +150,7 @@ fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<()
         ) => Err(PictureError::Modes {
             path,
             what: "first breakage and no peak",
-            remedy: Remedy::LeaveOut("step"),
+            remedy: Remedy::OmitOption("step"),
         }),
         StepChoice::All | StepChoice::One(StepName::Last | StepName::Number(_)) => Ok(()),
     }
@@ -173,11 +173,11 @@ mod tests {
 
     fn steps(choice: &Choice) -> Vec<usize> {
         let outputs = outputs(OutputKind::Steps, &[0, 5, 10, 15, 20, 25, 27]);
-        let moments =
+        let rows =
             [(0, 0.0), (5, 1.0), (10, 2.0), (20, 4.0), (27, 1.1)].map(|(step, displacement)| {
                 (
                     step,
-                    Moment {
+                    HistoryRow {
                         load_factor: 0.0,
                         displacement,
                         reaction: 0.0,
@@ -185,7 +185,7 @@ mod tests {
                     },
                 )
             });
-        let found = chosen(&outputs, choice, &BTreeMap::from(moments));
+        let found = selected_outputs(&outputs, choice, &BTreeMap::from(rows));
         found.unwrap().into_iter().map(|it| it.number).collect()
     }
 
@@ -215,21 +215,21 @@ mod tests {
             [5, 20, 0]
         );
         let few = outputs(OutputKind::Steps, &[0, 100]);
-        let error = chosen(&few, &numbers(&[50]), &BTreeMap::new()).unwrap_err();
+        let error = selected_outputs(&few, &numbers(&[50]), &BTreeMap::new()).unwrap_err();
         assert!(
             error
                 .to_string()
                 .contains("no output of step 50; there are 0, 100"),
             "{error}"
         );
-        let error = chosen(&few, &Choice::Displacements(vec![1.0]), &BTreeMap::new());
+        let error = selected_outputs(&few, &Choice::Displacements(vec![1.0]), &BTreeMap::new());
         assert!(matches!(error, Err(PictureError::NoHistory(_))));
     }
 
     #[test]
     fn the_first_modes_are_drawn() {
         let modes = outputs(OutputKind::Modes, &[1, 2, 3, 4, 5, 6, 7, 8]);
-        let found = chosen(&modes, &Choice::Default, &BTreeMap::new()).unwrap();
+        let found = selected_outputs(&modes, &Choice::Default, &BTreeMap::new()).unwrap();
         assert_eq!(found.len(), 6);
     }
 }

@@ -10,7 +10,7 @@ use super::panel::Panel;
 use super::request::{FieldRequest, Magnification, WIDTHS};
 use super::select::Choice;
 use super::source::{Output, Subject, outputs};
-use super::strip::{Entry, Room};
+use super::strip::{LegendEntry, SeriesExtent};
 use super::style::{Style, crack_legend};
 use crate::drawing::Drawing;
 use crate::drawing::frame::bounds;
@@ -27,8 +27,8 @@ pub(super) struct Series<'a> {
     subject: &'a Subject,
     outputs: Vec<Output<'a>>,
     style: Style<'a>,
-    room: Room,
-    legend: Vec<Entry>,
+    room: SeriesExtent,
+    legend: Vec<LegendEntry>,
 }
 
 /// Draws a picture of each chosen output, and returns where they are: in files with the number of the step or the mode.
@@ -41,7 +41,7 @@ pub fn draw_each(request: &FieldRequest) -> Result<Vec<PathBuf>, PictureError> {
     let file = request.target.file(|| subject.default_file(request))?;
     let series = Series::new(request, &subject)?;
     let mut written = Vec::new();
-    let files = |output: &Output<'_>| numbered(&file, output.number());
+    let files = |output: &Output<'_>| numbered_file(&file, output.number());
     for output in &series.outputs {
         request.target.check(&files(output))?;
     }
@@ -103,7 +103,7 @@ fn one_subject(request: &FieldRequest, option: &'static str) -> Result<Subject, 
 }
 
 /// The file with a number before its ending, with as many digits as in the names of outputs.
-fn numbered(file: &Path, number: usize) -> PathBuf {
+fn numbered_file(file: &Path, number: usize) -> PathBuf {
     let part =
         |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let (stem, ending) = (part(file.file_stem()), part(file.extension()));
@@ -141,7 +141,7 @@ impl<'a> Series<'a> {
         legend.extend(Output::warning(&outputs));
         Ok(Self {
             style: Style::new(request, subject, magnification, (ranges.into_iter(), unit))?,
-            room: Room {
+            room: SeriesExtent {
                 extent: bounds(&extents),
                 titles: outputs.iter().map(Output::title).collect(),
             },
@@ -166,7 +166,7 @@ mod tests {
 
     #[test]
     fn files_of_a_series_sort_by_their_numbers() {
-        let of = |file: &str, number| numbered(Path::new(file), number);
+        let of = |file: &str, number| numbered_file(Path::new(file), number);
         assert_eq!(of("out/a.b.png", 7), Path::new("out/a.b-0007.png"));
         assert_eq!(of("crack.svg", 12345), Path::new("crack-12345.svg"));
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use ligament_output::FieldLocation;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::quantity::four_digits;
 use ligament_output::remedy::Remedy;
 use ligament_output::results::cracks::StoredCracks;
@@ -17,13 +17,13 @@ use ligament_output::vtu::read::VtuFile;
 
 use super::body::{Body, MODE_SHARE};
 use super::crack::{self, Crack};
-use super::field::{Field, NONE, relate_to_largest};
+use super::field::{Field, NONE, normalise_by_quantile};
 use super::lines::Lines;
-use super::panel::{Panel, Seen};
+use super::panel::{Panel, SolidView};
 use super::request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
-use super::select::{Choice, Chosen, Moment, chosen, moments};
-use super::strip::Entry;
-use super::units::Shown;
+use super::select::{Choice, HistoryRow, SelectedOutput, history_rows, selected_outputs};
+use super::strip::LegendEntry;
+use super::units::AxisUnit;
 use super::{PictureError, labels_of, solid};
 use crate::stored_loading::stored_loading;
 
@@ -34,11 +34,11 @@ const NOT_CONVERGED: &str = "not converged";
 pub(super) struct Source {
     pub(super) outputs: Outputs,
     pub(super) label: String,
-    moments: BTreeMap<usize, Moment>,
+    rows: BTreeMap<usize, HistoryRow>,
     /// Units in which displacement and force are shown.
-    shown: Option<[Shown; 2]>,
+    units: Option<[AxisUnit; 2]>,
     /// Unit in which the time of a motion is shown; none in statics.
-    time: Option<Shown>,
+    time: Option<AxisUnit>,
     pub(super) crack: Option<Crack>,
     /// Lines that are drawn over the body in all steps.
     lines: Vec<Lines>,
@@ -66,7 +66,7 @@ pub(super) struct Subject {
 /// An output that is drawn.
 pub(super) struct Output<'a> {
     source: &'a Source,
-    chosen: Chosen,
+    selected: SelectedOutput,
     is_labelled: bool,
 }
 
@@ -77,10 +77,10 @@ pub(super) fn outputs<'a>(
 ) -> Result<Vec<Output<'a>>, PictureError> {
     let mut outputs = Vec::new();
     for source in sources {
-        let all = chosen(&source.outputs, choice, &source.moments)?;
-        outputs.extend(all.into_iter().map(|chosen| Output {
+        let all = selected_outputs(&source.outputs, choice, &source.rows)?;
+        outputs.extend(all.into_iter().map(|selected| Output {
             source,
-            chosen,
+            selected,
             is_labelled: sources.len() > 1,
         }));
     }
@@ -107,7 +107,10 @@ impl Subject {
         if let (true, Magnification::Times(factor)) = (request.has_lines(), request.magnification)
             && factor != 0.0
         {
-            return Err(PictureError::MovedLines(factor, Remedy::LeaveOut("scale")));
+            return Err(PictureError::MovedLines(
+                factor,
+                Remedy::OmitOption("scale"),
+            ));
         }
         let has_surface = sources.iter().any(|it| it.solid_cracks.is_some());
         let default = match request.crack {
@@ -144,9 +147,9 @@ fn default_field(sources: &[Source]) -> Result<&'static str, PictureError> {
     Ok(DISPLACEMENT.name)
 }
 
-/// The largest size of a value of the moments.
-fn largest(moments: &BTreeMap<usize, Moment>, of: fn(&Moment) -> f64) -> f64 {
-    let sizes = moments.values().map(|it| of(it).abs());
+/// The largest size of a value of the rows of a history.
+fn largest(rows: &BTreeMap<usize, HistoryRow>, of: fn(&HistoryRow) -> f64) -> f64 {
+    let sizes = rows.values().map(|it| of(it).abs());
     sizes.fold(0.0, f64::max)
 }
 
@@ -155,8 +158,8 @@ impl Source {
         let mut source = Self {
             outputs: Outputs::list(folder)?,
             label,
-            moments: BTreeMap::new(),
-            shown: None,
+            rows: BTreeMap::new(),
+            units: None,
             time: None,
             crack: None,
             lines: Vec::new(),
@@ -171,32 +174,32 @@ impl Source {
                 return Err(PictureError::Modes {
                     path: folder.to_path_buf(),
                     what: "cracks",
-                    remedy: Remedy::LeaveOut("crack"),
+                    remedy: Remedy::OmitOption("crack"),
                 });
             }
-            let table = Sheet::read(folder.join("modes.csv"))?;
+            let table = CsvTable::read(folder.join("modes.csv"))?;
             let numbers = table.values::<usize>("mode")?.into_iter();
             source.frequencies = numbers.zip(table.values("frequency_hz")?).collect();
             return Ok(source);
         }
-        source.moments = moments(folder)?;
+        source.rows = history_rows(folder)?;
         let loading = stored_loading(folder).ok();
-        let largest = |of: fn(&Moment) -> f64| largest(&source.moments, of);
-        source.shown = loading.as_ref().map(|it| {
+        let largest = |of: fn(&HistoryRow) -> f64| largest(&source.rows, of);
+        source.units = loading.as_ref().map(|it| {
             [
-                Shown::new(it.units.displacement, largest(|it| it.displacement)),
-                Shown::new(it.units.force, largest(|it| it.reaction)),
+                AxisUnit::new(it.units.displacement, largest(|it| it.displacement)),
+                AxisUnit::new(it.units.force, largest(|it| it.reaction)),
             ]
         });
         let moving = loading.as_ref().filter(|it| it.in_time);
-        source.time = moving.map(|_| Shown::new("s", largest(|it| it.load_factor)));
+        source.time = moving.map(|_| AxisUnit::new("s", largest(|it| it.load_factor)));
         if request.crack.is_some() && has_solid(folder)? {
             source.solid_cracks = Some(SolidCracks::open(folder)?);
             return Ok(source);
         }
         let follows_path = loading.is_some_and(|it| it.follows_path);
         match request.crack {
-            Some(CrackDrawing::Lines) => source.lines.push(Lines::of_precracks(folder)?),
+            Some(CrackDrawing::Lines) => source.lines.push(Lines::from_precracks(folder)?),
             Some(CrackDrawing::Bonds) => source.crack = Some(Crack::read(folder, follows_path)?),
             None => {}
         }
@@ -205,7 +208,7 @@ impl Source {
             source.cracks = Some(StoredCracks::open(folder)?);
         }
         for (place, table) in request.lines.iter().enumerate() {
-            source.lines.push(Lines::of_table(table, place)?);
+            source.lines.push(Lines::from_table(table, place)?);
         }
         Ok(source)
     }
@@ -214,17 +217,17 @@ impl Source {
 impl Output<'_> {
     /// Number of the step or the mode.
     pub(super) fn number(&self) -> usize {
-        self.chosen.number
+        self.selected.number
     }
 
     /// The row of the history of the step.
-    fn moment(&self) -> Option<&Moment> {
-        self.source.moments.get(&self.chosen.number)
+    fn history_row(&self) -> Option<&HistoryRow> {
+        self.source.rows.get(&self.selected.number)
     }
 
     /// Words of the title, long and short.
     pub(super) fn title(&self) -> Vec<[String; 2]> {
-        let (source, number) = (self.source, self.chosen.number);
+        let (source, number) = (self.source, self.selected.number);
         let same = |text: String| [text.clone(), text];
         let mut words = Vec::new();
         if self.is_labelled {
@@ -237,28 +240,28 @@ impl Output<'_> {
             words.push(same(format!("mode {number}{frequency}")));
             return words;
         }
-        if let (Some(moment), Some(shown)) = (self.moment(), &source.time) {
-            words.push(same(format!("t = {}", shown.value(moment.load_factor))));
-            words.extend(self.chosen.happened.clone());
+        if let (Some(row), Some(units)) = (self.history_row(), &source.time) {
+            words.push(same(format!("t = {}", units.value(row.load_factor))));
+            words.extend(self.selected.happened.clone());
             return words;
         }
         words.push(same(format!("step {number}")));
-        words.extend(self.chosen.happened.clone());
-        if let (Some(moment), Some([displacement, force])) = (self.moment(), &source.shown) {
+        words.extend(self.selected.happened.clone());
+        if let (Some(row), Some([displacement, force])) = (self.history_row(), &source.units) {
             // A change of temperature loads a body that nothing moves.
             let is_heated = displacement.unit.ends_with('K');
-            let moved = displacement.value(moment.displacement);
+            let moved = displacement.value(row.displacement);
             let moves = if is_heated {
                 "temperature change"
             } else {
                 "displacement"
             };
             words.push([format!("{moves} {moved}"), moved]);
-            if !moment.at_rest {
+            if !row.at_rest {
                 words.push(same(NOT_CONVERGED.to_owned()));
             }
             if !is_heated {
-                let held = force.value(moment.reaction);
+                let held = force.value(row.reaction);
                 words.push([format!("reaction {held}"), held]);
             }
         }
@@ -266,15 +269,15 @@ impl Output<'_> {
     }
 
     /// The entry of the legend for steps that are not in equilibrium with their load; none without such steps.
-    pub(super) fn warning(outputs: &[Self]) -> Option<Entry> {
-        let unsettled = |it: &Self| it.moment().is_some_and(|moment| !moment.at_rest);
+    pub(super) fn warning(outputs: &[Self]) -> Option<LegendEntry> {
+        let unsettled = |it: &Self| it.history_row().is_some_and(|row| !row.at_rest);
         let words = match outputs {
             [_] => format!("{NOT_CONVERGED}: bonds were still breaking at this load"),
             _ => {
                 format!("steps {NOT_CONVERGED}: bonds were still breaking at their load")
             }
         };
-        outputs.iter().any(unsettled).then_some(Entry {
+        outputs.iter().any(unsettled).then_some(LegendEntry {
             colour: None,
             words,
         })
@@ -282,23 +285,23 @@ impl Output<'_> {
 
     /// The undeformed body with a field.
     pub(super) fn panel(&self, field: &str) -> Result<Panel, PictureError> {
-        let file = VtuFile::open(&self.chosen.path)?;
+        let file = VtuFile::open(&self.selected.path)?;
         if is_solid(&file)? {
             return self.solid_panel(&file, field);
         }
-        if let Some(option) = self.source.solid.asked() {
+        if let Some(option) = self.source.solid.option_for_solids() {
             let folder = self.source.outputs.folder.clone();
-            return Err(PictureError::Plane(folder, Remedy::LeaveOut(option)));
+            return Err(PictureError::Plane(folder, Remedy::OmitOption(option)));
         }
         let is_drawn = field != NONE;
         let mut field = is_drawn.then(|| Field::read(&file, field)).transpose()?;
         if self.source.outputs.kind == OutputKind::Modes {
-            field.iter_mut().for_each(relate_to_largest);
+            field.iter_mut().for_each(normalise_by_quantile);
         }
         let mut body = Body::read(&file)?;
         if let Some(cracks) = self.source.cracks.as_ref().filter(|_| !self.draws_lines()) {
             let values = field.as_mut().map(|it| &mut it.values);
-            body.open(cracks, self.chosen.number, values);
+            body.open(cracks, self.selected.number, values);
         }
         Ok(Panel {
             title: self.title(),
@@ -315,17 +318,17 @@ impl Output<'_> {
     fn solid_panel(&self, file: &VtuFile, field: &str) -> Result<Panel, PictureError> {
         let source = self.source;
         if !source.lines.is_empty() {
-            return Err(PictureError::LinesOfSolid(Remedy::LeaveOut("with-lines")));
+            return Err(PictureError::LinesOfSolid(Remedy::OmitOption("with-lines")));
         }
         let cracks = source.solid_cracks.as_ref();
-        let cracks = cracks.map(|it| (it, self.chosen.number));
+        let cracks = cracks.map(|it| (it, self.selected.number));
         let drawn = (&source.solid, source.drawing);
         let (scene, mut field) = solid::read(file, field, drawn, cracks)?;
         if source.outputs.kind == OutputKind::Modes {
-            field.iter_mut().for_each(relate_to_largest);
+            field.iter_mut().for_each(normalise_by_quantile);
         }
-        let view = source.solid.seen_from();
-        let [reference, displacement] = scene.seen(view);
+        let view = source.solid.view();
+        let [reference, displacement] = scene.projected_places(view);
         Ok(Panel {
             title: self.title(),
             positions: Vec::new(),
@@ -333,7 +336,7 @@ impl Output<'_> {
             field,
             broken: Vec::new(),
             lines: Vec::new(),
-            solid: Some(Seen {
+            solid: Some(SolidView {
                 scene,
                 view,
                 factor: 0.0,
@@ -349,7 +352,7 @@ impl Output<'_> {
     /// Lines over the body, its cracks above all others.
     fn lines(&self) -> Vec<Lines> {
         let cracks = self.source.cracks.as_ref().filter(|_| self.draws_lines());
-        let cracks = cracks.map(|it| Lines::of_cracks(it, self.chosen.number));
+        let cracks = cracks.map(|it| Lines::from_cracks(it, self.selected.number));
         self.source.lines.iter().cloned().chain(cracks).collect()
     }
 
@@ -373,7 +376,7 @@ impl Output<'_> {
         let kinds = kinds.filter(|(_, kind)| !(kind.is_cut() && panel.body.is_mesh()));
         panel.broken = kinds
             .map(|(crack, kind)| {
-                let bonds = crack.until(kind, self.chosen.number).into_iter();
+                let bonds = crack.broken_until(kind, self.selected.number).into_iter();
                 (kind.colour, bonds.filter_map(line).collect())
             })
             .collect();

@@ -33,7 +33,7 @@ const WIDE: f64 = 2.2;
 
 /// A line of the legend.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Entry {
+pub(super) struct LegendEntry {
     /// Colour of its sample; None: words alone.
     pub(super) colour: Option<Rgb>,
     /// Words of the title.
@@ -48,7 +48,7 @@ const LONGEST_BAR: f64 = 420.0;
 
 /// Room in each picture of a series for the contents of all its pictures, so that nothing moves from one to the next.
 #[derive(Debug)]
-pub(super) struct Room {
+pub(super) struct SeriesExtent {
     /// Lower left and upper right corner of all bodies in all pictures, m.
     pub(super) extent: Option<[[f64; 2]; 2]>,
     /// Titles of all pictures.
@@ -65,7 +65,7 @@ pub(super) struct Strip<'a> {
     /// The bar of the field.
     pub(super) bar: Option<ColourBar<'a>>,
     /// Legend below the bodies.
-    pub(super) legend: Vec<Entry>,
+    pub(super) legend: Vec<LegendEntry>,
     /// Part of the plane to draw, lower left and upper right corner, m; `None`: all.
     pub(super) window: Option<[[f64; 2]; 2]>,
     /// Bodies in a row.
@@ -73,7 +73,7 @@ pub(super) struct Strip<'a> {
     /// Whether axes in mm stand at the left of and below each body.
     pub(super) has_axes: bool,
     /// Room for the other pictures of a series, if it is one.
-    pub(super) room: Option<&'a Room>,
+    pub(super) room: Option<&'a SeriesExtent>,
 }
 
 /// Positions and sizes of the parts of a picture, pixels.
@@ -116,7 +116,7 @@ impl Strip<'_> {
         }
         for (line, entries) in legend.iter().enumerate() {
             let y = MARGIN + layout.inner + 4.0 + LINE * (line as f64 + 0.8);
-            for (x, Entry { colour, words }) in entries {
+            for (x, LegendEntry { colour, words }) in entries {
                 let mut start = MARGIN + x;
                 if let Some(colour) = colour {
                     let ends = [[start, y - 3.0], [start + 14.0, y - 3.0]];
@@ -250,7 +250,7 @@ impl Strip<'_> {
     }
 
     /// The entries of the legend with their places in lines of a width.
-    fn legend_lines(&self, width: f64) -> Vec<Vec<(f64, &Entry)>> {
+    fn legend_lines(&self, width: f64) -> Vec<Vec<(f64, &LegendEntry)>> {
         let mut lines: Vec<Vec<_>> = Vec::new();
         let mut at = 0.0;
         for entry in &self.legend {

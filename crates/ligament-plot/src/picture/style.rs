@@ -11,7 +11,7 @@ use super::field::NONE;
 use super::panel::{Panel, Scale};
 use super::request::FieldRequest;
 use super::source::{Source, Subject};
-use super::strip::{Entry, Room, Strip};
+use super::strip::{LegendEntry, SeriesExtent, Strip};
 use crate::drawing::{Drawing, PIXELS_PER_MM};
 
 /// Style of all bodies of a picture, or of a series of pictures.
@@ -48,9 +48,9 @@ impl<'a> Style<'a> {
             let of_modes = subject
                 .has_modes
                 .then_some([range[0].signum().min(0.0), 1.0]);
-            let asked = request.range.or(of_modes);
-            let map = request.map.or_else(|| ColourMap::usual(name));
-            (Scale::new(range, asked, request.bands, map), range)
+            let requested = request.range.or(of_modes);
+            let map = request.map.or_else(|| ColourMap::default_for(name));
+            (Scale::new(range, requested, request.bands, map), range)
         };
         if name != NONE && range.is_none() {
             return Err(PictureError::NoValues(name.clone()));
@@ -69,11 +69,11 @@ impl<'a> Style<'a> {
     pub(super) fn drawing(
         &self,
         panels: &[Panel],
-        legend: Vec<Entry>,
-        room: Option<&Room>,
+        legend: Vec<LegendEntry>,
+        room: Option<&SeriesExtent>,
         width: f64,
     ) -> Drawing {
-        let magnification = Entry {
+        let magnification = LegendEntry {
             colour: None,
             words: magnification_words(self.magnification),
         };
@@ -113,8 +113,12 @@ pub(super) fn magnification_words(magnification: Option<f64>) -> String {
 
 /// Entries for the criteria by which bonds of any panel broke and for the lines over the bodies, each once, with numbers of bonds and
 /// lengths if requested.
-pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bool) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
+pub(super) fn crack_legend(
+    sources: &[Source],
+    panels: &[Panel],
+    is_numbered: bool,
+) -> Vec<LegendEntry> {
+    let mut entries: Vec<LegendEntry> = Vec::new();
     let kinds = sources
         .iter()
         .flat_map(|it| &it.crack)
@@ -130,7 +134,7 @@ pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bo
             false => kind.name.clone(),
         };
         if count > 0 && !entries.iter().any(|it| it.words == words) {
-            entries.push(Entry {
+            entries.push(LegendEntry {
                 colour: Some(kind.colour),
                 words,
             });
@@ -140,7 +144,7 @@ pub(super) fn crack_legend(sources: &[Source], panels: &[Panel], is_numbered: bo
         let detail = if is_numbered { &lines.detail } else { "" };
         let words = format!("{}{detail}", lines.name);
         if !lines.polylines.is_empty() && !entries.iter().any(|it| it.words == words) {
-            entries.push(Entry {
+            entries.push(LegendEntry {
                 colour: Some(lines.colour),
                 words,
             });

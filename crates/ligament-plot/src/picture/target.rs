@@ -37,7 +37,7 @@ pub enum Format {
 const DPI: f64 = 300.0;
 
 impl Format {
-    /// All kinds.
+    /// All formats of pictures.
     pub const ALL: [Self; 3] = [Self::Png, Self::Svg, Self::Pdf];
 
     /// The ending of the files.

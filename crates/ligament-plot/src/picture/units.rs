@@ -4,17 +4,17 @@ use ligament_output::quantity::{self, four_digits};
 
 /// A unit in which values of a quantity are shown.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shown {
+pub struct AxisUnit {
     /// Factor on a value in SI units.
     pub factor: f64,
     /// The unit with its prefix or power of ten; empty for a number without unit.
     pub unit: String,
 }
 
-impl Shown {
+impl AxisUnit {
     /// The unit for values of a size in an SI unit such as `J/m^3`; `-` is none.
     pub fn new(unit: &str, size: f64) -> Self {
-        let shown = quantity::Shown::new(unit, size);
+        let shown = quantity::PrefixedUnit::new(unit, size);
         let symbol = shown.unit.replace("^2", "²").replace("^3", "³");
         let prefix = shown.prefix.replace('u', "µ");
         let power = match shown.power {
@@ -60,7 +60,7 @@ fn power_of_ten(exponent: i32) -> String {
 }
 
 /// Numbers with as many decimals as the widest of them needs to show `step`.
-pub(crate) fn with_decimals_of(value: f64, step: f64) -> String {
+pub(crate) fn text_with_decimals_of(value: f64, step: f64) -> String {
     let needs = |decimals: usize| {
         let scaled = step * 10f64.powi(decimals as i32);
         (scaled - scaled.round()).abs() < 1e-6 * scaled.abs().max(1e-300)
@@ -94,20 +94,20 @@ mod tests {
             ("K", 120.0, "K"),
             ("m", 0.0, "m"),
         ] {
-            assert_eq!(Shown::new(unit, size).unit, expected, "{size} {unit}");
+            assert_eq!(AxisUnit::new(unit, size).unit, expected, "{size} {unit}");
         }
-        assert_eq!(Shown::new("m", 1.8e-4).value(1.8e-4), "0.1800 mm");
-        assert_eq!(Shown::new("N", 6.4e5).value(644_761.3), "644.8 kN");
-        assert_eq!(Shown::new("m^3", 2e-6).value(2e-6), "2000 mm³");
-        assert_eq!(Shown::new("1/K", 2e-6).value(2e-6), "2.000 × 10⁻⁶ 1/K");
-        assert_eq!(Shown::new("-", 0.4).label("damage"), "damage");
+        assert_eq!(AxisUnit::new("m", 1.8e-4).value(1.8e-4), "0.1800 mm");
+        assert_eq!(AxisUnit::new("N", 6.4e5).value(644_761.3), "644.8 kN");
+        assert_eq!(AxisUnit::new("m^3", 2e-6).value(2e-6), "2000 mm³");
+        assert_eq!(AxisUnit::new("1/K", 2e-6).value(2e-6), "2.000 × 10⁻⁶ 1/K");
+        assert_eq!(AxisUnit::new("-", 0.4).label("damage"), "damage");
     }
 
     #[test]
     fn labels_have_the_decimals_of_their_step() {
-        assert_eq!(with_decimals_of(0.30000000000000004, 0.1), "0.3");
-        assert_eq!(with_decimals_of(0.25, 0.25), "0.25");
-        assert_eq!(with_decimals_of(200.0, 100.0), "200");
-        assert_eq!(with_decimals_of(-1e-18, 0.5), "0.0");
+        assert_eq!(text_with_decimals_of(0.30000000000000004, 0.1), "0.3");
+        assert_eq!(text_with_decimals_of(0.25, 0.25), "0.25");
+        assert_eq!(text_with_decimals_of(200.0, 100.0), "200");
+        assert_eq!(text_with_decimals_of(-1e-18, 0.5), "0.0");
     }
 }

@@ -3,7 +3,7 @@
 //! A [`Plot`] has scales of its own along x and y; [`equal`] draws one with the same scale along both, [`polar`] draws
 //! curves around a centre.
 
-pub mod equal;
+pub mod equal_scales;
 pub mod polar;
 mod series;
 mod sheet;
@@ -14,7 +14,7 @@ use crate::drawing::{Anchor, Drawing, Frame};
 
 use series::LETTERS;
 pub use series::{Colour, Mark, Series};
-use sheet::Sheet;
+use sheet::PageLayout;
 
 /// Size of the title, and room around the plot, pixels of a screen.
 const TITLE: f64 = 19.0;
@@ -25,13 +25,13 @@ const MARGIN: f64 = 14.0;
 pub struct Plot {
     /// Name of the plot's file.
     pub name: String,
-    /// Title.
+    /// Title of the plot.
     pub title: String,
     /// The quantity along x, with its unit.
     pub x: String,
     /// The quantity along y, with its unit.
     pub y: String,
-    /// The curves.
+    /// Curves of the plot.
     pub series: Vec<Series>,
 }
 
@@ -69,7 +69,7 @@ impl Plot {
     ///
     /// If there is no finite point to draw.
     pub fn for_screen(&self) -> Result<Drawing, PlotError> {
-        self.on(Sheet::screen(420.0, &self.series))
+        self.on_page(PageLayout::screen(420.0, &self.series))
     }
 
     /// The plot for a sheet of paper of a width in mm.
@@ -78,24 +78,25 @@ impl Plot {
     ///
     /// If there is no finite point to draw.
     pub fn for_paper(&self, width: f64) -> Result<Drawing, PlotError> {
-        self.on(Sheet::paper(width, &self.series))
+        self.on_page(PageLayout::paper(width, &self.series))
     }
 
-    fn on(&self, sheet: Sheet) -> Result<Drawing, PlotError> {
+    fn on_page(&self, sheet: PageLayout) -> Result<Drawing, PlotError> {
         let points = || self.series.iter().flat_map(|series| series.points());
         let range = |axis: usize| range(points().map(|point| point[axis]));
-        let ([left, right], [low, high]) = range(0).zip(range(1)).ok_or_else(|| self.is_empty())?;
+        let ([left, right], [low, high]) =
+            range(0).zip(range(1)).ok_or_else(|| self.empty_error())?;
         let frame = self.frame(sheet, [[left, low], [right, high]]);
         Ok(self.draw(sheet, frame))
     }
 
-    fn is_empty(&self) -> PlotError {
+    fn empty_error(&self) -> PlotError {
         let name = self.name.clone();
         PlotError::Empty { name }
     }
 
     /// The room for the curves between two corners, in their quantities.
-    fn frame(&self, sheet: Sheet, corners: [[f64; 2]; 2]) -> Frame {
+    fn frame(&self, sheet: PageLayout, corners: [[f64; 2]; 2]) -> Frame {
         let [_, _, below] = axes::room(LETTERS);
         let title = if self.title.is_empty() { 0.0 } else { TITLE };
         let top = sheet.pen * (MARGIN + title);
@@ -107,7 +108,7 @@ impl Plot {
         Frame::new(corners, [[left, top], [right - left, height]])
     }
 
-    fn axes(&self, sheet: Sheet) -> Axes<'_> {
+    fn axes(&self, sheet: PageLayout) -> Axes<'_> {
         Axes {
             names: [&self.x, &self.y],
             letters: sheet.pen * LETTERS,
@@ -116,7 +117,7 @@ impl Plot {
         }
     }
 
-    fn draw(&self, sheet: Sheet, frame: Frame) -> Drawing {
+    fn draw(&self, sheet: PageLayout, frame: Frame) -> Drawing {
         let mut drawing = sheet.drawing();
         let size = sheet.pen * TITLE;
         let middle = frame.at[0] + 0.5 * frame.size()[0];
@@ -188,7 +189,10 @@ mod tests {
         let points = vec![[0.0, 0.0], [1.0, 1.0]];
         let series = Series::curve("a long name", Colour::Blue, points);
         let named = [series.clone()];
-        let (with, without) = (Sheet::paper(120.0, &named), Sheet::paper(120.0, &[]));
+        let (with, without) = (
+            PageLayout::paper(120.0, &named),
+            PageLayout::paper(120.0, &[]),
+        );
         assert!(with.plane < without.plane);
         let plot = Plot::new("p", "", ["x", "y"], vec![series]);
         let svg = plot.for_paper(120.0).unwrap().to_svg("");

@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use super::sheet::Sheet;
+use super::sheet::PageLayout;
 use super::{LETTERS, PlotError, Series, TITLE};
-use crate::drawing::ticks::rounded_up;
+use crate::drawing::ticks::round_number_above;
 use crate::drawing::{Anchor, Drawing, Frame, Paint, Rgb};
-use crate::picture::units::with_decimals_of;
+use crate::picture::units::text_with_decimals_of;
 
 /// Height, and room above the square for the curves, pixels.
 const HEIGHT: f64 = 600.0;
@@ -24,7 +24,7 @@ const NUMBERS: f64 = 13.0;
 pub struct PolarPlot {
     /// Name of the diagram's file.
     pub name: String,
-    /// Title.
+    /// Title of the polar plot.
     pub title: String,
     /// Quantity along the radius, with its unit.
     pub radius: String,
@@ -48,7 +48,7 @@ impl PolarPlot {
         let step = circle_step(largest);
         let circles = (largest / step).ceil().max(1.0) as u32;
         let half = step * f64::from(circles) / FILLED;
-        let sheet = Sheet::screen(HEIGHT, &self.series);
+        let sheet = PageLayout::screen(HEIGHT, &self.series);
         let room = [[0.0, ABOVE], [sheet.plane; 2]];
         let frame = Frame::new([[-half; 2], [half; 2]], room);
         let mut drawing = sheet.drawing();
@@ -83,14 +83,14 @@ fn draw_circles(drawing: &mut Drawing, frame: Frame, step: f64, circles: u32) {
     for radius in (1..=circles).map(|circle| step * f64::from(circle)) {
         let line = Paint::stroke(GRID, 1.0);
         drawing.circle(at(0.0, 0.0), radius * frame.scale[0], line);
-        let label = with_decimals_of(radius, step);
+        let label = text_with_decimals_of(radius, step);
         number(at(PI / 12.0, radius), &label, drawing);
     }
 }
 
 /// Distance of the circles: 1, 2 or 5 times a power of ten, so that there are 3 to 7.
 fn circle_step(largest: f64) -> f64 {
-    rounded_up(
+    round_number_above(
         largest.max(f64::MIN_POSITIVE.sqrt()) / 6.0,
         &[1.0, 2.0, 5.0],
     )

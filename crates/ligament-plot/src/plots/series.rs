@@ -11,7 +11,7 @@ const DASHES: [f64; 2] = [7.0, 5.0];
 /// Width of a curve, pixels of a screen.
 const WIDTH: f64 = 2.0;
 
-/// A curve.
+/// A curve of a plot, as a line, dots or both.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Series {
     label: String,

@@ -25,7 +25,7 @@ const BESIDE_LABEL: f64 = 58.0;
 
 /// The sheet for a plot.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sheet {
+pub(super) struct PageLayout {
     /// Pixels of the drawing per pixel of a screen.
     pub(super) pen: f64,
     /// Width and height, pixels.
@@ -34,7 +34,7 @@ pub(super) struct Sheet {
     pub(super) plane: f64,
 }
 
-impl Sheet {
+impl PageLayout {
     /// A screen of a height in pixels, whose legend is at the right of a room of 570 pixels.
     pub(super) fn screen(height: f64, series: &[Series]) -> Self {
         Self {

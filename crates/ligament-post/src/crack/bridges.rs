@@ -11,7 +11,7 @@ use super::paths::{Corner, Graph};
 impl Graph {
     /// The graph with straight edges over the gaps between its parts that are no wider than a horizon, the narrowest first, as long as they
     /// connect separate parts. Parts shorter than half a horizon without a pre-crack are left alone.
-    pub(super) fn bridged(mut self) -> Self {
+    pub(super) fn with_bridges(mut self) -> Self {
         let mut part = vec![None; self.corners.len()];
         for (number, component) in self.components().iter().enumerate() {
             if self.is_long(component, 0.5) {
@@ -23,7 +23,7 @@ impl Graph {
         for [a, b] in self.gaps(&part) {
             let [kept, joined] = [a, b].map(|it| part[it as usize]);
             if kept != joined {
-                self.bridge([a, b]);
+                self.add_straight_edge([a, b]);
                 let of_joined = part.iter_mut().filter(|it| **it == joined);
                 of_joined.for_each(|it| *it = kept);
             }
@@ -35,7 +35,7 @@ impl Graph {
     pub(super) fn is_long(&self, component: &[u32], horizons: f64) -> bool {
         let corners = || component.iter().map(|&it| &self.corners[it as usize]);
         let horizon = corners().map(|it| it.horizon).sum::<f64>() / component.len() as f64;
-        corners().any(|it| it.is_cut) || self.extent(component) >= horizons * horizon
+        corners().any(|it| it.is_cut) || self.total_length(component) >= horizons * horizon
     }
 
     /// Pairs of a corner and the nearest corner of every other part within a horizon, unless a pre-crack ends at both, by increasing

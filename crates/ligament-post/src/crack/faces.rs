@@ -25,7 +25,7 @@ pub struct Faces {
 
 /// State of the bond across a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Part {
+pub enum FaceState {
     /// Unbroken bond, or points that were never bonded.
     Whole,
     /// Bond cut by a pre-crack: not a grown crack, but cracks can start there.
@@ -44,7 +44,7 @@ impl Faces {
             Canvas::Between(cells) => Self::between_nodes(positions, cells),
             Canvas::Around(squares) => Self::around_points(squares),
             Canvas::Solid(_) | Canvas::Boxes(_) => {
-                Unsorted::default().sorted(Vec::new(), Vec::new())
+                UnsortedFaces::default().sort_faces(Vec::new(), Vec::new())
             }
         }
     }
@@ -85,7 +85,7 @@ impl Faces {
             );
         }
         edges.sort_unstable();
-        let mut faces = Unsorted::default();
+        let mut faces = UnsortedFaces::default();
         for edge in edges.chunk_by(|one, other| one.0 == other.0) {
             let points = edge[0].0;
             let middle = mean(points.map(|it| positions[it as usize]).into_iter());
@@ -96,13 +96,13 @@ impl Faces {
             }
             faces.push(points, [edge[0].1, far], middle);
         }
-        faces.sorted(corners, is_outside)
+        faces.sort_faces(corners, is_outside)
     }
 
     fn around_points(squares: &[[[f64; 2]; 4]]) -> Self {
-        let mut corners = Corners::default();
+        let mut corners = SquareCorners::default();
         let mut sides: HashMap<[u32; 2], u32> = HashMap::new();
-        let mut faces = Unsorted::default();
+        let mut faces = UnsortedFaces::default();
         for (point, square) in (0..).zip(squares) {
             let side = distance(square[0], square[1]).min(distance(square[1], square[2]));
             let numbers = square.map(|corner| corners.number(corner, side));
@@ -121,20 +121,20 @@ impl Faces {
         for corner in sides.into_keys().flatten() {
             is_outside[corner as usize] = true;
         }
-        faces.sorted(corners.places, is_outside)
+        faces.sort_faces(corners.places, is_outside)
     }
 }
 
 /// Unsorted faces: points, corners, middle.
 #[derive(Default)]
-struct Unsorted(Vec<([u32; 2], [u32; 2], [f64; 2])>);
+struct UnsortedFaces(Vec<([u32; 2], [u32; 2], [f64; 2])>);
 
-impl Unsorted {
+impl UnsortedFaces {
     fn push(&mut self, points: [u32; 2], ends: [u32; 2], middle: [f64; 2]) {
         self.0.push((points, ends, middle));
     }
 
-    fn sorted(mut self, corners: Vec<[f64; 2]>, is_outside: Vec<bool>) -> Faces {
+    fn sort_faces(mut self, corners: Vec<[f64; 2]>, is_outside: Vec<bool>) -> Faces {
         self.0.sort_by_key(|(points, ends, _)| (*points, *ends));
         Faces {
             corners,
@@ -148,13 +148,13 @@ impl Unsorted {
 
 /// Corners of squares, each once.
 #[derive(Default)]
-struct Corners {
+struct SquareCorners {
     places: Vec<[f64; 2]>,
     /// Numbers of the corners by cells of a grid of the merging distance.
     found: HashMap<[i64; 2], u32>,
 }
 
-impl Corners {
+impl SquareCorners {
     /// Number of a corner of a square with a given side.
     fn number(&mut self, corner: [f64; 2], side: f64) -> u32 {
         let width = ONE_CORNER * side;

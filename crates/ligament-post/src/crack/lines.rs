@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::faces::{Faces, Part, distance};
-use super::paths::{Corner, Graph, ShortestPaths, Way};
+use super::faces::{FaceState, Faces, distance};
+use super::paths::{Corner, CrackPath, Graph, ShortestPaths};
 use super::smooth::smooth;
 
 /// A crack, or a branch of one, as a line.
@@ -69,8 +69,8 @@ impl CrackLine {
 
 /// Cracks of a body, from the states of its faces (n_faces) and the horizons of its points (n_points), m: the longest line of each connected
 /// part before its branches, in the order of the faces.
-pub fn crack_lines(faces: &Faces, parts: &[Part], horizon: &[f64]) -> Vec<CrackLine> {
-    let graph = Graph::new(faces, parts, horizon).bridged();
+pub fn crack_lines(faces: &Faces, parts: &[FaceState], horizon: &[f64]) -> Vec<CrackLine> {
+    let graph = Graph::new(faces, parts, horizon).with_bridges();
     let lines_of = |component: Vec<u32>| {
         let tracer = Tracer {
             graph: &graph,
@@ -93,70 +93,72 @@ impl Tracer<'_> {
         if !self.graph.is_long(&self.component, 1.0) {
             return Vec::new();
         }
-        let ways = self.ways();
-        let lines = self.smoothed(&ways);
-        let longest_path = &ways[0];
-        let is_crack = self.end(longest_path.corners[0]) == CrackEnd::PreCrack
+        let paths = self.paths();
+        let lines = self.smooth_lines(&paths);
+        let longest_path = &paths[0];
+        let is_crack = self.kind_of_end(longest_path.corners[0]) == CrackEnd::PreCrack
             || lines[0].length() >= self.corner(longest_path.corners[0]).horizon;
         if is_crack { lines } else { Vec::new() }
     }
 
     /// Paths of the lines, one or more.
-    fn ways(&self) -> Vec<Way> {
+    fn paths(&self) -> Vec<CrackPath> {
         let longest_path = self.longest_path();
-        let mut apart = self.component.clone();
-        self.cover(&mut apart, &longest_path);
-        let mut ways = vec![longest_path];
-        while !apart.is_empty() {
-            let starts: Vec<u32> = ways.iter().flat_map(|it| &it.corners).copied().collect();
-            let from_lines = self.graph.ways_from(&starts);
-            let end = farthest(&apart, |it| from_lines.length[it as usize]);
-            let branch = self.graph.way_to(&from_lines, end);
-            apart.retain(|it| *it != end);
-            self.cover(&mut apart, &branch);
+        let mut remaining = self.component.clone();
+        self.remove_near(&mut remaining, &longest_path);
+        let mut paths = vec![longest_path];
+        while !remaining.is_empty() {
+            let starts: Vec<u32> = paths.iter().flat_map(|it| &it.corners).copied().collect();
+            let from_lines = self.graph.shortest_paths_from(&starts);
+            let end = farthest(&remaining, |it| from_lines.length[it as usize]);
+            let branch = self.graph.path_to(&from_lines, end);
+            remaining.retain(|it| *it != end);
+            self.remove_near(&mut remaining, &branch);
             let root = branch.corners[0];
-            let is_tip = self.end(root) == CrackEnd::Tip;
-            let longer = ways
+            let is_tip = self.kind_of_end(root) == CrackEnd::Tip;
+            let longer = paths
                 .iter_mut()
-                .find(|way| is_tip && way.ends().contains(&root));
+                .find(|path| is_tip && path.ends().contains(&root));
             match longer {
-                Some(way) => way.append(branch),
-                None => ways.push(branch),
+                Some(path) => path.append(branch),
+                None => paths.push(branch),
             }
         }
-        ways
+        paths
     }
 
     /// The shortest path between two corners far from each other, with its ends moved to a pre-crack or the outline nearby; from a pre-crack
     /// where there is one.
-    fn longest_path(&self) -> Way {
+    fn longest_path(&self) -> CrackPath {
         let is_cut = |&&it: &&u32| self.corner(it).is_cut;
         let mut starts: Vec<u32> = self.component.iter().filter(is_cut).copied().collect();
         if starts.is_empty() {
             starts.clone_from(&self.component);
         }
-        let from_any = self.graph.ways_from(&starts[..1]);
-        let end = farthest(&self.component, |it| self.gap(starts[0], it));
-        let end = self.drawn(end, starts[0], &from_any);
-        let from_end = self.graph.ways_from(&[end]);
-        let start = farthest(&starts, |it| self.gap(end, it));
-        let start = self.drawn(start, end, &from_end);
-        self.graph.way_to(&from_end, start).reversed()
+        let from_any = self.graph.shortest_paths_from(&starts[..1]);
+        let end = farthest(&self.component, |it| self.distance_between(starts[0], it));
+        let end = self.line_end(end, starts[0], &from_any);
+        let from_end = self.graph.shortest_paths_from(&[end]);
+        let start = farthest(&starts, |it| self.distance_between(end, it));
+        let start = self.line_end(start, end, &from_end);
+        self.graph.path_to(&from_end, start).reversed()
     }
 
     /// End corner of a line near a corner: at a pre-crack within the horizon, if there are several on the shortest path from the `other` end;
     /// or else at the outline, nearest to the corner; or else the corner itself. Corners within a horizon of the other end are left out.
-    fn drawn(&self, corner: u32, other: u32, from_other: &ShortestPaths) -> u32 {
+    fn line_end(&self, corner: u32, other: u32, from_other: &ShortestPaths) -> u32 {
         let reach = self.corner(corner).horizon;
-        let from_here = self.graph.ways_from(&[corner]);
-        let is_near =
-            |it: u32| from_here.length[it as usize] <= reach && self.gap(other, it) > reach;
+        let from_here = self.graph.shortest_paths_from(&[corner]);
+        let is_near = |it: u32| {
+            from_here.length[it as usize] <= reach && self.distance_between(other, it) > reach
+        };
         let near: Vec<u32> = (self.component.iter().copied())
             .filter(|&it| is_near(it))
             .collect();
-        let nearest = |ways: &ShortestPaths, holds: &dyn Fn(&Corner) -> bool| {
+        let nearest = |paths: &ShortestPaths, holds: &dyn Fn(&Corner) -> bool| {
             let candidates = near.iter().copied().filter(|&it| holds(self.corner(it)));
-            candidates.min_by(|&a, &b| ways.length[a as usize].total_cmp(&ways.length[b as usize]))
+            candidates
+                .min_by(|&a, &b| paths.length[a as usize].total_cmp(&paths.length[b as usize]))
         };
         let at_cut = nearest(from_other, &|it| it.is_cut);
         let at_outline = || nearest(&from_here, &|it| it.is_outside);
@@ -164,29 +166,31 @@ impl Tracer<'_> {
     }
 
     /// Removes from some corners those within a horizon of a path.
-    fn cover(&self, apart: &mut Vec<u32>, way: &Way) {
+    fn remove_near(&self, remaining: &mut Vec<u32>, path: &CrackPath) {
         let is_near = |it: u32| {
             let reach = self.corner(it).horizon;
-            way.corners.iter().any(|&on| self.gap(on, it) <= reach)
+            path.corners
+                .iter()
+                .any(|&on| self.distance_between(on, it) <= reach)
         };
-        apart.retain(|&it| !is_near(it));
+        remaining.retain(|&it| !is_near(it));
     }
 
     /// Smooth lines along the paths: a branch begins on the smooth line that it branches off from.
-    fn smoothed(&self, ways: &[Way]) -> Vec<CrackLine> {
+    fn smooth_lines(&self, paths: &[CrackPath]) -> Vec<CrackLine> {
         let mut places_of: HashMap<u32, [f64; 2]> = HashMap::new();
         let mut lines = Vec::new();
-        for way in ways {
-            let horizons = way.corners.iter().map(|&it| self.corner(it).horizon);
-            let reach = horizons.sum::<f64>() / way.corners.len() as f64;
-            let mut places = smooth(&way.places, reach);
-            let mut ends = way.ends().map(|it| self.end(it));
-            if let (Some(root), Some(first)) = (places_of.get(&way.corners[0]), places.first_mut())
+        for path in paths {
+            let horizons = path.corners.iter().map(|&it| self.corner(it).horizon);
+            let reach = horizons.sum::<f64>() / path.corners.len() as f64;
+            let mut places = smooth(&path.places, reach);
+            let mut ends = path.ends().map(|it| self.kind_of_end(it));
+            if let (Some(root), Some(first)) = (places_of.get(&path.corners[0]), places.first_mut())
             {
                 *first = *root;
                 ends[0] = CrackEnd::Junction;
             }
-            for (&corner, &place) in way.corners.iter().zip(places.iter().step_by(2)) {
+            for (&corner, &place) in path.corners.iter().zip(places.iter().step_by(2)) {
                 places_of.entry(corner).or_insert(place);
             }
             lines.push(CrackLine { places, ends });
@@ -194,7 +198,7 @@ impl Tracer<'_> {
         lines
     }
 
-    fn end(&self, corner: u32) -> CrackEnd {
+    fn kind_of_end(&self, corner: u32) -> CrackEnd {
         let corner = self.corner(corner);
         match (corner.is_cut, corner.is_outside) {
             (true, _) => CrackEnd::PreCrack,
@@ -208,7 +212,7 @@ impl Tracer<'_> {
     }
 
     /// Distance between two corners, m.
-    fn gap(&self, a: u32, b: u32) -> f64 {
+    fn distance_between(&self, a: u32, b: u32) -> f64 {
         distance(self.corner(a).place, self.corner(b).place)
     }
 }

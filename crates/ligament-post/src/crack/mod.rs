@@ -26,6 +26,6 @@ mod paths;
 mod smooth;
 mod tips;
 
-pub use faces::{Faces, Part};
+pub use faces::{FaceState, Faces};
 pub use lines::{CrackEnd, CrackLine, crack_lines};
 pub use opened::{opened_cells, sides_of_cells};

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use ligament_mesh::Cell;
 use ligament_model::raised;
 
-use crate::opened::{Found, OpenedCells};
+use crate::opened::{OpenedCells, PieceCorners};
 
 /// The cells of a mesh, cut along the faces between the cells of its points ([`Faces`](super::Faces)) where pairs of points are parted: a
 /// cell with corners on several [sides](sides_of_cells) falls into pieces between the middles of its parted edges and the middle of the
@@ -15,7 +15,7 @@ pub fn opened_cells(
     is_parted: impl Fn([u32; 2]) -> bool,
 ) -> OpenedCells<Cell> {
     let mut opened = OpenedCells::at_points(raised(positions));
-    let mut found = Found::new();
+    let mut found = PieceCorners::new();
     let sides = sides_of_cells(cells, is_parted);
     for ((number, cell), sides) in (0..).zip(cells).zip(&sides) {
         let corners = cell.corners();

@@ -3,13 +3,13 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use super::faces::{Faces, Part, distance};
+use super::faces::{FaceState, Faces, distance};
 
 /// Open faces as edges between their corners.
 pub(super) struct Graph {
     /// Corners, in the order of the corners of the faces.
     pub(super) corners: Vec<Corner>,
-    ways: Vec<OpenFace>,
+    edges: Vec<OpenFace>,
 }
 
 /// A corner at which open faces end.
@@ -38,18 +38,18 @@ pub(super) struct ShortestPaths {
     /// Length of the path to each corner, m; infinite where there is none.
     pub(super) length: Vec<f64>,
     /// Last face of the path to each corner.
-    by: Vec<Option<u32>>,
+    last_face: Vec<Option<u32>>,
 }
 
 /// A path along open faces.
-pub(super) struct Way {
+pub(super) struct CrackPath {
     /// Corners from start to end, one or more.
     pub(super) corners: Vec<u32>,
     /// Positions of corners and, between two of them, of the middle of their face, m.
     pub(super) places: Vec<[f64; 2]>,
 }
 
-impl Way {
+impl CrackPath {
     /// The path from its end to its start.
     pub(super) fn reversed(mut self) -> Self {
         self.corners.reverse();
@@ -77,13 +77,13 @@ impl Way {
 
 impl Graph {
     /// The graph of faces with given states (n_faces), for the horizons of the points (n_points), m.
-    pub(super) fn new(faces: &Faces, parts: &[Part], horizon: &[f64]) -> Self {
+    pub(super) fn new(faces: &Faces, parts: &[FaceState], horizon: &[f64]) -> Self {
         let mut is_cut = vec![false; faces.corners.len()];
         let mut numbers = vec![u32::MAX; faces.corners.len()];
         for (ends, part) in faces.ends.iter().zip(parts) {
             for &end in ends {
-                is_cut[end as usize] |= *part == Part::PreCrack;
-                if *part == Part::Open {
+                is_cut[end as usize] |= *part == FaceState::PreCrack;
+                if *part == FaceState::Open {
                     numbers[end as usize] = 0;
                 }
             }
@@ -99,8 +99,8 @@ impl Graph {
                 open: Vec::new(),
             });
         }
-        let mut ways = Vec::new();
-        let open = (0..faces.len()).filter(|&face| parts[face] == Part::Open);
+        let mut edges = Vec::new();
+        let open = (0..faces.len()).filter(|&face| parts[face] == FaceState::Open);
         for face in open {
             let ends = faces.ends[face].map(|it| numbers[it as usize]);
             let middle = faces.middle[face];
@@ -108,11 +108,11 @@ impl Graph {
             let mut length = 0.0;
             for end in ends {
                 let corner: &mut Corner = &mut corners[end as usize];
-                corner.open.push(ways.len() as u32);
+                corner.open.push(edges.len() as u32);
                 corner.horizon += horizon[0] + horizon[1];
                 length += distance(corner.place, middle);
             }
-            ways.push(OpenFace {
+            edges.push(OpenFace {
                 ends,
                 middle,
                 length,
@@ -121,16 +121,18 @@ impl Graph {
         for corner in &mut corners {
             corner.horizon /= corner.open.len() as f64;
         }
-        Self { corners, ways }
+        Self { corners, edges }
     }
 
     /// Connects two corners by a straight edge.
-    pub(super) fn bridge(&mut self, ends: [u32; 2]) {
+    pub(super) fn add_straight_edge(&mut self, ends: [u32; 2]) {
         let [a, b] = ends.map(|it| self.corners[it as usize].place);
         for end in ends {
-            self.corners[end as usize].open.push(self.ways.len() as u32);
+            self.corners[end as usize]
+                .open
+                .push(self.edges.len() as u32);
         }
-        self.ways.push(OpenFace {
+        self.edges.push(OpenFace {
             ends,
             middle: [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])],
             length: distance(a, b),
@@ -150,7 +152,7 @@ impl Graph {
             while let Some(&corner) = component.get(next) {
                 next += 1;
                 for &face in &self.corners[corner as usize].open {
-                    let far = self.far(face, corner);
+                    let far = self.opposite_end(face, corner);
                     if !std::mem::replace(&mut is_found[far as usize], true) {
                         component.push(far);
                     }
@@ -163,60 +165,60 @@ impl Graph {
     }
 
     /// Length of all open faces of a connected part, m.
-    pub(super) fn extent(&self, component: &[u32]) -> f64 {
+    pub(super) fn total_length(&self, component: &[u32]) -> f64 {
         let corners = component.iter().map(|&it| &self.corners[it as usize]);
         let faces = corners.flat_map(|it| &it.open);
         faces
-            .map(|&face| 0.5 * self.ways[face as usize].length)
+            .map(|&face| 0.5 * self.edges[face as usize].length)
             .sum()
     }
 
     /// Shortest paths from some corners; among paths of equal length, the one through the corner with the lower number.
-    pub(super) fn ways_from(&self, starts: &[u32]) -> ShortestPaths {
-        let mut ways = ShortestPaths {
+    pub(super) fn shortest_paths_from(&self, starts: &[u32]) -> ShortestPaths {
+        let mut paths = ShortestPaths {
             length: vec![f64::INFINITY; self.corners.len()],
-            by: vec![None; self.corners.len()],
+            last_face: vec![None; self.corners.len()],
         };
         // Lengths are not negative, so that their bits have the same order.
         let mut front = BinaryHeap::new();
         for &start in starts {
-            ways.length[start as usize] = 0.0;
+            paths.length[start as usize] = 0.0;
             front.push(Reverse((0.0_f64.to_bits(), start)));
         }
         while let Some(Reverse((bits, corner))) = front.pop() {
             let length = f64::from_bits(bits);
-            if length > ways.length[corner as usize] {
+            if length > paths.length[corner as usize] {
                 continue;
             }
             for &face in &self.corners[corner as usize].open {
-                let far = self.far(face, corner);
-                let longer = length + self.ways[face as usize].length;
-                if longer < ways.length[far as usize] {
-                    ways.length[far as usize] = longer;
-                    ways.by[far as usize] = Some(face);
+                let far = self.opposite_end(face, corner);
+                let longer = length + self.edges[face as usize].length;
+                if longer < paths.length[far as usize] {
+                    paths.length[far as usize] = longer;
+                    paths.last_face[far as usize] = Some(face);
                     front.push(Reverse((longer.to_bits(), far)));
                 }
             }
         }
-        ways
+        paths
     }
 
     /// The path to a corner from its start.
-    pub(super) fn way_to(&self, ways: &ShortestPaths, end: u32) -> Way {
+    pub(super) fn path_to(&self, paths: &ShortestPaths, end: u32) -> CrackPath {
         let mut corners = vec![end];
         let mut places = vec![self.corners[end as usize].place];
         let mut corner = end;
-        while let Some(face) = ways.by[corner as usize] {
-            corner = self.far(face, corner);
+        while let Some(face) = paths.last_face[corner as usize] {
+            corner = self.opposite_end(face, corner);
             corners.push(corner);
-            places.push(self.ways[face as usize].middle);
+            places.push(self.edges[face as usize].middle);
             places.push(self.corners[corner as usize].place);
         }
-        Way { corners, places }.reversed()
+        CrackPath { corners, places }.reversed()
     }
 
-    fn far(&self, face: u32, corner: u32) -> u32 {
-        let [a, b] = self.ways[face as usize].ends;
+    fn opposite_end(&self, face: u32, corner: u32) -> u32 {
+        let [a, b] = self.edges[face as usize].ends;
         if a == corner { b } else { a }
     }
 }

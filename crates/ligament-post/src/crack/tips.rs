@@ -1,15 +1,15 @@
-//! Ways of the tips of cracks from one state to a later one.
+//! Advances of the tips of cracks from one state to a later one.
 
 use super::faces::distance;
 use super::lines::{CrackEnd, CrackLine};
 
 impl CrackLine {
-    /// Ways of the [tips](Self::tips) along the line since an earlier state with other tips, m, in the order of the tips.
+    /// Advances of the [tips](Self::tips) along the line since an earlier state with other tips, m, in the order of the tips.
     ///
     /// A tip comes from the earlier tip that is nearest along the line, among those at most `reach` (m) away from it. From a tip before the
-    /// junction of a branch, the way goes straight to the junction, if that is not farther than `reach` or the branch is long. `None`
+    /// junction of a branch, the path goes straight to the junction, if that is not farther than `reach` or the branch is long. `None`
     /// for a tip of a new crack, which comes from no earlier tip.
-    pub fn ways_of_tips(&self, earlier: &[[f64; 2]], reach: f64) -> Vec<Option<f64>> {
+    pub fn advances_of_tips(&self, earlier: &[[f64; 2]], reach: f64) -> Vec<Option<f64>> {
         let backwards = || self.places.iter().rev().copied().collect();
         let from_tips: [&dyn Fn() -> Vec<[f64; 2]>; 2] = [&|| self.places.clone(), &backwards];
         let ends = self.ends.into_iter().zip(from_tips);
@@ -17,15 +17,15 @@ impl CrackLine {
         of_tips
             .map(|(_, places)| {
                 let places = places();
-                let ways = earlier.iter().filter_map(|it| way(&places, *it, reach));
-                ways.min_by(f64::total_cmp)
+                let advances = earlier.iter().filter_map(|it| advance(&places, *it, reach));
+                advances.min_by(f64::total_cmp)
             })
             .collect()
     }
 }
 
-/// Way from an earlier tip to the first of some places along the line through them, m.
-fn way(places: &[[f64; 2]], earlier: [f64; 2], reach: f64) -> Option<f64> {
+/// Distance from an earlier tip to the first of some places along the line through them, m.
+fn advance(places: &[[f64; 2]], earlier: [f64; 2], reach: f64) -> Option<f64> {
     let mut along = 0.0;
     let mut nearest = (f64::INFINITY, 0.0);
     for pair in places.windows(2) {
@@ -40,10 +40,10 @@ fn way(places: &[[f64; 2]], earlier: [f64; 2], reach: f64) -> Option<f64> {
         }
         along += length;
     }
-    let (away, way) = nearest;
-    match way < along {
-        true => (away <= reach).then_some(way),
-        false => (away <= reach.max(along)).then_some(way + away),
+    let (away, advance) = nearest;
+    match advance < along {
+        true => (away <= reach).then_some(advance),
+        false => (away <= reach.max(along)).then_some(advance + away),
     }
 }
 
@@ -76,10 +76,13 @@ mod tests {
             [CrackEnd::Tip, CrackEnd::Tip],
         );
         let earlier = [[1.0, 0.1], [2.5, -0.1]];
-        is_close(&bent.ways_of_tips(&earlier, 0.5), &[Some(1.0), Some(4.5)]);
-        is_close(&bent.ways_of_tips(&earlier, 0.05), &[None, None]);
+        is_close(
+            &bent.advances_of_tips(&earlier, 0.5),
+            &[Some(1.0), Some(4.5)],
+        );
+        is_close(&bent.advances_of_tips(&earlier, 0.05), &[None, None]);
         let ahead = line(&bent.places, [CrackEnd::PreCrack, CrackEnd::Tip]);
-        is_close(&ahead.ways_of_tips(&[[4.0, 3.2]], 0.5), &[Some(0.0)]);
+        is_close(&ahead.advances_of_tips(&[[4.0, 3.2]], 0.5), &[Some(0.0)]);
     }
 
     #[test]
@@ -88,9 +91,12 @@ mod tests {
             &[[2.0, 0.0], [3.0, 1.0]],
             [CrackEnd::Junction, CrackEnd::Tip],
         );
-        let way = 1.0 + 2.0_f64.sqrt();
-        is_close(&branch.ways_of_tips(&[[1.0, 0.0]], 0.5), &[Some(way)]);
-        is_close(&branch.ways_of_tips(&[[0.0, 0.0]], 0.5), &[None]);
-        is_close(&branch.ways_of_tips(&[], 0.5), &[None]);
+        let advance = 1.0 + 2.0_f64.sqrt();
+        is_close(
+            &branch.advances_of_tips(&[[1.0, 0.0]], 0.5),
+            &[Some(advance)],
+        );
+        is_close(&branch.advances_of_tips(&[[0.0, 0.0]], 0.5), &[None]);
+        is_close(&branch.advances_of_tips(&[], 0.5), &[None]);
     }
 }

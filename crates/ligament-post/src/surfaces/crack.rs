@@ -4,17 +4,17 @@ use std::collections::HashMap;
 
 use ligament_model::tensor::{dot, minus};
 
+use super::Link;
 use super::detached::sides_of_tetrahedra;
 use super::sides::Links;
-use super::surface::CrackSurface;
+use super::surface::{CrackSurface, with_orientation_and_parts};
 use super::tetrahedra::{EDGES, Tetrahedra};
-use super::{Link, measures};
 
 /// Number of no node, which fills the unused end of the key of a place.
 const NONE: u32 = u32::MAX;
 
 /// State of the search for the surface.
-struct Finder<'a> {
+struct SurfaceSearch<'a> {
     tetrahedra: &'a Tetrahedra,
     links: &'a Links,
     surface: CrackSurface,
@@ -24,7 +24,7 @@ struct Finder<'a> {
 
 /// The surface between the sides of tetrahedra, for the links of their points. See [the rules](super).
 pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
-    let mut finder = Finder {
+    let mut finder = SurfaceSearch {
         tetrahedra,
         links,
         surface: CrackSurface::default(),
@@ -34,7 +34,7 @@ pub fn crack_surface(tetrahedra: &Tetrahedra, links: &Links) -> CrackSurface {
     for (corners, sides) in tetrahedra.corners.iter().zip(sides) {
         finder.add(corners, sides);
     }
-    measures::completed(finder.surface)
+    with_orientation_and_parts(finder.surface)
 }
 
 /// Polygons between the sides of a tetrahedron: their corners, each the middle of some corners of the tetrahedron, with the two sides.
@@ -68,7 +68,7 @@ pub(super) fn interfaces(sides: [u8; 4]) -> Vec<([u8; 2], Vec<Vec<usize>>)> {
     polygons
 }
 
-impl Finder<'_> {
+impl SurfaceSearch<'_> {
     fn add(&mut self, corners: &[u32; 4], sides: [u8; 4]) {
         for (between, polygon) in interfaces(sides) {
             let is_precrack = self.is_precrack(corners, sides, between);

@@ -9,7 +9,7 @@ use super::tetrahedra::{EDGES, Tetrahedra};
 
 /// Neighbours of a detached point (all edges cut) on one side of it.
 #[derive(Debug, Default)]
-struct Side {
+struct AdjacentSide {
     points: Vec<u32>,
     /// Number of these neighbours that were detached and are already assigned to a side.
     counted: usize,
@@ -99,7 +99,7 @@ fn side_of(
     links: &Links,
     (point, near): (u32, &[usize]),
     (loose, counted): (&BTreeSet<u32>, &BTreeSet<u32>),
-) -> Option<Side> {
+) -> Option<AdjacentSide> {
     let mut side: BTreeMap<u32, u32> = BTreeMap::new();
     let mut distance: BTreeMap<u32, f64> = BTreeMap::new();
     let places = |number: &usize| {
@@ -130,11 +130,11 @@ fn side_of(
             }
         }
     }
-    let mut sides: BTreeMap<u32, Side> = BTreeMap::new();
+    let mut sides: BTreeMap<u32, AdjacentSide> = BTreeMap::new();
     for (other, of) in &side {
-        let first = Side {
+        let first = AdjacentSide {
             nearest: f64::INFINITY,
-            ..Side::default()
+            ..AdjacentSide::default()
         };
         let of = sides.entry(*of).or_insert(first);
         of.points.push(*other);

@@ -47,7 +47,7 @@ pub fn level_set(corners: &[[u32; 4]], values: &[f64], level: f64) -> LevelSet {
             }
             _ => continue,
         };
-        let turned = is_turned(&above, &below);
+        let turned = is_reversed(&above, &below);
         for [a, b, c] in triangles {
             surface
                 .triangles
@@ -60,7 +60,7 @@ pub fn level_set(corners: &[[u32; 4]], values: &[f64], level: f64) -> LevelSet {
 
 /// Whether the triangles between corners, in the given order, are clockwise seen from above the level, in a tetrahedron of positive volume:
 /// where the corners above and then those below are an even permutation of all.
-fn is_turned(above: &[usize], below: &[usize]) -> bool {
+fn is_reversed(above: &[usize], below: &[usize]) -> bool {
     let order: Vec<usize> = above.iter().chain(below).copied().collect();
     let swaps = EDGES.iter().filter(|[a, b]| order[*a] > order[*b]);
     swaps.count().is_multiple_of(2)

@@ -20,22 +20,19 @@
 
 mod crack;
 mod detached;
-mod lattice;
 mod level_set;
-mod measures;
-mod of_grid;
 mod opened;
 mod pieces;
 mod sides;
 mod smooth;
 mod surface;
 mod tetrahedra;
+mod tetrahedra_of_body;
 
 pub use crack::crack_surface;
 pub use detached::sides_of_tetrahedra;
 pub use level_set::{LevelSet, level_set};
-pub use measures::{BestPlane, SurfacePart};
 pub use opened::opened_cells;
 pub use sides::{Link, Links};
-pub use surface::CrackSurface;
+pub use surface::{BestPlane, CrackSurface, SurfacePart};
 pub use tetrahedra::Tetrahedra;

@@ -6,7 +6,7 @@ use super::detached::with_detached_points_assigned;
 use super::pieces::{pieces, solid};
 use super::sides::{Links, sides};
 use super::tetrahedra::Tetrahedra;
-use crate::opened::{Found, OpenedCells};
+use crate::opened::{OpenedCells, PieceCorners};
 
 /// The cells of a mesh, cut where the crack passes through their tetrahedra: each piece belongs to one side, and its corners on the crack
 /// follow the points of that side. `tetrahedra` are the tetrahedra of all cells that have a cut edge.
@@ -23,7 +23,7 @@ pub fn opened_cells(
         is_cut[*cell as usize] |=
             sides(tetrahedra, &with_detached_points_assigned, corners) != [0; 4];
     }
-    let mut found = Found::new();
+    let mut found = PieceCorners::new();
     for ((number, cell), is_cut) in (0..).zip(cells).zip(&is_cut) {
         if !is_cut {
             opened.cells.push(*cell);

@@ -21,13 +21,13 @@ pub(super) fn pieces(sides: [u8; 4]) -> Vec<Piece> {
             (&[a, b, c], &[d]) => &[&[a], &[b], &[c], &[a, d], &[b, d], &[c, d]],
             (&[c, d], &[a, b]) => {
                 return Piece {
-                    corners: of_two([c, d], [a, b], sides),
+                    corners: two_corner_pieces([c, d], [a, b], sides),
                     side,
                 };
             }
             (&[a], &[b, c, d]) => {
                 return Piece {
-                    corners: of_one(a, [b, c, d], sides),
+                    corners: one_corner_pieces(a, [b, c, d], sides),
                     side,
                 };
             }
@@ -42,7 +42,7 @@ pub(super) fn pieces(sides: [u8; 4]) -> Vec<Piece> {
 }
 
 /// The piece of two corners: a prism where the other two are on one side, else a hexahedron.
-fn of_two([c, d]: [usize; 2], [a, b]: [usize; 2], sides: [u8; 4]) -> Vec<Vec<usize>> {
+fn two_corner_pieces([c, d]: [usize; 2], [a, b]: [usize; 2], sides: [u8; 4]) -> Vec<Vec<usize>> {
     let between = |own: usize| vec![vec![own], vec![a, own], vec![a, b, own], vec![b, own]];
     let mut corners = [between(c), between(d)].concat();
     if sides[a] == sides[b] {
@@ -52,7 +52,7 @@ fn of_two([c, d]: [usize; 2], [a, b]: [usize; 2], sides: [u8; 4]) -> Vec<Vec<usi
 }
 
 /// The piece of one corner: a tetrahedron where the others are on one side, a prism where they are on two, else a hexahedron.
-fn of_one(a: usize, [x, y, z]: [usize; 3], sides: [u8; 4]) -> Vec<Vec<usize>> {
+fn one_corner_pieces(a: usize, [x, y, z]: [usize; 3], sides: [u8; 4]) -> Vec<Vec<usize>> {
     let alike = |one: usize, other: usize| sides[one] == sides[other];
     // Where two of the others are on one side, the third stands first.
     let [b, c, d] = match [alike(x, y), alike(y, z), alike(x, z)] {

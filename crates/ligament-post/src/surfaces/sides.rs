@@ -49,8 +49,8 @@ pub(super) fn sides(tetrahedra: &Tetrahedra, links: &Links, corners: &[u32; 4]) 
     if links.iter().all(|link| !link.is_cut()) {
         return [0; 4];
     }
-    let bonded = joined(|edge| links[edge] != Link::Unbonded);
-    joined(|edge| match links[edge] {
+    let bonded = connected_groups(|edge| links[edge] != Link::Unbonded);
+    connected_groups(|edge| match links[edge] {
         Link::Whole => true,
         Link::Unbonded => bonded[EDGES[edge][0]] != bonded[EDGES[edge][1]],
         Link::PreCrack | Link::Open => false,
@@ -58,7 +58,7 @@ pub(super) fn sides(tetrahedra: &Tetrahedra, links: &Links, corners: &[u32; 4]) 
 }
 
 /// Groups of corners connected by edges, numbered from 0 in the order of the corners.
-fn joined(connects: impl Fn(usize) -> bool) -> [u8; 4] {
+fn connected_groups(connects: impl Fn(usize) -> bool) -> [u8; 4] {
     let mut lowest = [0, 1, 2, 3];
     // Paths have at most three edges.
     for _ in 0..3 {

@@ -4,8 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use ligament_model::tensor::{dot, norm};
 
-use super::measures::area_vector;
-use super::surface::CrackSurface;
+use super::surface::{CrackSurface, area_vector};
 
 /// Number of sweeps over all places: roughness up to some four edges long disappears.
 const SWEEPS: usize = 20;

@@ -38,7 +38,7 @@ struct Bond {
 
 /// The orientation of a strain at which a family yields last.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Worst {
+pub struct WorstOrientation {
     /// Angle from the x axis to the first principal axis, rad.
     pub orientation: f64,
     /// Error e at the orientation, infinite where no load makes a bond yield.
@@ -48,7 +48,7 @@ pub struct Worst {
 impl<'a> Family<'a> {
     /// The family of bonds at the angles `directions` to the x axis (n_bonds, rad), with the limits of the bonds 0, 1, ... of the
     /// criteria.
-    pub fn of_directions(directions: &[f64], criteria: &'a Criteria) -> Self {
+    pub fn from_directions(directions: &[f64], criteria: &'a Criteria) -> Self {
         let bond = |(number, direction): (usize, &f64)| Bond {
             number,
             twice: [(2.0 * direction).cos(), (2.0 * direction).sin()],
@@ -60,7 +60,7 @@ impl<'a> Family<'a> {
     }
 
     /// The family of a point of a body, with the criteria of the body's bonds.
-    pub fn of_point(system: &BondSystem, criteria: &'a Criteria, point: u32) -> Self {
+    pub fn at_point(system: &BondSystem, criteria: &'a Criteria, point: u32) -> Self {
         let bond = |&number: &u32| {
             let [a, b] = system.bonds.direction[number as usize];
             Bond {
@@ -141,11 +141,11 @@ impl<'a> Family<'a> {
         &self,
         strains: PrincipalStretches,
         orientations: impl Iterator<Item = f64>,
-    ) -> Option<Worst> {
+    ) -> Option<WorstOrientation> {
         let theory = self.theoretical_utilisation(strains);
         let sampled = orientations.map(|angle| (angle, self.utilisation(strains, angle)));
         let least = sampled.reduce(|best, next| if next.1 < best.1 { next } else { best })?;
-        (theory > 0.0).then(|| Worst {
+        (theory > 0.0).then(|| WorstOrientation {
             orientation: least.0,
             error: error_of(theory, least.1),
         })
@@ -155,7 +155,7 @@ impl<'a> Family<'a> {
     ///
     /// The slope of U is bounded by the slope of its steepest criterion, which bounds U from below between two orientations; an interval is
     /// bisected where the bound is not above the smallest U so far. The result is the smallest U to 1e-9 U_th.
-    pub fn worst(&self, strains: PrincipalStretches) -> Option<Worst> {
+    pub fn worst(&self, strains: PrincipalStretches) -> Option<WorstOrientation> {
         let theory = self.theoretical_utilisation(strains);
         if theory <= 0.0 {
             return None;
@@ -191,7 +191,7 @@ impl<'a> Family<'a> {
             open.push([middle, to]);
             open.push([from, middle]);
         }
-        Some(Worst {
+        Some(WorstOrientation {
             orientation: least.0 % PI,
             error: error_of(theory, least.1),
         })
@@ -268,7 +268,8 @@ mod tests {
                 (1.0, -0.3),
             ] {
                 let strains = PrincipalStretches::new(first, second);
-                let worst = |criteria| Family::of_directions(&directions, criteria).worst(strains);
+                let worst =
+                    |criteria| Family::from_directions(&directions, criteria).worst(strains);
                 let tension =
                     first.max(second) / (strains.mean() + strains.deviator() * twice.cos());
                 let tolerance = 2e-9 * tension * tension;
@@ -291,7 +292,7 @@ mod tests {
             &[(Measure::Tension, 1.0), (Measure::Compression, 3.0)],
             directions.len(),
         );
-        let family = Family::of_directions(&directions, &both);
+        let family = Family::from_directions(&directions, &both);
         for (first, second, printed) in [(0.0, 1.0, 17.16), (-3.0, 0.0, 17.16), (-3.0, 1.0, 24.26)]
         {
             let strains = PrincipalStretches::new(first, second);
@@ -323,14 +324,14 @@ mod tests {
             vec![tension, friction],
         ] {
             let criteria = Criteria { list };
-            let family = Family::of_directions(&directions, &criteria);
+            let family = Family::from_directions(&directions, &criteria);
             for (first, second) in [(1.0, 0.0), (1.0, -1.0), (-0.2, 0.9)] {
                 let strains = PrincipalStretches::new(first, second);
                 let theory = family.theoretical_utilisation(strains);
                 let worst = family.worst(strains).unwrap();
                 let sampled = (0..200_000).map(|k| PI * f64::from(k) / 200_000.0);
                 let sampled = family.worst_of(strains, sampled).unwrap();
-                let least = |worst: Worst| theory / (1.0 + worst.error);
+                let least = |worst: WorstOrientation| theory / (1.0 + worst.error);
                 let excess = least(sampled) - least(worst);
                 assert!((-1e-9..1.5e-4).contains(&excess), "{excess}");
                 let there = family.error(strains, worst.orientation).unwrap();
@@ -342,7 +343,7 @@ mod tests {
     #[test]
     fn what_never_yields_has_no_error() {
         let tension = criteria(&[(Measure::Tension, 1.0)], 1);
-        let family = Family::of_directions(&[0.0], &tension);
+        let family = Family::from_directions(&[0.0], &tension);
         let pressed = PrincipalStretches::new(-1.0, -0.5);
         assert_eq!(family.worst(pressed), None);
         assert_eq!(family.error(pressed, 0.0), None);

@@ -4,13 +4,13 @@ use ligament_model::failure::Criteria;
 use ligament_model::system::BondSystem;
 use rayon::prelude::*;
 
-use super::{Family, PrincipalStretches, Worst};
+use super::{Family, PrincipalStretches, WorstOrientation};
 
 /// First yield of the family of a point under a strain: the effect of the directions and limits of its bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FamilyYield {
     /// Worst orientation of the strain, with its error.
-    pub worst: Worst,
+    pub worst: WorstOrientation,
     /// Load factor of the strain at first yield in theory, 1/U_th: the load factor in the orientation that yields first.
     pub least_load: f64,
 }
@@ -22,7 +22,7 @@ pub fn families(
     strains: impl Fn(u32) -> PrincipalStretches + Sync,
 ) -> Vec<Option<FamilyYield>> {
     let of_point = |point: u32| {
-        let (family, strains) = (Family::of_point(system, criteria, point), strains(point));
+        let (family, strains) = (Family::at_point(system, criteria, point), strains(point));
         Some(FamilyYield {
             worst: family.worst(strains)?,
             least_load: 1.0 / family.theoretical_utilisation(strains),
@@ -42,7 +42,7 @@ pub fn mean_error(
     orientation: f64,
 ) -> Option<f64> {
     let error =
-        |&point: &u32| Family::of_point(system, criteria, point).error(strains, orientation);
+        |&point: &u32| Family::at_point(system, criteria, point).error(strains, orientation);
     let errors: Vec<Option<f64>> = points.par_iter().map(error).collect();
     let count = errors.iter().flatten().count();
     (count > 0).then(|| errors.iter().flatten().sum::<f64>() / count as f64)

@@ -57,11 +57,11 @@ pub fn principal_locus(family: &Family<'_>, count: u32) -> Vec<LocusPoint> {
     };
     let points: Vec<Option<LocusPoint>> = (0..count).into_par_iter().map(point).collect();
     let size = |it: &LocusPoint| it.theoretical.first.hypot(it.theoretical.second);
-    closed(points.into_iter().flatten().collect(), size)
+    closed_points(points.into_iter().flatten().collect(), size)
 }
 
 /// Points at which the locus is not open.
-fn closed<T>(mut points: Vec<T>, size: impl Fn(&T) -> f64) -> Vec<T> {
+fn closed_points<T>(mut points: Vec<T>, size: impl Fn(&T) -> f64) -> Vec<T> {
     let nearest = points.iter().map(&size).fold(f64::INFINITY, f64::min);
     points.retain(|point| size(point) <= OPEN * nearest);
     points
@@ -76,7 +76,7 @@ pub fn bond_locus(family: &Family<'_>, count: u32) -> Vec<[f64; 2]> {
         let utilisation = family.utilisation_by(&deformation);
         (utilisation > 0.0).then(|| [angle.cos(), angle.sin()].map(|part| part / utilisation))
     };
-    closed((0..count).filter_map(point).collect(), |point| {
+    closed_points((0..count).filter_map(point).collect(), |point| {
         point[0].hypot(point[1])
     })
 }
@@ -106,7 +106,7 @@ mod tests {
         let directions = directions(3.0);
         let on = |list: &[(Measure, f64, f64)]| {
             let criteria = uniform(list, directions.len());
-            principal_locus(&Family::of_directions(&directions, &criteria), 360)
+            principal_locus(&Family::from_directions(&directions, &criteria), 360)
         };
         let square = on(&[
             (Measure::Tension, 1.0, 0.0),
@@ -145,7 +145,7 @@ mod tests {
     fn effective_loci_are_the_theoretical_ones_times_the_error() {
         let directions = directions(2.0);
         let criteria = uniform(&[(Measure::Sliding, 0.5, 0.0)], directions.len());
-        let family = Family::of_directions(&directions, &criteria);
+        let family = Family::from_directions(&directions, &criteria);
         for it in principal_locus(&family, 40) {
             assert!((it.effective.deviator() - 0.5 * 2f64.sqrt()).abs() < 1e-8);
             assert!((it.bond.shear() - 0.5).abs() < 1e-12);

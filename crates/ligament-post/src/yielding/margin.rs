@@ -7,7 +7,7 @@
 
 use ligament_model::failure::frictional::Friction;
 
-use super::{PrincipalStretches, Worst, printed_orientations};
+use super::{PrincipalStretches, WorstOrientation, printed_orientations};
 
 /// Strain s_0t of the paper's tables, on which the measure depends.
 pub const PAPER_STRAIN: f64 = 0.1;
@@ -16,20 +16,24 @@ pub const PAPER_STRAIN: f64 = 0.1;
 const NO_ROOM: f64 = 1e-12;
 
 /// The worst of the printed orientations for a friction law and strains on its theoretical locus, both in units of s_0t.
-pub fn worst(directions: &[f64], friction: Friction, strains: PrincipalStretches) -> Worst {
+pub fn worst(
+    directions: &[f64],
+    friction: Friction,
+    strains: PrincipalStretches,
+) -> WorstOrientation {
     let friction = Friction {
         cohesion: PAPER_STRAIN * friction.cohesion,
         ..friction
     };
     let strains = strains.scaled(PAPER_STRAIN);
-    let none = Worst {
+    let none = WorstOrientation {
         orientation: 0.0,
         error: f64::NEG_INFINITY,
     };
     printed_orientations().fold(none, |worst, orientation| {
         let error = error(directions, friction, strains, orientation);
         if error > worst.error {
-            Worst { orientation, error }
+            WorstOrientation { orientation, error }
         } else {
             worst
         }

@@ -25,7 +25,7 @@ pub mod locus;
 pub mod margin;
 pub mod theory;
 
-pub use family::{Family, Worst};
+pub use family::{Family, WorstOrientation};
 
 use ligament_model::element::BondDeformation;
 

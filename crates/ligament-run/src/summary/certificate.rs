@@ -8,7 +8,7 @@ use ligament::Model;
 use ligament::setup::Analysis;
 use ligament_analysis::driver::{Outcome, Rows};
 use ligament_analysis::history::StepRecord;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::quantity::{four_digits, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
@@ -84,7 +84,7 @@ fn largest_residual(
     until: (usize, usize),
 ) -> Result<Option<f64>, ligament_output::Error> {
     let mut ends = BTreeMap::new();
-    for [step, round, residual] in Sheet::read(path)?.numbers(["step", "round", "residual"])? {
+    for [step, round, residual] in CsvTable::read(path)?.numbers(["step", "round", "residual"])? {
         ends.insert((step as usize, round as usize), residual);
     }
     let found = ends.into_iter().filter(|(place, _)| *place <= until);
@@ -93,17 +93,17 @@ fn largest_residual(
 
 /// Relative difference of utilisations up to which the run took bonds as tied.
 fn tie_tolerance(model: &Model, outcome: &Outcome) -> f64 {
-    let asked = match &model.setup.analysis {
+    let analysis_tolerance = match &model.setup.analysis {
         Analysis::Event(settings) => settings.tie_tolerance,
         Analysis::Stepped(settings) => settings.rule.tie_tolerance,
         Analysis::Elastic { .. } | Analysis::Modal(_) | Analysis::Motion(_) => 0.0,
     };
-    outcome.solver.tie_tolerance(asked)
+    outcome.solver.tie_tolerance(analysis_tolerance)
 }
 
 /// Number of breakages whose utilisation equals the utilisation of the breakage before them in the same round, to a relative tolerance.
 fn ties(path: &Path, tolerance: f64) -> Result<usize, ligament_output::Error> {
-    let rows = Sheet::read(path)?.numbers(["step", "round", "utilisation"])?;
+    let rows = CsvTable::read(path)?.numbers(["step", "round", "utilisation"])?;
     let is_tied = |pair: &&[[f64; 3]]| {
         let [[step, round, one], [next_step, next_round, other]] = [pair[0], pair[1]];
         [step, round] == [next_step, next_round] && (one - other).abs() <= tolerance * one.abs()

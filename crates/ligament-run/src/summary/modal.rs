@@ -9,9 +9,9 @@ use ligament_output::summary::{
     ModalSummary, ModeSummary, ModelSummary, Provenance, StabilitySummary, Stage,
 };
 
-use crate::messages::counted;
+use crate::messages::merged_messages;
 
-use super::model::{OfPoints, heading, model_summary};
+use super::model::{PointStatistics, heading, model_summary};
 use super::solver::solver_summary;
 use crate::stability;
 use ligament::Model;
@@ -35,9 +35,9 @@ pub fn modal_summary(
         effective_shares: moving.shares(&mode.participation),
     };
     let modes: Vec<ModeSummary> = outcome.modes.iter().enumerate().map(summary).collect();
-    let warnings = counted(model.warnings.iter().chain(&outcome.messages).cloned());
+    let warnings = merged_messages(model.warnings.iter().chain(&outcome.messages).cloned());
     ModalSummary {
-        model: model_summary(case, model, OfPoints::new(model)),
+        model: model_summary(case, model, PointStatistics::new(model)),
         mass: moving.total,
         centre_of_mass: moving.centre.clone(),
         moving: moving.free.clone(),

@@ -23,9 +23,9 @@ pub fn heading(title: &str) -> &str {
     }
 }
 
-/// Data on the points of a model for the summary.
+/// Statistics of the points of a model for the summary.
 #[derive(Debug, Clone)]
-pub struct OfPoints {
+pub struct PointStatistics {
     no_fail_points: usize,
     volume: f64,
     horizon: Spread,
@@ -33,7 +33,7 @@ pub struct OfPoints {
     scatter: Vec<ScatterSummary>,
 }
 
-impl OfPoints {
+impl PointStatistics {
     /// Sums and extremes over the points of all processes; collective.
     pub fn new(model: &Model) -> Self {
         let subdomain = &model.system.subdomain;
@@ -52,7 +52,11 @@ impl OfPoints {
 }
 
 /// Summary of a model.
-pub(super) fn model_summary(case: &CaseFile, model: &Model, of_points: OfPoints) -> ModelSummary {
+pub(super) fn model_summary(
+    case: &CaseFile,
+    model: &Model,
+    of_points: PointStatistics,
+) -> ModelSummary {
     ModelSummary {
         title: case.case.title.clone(),
         version: env!("CARGO_PKG_VERSION").into(),
@@ -67,12 +71,12 @@ pub(super) fn model_summary(case: &CaseFile, model: &Model, of_points: OfPoints)
         horizon: of_points.horizon,
         family: family(model),
         correction: correction(model, of_points.energy_ratios),
-        scatter: first_with_others(of_points.scatter),
+        scatter: scatter_summary(of_points.scatter),
     }
 }
 
-/// The first property, with the others beside it.
-fn first_with_others(all: Vec<ScatterSummary>) -> Option<ScatterSummary> {
+/// Summary of the first property that varies, which holds the summaries of the others; `None` where no property varies.
+fn scatter_summary(all: Vec<ScatterSummary>) -> Option<ScatterSummary> {
     let mut all = all.into_iter();
     let first = all.next()?;
     Some(ScatterSummary {

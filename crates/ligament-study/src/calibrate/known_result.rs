@@ -13,7 +13,7 @@ pub(super) fn check(name: &str, is_modal: bool) -> Result<(), QuantityError> {
     if name.starts_with(BY_GROUP) && !is_modal {
         return Ok(());
     }
-    let complete = Quantities::of_summary(&match is_modal {
+    let complete = Quantities::from_summary(&match is_modal {
         true => example(&schema::<ModalSummary>()),
         false => example(&schema::<Summary>()),
     });

@@ -6,7 +6,7 @@
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 
 use crate::line_fit::{FitError, LineFit};
 use ligament::suggestion::hint;
@@ -46,9 +46,9 @@ pub enum LineError {
     /// The table has no such column.
     #[error("{} has no column `{name}`{}", path.display(), hint(name, columns, "columns", '`'))]
     NoColumn {
-        /// The table.
+        /// Table without the column.
         path: PathBuf,
-        /// The name.
+        /// Name of the missing column.
         name: String,
         /// Existing names.
         columns: Vec<String>,
@@ -58,9 +58,9 @@ pub enum LineError {
         "`{name}` of run {run} is {text:?}, no number; leave such runs out by --over, or take another result"
     )]
     NotANumber {
-        /// The column.
+        /// Column with a value that is not a number.
         name: String,
-        /// The run.
+        /// Run with this value.
         run: String,
         /// The text of the value.
         text: String,
@@ -75,15 +75,15 @@ pub enum LineError {
         x: String,
         /// The value that both runs have in this column.
         value: f64,
-        /// The runs.
+        /// Names of the two runs.
         runs: [String; 2],
     },
     /// The key differs between runs of a line.
     #[error("{key} is {} in run {} and {} in run {}: a line takes runs with the same", values[0], runs[0], values[1], runs[1])]
     KeyVaries {
-        /// The key.
+        /// Key that varies between the runs of a line.
         key: String,
-        /// Two of its values.
+        /// Two different values of the key.
         values: [f64; 2],
         /// The runs with these values.
         runs: [String; 2],
@@ -91,13 +91,13 @@ pub enum LineError {
     /// The points determine no line.
     #[error("no line of {of} over {x}{}: {source}", if name.is_empty() { String::new() } else { format!(" for {name}") })]
     NoLine {
-        /// The result.
+        /// Result on the line.
         of: String,
         /// The column along the line.
         x: String,
         /// Name of the line.
         name: String,
-        /// The reason.
+        /// Reason why the points have no line.
         source: FitError,
     },
 }
@@ -137,7 +137,7 @@ pub fn lines(request: &Request) -> Result<Vec<Line>, LineError> {
     } else {
         request.table.clone()
     };
-    let sheet = Sheet::read(&path).map_err(|source| LineError::NoTable { path, source })?;
+    let sheet = CsvTable::read(&path).map_err(|source| LineError::NoTable { path, source })?;
     let runs = runs(&sheet, request)?;
     let mut names: Vec<&Vec<String>> = Vec::new();
     for run in &runs {
@@ -153,7 +153,7 @@ pub fn lines(request: &Request) -> Result<Vec<Line>, LineError> {
 }
 
 /// The completed runs within the range of x.
-fn runs(sheet: &Sheet, request: &Request) -> Result<Vec<Run>, LineError> {
+fn runs(sheet: &CsvTable, request: &Request) -> Result<Vec<Run>, LineError> {
     let column = |name: &str| {
         let texts = sheet.texts(name).map(|it| it.collect::<Vec<_>>());
         texts.ok_or_else(|| LineError::NoColumn {

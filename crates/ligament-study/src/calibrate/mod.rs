@@ -16,7 +16,7 @@ use anyhow::Context;
 
 use crate::quantities::Quantities;
 use ligament_case::case::{Analysis, CaseError, CaseFile, Fault};
-use ligament_run::inputs::{Contents, Inputs, unread};
+use ligament_run::inputs::{FileIdentities, Inputs, unreadable_file};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run;
 use record::{Record, Run};
@@ -44,7 +44,8 @@ pub fn calibrate(
     let case = case_with(request, search.start)?;
     known_result::check(&request.of, case.case.analysis == Some(Analysis::Modal))
         .map_err(|source| CalibrationError::UnknownResult(request.of.clone(), source))?;
-    let inputs = Inputs::from_case(&case, None, &mut Contents::default()).map_err(unread)?;
+    let inputs =
+        Inputs::from_case(&case, None, &mut FileIdentities::default()).map_err(unreadable_file)?;
     let mut record = Record::open(request, &inputs)?;
     writeln!(progress, "{}", record.heading())?;
     for run in record.runs() {
@@ -67,7 +68,7 @@ pub fn calibrate(
     };
     let answer = match &verdict {
         Verdict::Met(trial) => Ok(record.answer(trial)),
-        unmet => Err(CalibrationError::NotMet(record.why_not(unmet))),
+        unmet => Err(CalibrationError::NotMet(record.failure_message(unmet))),
     };
     record.close(&verdict)?;
     Ok(out.write_all(answer?.as_bytes())?)
@@ -89,7 +90,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
     let start = match (case.number(&request.key)?, from, to) {
         (Some(start), ..) if start != 0.0 => start,
         (_, Some(low), Some(high)) => 0.5 * (low + high),
-        _ => return Err(no_start(request)),
+        _ => return Err(missing_start_error(request)),
     };
     Ok(Search {
         start,
@@ -105,7 +106,7 @@ fn search_of(request: &Request) -> anyhow::Result<Search> {
 }
 
 /// The error of a missing start value; a key that no case has gets an error of its own.
-fn no_start(request: &Request) -> anyhow::Error {
+fn missing_start_error(request: &Request) -> anyhow::Error {
     let is_about_key = |error: &CaseError| match error {
         CaseError::Key { fault, .. } => matches!(**fault, Fault::UnknownKey { .. }),
         CaseError::Override { .. } => true,

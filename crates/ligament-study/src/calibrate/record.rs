@@ -25,7 +25,7 @@ const KIND: Kind = Kind {
         name.strip_prefix("run-")
             .is_some_and(|it| it.parse::<usize>().is_ok())
     },
-    ..Kind::marked(RECORD)
+    ..Kind::with_marker(RECORD)
 };
 
 /// Ends of a run at which the load may still have been rising, so that the peak may be later.
@@ -70,7 +70,7 @@ pub(super) struct Run {
 
 /// Content of `calibration.json`.
 #[derive(Serialize)]
-struct Whole<'a> {
+struct CalibrationFile<'a> {
     version: &'static str,
     #[serde(flatten)]
     request: &'a Request,
@@ -85,7 +85,7 @@ struct Whole<'a> {
 
 /// Part of `calibration.json` that is read when a calibration is continued.
 #[derive(Deserialize)]
-struct Earlier {
+struct EarlierCalibration {
     key: String,
     of: String,
     inputs: String,
@@ -126,8 +126,8 @@ impl Record {
             false => earlier_runs(request, inputs)?,
         };
         let folder = match earlier {
-            None => ResultFolder::create_marked(&request.out, KIND, request.force)?,
-            Some(_) => ResultFolder::existing(&request.out, KIND)?,
+            None => ResultFolder::create_of_kind(&request.out, KIND, request.force)?,
+            Some(_) => ResultFolder::open(&request.out, KIND)?,
         };
         let columns = [
             "run",
@@ -149,7 +149,7 @@ impl Record {
         };
         // The record is saved after all runs are added, so that a kill leaves the earlier record.
         for run in earlier.unwrap_or_default() {
-            record.note(run)?;
+            record.add_run(run)?;
         }
         record.save("running", None)?;
         Ok(record)
@@ -166,17 +166,17 @@ impl Record {
 
     /// Adds a completed run, and saves the record.
     pub(super) fn append(&mut self, run: Run) -> anyhow::Result<()> {
-        self.note(run)?;
+        self.add_run(run)?;
         self.save("running", None)
     }
 
-    fn note(&mut self, run: Run) -> anyhow::Result<()> {
+    fn add_run(&mut self, run: Run) -> anyhow::Result<()> {
         let name = run_name(run.number);
         self.table.append(&[
             run.number.into(),
             run.trial.key.into(),
             run.trial.result.into(),
-            self.off(&run.trial).into(),
+            self.relative_difference(&run.trial).into(),
             Value::Text(&run.termination),
             run.broken_bonds.into(),
             run.seconds.into(),
@@ -199,7 +199,7 @@ impl Record {
     }
 
     fn save(&self, outcome: &'static str, value: Option<f64>) -> anyhow::Result<()> {
-        let whole = Whole {
+        let file = CalibrationFile {
             version: env!("CARGO_PKG_VERSION"),
             request: &self.request,
             outcome,
@@ -207,12 +207,12 @@ impl Record {
             inputs: &self.inputs,
             runs: &self.runs,
         };
-        let text = serde_json::to_string_pretty(&whole)?;
+        let text = serde_json::to_string_pretty(&file)?;
         Ok(self.folder.write(RECORD, text + "\n")?)
     }
 
     /// Difference from the target, relative to it.
-    fn off(&self, trial: &Trial) -> f64 {
+    fn relative_difference(&self, trial: &Trial) -> f64 {
         (trial.result - self.request.target) / self.request.target.abs()
     }
 
@@ -243,7 +243,7 @@ impl Record {
         let mut line = format!(
             "  run {}: {key} = {value:.6e} gives {result:.6e}{unit}, {:+.2} % off, {} bonds broken, {:.1} s",
             run.number,
-            100.0 * self.off(&run.trial),
+            100.0 * self.relative_difference(&run.trial),
             run.broken_bonds,
             run.seconds,
         );
@@ -260,32 +260,37 @@ impl Record {
     pub(super) fn answer(&self, trial: &Trial) -> String {
         let (key, n_runs) = (&self.request.key, self.runs.len());
         let run = self.runs.iter().find(|run| run.trial == *trial);
-        let unsettled = match run.is_some_and(|it| it.last_state_not_at_rest) {
+        let warning = match run.is_some_and(|it| it.last_state_not_at_rest) {
             true => "  NOT CONVERGED      bonds were still breaking in the last state of its run\n",
             false => "",
         };
         format!(
-            "{key} = {}\n{unsettled}  runs               {n_runs}\n  use it by          --set {}\n  record in          {}\n",
-            self.words(trial),
+            "{key} = {}\n{warning}  runs               {n_runs}\n  use it by          --set {}\n  record in          {}\n",
+            self.trial_text(trial),
             setting(key, trial.key),
             self.request.out.display()
         )
     }
 
     /// Message about a search without a result.
-    pub(super) fn why_not(&self, verdict: &Verdict) -> String {
+    pub(super) fn failure_message(&self, verdict: &Verdict) -> String {
         let Request { key, of, .. } = &self.request;
         let n_runs = self.runs.len();
         let record = self.request.out.display();
-        let off = |run: &&Run| self.off(&run.trial).abs();
-        let best = self.runs.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
-        let nearest = best.map(|run| self.words(&run.trial)).unwrap_or_default();
+        let relative_difference = |run: &&Run| self.relative_difference(&run.trial).abs();
+        let best = self
+            .runs
+            .iter()
+            .min_by(|a, b| relative_difference(a).total_cmp(&relative_difference(b)));
+        let nearest = best
+            .map(|run| self.trial_text(&run.trial))
+            .unwrap_or_default();
         match verdict {
             Verdict::Jump([a, b]) => format!(
                 "{of} jumps over the target between {key} = {} and {} ({n_runs} runs, record in {record}); fewer bonds per iteration or \
                  smaller load steps may make it smoother; a larger --within accepts one of the two",
-                self.words(a),
-                self.words(b)
+                self.trial_text(a),
+                self.trial_text(b)
             ),
             Verdict::OutOfReach => format!(
                 "no value of {key} between --from and --to meets the target; nearest is {nearest} ({n_runs} runs, record in \
@@ -297,10 +302,10 @@ impl Record {
         }
     }
 
-    fn words(&self, trial: &Trial) -> String {
+    fn trial_text(&self, trial: &Trial) -> String {
         let (Trial { key, result }, of) = (trial, &self.request.of);
-        let off = 100.0 * self.off(trial);
-        format!("{key:?} with {of} = {result:.6e}, {off:+.2} % off")
+        let relative_difference = 100.0 * self.relative_difference(trial);
+        format!("{key:?} with {of} = {result:.6e}, {relative_difference:+.2} % off")
     }
 }
 
@@ -319,7 +324,7 @@ fn earlier_runs(request: &Request, inputs: &Inputs) -> anyhow::Result<Option<Vec
         folder: request.out.clone(),
         difference,
     };
-    let earlier: Earlier =
+    let earlier: EarlierCalibration =
         serde_json::from_str(&text).map_err(|error| other(format!("cannot be read: {error}")))?;
     let [key, of] = [&request.key, &request.of];
     if earlier.key != *key || earlier.of != *of {

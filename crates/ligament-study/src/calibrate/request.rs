@@ -56,7 +56,7 @@ pub enum CalibrationError {
         "the case has no number other than 0 at `{key}` to start from: give one by --set {key}=..., or a range by --from and --to"
     )]
     NoStart {
-        /// The key.
+        /// Key to be calibrated.
         key: String,
     },
     /// No run of the case has this result.
@@ -82,7 +82,7 @@ pub enum CalibrationError {
         folder.display()
     )]
     Other {
-        /// The folder.
+        /// Folder of the other calibration.
         folder: PathBuf,
         /// Description of the difference.
         difference: String,

@@ -29,7 +29,7 @@ pub struct Search {
 pub struct Trial {
     /// Value of the key.
     pub key: f64,
-    /// The result.
+    /// Result of the run with this value of the key.
     pub result: f64,
 }
 
@@ -71,9 +71,9 @@ impl Search {
     /// Next action after these trials, given in their order.
     pub fn next(&self, trials: &[Trial]) -> Next {
         let Some(best) = self.best(trials) else {
-            return Next::Try(self.allowed(self.start));
+            return Next::Try(self.nearest_allowed(self.start));
         };
-        if self.miss(&best).abs() <= self.tolerance {
+        if self.deviation(&best).abs() <= self.tolerance {
             return Next::Stop(Verdict::Met(best));
         }
         let bracket = self.bracket(trials);
@@ -86,23 +86,24 @@ impl Search {
             return Next::Stop(Verdict::OutOfTrials);
         }
         match bracket {
-            Some(ends) => Next::Try(self.allowed(self.inside(ends, trials))),
+            Some(ends) => Next::Try(self.nearest_allowed(self.inside(ends, trials))),
             None => self.outside(best, trials),
         }
     }
 
     /// The trial nearest to the target.
     pub fn best(&self, trials: &[Trial]) -> Option<Trial> {
-        let nearest = |a: &&Trial, b: &&Trial| self.miss(a).abs().total_cmp(&self.miss(b).abs());
+        let nearest =
+            |a: &&Trial, b: &&Trial| self.deviation(a).abs().total_cmp(&self.deviation(b).abs());
         trials.iter().min_by(nearest).copied()
     }
 
-    fn miss(&self, trial: &Trial) -> f64 {
+    fn deviation(&self, trial: &Trial) -> f64 {
         trial.result - self.target
     }
 
     /// The nearest value within the limits, rounded to the significant digits of trials.
-    fn allowed(&self, key: f64) -> f64 {
+    fn nearest_allowed(&self, key: f64) -> f64 {
         let written = format!("{key:.*e}", DIGITS - 1);
         written
             .parse()
@@ -115,8 +116,8 @@ impl Search {
         let mut sorted = trials.to_vec();
         sorted.sort_by(|a, b| a.key.total_cmp(&b.key));
         let pairs = sorted.windows(2).map(|pair| [pair[0], pair[1]]);
-        let around = pairs.filter(|[a, b]| (self.miss(a) > 0.0) != (self.miss(b) > 0.0));
-        let missed = |[a, b]: &[Trial; 2]| self.miss(a).abs().min(self.miss(b).abs());
+        let around = pairs.filter(|[a, b]| (self.deviation(a) > 0.0) != (self.deviation(b) > 0.0));
+        let missed = |[a, b]: &[Trial; 2]| self.deviation(a).abs().min(self.deviation(b).abs());
         around.min_by(|a, b| missed(a).total_cmp(&missed(b)))
     }
 
@@ -130,7 +131,7 @@ impl Search {
         // the bracket is halved.
         let same_side = |trial: &&Trial| {
             let last = trials.last().unwrap_or(trial);
-            (self.miss(trial) > 0.0) == (self.miss(last) > 0.0)
+            (self.deviation(trial) > 0.0) == (self.deviation(last) > 0.0)
         };
         let in_a_row = trials.iter().rev().take_while(same_side).count();
         let middle = 0.5 * (a.key + b.key);
@@ -138,10 +139,10 @@ impl Search {
             return middle;
         }
         let weight = 0.5f64.powi(in_a_row.saturating_sub(1) as i32);
-        let last_is_above = trials.last().is_some_and(|last| self.miss(last) > 0.0);
+        let last_is_above = trials.last().is_some_and(|last| self.deviation(last) > 0.0);
         let weighted = |trial: &Trial| {
-            let is_last_side = (self.miss(trial) > 0.0) == last_is_above;
-            self.miss(trial) * if is_last_side { 1.0 } else { weight }
+            let is_last_side = (self.deviation(trial) > 0.0) == last_is_above;
+            self.deviation(trial) * if is_last_side { 1.0 } else { weight }
         };
         let (miss_a, miss_b) = (weighted(&a), weighted(&b));
         let share = (miss_a / (miss_a - miss_b)).clamp(MARGIN, 1.0 - MARGIN);
@@ -155,7 +156,7 @@ impl Search {
             Some(other) if other.result == best.result => self.beyond_level(best, trials),
             Some(other) => self.along_secant(best, other),
         };
-        let key = self.allowed(key);
+        let key = self.nearest_allowed(key);
         if !trials.iter().any(|trial| trial.key == key) {
             return Next::Try(key);
         }
@@ -189,7 +190,7 @@ impl Search {
     /// Key by the secant through two trials, from the better one.
     fn along_secant(&self, best: Trial, other: Trial) -> f64 {
         let slope = (best.result - other.result) / (best.key - other.key);
-        let step = -self.miss(&best) / slope * (1.0 + OVERSHOOT);
+        let step = -self.deviation(&best) / slope * (1.0 + OVERSHOOT);
         let far = (LARGEST_STRIDE - 1.0) * best.key.abs().max((best.key - other.key).abs());
         // A step towards zero keeps a share of the key, and so its sign.
         let inwards = (1.0 - 1.0 / LARGEST_STRIDE) * best.key.abs();

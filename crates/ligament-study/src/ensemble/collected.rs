@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use ligament_post::statistics::WeibullFit;
 
 use super::identity::Identity;
-use super::part::{Counts, Stored};
+use super::part::{Counts, StoredSamples};
 use super::row::Row;
 
 /// Probabilities of the quantiles of curves.
@@ -17,7 +17,7 @@ pub(super) const NINETY_PERCENT: f64 = 1.644_853_626_951_472_7;
 
 /// Samples of an ensemble.
 #[derive(Debug, Default)]
-pub(super) struct Collected {
+pub(super) struct CollectedSamples {
     /// The samples, by their numbers.
     pub(super) rows: Vec<Row>,
     /// Known loads of the samples at each displacement of the grid, ascending.
@@ -25,14 +25,17 @@ pub(super) struct Collected {
     pub(super) counts: Counts,
 }
 
-impl Collected {
+impl CollectedSamples {
     /// The samples of parts. A part whose samples are all in other parts is left out: it is a copy, or a shard of the samples of another
     /// folder.
     ///
     /// # Errors
     ///
     /// If parts share a sample and each has others, so that counts at the points would count it twice.
-    pub(super) fn of_parts(mut parts: Vec<Stored>, identity: &Identity) -> anyhow::Result<Self> {
+    pub(super) fn from_parts(
+        mut parts: Vec<StoredSamples>,
+        identity: &Identity,
+    ) -> anyhow::Result<Self> {
         parts.sort_by_key(|it| Reverse(it.rows.len()));
         let mut all = Self::default();
         let mut seen = BTreeSet::new();
@@ -86,7 +89,7 @@ pub(super) struct Strengths {
 
 impl Strengths {
     /// The loads of the samples that have one, in the column `NAME_load`.
-    fn new(name: &'static str, words: &'static str, collected: &Collected) -> Self {
+    fn new(name: &'static str, words: &'static str, collected: &CollectedSamples) -> Self {
         let column = format!("{name}_load");
         let loads = collected.rows.iter().filter_map(|row| row.number(&column));
         let loads: Vec<f64> = loads.collect();
@@ -112,7 +115,7 @@ impl Strengths {
 }
 
 /// Loads at the first breakage, the first peak and the peak.
-pub(super) fn strengths(collected: &Collected) -> [Strengths; 3] {
+pub(super) fn strengths(collected: &CollectedSamples) -> [Strengths; 3] {
     [
         Strengths::new("first", "first breakage", collected),
         Strengths::new("first_peak", "first peak", collected),

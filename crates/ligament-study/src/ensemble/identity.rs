@@ -3,7 +3,7 @@
 use ligament::ensemble::Ensemble;
 use ligament_case::case::CaseFile;
 use ligament_output::{Error, read_json};
-use ligament_run::inputs::{Contents, Inputs, unread};
+use ligament_run::inputs::{FileIdentities, Inputs, unreadable_file};
 use serde::{Deserialize, Serialize};
 
 use super::grid::Grid;
@@ -35,7 +35,10 @@ impl Identity {
     /// The identity of a new folder for a request, by the path of the body without random factors.
     pub(super) fn new(request: &Request<'_>, ensemble: &Ensemble) -> anyhow::Result<Self> {
         let case = request.case;
-        let sound = ensemble.sound().map_err(|it| case.explained(it))?.outcome;
+        let sound = ensemble
+            .sound()
+            .map_err(|it| case.error_in_case_terms(it))?
+            .outcome;
         let grid = Grid::new(request.points, request.displacement, &sound);
         anyhow::ensure!(
             grid.end > 0.0,
@@ -58,7 +61,7 @@ impl Identity {
     /// # Errors
     ///
     /// If the file cannot be read.
-    pub(super) fn of_folder(folder: &StudyFolder) -> Result<Self, Error> {
+    pub(super) fn from_folder(folder: &StudyFolder) -> Result<Self, Error> {
         read_json(&folder.path().join(MARKER))
     }
 
@@ -67,8 +70,8 @@ impl Identity {
     /// # Errors
     ///
     /// If the samples in the folder are of another case, seed or grid: they cannot be counted together.
-    pub(super) fn wanted(folder: &StudyFolder, request: &Request<'_>) -> anyhow::Result<Self> {
-        let found = Self::of_folder(folder)?;
+    pub(super) fn for_request(folder: &StudyFolder, request: &Request<'_>) -> anyhow::Result<Self> {
+        let found = Self::from_folder(folder)?;
         let other = |what: &str| {
             Err(anyhow::anyhow!(
                 "{} has samples of another {what}; name another folder by --out, or begin anew by --force",
@@ -97,7 +100,7 @@ impl Identity {
     }
 
     /// Whether samples of two folders can be counted together.
-    pub(super) fn is_of_same(&self, other: &Self) -> bool {
+    pub(super) fn has_same_samples(&self, other: &Self) -> bool {
         self.seed == other.seed && self.grid == other.grid && self.inputs == other.inputs
     }
 }
@@ -111,6 +114,7 @@ fn inputs(case: &CaseFile) -> anyhow::Result<String> {
         first.seed = Some(0);
     }
     plain.case.output = Default::default();
-    let inputs = Inputs::from_case(&plain, None, &mut Contents::default()).map_err(unread)?;
+    let inputs =
+        Inputs::from_case(&plain, None, &mut FileIdentities::default()).map_err(unreadable_file)?;
     Ok(inputs.text().to_owned())
 }

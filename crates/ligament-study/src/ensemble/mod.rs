@@ -31,7 +31,7 @@ use ligament_run::stages::Stages;
 
 use crate::run_table::folder::{Shard, StudyFolder};
 use crate::run_table::progress::ProgressDisplay;
-use collected::Collected;
+use collected::CollectedSamples;
 use identity::{Identity, MARKER};
 use part::{PARTS, Part};
 pub use request::{Request, Settings, Task};
@@ -45,12 +45,13 @@ pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<En
     match &request.task {
         Task::Run(settings) => run(request, settings, out),
         Task::Collect(from) => {
-            let folders = StudyFolder::to_collect(MARKER, request.out, from)?;
+            let folders = StudyFolder::folders_to_collect(MARKER, request.out, from)?;
             for folder in &folders {
-                Identity::wanted(folder, request)?;
+                Identity::for_request(folder, request)?;
             }
-            let marker = Identity::of_folder(&folders[0])?.text()?;
-            let to = StudyFolder::marked_by(MARKER, request.out).opened(&marker, &[PARTS])?;
+            let marker = Identity::from_folder(&folders[0])?.text()?;
+            let to =
+                StudyFolder::with_marker(MARKER, request.out).create_or_open(&marker, &[PARTS])?;
             report(request, &folders, &to, out)?;
             Ok(End::Done)
         }
@@ -60,20 +61,20 @@ pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<En
 /// Computes the samples that are missing, and writes the tables and plots unless the samples are only a shard.
 fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<End> {
     let threads = request.case.threads();
-    let ensemble = on_threads(threads, || prepared(request))??;
-    let found = StudyFolder::marked_by(MARKER, request.out);
+    let ensemble = on_threads(threads, || prepare_ensemble(request))??;
+    let found = StudyFolder::with_marker(MARKER, request.out);
     let identity = match found.is_marked() && !settings.force {
-        true => Identity::wanted(&found, request)?,
+        true => Identity::for_request(&found, request)?,
         false => on_threads(threads, || Identity::new(request, &ensemble))??,
     };
     // Nothing is written before the case is checked.
-    let folder = found.opened(&identity.text()?, &[PARTS])?;
+    let folder = found.create_or_open(&identity.text()?, &[PARTS])?;
     let _claim = folder.claim(settings.shard)?;
     if settings.force {
         begin_anew(&folder, &identity)?;
     }
     // Another shard may have begun the folder meanwhile.
-    let identity = Identity::wanted(&folder, request)?;
+    let identity = Identity::for_request(&folder, request)?;
     let parts = part::stored(&folder, identity.grid)?;
     let rows = parts.iter().flat_map(|part| &part.rows);
     let done: BTreeSet<u64> = rows.map(|row| row.sample).collect();
@@ -99,15 +100,16 @@ fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyho
 }
 
 /// The ensemble of the case, ready for samples.
-fn prepared(request: &Request<'_>) -> anyhow::Result<Ensemble> {
+fn prepare_ensemble(request: &Request<'_>) -> anyhow::Result<Ensemble> {
     let case = request.case;
     let quiet = Progress::new(ProgressMode::Quiet);
     let model = build_model(case, &mut Stages::default(), &quiet)?;
-    let ensemble = Ensemble::new(model, request.seed).map_err(|error| case.explained(error))?;
+    let ensemble =
+        Ensemble::new(model, request.seed).map_err(|error| case.error_in_case_terms(error))?;
     match ensemble.refused() {
         Some(end) => bail!(
             "no sample has a result: {}",
-            stability::words(&end, ensemble.model())
+            stability::end_text(&end, ensemble.model())
         ),
         None => Ok(ensemble),
     }
@@ -136,11 +138,11 @@ fn compute(
     let workers = settings.jobs.unwrap_or(threads).min(todo.len());
     let at_once = [workers, (threads / workers).max(1)];
     let added = ensemble.for_each(todo, at_once, |sample: Sample| {
-        part.add(&sample).map_err(Fault::Stored)?;
+        part.add(&sample).map_err(SampleFault::Stored)?;
         progress.count();
         progress.print_tenth("samples");
         match (request.is_stopped)() {
-            true => Err(Fault::Stopped),
+            true => Err(SampleFault::Stopped),
             false => Ok(()),
         }
     });
@@ -149,14 +151,14 @@ fn compute(
     part.store()?;
     match added {
         Ok(()) => Ok(End::Done),
-        Err(Fault::Stopped) => Ok(End::Stopped),
-        Err(Fault::Sample(error)) => Err(request.case.explained(error)),
-        Err(Fault::Stored(error)) => Err(error),
+        Err(SampleFault::Stopped) => Ok(End::Stopped),
+        Err(SampleFault::Sample(error)) => Err(request.case.error_in_case_terms(error)),
+        Err(SampleFault::Stored(error)) => Err(error),
     }
 }
 
 /// Reason why no further sample is computed.
-enum Fault {
+enum SampleFault {
     /// Error of a sample.
     Sample(ligament::Error),
     /// Error of the folder.
@@ -165,7 +167,7 @@ enum Fault {
     Stopped,
 }
 
-impl From<ligament::Error> for Fault {
+impl From<ligament::Error> for SampleFault {
     fn from(error: ligament::Error) -> Self {
         Self::Sample(error)
     }
@@ -178,17 +180,17 @@ fn report(
     to: &StudyFolder,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let identity = Identity::of_folder(to)?;
+    let identity = Identity::from_folder(to)?;
     let mut parts = Vec::new();
     for folder in folders {
         anyhow::ensure!(
-            Identity::of_folder(folder)?.is_of_same(&identity),
+            Identity::from_folder(folder)?.has_same_samples(&identity),
             "the samples in {} are of another ensemble than those in {}",
             folder.path().display(),
             to.path().display()
         );
         parts.extend(part::stored(folder, identity.grid)?);
     }
-    let collected = Collected::of_parts(parts, &identity)?;
+    let collected = CollectedSamples::from_parts(parts, &identity)?;
     report::write(request, &identity, &collected, to.path(), out)
 }

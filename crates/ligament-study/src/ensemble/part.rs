@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use ligament::ensemble::{Ensemble, Sample};
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::csv::{Table, Value};
 use ligament_output::{Error, read_json, read_text, replace_file};
 use serde::{Deserialize, Serialize};
@@ -75,7 +75,7 @@ impl Counts {
 
 /// Data that are stored beside the rows.
 #[derive(Debug, Serialize, Deserialize)]
-struct Committed {
+struct PartData {
     /// Length of the rows, bytes.
     length: u64,
     #[serde(flatten)]
@@ -109,8 +109,8 @@ impl<'a> Part<'a> {
         let names: Vec<&str> = columns.iter().map(String::as_str).collect();
         let (table, counts) = match beside.is_file() {
             true => {
-                let Committed { length, counts } = read_json(&beside)?;
-                (Table::cut_back(rows, names.len(), length)?, counts)
+                let PartData { length, counts } = read_json(&beside)?;
+                (Table::open_truncated(rows, names.len(), length)?, counts)
             }
             false => (Table::create(rows, &names)?, Counts::none(tags.len())),
         };
@@ -141,8 +141,8 @@ impl<'a> Part<'a> {
 
     /// Stores the added samples.
     pub(super) fn store(&mut self) -> anyhow::Result<()> {
-        let committed = Committed {
-            length: self.table.synced()?.length,
+        let committed = PartData {
+            length: self.table.sync()?.length,
             counts: self.counts.clone(),
         };
         let text = serde_json::to_string(&committed)? + "\n";
@@ -154,7 +154,7 @@ impl<'a> Part<'a> {
 
 /// Stored samples of a part.
 #[derive(Debug)]
-pub(super) struct Stored {
+pub(super) struct StoredSamples {
     /// File of the rows.
     pub(super) path: PathBuf,
     pub(super) rows: Vec<Row>,
@@ -162,31 +162,34 @@ pub(super) struct Stored {
 }
 
 /// The parts in the folder of an ensemble, in the order of their names.
-pub(super) fn stored(folder: &StudyFolder, grid: Grid) -> anyhow::Result<Vec<Stored>> {
+pub(super) fn stored(folder: &StudyFolder, grid: Grid) -> anyhow::Result<Vec<StoredSamples>> {
     let entries = fs::read_dir(folder.path().join(PARTS))
         .into_iter()
         .flatten();
     let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
     found.retain(|path| path.extension().is_some_and(|it| it == "json"));
     found.sort();
-    found.iter().map(|beside| of_file(beside, grid)).collect()
+    found
+        .iter()
+        .map(|beside| samples_of_file(beside, grid))
+        .collect()
 }
 
-fn of_file(beside: &Path, grid: Grid) -> anyhow::Result<Stored> {
+fn samples_of_file(beside: &Path, grid: Grid) -> anyhow::Result<StoredSamples> {
     let path = beside.with_extension("csv");
     let gone = || Error::Unreadable {
         path: path.clone(),
         reason: "a part of the samples is gone".to_owned(),
     };
-    let Committed { length, counts } = read_json(beside)?;
+    let PartData { length, counts } = read_json(beside)?;
     let text = read_text(&path)?;
     let text = text.get(..length as usize).ok_or_else(gone)?;
-    let sheet = Sheet::parse(&path, text)?;
+    let sheet = CsvTable::parse(&path, text)?;
     if sheet.columns() != columns(grid) {
         return Err(gone().into());
     }
     let rows = sheet.rows(Row::read)?;
-    Ok(Stored { path, rows, counts })
+    Ok(StoredSamples { path, rows, counts })
 }
 
 /// Columns of the rows of a part: the columns of a sample, and the loads at the displacements of the grid.

@@ -7,7 +7,7 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_post::statistics::{WeibullFit, plotting_position, quantile};
 
-use super::collected::{Collected, NINETY_PERCENT, PROBABILITIES, Strengths};
+use super::collected::{CollectedSamples, NINETY_PERCENT, PROBABILITIES, Strengths};
 use super::identity::Identity;
 
 /// Largest number of circles of a Weibull plot; of more samples an even selection is drawn.
@@ -21,7 +21,7 @@ pub(super) fn plots(
     title: &str,
     units: Units,
     identity: &Identity,
-    collected: &Collected,
+    collected: &CollectedSamples,
     strengths: &[Strengths],
 ) -> [Plot; 2] {
     [
@@ -31,7 +31,7 @@ pub(super) fn plots(
 }
 
 /// Quantiles of the load over the displacement.
-fn curves(title: &str, units: Units, identity: &Identity, collected: &Collected) -> Plot {
+fn curves(title: &str, units: Units, identity: &Identity, collected: &CollectedSamples) -> Plot {
     let displacements = identity.grid.displacements();
     let over = |load: &dyn Fn(usize) -> Option<f64>| -> Vec<[f64; 2]> {
         let places = displacements.iter().enumerate();
@@ -138,7 +138,7 @@ fn reduced(probability: f64) -> f64 {
 }
 
 /// Maps of a body in the plane: where fracture begins, and where the body is damaged in the end.
-pub(super) fn maps(title: &str, grid: &BodyGrid, collected: &Collected) -> Vec<Maps> {
+pub(super) fn maps(title: &str, grid: &BodyGrid, collected: &CollectedSamples) -> Vec<Maps> {
     let [first, damaged] = collected.shares();
     let map = |name: &str, words: &str, quantity: &str, values: Vec<f64>| {
         Some(Maps {
@@ -179,9 +179,9 @@ fn mapped(grid: &BodyGrid, values: Vec<f64>) -> Option<MappedBody> {
         Canvas::Between(cells) => {
             let nodes = grid.positions.iter().map(|[x, y, _]| [*x, *y]).collect();
             let cells = cells.iter().map(|it| Cell::from(*it)).collect();
-            Some(MappedBody::of_mesh("", nodes, cells, at_rest, values))
+            Some(MappedBody::from_mesh("", nodes, cells, at_rest, values))
         }
-        Canvas::Around(squares) => Some(MappedBody::of_squares("", squares, &at_rest, values)),
+        Canvas::Around(squares) => Some(MappedBody::from_squares("", squares, &at_rest, values)),
         Canvas::Solid(_) | Canvas::Boxes(_) => None,
     }
 }

@@ -11,7 +11,7 @@ use ligament_output::results::write_points;
 use ligament_output::vtu::Field;
 use ligament_post::statistics::quantile;
 
-use super::collected::{Collected, NINETY_PERCENT, PROBABILITIES, Strengths, strengths};
+use super::collected::{CollectedSamples, NINETY_PERCENT, PROBABILITIES, Strengths, strengths};
 use super::identity::Identity;
 use super::plots;
 use super::request::Request;
@@ -37,7 +37,7 @@ const DAMAGED_SHARE: &str = "damaged_share";
 pub(super) fn write(
     request: &Request<'_>,
     identity: &Identity,
-    collected: &Collected,
+    collected: &CollectedSamples,
     folder: &Path,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
@@ -82,13 +82,13 @@ pub(super) fn write(
 }
 
 /// Text of `samples.csv`.
-fn samples(collected: &Collected) -> String {
+fn samples(collected: &CollectedSamples) -> String {
     let rows = collected.rows.iter().map(Row::line);
     format!("{}\n{}", COLUMNS.join(","), rows.collect::<String>())
 }
 
 /// Text of `curves.csv`.
-fn curves(identity: &Identity, collected: &Collected) -> String {
+fn curves(identity: &Identity, collected: &CollectedSamples) -> String {
     let displacements = identity.grid.displacements().into_iter();
     let at = displacements.zip(&collected.loads).zip(&identity.sound);
     let row = |((displacement, loads), sound): ((f64, &Vec<f64>), &Option<f64>)| {
@@ -140,7 +140,7 @@ fn points(grid: &BodyGrid, first: &[f64], damaged: &[f64]) -> String {
 fn write_samples(
     request: &Request<'_>,
     identity: &Identity,
-    collected: &Collected,
+    collected: &CollectedSamples,
     out: &mut dyn Write,
 ) -> io::Result<()> {
     let (n, wanted, seed) = (collected.rows.len() as u64, request.samples, identity.seed);

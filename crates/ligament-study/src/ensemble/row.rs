@@ -6,7 +6,7 @@ use ligament_analysis::driver::LoadPoint;
 use ligament_output::Error;
 use ligament_output::csv::Value;
 use ligament_output::csv::read::{self, StringRecord};
-use ligament_run::summary::DROP;
+use ligament_run::summary::LOAD_DROP;
 
 /// Columns of a sample.
 pub(super) const COLUMNS: [&str; 15] = [
@@ -48,7 +48,7 @@ pub(super) fn values<'a>(sample: &Sample, body: &dyn Body, tags: &[i64]) -> Vec<
     }
     // Without an equilibrium under load there is no peak.
     let loaded = |it: &LoadPoint| it.load_factor != 0.0;
-    for point in [outcome.peak(), outcome.first_peak(DROP)] {
+    for point in [outcome.peak(), outcome.first_peak(LOAD_DROP)] {
         values.extend(match point.filter(loaded) {
             Some(it) => [it.reaction, it.displacement].map(Value::Float),
             None => [Value::Missing; 2],

@@ -30,7 +30,7 @@ pub enum MeshingError {
         geometry.display(), hint(name, declared, "it declares", '`')
     )]
     UnusedNumber {
-        /// The geometry.
+        /// File of the geometry.
         geometry: PathBuf,
         /// Name of the number.
         name: String,
@@ -42,13 +42,13 @@ pub enum MeshingError {
     WouldReplaceSource {
         /// Kind of the source.
         what: &'static str,
-        /// The source.
+        /// File that is refused.
         path: PathBuf,
     },
     /// A program could not be found.
     #[error("cannot find the program `{}`; {remedy}", program.display())]
     NoProgram {
-        /// The program.
+        /// Program that was not found.
         program: PathBuf,
         /// Advice on installing the program, or giving its path.
         remedy: &'static str,
@@ -56,7 +56,7 @@ pub enum MeshingError {
     /// A program could not be started.
     #[error("cannot start `{}`", program.display())]
     Start {
-        /// The program.
+        /// Program that cannot be started.
         program: PathBuf,
         /// The system's reason.
         source: io::Error,
@@ -67,12 +67,12 @@ pub enum MeshingError {
     /// Python lacks a package.
     #[error(
         "`{}` has no package `{package}`; install it: {} -m pip install {}",
-        python.display(), python.display(), with_company(package)
+        python.display(), python.display(), with_companions(package)
     )]
     NoPackage {
-        /// The program.
+        /// Python that lacks the package.
         python: PathBuf,
-        /// The package.
+        /// Package that is missing.
         package: String,
     },
     /// A program refused the source.
@@ -88,7 +88,7 @@ pub enum MeshingError {
     /// Python ended without a mesh.
     #[error("`{}` failed on {}{}", python.display(), mesh.display(), indented(lines))]
     Failed {
-        /// The program.
+        /// Python that failed.
         python: PathBuf,
         /// The mesh that was to be converted.
         mesh: PathBuf,
@@ -98,7 +98,7 @@ pub enum MeshingError {
     /// The mesh by gmsh cannot be used.
     #[error("gmsh made a mesh of {} that cannot be used", geometry.display())]
     Unusable {
-        /// The geometry.
+        /// File of the geometry.
         geometry: PathBuf,
         /// The reader's reason.
         source: GmshError,
@@ -116,7 +116,7 @@ pub enum MeshingError {
     File {
         /// Operation, a verb.
         action: &'static str,
-        /// The file.
+        /// File that cannot be read or written.
         path: PathBuf,
         /// The system's reason.
         source: io::Error,
@@ -172,7 +172,7 @@ fn indented(lines: &[String]) -> String {
 }
 
 /// A package with the packages to be installed together: meshio needs others for formats on HDF5 and netCDF.
-fn with_company(package: &str) -> String {
+fn with_companions(package: &str) -> String {
     match package {
         "meshio" | "numpy" => "meshio".to_owned(),
         other => format!("meshio {other}"),

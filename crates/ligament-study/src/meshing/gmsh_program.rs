@@ -9,7 +9,7 @@ use ligament_mesh::gmsh;
 use ligament_output::{check_file, write_file};
 
 use super::error::{MeshingError, Refusal};
-use super::{Unfinished, is_same_file, last_lines, output_of};
+use super::{UnfinishedMesh, is_same_file, last_lines, output_of};
 
 /// Request for a mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,7 +58,7 @@ pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
         path: out.clone(),
         source,
     };
-    let unfinished = Unfinished::beside(out).map_err(write_error)?;
+    let unfinished = UnfinishedMesh::beside(out).map_err(write_error)?;
     let output = call_gmsh(request, unfinished.path())?;
     let complaints = complaints(&output);
     if !output.status.success() || !complaints.is_empty() || !unfinished.path().is_file() {

@@ -57,9 +57,9 @@ fn make_folder_of(file: &Path) -> io::Result<()> {
 }
 
 /// An unfinished mesh: a hidden file beside its final path, removed at the end.
-struct Unfinished(PathBuf);
+struct UnfinishedMesh(PathBuf);
 
-impl Unfinished {
+impl UnfinishedMesh {
     /// A path in the folder of `out`, created if needed, with a name unique to this process. For a pipe or a device the path is in the
     /// system's folder of temporary files.
     fn beside(out: &Path) -> io::Result<Self> {
@@ -80,7 +80,7 @@ impl Unfinished {
     }
 }
 
-impl Drop for Unfinished {
+impl Drop for UnfinishedMesh {
     fn drop(&mut self) {
         // The file may not exist if the program did not write it.
         let _ = std::fs::remove_file(&self.0);

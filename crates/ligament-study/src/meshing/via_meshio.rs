@@ -77,8 +77,12 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
         python: request.python.clone(),
         mesh: source.clone(),
         lines: {
-            let said = String::from_utf8_lossy(&output.stderr);
-            last_lines(said.lines().map(str::to_owned).collect(), "it", &output)
+            let error_output = String::from_utf8_lossy(&output.stderr);
+            last_lines(
+                error_output.lines().map(str::to_owned).collect(),
+                "it",
+                &output,
+            )
         },
     };
     if let Some(fault) = text.strip_prefix("error\n") {

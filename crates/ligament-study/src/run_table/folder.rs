@@ -32,7 +32,7 @@ pub enum FolderError {
         "another study works on {} ({what}); wait for its end, or give this one its own folder by --out", folder.display()
     )]
     Busy {
-        /// The folder.
+        /// Folder of the study.
         folder: PathBuf,
         /// Description of the study that uses the folder.
         what: String,
@@ -40,7 +40,7 @@ pub enum FolderError {
     /// The folder is not of a study.
     #[error("{} is no folder of a study (no {marker} in it): run the study first, or name its folders by --from", folder.display())]
     NoStudy {
-        /// The folder.
+        /// Folder of the study.
         folder: PathBuf,
         /// Name of the missing marker file.
         marker: &'static str,
@@ -84,7 +84,7 @@ pub struct StudyLocks {
 
 impl StudyFolder {
     /// The folder at a path, existing or not, of a study whose folders have a file of this name.
-    pub(crate) fn marked_by(marker: &'static str, path: impl Into<PathBuf>) -> Self {
+    pub(crate) fn with_marker(marker: &'static str, path: impl Into<PathBuf>) -> Self {
         let path = path.into();
         Self { path, marker }
     }
@@ -94,14 +94,14 @@ impl StudyFolder {
     /// # Errors
     ///
     /// If one is not marked as the folder of such a study.
-    pub(crate) fn to_collect(
+    pub(crate) fn folders_to_collect(
         marker: &'static str,
         own: &Path,
         named: &[PathBuf],
     ) -> Result<Vec<Self>, FolderError> {
         let own = [own.to_owned()];
         let paths = if named.is_empty() { &own } else { named };
-        let marked = |path: &PathBuf| match Self::marked_by(marker, path) {
+        let marked = |path: &PathBuf| match Self::with_marker(marker, path) {
             folder if folder.is_marked() => Ok(folder),
             Self { path, marker } => Err(FolderError::NoStudy {
                 folder: path,
@@ -116,12 +116,12 @@ impl StudyFolder {
     /// # Errors
     ///
     /// If the path is something else, or cannot be written.
-    pub(crate) fn opened(self, marker: &str, subfolders: &[&str]) -> anyhow::Result<Self> {
+    pub(crate) fn create_or_open(self, marker: &str, subfolders: &[&str]) -> anyhow::Result<Self> {
         for look in 0.. {
             if self.is_marked() {
                 break;
             }
-            match ResultFolder::create_marked(&self.path, Kind::marked(self.marker), false) {
+            match ResultFolder::create_of_kind(&self.path, Kind::with_marker(self.marker), false) {
                 Ok(new) => {
                     new.write(self.marker, marker)?;
                     break;

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::Value as Cell;
 
-use super::written;
+use super::toml_text;
 use ligament_case::case::Fault;
 use ligament_case::case::decode::decode;
 use ligament_case::case::document::{Node, Value};
@@ -96,8 +96,8 @@ impl RawAxis {
         )?;
         let [values, range] = [self.values.map(|_| None), self.range.map(Some)];
         let points = match one_of(place, [("values", values), ("range", range)])? {
-            None => listed(document, place, &keys, paired, of_geometry)?,
-            Some(range) if !paired => ranged(document, place, &range)?,
+            None => values_of_list(document, place, &keys, paired, of_geometry)?,
+            Some(range) if !paired => values_of_range(document, place, &range)?,
             Some(_) => {
                 let fault =
                     "a range has one number a value: give `values = [[..], ..]` for several `keys`";
@@ -163,7 +163,7 @@ fn canonical(key: &str, place: &KeyPath) -> Result<String, KeyFault> {
 }
 
 /// The values of a list.
-fn listed(
+fn values_of_list(
     document: &Node,
     place: &KeyPath,
     keys: &[String],
@@ -204,11 +204,11 @@ fn listed(
                 require_no_formula(|| place.clone(), "text", text)?;
             }
         }
-        let texts = of_keys.iter().map(|node| written::toml(node, &place));
+        let texts = of_keys.iter().map(|node| toml_text::toml(node, &place));
         let texts: Vec<String> = texts.collect::<Result<_, _>>()?;
         let cells = of_keys.iter().zip(&texts);
         let cells: Vec<Cell> = cells
-            .map(|(node, text)| written::cell(node, text))
+            .map(|(node, text)| toml_text::cell(node, text))
             .collect();
         points.push(AxisPoint {
             label: label(&cells),
@@ -241,7 +241,7 @@ pub(super) fn short_words(cell: &Cell) -> String {
             }
             _ => number.to_string(),
         },
-        other => written::words(other),
+        other => toml_text::words(other),
     }
 }
 
@@ -253,7 +253,11 @@ fn list<'a>(document: &'a Node, place: &KeyPath) -> Result<&'a [Node], KeyFault>
 }
 
 /// The values of a range.
-fn ranged(document: &Node, place: &KeyPath, range: &RawRange) -> Result<Vec<AxisPoint>, KeyFault> {
+fn values_of_range(
+    document: &Node,
+    place: &KeyPath,
+    range: &RawRange,
+) -> Result<Vec<AxisPoint>, KeyFault> {
     let place = place.child("range");
     let values = numbers(range, &place)?;
     let is_whole = |key: &str| {
@@ -301,8 +305,8 @@ fn numbers(range: &RawRange, place: &KeyPath) -> Result<Vec<f64>, KeyFault> {
             };
             Err(KeyFault::new(place.child("log"), fault))
         }
-        Spacing::Step(step) => stepped(range, step, || place.child("step")),
-        Spacing::Count(count) => counted(range, count, || place.child("count")),
+        Spacing::Step(step) => values_by_step(range, step, || place.child("step")),
+        Spacing::Count(count) => merged_messages(range, count, || place.child("count")),
     }
 }
 
@@ -315,7 +319,11 @@ enum Spacing {
 }
 
 /// The values of a range with a given step.
-fn stepped(range: &RawRange, step: f64, place: impl Fn() -> KeyPath) -> Result<Vec<f64>, KeyFault> {
+fn values_by_step(
+    range: &RawRange,
+    step: f64,
+    place: impl Fn() -> KeyPath,
+) -> Result<Vec<f64>, KeyFault> {
     let RawRange { from, to, .. } = *range;
     let leads = step != 0.0 && (to - from) * step >= 0.0;
     require(
@@ -329,12 +337,12 @@ fn stepped(range: &RawRange, step: f64, place: impl Fn() -> KeyPath) -> Result<V
     let few = format!("so large that there are {MOST_VALUES} values at most");
     require(steps < MOST_VALUES as f64, &place, &few, step)?;
     Ok((0..=steps as usize)
-        .map(|k| tidy(from + k as f64 * step))
+        .map(|k| rounded_to_digits(from + k as f64 * step))
         .collect())
 }
 
 /// The values of a range with a given count, at equal steps or, with `log`, equal ratios.
-fn counted(
+fn merged_messages(
     range: &RawRange,
     count: usize,
     place: impl Fn() -> KeyPath,
@@ -349,11 +357,11 @@ fn counted(
         true => from * (to / from).powf(share(k)),
         false => from + (to - from) * share(k),
     };
-    Ok((0..count).map(|k| tidy(value(k))).collect())
+    Ok((0..count).map(|k| rounded_to_digits(value(k))).collect())
 }
 
 /// A number rounded to [`DIGITS`] significant digits.
-fn tidy(value: f64) -> f64 {
+fn rounded_to_digits(value: f64) -> f64 {
     let digits = DIGITS - 1;
     // The formatted text is always a number.
     format!("{value:.digits$e}").parse().unwrap_or(value)

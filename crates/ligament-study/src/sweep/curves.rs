@@ -1,8 +1,8 @@
 //! The curves of a study's plots: points from its table, and fitted lines.
 
-use super::plan::safe;
+use super::plan::safe_file_name;
 use super::study::{Study, StudyPlot};
-use super::table::{NoColumn, Row, StudyTable};
+use super::table::{Row, StudyTable, UnknownColumn};
 use crate::line_fit::{FitError, LineFit};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
@@ -47,7 +47,7 @@ impl<'a> Curves<'a> {
         plot: &'a StudyPlot,
         rows: &[Row<'_>],
         table: &StudyTable,
-    ) -> Result<Self, NoColumn> {
+    ) -> Result<Self, UnknownColumn> {
         let (x, y) = (table.numbers(&plot.x)?, table.numbers(&plot.y)?);
         let by = plot.by.as_ref();
         let axis = by.and_then(|by| study.axes.iter().position(|axis| axis.keys.contains(by)));
@@ -79,7 +79,11 @@ impl<'a> Curves<'a> {
         };
         Ok(Self {
             plot,
-            name: format!("{}-over-{}", safe(&plot.y), safe(&plot.x)),
+            name: format!(
+                "{}-over-{}",
+                safe_file_name(&plot.y),
+                safe_file_name(&plot.x)
+            ),
             curves,
         })
     }
@@ -103,7 +107,7 @@ impl<'a> Curves<'a> {
         let ends = places.first().zip(places.last());
         let mut series = Vec::new();
         if let (Some(line), Some((&from, &to))) = (&plot.line, ends) {
-            let points = straight([from, to], |x| line.at(x));
+            let points = fitted_line([from, to], |x| line.at(x));
             series.push(Series::dashes(line.name(), Colour::Black, points));
         }
         for (curve, &colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
@@ -115,7 +119,7 @@ impl<'a> Curves<'a> {
                     let mut inside = curve.points.iter().map(|[x, _]| *x);
                     let is_inside = |x: &f64| plot.fit.is_some_and(|range| range.contains(*x));
                     let ends = [inside.clone().find(is_inside), inside.rfind(is_inside)];
-                    let points = straight(ends.map(Option::unwrap_or_default), |x| fit.at(x));
+                    let points = fitted_line(ends.map(Option::unwrap_or_default), |x| fit.at(x));
                     series.push(circles());
                     series.push(Series::curve(equation(fit), colour, points));
                 }
@@ -158,7 +162,7 @@ impl Curve {
     }
 }
 
-fn straight(ends: [f64; 2], y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
+fn fitted_line(ends: [f64; 2], y: impl Fn(f64) -> f64) -> Vec<[f64; 2]> {
     ends.map(|x| [x, y(x)]).to_vec()
 }
 

@@ -36,7 +36,7 @@ pub enum StudyError {
         location: Location,
         /// Name of the run.
         run: String,
-        /// The file.
+        /// File that cannot be read.
         path: PathBuf,
         /// The system's reason.
         source: io::Error,

@@ -50,7 +50,7 @@ fn estimate(case: &CaseFile) -> anyhow::Result<u64> {
         _ => it,
     });
     let bytes = on_threads(plain.threads(), || equations(&plain))??;
-    Ok(memory::of_run(bytes))
+    Ok(memory::run_bytes(bytes))
 }
 
 fn equations(case: &CaseFile) -> anyhow::Result<usize> {
@@ -61,14 +61,14 @@ fn equations(case: &CaseFile) -> anyhow::Result<usize> {
         Analysis::Modal(settings) => {
             let vibration = Vibration::new(&model)?;
             let analysis = ModalAnalysis::new(&vibration.problem(&model), settings)?;
-            memory::of_equations(&**system, Some(analysis.stiffness()))
+            memory::equation_bytes(&**system, Some(analysis.stiffness()))
         }
-        Analysis::Motion(_) => memory::of_equations(&**system, None),
+        Analysis::Motion(_) => memory::equation_bytes(&**system, None),
         Analysis::Elastic { .. } | Analysis::Stepped(_) | Analysis::Event(_) => {
             let loading = Loading::new(&model)?;
             let problem = loading.problem(&model);
             let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
-            memory::of_equations(&**system, equilibrium.stiffness())
+            memory::equation_bytes(&**system, equilibrium.stiffness())
         }
     })
 }

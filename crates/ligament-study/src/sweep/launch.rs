@@ -25,7 +25,7 @@ const LAST_WORDS: usize = 4;
 
 /// Resources for runs.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Room {
+pub(super) struct Resources {
     /// Largest number of simultaneous runs.
     jobs: usize,
     /// Number of processors.
@@ -36,7 +36,7 @@ pub(super) struct Room {
     bytes_are_given: bool,
 }
 
-impl Room {
+impl Resources {
     /// The available or given resources.
     pub(super) fn new(jobs: Option<usize>, gigabytes: Option<f64>) -> Self {
         let cores = thread::available_parallelism().map_or(1, NonZero::get);
@@ -44,7 +44,7 @@ impl Room {
         Self {
             jobs: jobs.unwrap_or(cores),
             cores,
-            bytes: given.or_else(memory::available),
+            bytes: given.or_else(memory::available_memory),
             bytes_are_given: given.is_some(),
         }
     }
@@ -53,7 +53,7 @@ impl Room {
     fn bytes_now(self) -> Option<u64> {
         match self.bytes_are_given {
             true => None,
-            false => memory::available(),
+            false => memory::available_memory(),
         }
     }
 
@@ -80,10 +80,10 @@ impl Room {
 }
 
 /// Index, exit status and duration of a run that has ended.
-type Ended = (usize, io::Result<ExitStatus>, Duration);
+type EndedRun = (usize, io::Result<ExitStatus>, Duration);
 
 /// A run in progress.
-struct Running {
+struct RunningProcess {
     index: usize,
     bytes: u64,
     /// Folder for its results.
@@ -101,7 +101,7 @@ pub(super) fn all(
     runs: &[&Run],
     folder: &StudyFolder,
     (lock, program): (&Path, &[OsString]),
-    room: Room,
+    room: Resources,
     progress: &mut StudyProgress<'_>,
 ) -> anyhow::Result<Duration> {
     let (sender, receiver) = channel();
@@ -146,12 +146,12 @@ struct Launcher<'a, 'b> {
     runs: &'a [&'a Run],
     folder: &'a StudyFolder,
     lock: &'a Path,
-    room: Room,
+    room: Resources,
     program: &'a [OsString],
     progress: &'a mut StudyProgress<'b>,
-    sender: Sender<Ended>,
-    receiver: Receiver<Ended>,
-    running: Vec<Running>,
+    sender: Sender<EndedRun>,
+    receiver: Receiver<EndedRun>,
+    running: Vec<RunningProcess>,
     time: Duration,
 }
 
@@ -172,10 +172,10 @@ impl Launcher<'_, '_> {
         let threads = self
             .room
             .threads(self.running.len() + self.runs.len() - index);
-        let begun = Instant::now();
+        let start = Instant::now();
         let mut child = self.spawn(run, &written, threads)?;
         self.progress.begins(run, threads);
-        self.running.push(Running {
+        self.running.push(RunningProcess {
             index,
             bytes,
             written,
@@ -183,7 +183,7 @@ impl Launcher<'_, '_> {
         });
         let sender = self.sender.clone();
         // A closed channel has no receiver.
-        thread::spawn(move || sender.send((index, child.wait(), begun.elapsed())));
+        thread::spawn(move || sender.send((index, child.wait(), start.elapsed())));
         Ok(())
     }
 
@@ -237,7 +237,7 @@ impl Launcher<'_, '_> {
             return self.progress.fails(run, self.folder, &reason, time);
         }
         let recorded = RecordedRun::in_folder(run, self.folder);
-        if let Some(Running { written, .. }) = ended {
+        if let Some(RunningProcess { written, .. }) = ended {
             recorded.complete(&written)?;
         }
         let status = match recorded.status() {
@@ -268,11 +268,11 @@ impl Launcher<'_, '_> {
             }
             None => {
                 let last = &lines[lines.len().saturating_sub(LAST_WORDS)..];
-                let said = last
+                let last_line = last
                     .iter()
                     .map(|line| format!("; {line}"))
                     .collect::<String>();
-                format!("it ended by {exit}{said}")
+                format!("it ended by {exit}{last_line}")
             }
         }
     }

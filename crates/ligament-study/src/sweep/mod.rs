@@ -16,7 +16,7 @@ mod record;
 mod report;
 pub mod study;
 mod table;
-pub mod written;
+pub mod toml_text;
 
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -35,7 +35,7 @@ pub use launch::bind_to_parent;
 
 use crate::run_table::folder::{Shard, StudyFolder};
 use estimate::Estimates;
-use launch::Room;
+use launch::Resources;
 use plan::{MESHES, Run};
 use progress::{StudyProgress, seconds};
 use record::{RecordedRun, Status};
@@ -101,9 +101,9 @@ pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
         Task::Run(settings) => run(&study, &path, settings, out),
         Task::List => list(&study, &path, out),
         Task::Collect(from) => {
-            let folders = StudyFolder::to_collect(MARKER, &path, from)?;
+            let folders = StudyFolder::folders_to_collect(MARKER, &path, from)?;
             let runs = plan::runs(&study, &path)?;
-            make_report(&study, &runs, &folders, &opened(&path, &study)?, out)?;
+            make_report(&study, &runs, &folders, &open_folder(&path, &study)?, out)?;
             Ok(writeln!(out, "  tables and plots in {}", path.display())?)
         }
     }
@@ -114,28 +114,28 @@ pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
 /// # Errors
 ///
 /// If the path is something else, or cannot be written.
-pub fn opened(path: &Path, study: &Study) -> anyhow::Result<StudyFolder> {
+pub fn open_folder(path: &Path, study: &Study) -> anyhow::Result<StudyFolder> {
     refuse_link(&path.join(MESHES))?;
     let marker = json!({
         "study": study.source.path.to_string_lossy(),
         "title": study.title,
         "version": env!("CARGO_PKG_VERSION"),
     });
-    let folder = StudyFolder::marked_by(MARKER, path);
-    folder.opened(&format!("{marker:#}\n"), &["runs", "records", "logs"])
+    let folder = StudyFolder::with_marker(MARKER, path);
+    folder.create_or_open(&format!("{marker:#}\n"), &["runs", "records", "logs"])
 }
 
 /// Executes the runs without results.
 fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<()> {
     let runs = plan::runs(study, path)?;
     // Nothing is written before the cases of all runs are checked.
-    let folder = opened(path, study)?;
+    let folder = open_folder(path, study)?;
     let claim = folder.claim(settings.shard)?;
     let mine = runs.iter().enumerate();
     let mine = mine.filter(|(index, _)| Shard::contains(settings.shard, *index));
     let mine: Vec<&Run> = mine.map(|(_, run)| run).collect();
     let total = mine.len();
-    let (todo, notes) = not_done(study, &folder, &mine, settings.force)?;
+    let (todo, notes) = pending_runs(study, &folder, &mine, settings.force)?;
     let before = total - todo.len();
     let mut progress = StudyProgress::new(study, settings.progress, todo.len());
     if let Some(Shard { number, count }) = settings.shard {
@@ -146,8 +146,8 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
         progress.print(&format!("{before} of {total} runs were done already"));
     }
     notes.iter().for_each(|note| progress.print(note));
-    let todo = meshed(todo, &folder, &settings.gmsh, &mut progress)?;
-    let room = Room::new(settings.jobs, settings.memory);
+    let todo = make_meshes(todo, &folder, &settings.gmsh, &mut progress)?;
+    let room = Resources::new(settings.jobs, settings.memory);
     let start = (&*claim.runs, &*settings.program);
     let sum = launch::all(&todo, &folder, start, room, &mut progress)?;
     let (wall, failed) = progress.finish();
@@ -181,7 +181,7 @@ fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> 
 }
 
 /// The runs to be executed or repeated, and remarks about them.
-fn not_done<'a>(
+fn pending_runs<'a>(
     study: &Study,
     folder: &StudyFolder,
     mine: &[&'a Run],
@@ -212,7 +212,7 @@ fn not_done<'a>(
 }
 
 /// Makes the missing meshes of runs; returns the runs with a mesh. Those without one have failed.
-fn meshed<'a>(
+fn make_meshes<'a>(
     todo: Vec<&'a Run>,
     folder: &StudyFolder,
     gmsh: &Path,
@@ -269,7 +269,7 @@ fn make_report(
 
 /// Lists the runs with their status and estimated memory.
 fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
-    let folder = StudyFolder::marked_by(MARKER, path);
+    let folder = StudyFolder::with_marker(MARKER, path);
     let runs = plan::runs(study, path)?;
     let width = runs.len().to_string().len();
     let mut estimates = Estimates::default();
@@ -295,7 +295,7 @@ fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
             index + 1
         )?;
     }
-    if let Some(bytes) = memory::available() {
+    if let Some(bytes) = memory::available_memory() {
         writeln!(out, "memory available: {:.1} GB", bytes as f64 / 1e9)?;
     }
     Ok(writeln!(

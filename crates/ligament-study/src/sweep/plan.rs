@@ -6,11 +6,11 @@ use super::axis::{Axis, AxisPoint, Setting, short_words};
 use super::error::StudyError;
 use super::meshes::MeshPlan;
 use super::study::Study;
-use super::written::quoted;
+use super::toml_text::quoted;
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::{CaseError, CaseFile, Location};
 use ligament_case::input_file;
-use ligament_run::inputs::{Contents, Inputs};
+use ligament_run::inputs::{FileIdentities, Inputs};
 
 /// Subfolder of the meshes that are made for a study.
 pub(super) const MESHES: &str = "meshes";
@@ -99,7 +99,7 @@ pub fn runs(study: &Study, folder: &Path) -> Result<Vec<Run>, StudyError> {
         text,
         names: names(&study.axes),
         meshes: folder.join(MESHES),
-        contents: Contents::default(),
+        contents: FileIdentities::default(),
     };
     let run = |number| planning.run(place(&study.axes, number));
     (0..total).map(run).collect()
@@ -128,14 +128,14 @@ struct Planning<'a> {
     names: Vec<Vec<String>>,
     /// Folder of the meshes to be made.
     meshes: PathBuf,
-    contents: Contents,
+    contents: FileIdentities,
 }
 
 impl Planning<'_> {
     /// The run with the values of these indices on the axes.
     fn run(&mut self, place: Vec<usize>) -> Result<Run, StudyError> {
         let study = self.study;
-        let name = shortened(self.name(&place, |_| true), LONGEST_NAME);
+        let name = shortened_name(self.name(&place, |_| true), LONGEST_NAME);
         let mut settings = study.settings.clone();
         let of_case = points(study, &place).filter(|(axis, _)| !axis.of_geometry);
         settings.extend(of_case.flat_map(|(axis, point)| axis.settings(point)));
@@ -194,7 +194,7 @@ impl Planning<'_> {
         let content = self.contents.identity(geometry);
         let content = content.map_err(|source| StudyError::Input {
             location: study.location(&key("geometry")),
-            run: shortened(name.clone(), LONGEST_NAME),
+            run: shortened_name(name.clone(), LONGEST_NAME),
             path: geometry.to_owned(),
             source,
         })?;
@@ -256,8 +256,9 @@ fn names(axes: &[Axis]) -> Vec<Vec<String>> {
     let of_axis = |(axis, keys): (&Axis, &Vec<String>)| {
         let name = |point| {
             let parts = parts_of(axis, point, keys);
-            let parts =
-                parts.map(|(key, label)| safe(key) + "=" + &shortened(safe(&label), LONGEST_LABEL));
+            let parts = parts.map(|(key, label)| {
+                safe_file_name(key) + "=" + &shortened_name(safe_file_name(&label), LONGEST_LABEL)
+            });
             parts.collect::<Vec<_>>().join(",")
         };
         let names: Vec<String> = axis.points.iter().map(name).collect();
@@ -301,7 +302,7 @@ pub(super) fn short_keys(axes: &[Axis]) -> Vec<Vec<String>> {
 }
 
 /// A text with unsafe characters of file names replaced by underscores.
-pub(super) fn safe(text: &str) -> String {
+pub(super) fn safe_file_name(text: &str) -> String {
     let letter = |letter: char| match letter {
         'a'..='z' | 'A'..='Z' | '0'..='9' | '.' | '-' | '_' | '+' => letter,
         _ => '_',
@@ -310,7 +311,7 @@ pub(super) fn safe(text: &str) -> String {
 }
 
 /// A name (of safe letters) of at most `longest` bytes; a longer name is truncated and ends in a digest.
-fn shortened(name: String, longest: usize) -> String {
+fn shortened_name(name: String, longest: usize) -> String {
     if name.len() <= longest {
         return name;
     }

@@ -20,7 +20,7 @@ pub(super) struct StudyProgress<'a> {
     failed: usize,
     /// Whether the names of results in the study were checked against a completed run.
     names_are_known: bool,
-    begun: Instant,
+    start: Instant,
     /// Descriptions of the runs in progress, by name.
     running: BTreeMap<String, String>,
 }
@@ -34,7 +34,7 @@ impl<'a> StudyProgress<'a> {
             display: ProgressDisplay::new(mode, total, template),
             failed: 0,
             names_are_known: false,
-            begun: Instant::now(),
+            start: Instant::now(),
             running: BTreeMap::new(),
         }
     }
@@ -47,7 +47,7 @@ impl<'a> StudyProgress<'a> {
     /// Ends the display; returns the wall time and the number of failed runs.
     pub(super) fn finish(self) -> (Duration, usize) {
         self.display.finish();
-        (self.begun.elapsed(), self.failed)
+        (self.start.elapsed(), self.failed)
     }
 
     /// Shows the start of a run on a number of threads.

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament_output::folder::{Kind, ResultFolder, put_in_place, recover, refuse_link};
-use ligament_output::summary::SUMMARY;
+use ligament_output::folder::{Kind, ResultFolder, recover, refuse_link, replace_folder};
+use ligament_output::summary::SUMMARY_FILE;
 use ligament_output::{read_json, rename, replace_file};
 use serde::{Deserialize, Serialize};
 
@@ -27,7 +27,7 @@ impl Results {
     }
 
     fn are_complete(&self) -> bool {
-        self.folder.join(SUMMARY).is_file()
+        self.folder.join(SUMMARY_FILE).is_file()
     }
 
     fn record(&self) -> Option<Record> {
@@ -182,6 +182,11 @@ impl<'a> RecordedRun<'a> {
             return Ok(());
         }
         let records = || rename(&new.record, &present.record);
-        Ok(put_in_place(written, &present.folder, Kind::RUN, records)?)
+        Ok(replace_folder(
+            written,
+            &present.folder,
+            Kind::RUN,
+            records,
+        )?)
     }
 }

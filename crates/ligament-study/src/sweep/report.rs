@@ -10,7 +10,7 @@ use super::curves::{Curve, Curves, rounded};
 use super::plan::{Run, short_keys};
 use super::study::Study;
 use super::table;
-use super::table::{NoColumn, Row, StudyTable};
+use super::table::{Row, StudyTable, UnknownColumn};
 use crate::quantities::{Quantities, QuantityError};
 use crate::run_table::folder::StudyFolder;
 use crate::run_table::{WIDTH, number, write_plot};
@@ -87,7 +87,7 @@ fn curves_of_plots<'a>(
                 }
                 drawn.push(curves);
             }
-            Err(NoColumn { name, .. })
+            Err(UnknownColumn { name, .. })
                 if problems.iter().any(|it| it.contains(&format!("`{name}`"))) => {}
             Err(missing) => {
                 let place = KeyPath(vec!["plot".to_owned(), index.to_string()]);

@@ -7,7 +7,7 @@ use serde::de::IgnoredAny;
 
 use super::axis::{Axis, RawAxis, Setting};
 use super::error::StudyError;
-use super::written;
+use super::toml_text;
 use ligament_case::case::decode::decode;
 use ligament_case::case::document::{Node, Value};
 use ligament_case::case::fault::KeyFault;
@@ -33,7 +33,7 @@ pub struct Study {
     /// The axes; the first one varies slowest.
     pub axes: Vec<Axis>,
     /// Columns derived from results.
-    pub derived: Vec<Derived>,
+    pub derived: Vec<DerivedColumn>,
     /// Plots over the runs.
     pub plots: Vec<StudyPlot>,
 }
@@ -41,7 +41,7 @@ pub struct Study {
 /// A column derived from a result.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Derived {
+pub struct DerivedColumn {
     /// Name of the column.
     pub name: String,
     /// The result by its name (see `crate::quantities`).
@@ -134,7 +134,7 @@ struct RawStudy {
     #[serde(default)]
     axis: Vec<RawAxis>,
     #[serde(default)]
-    result: Vec<Derived>,
+    result: Vec<DerivedColumn>,
     #[serde(default)]
     plot: Vec<StudyPlot>,
 }
@@ -151,12 +151,12 @@ impl Study {
             source,
         })?;
         let source = Source::parse(path, text, &[])?;
-        let study = Self::of_source(&source).map_err(|fault| source.error(fault))?;
+        let study = Self::from_source(&source).map_err(|fault| source.error(fault))?;
         Ok(study)
     }
 
     /// Checks the parts of a study.
-    fn of_source(source: &Source) -> Result<Self, KeyFault> {
+    fn from_source(source: &Source) -> Result<Self, KeyFault> {
         let (document, root) = (&source.document, KeyPath::default());
         let raw: RawStudy = decode(document, &root).map_err(in_study)?;
         require(
@@ -253,9 +253,9 @@ fn check_axes(axes: &[Axis], has_geometry: bool, place: &KeyPath) -> Result<(), 
     )
 }
 
-fn check_derived(derived: &[Derived], root: &KeyPath) -> Result<(), KeyFault> {
+fn check_derived(derived: &[DerivedColumn], root: &KeyPath) -> Result<(), KeyFault> {
     let place = |index: usize| root.child("result").child(index);
-    for (index, Derived { name, over, .. }) in derived.iter().enumerate() {
+    for (index, DerivedColumn { name, over, .. }) in derived.iter().enumerate() {
         require_column_name(|| place(index).child("name"), name)?;
         require(
             *over != 0.0,
@@ -327,7 +327,7 @@ fn collect(
             collect(&entry.node, &place, &key, out)?;
         } else {
             out.push(Setting {
-                given: format!("{key}={}", written::toml(&entry.node, &place)?),
+                given: format!("{key}={}", toml_text::toml(&entry.node, &place)?),
                 place,
             });
         }

@@ -9,7 +9,7 @@ use serde_json::{Map, Value as Cell};
 use super::plan::{Run, short_keys};
 use super::record::Status;
 use super::study::Study;
-use super::written::words;
+use super::toml_text::words;
 use crate::quantities::{Quantities, flatten};
 use ligament::suggestion::hint;
 
@@ -36,8 +36,8 @@ struct Column {
     "no column of numbers is called `{name}`{}",
     hint(name, known, "there are", '`')
 )]
-pub(super) struct NoColumn {
-    /// The name.
+pub(super) struct UnknownColumn {
+    /// Name of the column.
     pub(super) name: String,
     /// The columns of numbers.
     pub(super) known: Vec<String>,
@@ -45,7 +45,7 @@ pub(super) struct NoColumn {
 
 /// A run as a row.
 pub(super) struct Row<'a> {
-    /// The run.
+    /// Run of the row.
     pub(super) run: &'a Run,
     /// Status of the run.
     pub(super) status: Status,
@@ -119,7 +119,7 @@ impl StudyTable {
         names.retain(|name| !varied.contains(name));
         let column = |name: String| {
             let cells = rows.iter().map(|row| row.get(&name).cloned());
-            let cells = of_one_type(cells.map(Option::unwrap_or_default).collect());
+            let cells = with_common_type(cells.map(Option::unwrap_or_default).collect());
             Column { name, cells }
         };
         Self {
@@ -128,13 +128,13 @@ impl StudyTable {
     }
 
     /// The numbers of a column, shape (n_runs); `None` where a run has none. Inputs may be named without their prefix.
-    pub(super) fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, NoColumn> {
+    pub(super) fn numbers(&self, name: &str) -> Result<Vec<Option<f64>>, UnknownColumn> {
         let is_number = |column: &&Column| column.cells.iter().any(Cell::is_number);
         let by_name = |name: &str| self.columns.iter().find(|column| column.name == name);
         let found = by_name(name).or_else(|| by_name(&format!("{INPUT}{name}")));
         match found.filter(is_number) {
             Some(column) => Ok(column.cells.iter().map(Cell::as_f64).collect()),
-            None => Err(NoColumn {
+            None => Err(UnknownColumn {
                 name: name.to_owned(),
                 known: (self.columns.iter().filter(is_number))
                     .map(|column| column.name.clone())
@@ -174,7 +174,7 @@ fn value(cell: &Cell) -> Value<'_> {
 }
 
 /// The cells of a column in their narrowest common type: integers of 64 bits, numbers, Booleans or texts, with null in any.
-fn of_one_type(cells: Vec<Cell>) -> Vec<Cell> {
+fn with_common_type(cells: Vec<Cell>) -> Vec<Cell> {
     let all = |is: fn(&Cell) -> bool| cells.iter().all(|cell| cell.is_null() || is(cell));
     if all(Cell::is_i64) || all(Cell::is_boolean) {
         return cells;
@@ -235,7 +235,7 @@ mod tests {
             (json!([null]), json!([null])),
         ] {
             let cells = cells.as_array().unwrap().clone();
-            assert_eq!(Cell::from(of_one_type(cells)), typed);
+            assert_eq!(Cell::from(with_common_type(cells)), typed);
         }
     }
 

@@ -5,7 +5,9 @@ use std::str::FromStr;
 use ligament_model::failure::frictional::{self, Calibration, Friction};
 use ligament_model::failure::{Criteria, Criterion, Measure, sliding, stretch};
 use ligament_model::{Isotropic, Plane};
-use ligament_post::yielding::{Family, PrincipalStretches, Worst, margin, printed_orientations};
+use ligament_post::yielding::{
+    Family, PrincipalStretches, WorstOrientation, margin, printed_orientations,
+};
 
 use super::error::YieldError;
 use ligament::suggestion::hint;
@@ -81,7 +83,7 @@ impl FromStr for Combination {
 
 impl Combination {
     /// Combinations in the paper's figures.
-    pub fn of_the_figures() -> Vec<Self> {
+    pub fn of_figures() -> Vec<Self> {
         FIGURES.iter().flat_map(|words| words.parse()).collect()
     }
 
@@ -132,9 +134,9 @@ impl Combination {
         strengths: &Strengths,
         directions: &[f64],
         path: PrincipalStretches,
-    ) -> Result<Option<Worst>, YieldError> {
+    ) -> Result<Option<WorstOrientation>, YieldError> {
         let criteria = self.criteria(strengths, directions.len())?;
-        let family = Family::of_directions(directions, &criteria);
+        let family = Family::from_directions(directions, &criteria);
         let utilisation = family.theoretical_utilisation(path);
         if utilisation <= 0.0 {
             return Ok(None);
@@ -157,7 +159,7 @@ impl Combination {
 
 impl Strengths {
     /// Strengths of the MPPD paper's tables: nu = 0, and a compressive strength of three times the tensile one.
-    pub const OF_THE_TABLES: Self = Self {
+    pub const TABLE_STRENGTHS: Self = Self {
         poisson: 0.0,
         ratio: 3.0,
         calibration: Calibration::Printed,

@@ -9,7 +9,7 @@ use ligament_post::yielding::locus::{LocusPoint, bond_locus, principal_locus};
 
 use super::request::SUMMARY;
 use super::subject::{Strain, Subject};
-use ligament_plot::plots::equal::EqualScales;
+use ligament_plot::plots::equal_scales::EqualScales;
 use ligament_plot::plots::polar::PolarPlot;
 use ligament_plot::plots::{Colour, Plot, Series};
 
@@ -18,7 +18,7 @@ use ligament_plot::plots::{Colour, Plot, Series};
 pub(super) struct Comparison {
     /// Name of the criterion.
     pub(super) criterion: String,
-    /// The families.
+    /// Families that are compared.
     pub(super) subjects: Vec<Subject>,
 }
 
@@ -190,7 +190,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
         append_locus(table, criterion, subject, &points)?;
         let effective = around(&points, |it| it.effective);
         principal.push(Series::curve(&subject.name, *colour, effective));
-        for (place, piece) in deciding(&points).into_iter().enumerate() {
+        for (place, piece) in limits_by_criterion(&points).into_iter().enumerate() {
             let name = if place == 0 {
                 subject.name.as_str()
             } else {
@@ -250,7 +250,7 @@ fn around(points: &[LocusPoint], strains: fn(&LocusPoint) -> PrincipalStretches)
 }
 
 /// Effective limits of a bond's stretch and sliding, in pieces of successive paths with the same deciding criterion.
-fn deciding(points: &[LocusPoint]) -> Vec<Vec<[f64; 2]>> {
+fn limits_by_criterion(points: &[LocusPoint]) -> Vec<Vec<[f64; 2]>> {
     let mut pieces: Vec<(usize, Vec<[f64; 2]>)> = Vec::new();
     for it in points {
         let scale = 1.0 + it.error;

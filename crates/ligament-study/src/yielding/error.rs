@@ -90,7 +90,7 @@ pub enum YieldError {
     /// A position away from the body.
     #[error("there is no point of the body within a horizon ({horizon:.3e} m) of ({}, {}); the nearest is {nearest}", at[0], at[1])]
     NotInBody {
-        /// The position.
+        /// Position without a point.
         at: [f64; 2],
         /// Description of the nearest point.
         nearest: String,

@@ -23,7 +23,7 @@ pub mod subject;
 use criteria::Combination;
 use diagrams::Comparison;
 pub use error::YieldError;
-pub use request::{Families, Place, Request};
+pub use request::{BodyPoint, Families, Request};
 use subject::{Strain, Subject};
 
 /// Computes errors and loci, prints them and writes them.
@@ -34,31 +34,35 @@ use subject::{Strain, Subject};
 pub fn yielding(request: &Request, screen: &mut (dyn Write + Send)) -> anyhow::Result<()> {
     request.check()?;
     match &request.of {
-        Families::Lattices(ratios) => of_lattices(request, ratios, screen)?,
+        Families::Lattices(ratios) => yield_of_lattices(request, ratios, screen)?,
         Families::Point(case, place) => point::draw(request, case, *place, screen)?,
         Families::Field(case) => field::draw(request, case, screen)?,
     }
     Ok(writeln!(screen, "results in {}", request.out.display())?)
 }
 
-fn of_lattices(request: &Request, ratios: &[f64], screen: &mut dyn Write) -> anyhow::Result<()> {
+fn yield_of_lattices(
+    request: &Request,
+    ratios: &[f64],
+    screen: &mut dyn Write,
+) -> anyhow::Result<()> {
     let poisson = request.poisson.unwrap_or(0.0);
     let strengths = request.strengths(poisson);
     let given = &request.combinations;
     let combinations = if given.is_empty() {
-        Combination::of_the_figures()
+        Combination::of_figures()
     } else {
         given.clone()
     };
     let mut comparisons = Vec::new();
     for combination in &combinations {
-        let of_ratio = |&ratio: &f64| Subject::of_lattice(ratio, combination, &strengths);
+        let of_ratio = |&ratio: &f64| Subject::from_lattice(ratio, combination, &strengths);
         comparisons.push(Comparison {
             criterion: combination.name().to_owned(),
             subjects: ratios.iter().map(of_ratio).collect::<Result<_, _>>()?,
         });
     }
-    let strains = Strain::of_the_figures(poisson);
+    let strains = Strain::of_figures(poisson);
     diagrams::write(request.folder()?, &comparisons, &strains)?;
     writeln!(
         screen,

@@ -8,7 +8,7 @@ use super::console;
 use super::diagrams::{self, Comparison};
 use super::error::YieldError;
 use super::of_case::{criteria, model, poisson};
-use super::request::{Place, Request};
+use super::request::{BodyPoint, Request};
 use super::subject::{Strain, Subject};
 use ligament::run::on_threads;
 use ligament_case::case::CaseFile;
@@ -19,7 +19,7 @@ use ligament_run::summary::heading;
 pub(super) fn draw(
     request: &Request,
     case: &CaseFile,
-    place: Place,
+    place: BodyPoint,
     screen: &mut (dyn Write + Send),
 ) -> anyhow::Result<()> {
     on_threads(case.threads(), || {
@@ -29,7 +29,7 @@ pub(super) fn draw(
         let label = model.body().label(point);
         let mut comparisons = Vec::new();
         for (criterion, criteria) in criteria(request, &model)? {
-            let subject = Subject::of_point(label.clone(), model.plane(), &criteria, point);
+            let subject = Subject::at_point(label.clone(), model.plane(), &criteria, point);
             comparisons.push(Comparison {
                 criterion,
                 subjects: vec![subject],
@@ -39,11 +39,11 @@ pub(super) fn draw(
         for (comparison, combination) in comparisons.iter_mut().zip(&request.combinations) {
             let ratio = lattice::ratio_of_size(comparison.subjects[0].size as f64);
             let strengths = request.strengths(poisson);
-            let mut lattice = Subject::of_lattice(ratio, combination, &strengths)?;
+            let mut lattice = Subject::from_lattice(ratio, combination, &strengths)?;
             lattice.name = format!("lattice m = {ratio:.2}");
             comparison.subjects.push(lattice);
         }
-        let strains = Strain::of_the_figures(poisson);
+        let strains = Strain::of_figures(poisson);
         let yields = |it: &Comparison| {
             let family = it.subjects[0].family();
             let mut paths = diagrams::PATHS.into_iter();
@@ -63,10 +63,10 @@ pub(super) fn draw(
     })?
 }
 
-fn find(model: &Model, place: Place) -> Result<u32, YieldError> {
+fn find(model: &Model, place: BodyPoint) -> Result<u32, YieldError> {
     let (body, cloud) = (model.body(), &model.plane().cloud);
     match place {
-        Place::At(at) => {
+        BodyPoint::At(at) => {
             let point = cloud.nearest_point(at);
             let position = body.position(point);
             let horizon = model.fixed.horizon[point as usize];
@@ -80,7 +80,7 @@ fn find(model: &Model, place: Place) -> Result<u32, YieldError> {
                 horizon,
             })
         }
-        Place::Tag(tag) => {
+        BodyPoint::Tag(tag) => {
             let points = || 0..cloud.len() as u32;
             let tags = || points().map(|point| body.tag(point));
             points()

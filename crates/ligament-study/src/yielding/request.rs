@@ -27,7 +27,7 @@ pub struct Request {
     pub calibration: Calibration,
     /// Folder of the results.
     pub out: PathBuf,
-    /// Whether earlier results there may be replaced.
+    /// Whether earlier results in the output folder may be replaced.
     pub force: bool,
 }
 
@@ -37,14 +37,14 @@ pub enum Families {
     /// Lattices with these horizons, in spacings.
     Lattices(Vec<f64>),
     /// One point of a case.
-    Point(Box<CaseFile>, Place),
+    Point(Box<CaseFile>, BodyPoint),
     /// All points of a case.
     Field(Box<CaseFile>),
 }
 
 /// A point of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Place {
+pub enum BodyPoint {
     /// The point nearest to a position, m.
     At([f64; 2]),
     /// The point with this tag.
@@ -65,7 +65,7 @@ const KIND: Kind = Kind {
         let is_diagram = |start: &&str| name.starts_with(*start) && name.ends_with(".svg");
         FILES.contains(&name) || ["bond-", "error-", "locus-"].iter().any(is_diagram)
     },
-    ..Kind::marked(SUMMARY)
+    ..Kind::with_marker(SUMMARY)
 };
 
 impl Request {
@@ -95,6 +95,6 @@ impl Request {
 
     /// Creates the folder of the results.
     pub(super) fn folder(&self) -> Result<ResultFolder, ligament_output::Error> {
-        ResultFolder::create_marked(&self.out, KIND, self.force)
+        ResultFolder::create_of_kind(&self.out, KIND, self.force)
     }
 }

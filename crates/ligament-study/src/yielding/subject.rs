@@ -2,7 +2,7 @@
 
 use ligament_model::BondSystem;
 use ligament_model::failure::{Criteria, Criterion};
-use ligament_post::yielding::{Family, PrincipalStretches, Worst, lattice};
+use ligament_post::yielding::{Family, PrincipalStretches, WorstOrientation, lattice};
 
 use super::criteria::{Combination, Strengths};
 use super::error::YieldError;
@@ -33,7 +33,7 @@ pub struct Strain {
 
 impl Strain {
     /// The strains of the figures: a bar in tension, which is the paper's simple extension at nu = 0, and pure shear.
-    pub fn of_the_figures(poisson: f64) -> [Self; 2] {
+    pub fn of_figures(poisson: f64) -> [Self; 2] {
         [
             Self {
                 name: "tension",
@@ -55,7 +55,7 @@ impl Subject {
     /// # Errors
     ///
     /// If no friction fits the strengths.
-    pub fn of_lattice(
+    pub fn from_lattice(
         ratio: f64,
         combination: &Combination,
         strengths: &Strengths,
@@ -71,7 +71,7 @@ impl Subject {
     }
 
     /// The family of a point of a body, with the criteria of the body's bonds.
-    pub fn of_point(name: String, system: &BondSystem, criteria: &Criteria, point: u32) -> Self {
+    pub fn at_point(name: String, system: &BondSystem, criteria: &Criteria, point: u32) -> Self {
         let bonds = system.bonds.incidence.at(point);
         let angle = |&bond: &u32| {
             let [a, b] = system.bonds.direction[bond as usize];
@@ -99,7 +99,7 @@ impl Subject {
 
     /// The bonds of the subject.
     pub fn family(&self) -> Family<'_> {
-        Family::of_directions(&self.directions, &self.criteria)
+        Family::from_directions(&self.directions, &self.criteria)
     }
 
     /// Name of the criterion with an index.
@@ -112,7 +112,10 @@ impl Subject {
     /// # Errors
     ///
     /// If no friction fits the strengths.
-    pub fn printed_measure(&self, path: PrincipalStretches) -> Result<Option<Worst>, YieldError> {
+    pub fn printed_measure(
+        &self,
+        path: PrincipalStretches,
+    ) -> Result<Option<WorstOrientation>, YieldError> {
         match &self.printed {
             Some((combination, strengths)) => {
                 combination.printed_measure(strengths, &self.directions, path)

@@ -27,7 +27,7 @@ pub struct ExperimentFile {
     /// The case of all tables.
     #[serde(default)]
     pub(super) run: Run,
-    pub(super) table: Vec<TableOfFile>,
+    pub(super) table: Vec<FileTable>,
     #[serde(default)]
     pub(super) plot: Vec<Figure>,
 }
@@ -96,7 +96,7 @@ pub(super) struct SettingsByLabels {
 /// A table of known values, and the value that is compared with them.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct TableOfFile {
+pub(super) struct FileTable {
     /// Name of its file in `published`, without `.csv`.
     pub(super) file: String,
     /// Expression of the computed value.
@@ -106,13 +106,13 @@ pub(super) struct TableOfFile {
     pub(super) run: Run,
     /// Labels that stand for several runs each. The first key is the outermost.
     #[serde(default)]
-    pub(super) over: Vec<Over>,
+    pub(super) over: Vec<LabelExpansion>,
 }
 
 /// A label that stands for several labels.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Over {
+pub(super) struct LabelExpansion {
     /// Key, or several with a comma and a space between them, as between the labels of a member.
     pub(super) key: String,
     /// The label; empty where the table has no such key.
@@ -129,7 +129,7 @@ pub(super) enum Choice {
     ByLabels {
         /// Keys of the labels.
         by: Vec<String>,
-        /// By the labels, with a comma and a space between them; `else` for all others.
+        /// Texts by the labels, with a comma and a space between them; `else` for all others.
         texts: BTreeMap<String, String>,
     },
 }
@@ -185,7 +185,7 @@ impl Choice {
         }
     }
 
-    /// All texts.
+    /// All texts of the choice.
     pub(super) fn texts(&self) -> Vec<&str> {
         match self {
             Self::Always(text) => vec![text],
@@ -234,7 +234,7 @@ pub(super) struct FixedLine {
 #[serde(deny_unknown_fields)]
 pub(super) struct TableSeries {
     pub(super) name: String,
-    /// The table.
+    /// File of the table.
     pub(super) file: String,
     /// Key of the numbers along x.
     pub(super) x: String,
@@ -243,7 +243,7 @@ pub(super) struct TableSeries {
     pub(super) of: String,
     pub(super) colour: String,
     #[serde(default)]
-    pub(super) mark: MarkOfFile,
+    pub(super) mark: FileMark,
     /// Whether the values are the known ones.
     #[serde(default)]
     pub(super) known: bool,
@@ -254,7 +254,7 @@ pub(super) struct TableSeries {
 
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(super) enum MarkOfFile {
+pub(super) enum FileMark {
     #[default]
     Line,
     Curve,
@@ -266,7 +266,7 @@ pub(super) enum MarkOfFile {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RunSeries {
-    /// Key of the lines, or several as in [`Over`], its labels, and their name with the label in braces.
+    /// Key of the lines, or several as in [`LabelExpansion`], its labels, and their name with the label in braces.
     pub(super) line: String,
     pub(super) lines: Vec<String>,
     pub(super) name: String,

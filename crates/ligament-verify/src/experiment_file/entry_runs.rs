@@ -1,17 +1,17 @@
-//! The runs of an entry, and the memory of their results.
+//! The runs of an entry, and the cache of their results.
 
 use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use anyhow::{Context, bail};
 
-use super::document::{Choice, ExperimentFile, Over, Run, TableOfFile};
-use super::expression::{Expression, Place};
+use super::document::{Choice, ExperimentFile, FileTable, LabelExpansion, Run};
+use super::expression::{Expression, RunRow};
 use super::quantity::{CURVE, RunResults, ensure_known};
+use crate::case_run::CaseRun;
 use crate::places::repository;
 use crate::published::known;
 use crate::table::{Labels, number};
-use crate::trial::Trial;
 use crate::uniform_stress::loads;
 
 /// Placeholder for doubled braces while the others are filled: a character that no setting has.
@@ -40,9 +40,9 @@ enum Meaning<'a> {
 
 impl<'a> EntryRuns<'a> {
     /// The runs of an entry of a table.
-    pub(super) fn of_entry(
+    pub(super) fn for_entry(
         file: &'a ExperimentFile,
-        table: &'a TableOfFile,
+        table: &'a FileTable,
         labels: Labels<'_>,
     ) -> anyhow::Result<Self> {
         let of_entry: BTreeMap<String, String> = (labels.pairs())
@@ -50,7 +50,7 @@ impl<'a> EntryRuns<'a> {
             .collect();
         let mut runs = vec![of_entry.clone()];
         for over in &table.over {
-            let Over {
+            let LabelExpansion {
                 key,
                 label,
                 members,
@@ -58,7 +58,7 @@ impl<'a> EntryRuns<'a> {
             if of_entry.get(key).map_or("", String::as_str) != label {
                 continue;
             }
-            runs = with_each(&runs, key, members);
+            runs = combined_with_labels(&runs, key, members);
         }
         Self::new(file, &table.run, &table.value, runs)
     }
@@ -84,7 +84,7 @@ impl<'a> EntryRuns<'a> {
     /// The command of a run.
     fn command(&self, run: usize) -> anyhow::Result<&str> {
         if self.commands[run].get().is_none() {
-            let command = self.trial(run)?.command();
+            let command = self.case_run(run)?.command();
             return Ok(self.commands[run].get_or_init(|| command));
         }
         self.commands[run]
@@ -93,8 +93,8 @@ impl<'a> EntryRuns<'a> {
             .context("no command")
     }
 
-    /// The trial of a run.
-    pub(super) fn trial(&self, run: usize) -> anyhow::Result<Trial> {
+    /// The case run of a run of the entry.
+    pub(super) fn case_run(&self, run: usize) -> anyhow::Result<CaseRun> {
         let labels = &self.runs[run];
         let choice = |own: &'a Option<Choice>, of_file: &'a Option<Choice>| {
             let choice = own.as_ref().or(of_file.as_ref());
@@ -102,10 +102,10 @@ impl<'a> EntryRuns<'a> {
             anyhow::Ok(text.transpose()?.map(|it| with_labels(it, labels)))
         };
         let case = choice(&self.run.case, &self.file.run.case)?.context("no `case` is named")?;
-        let mut trial = Trial::of_file(&case)?;
+        let mut case_run = CaseRun::from_file(&case)?;
         let mesh = choice(&self.run.mesh, &self.file.run.mesh)?;
         if let Some(mesh) = mesh.filter(|it| !it.is_empty()) {
-            trial = trial.on_mesh_file(repository().join("meshes").join(mesh));
+            case_run = case_run.on_mesh_file(repository().join("meshes").join(mesh));
         }
         let mut settings: Vec<&String> = Vec::new();
         for run in [&self.file.run, self.run] {
@@ -118,28 +118,29 @@ impl<'a> EntryRuns<'a> {
             let (key, value) = setting
                 .split_once('=')
                 .context("a setting is `key=value`")?;
-            trial = trial.set_toml(key, &self.filled(value, run, None)?);
+            case_run = case_run.set_toml(key, &self.filled_setting(value, run, None)?);
         }
         for of in [&self.file.run, self.run] {
             if let Some(list) = &of.list {
-                let items = (0..list.count).map(|it| self.filled(&list.item, run, Some(it)));
+                let items =
+                    (0..list.count).map(|it| self.filled_setting(&list.item, run, Some(it)));
                 let items = items.collect::<anyhow::Result<Vec<_>>>()?;
-                trial = trial.set_toml(&list.key, &format!("[{}]", items.join(",")));
+                case_run = case_run.set_toml(&list.key, &format!("[{}]", items.join(",")));
             }
             if let Some(stress) = &of.stress {
                 let number = |text: &str| self.constant(text, run, None);
                 let principal = stress.principal.for_labels(|key| label(labels, key))?;
                 let principal = principal.split(';').map(number);
                 let principal = principal.collect::<anyhow::Result<Vec<_>>>()?;
-                trial = trial.set_toml("load", &loads(&principal, number(&stress.angle)?)?);
+                case_run = case_run.set_toml("load", &loads(&principal, number(&stress.angle)?)?);
             }
         }
-        Ok(trial)
+        Ok(case_run)
     }
 
     /// The value of an expression of labels and numbers of the file, in which `item` may count.
     fn constant(&self, text: &str, run: usize, item: Option<usize>) -> anyhow::Result<f64> {
-        let place = Place { run, row: None };
+        let place = RunRow { run, row: None };
         Expression::parse(text)?.at(place, &mut |place, name| match item {
             Some(item) if name == "item" => Ok(item as f64),
             _ => self.number(place.run, name),
@@ -147,7 +148,12 @@ impl<'a> EntryRuns<'a> {
     }
 
     /// A setting with its braces filled: in a text by labels, elsewhere by numbers. Braces that belong to the setting are doubled.
-    fn filled(&self, setting: &str, run: usize, item: Option<usize>) -> anyhow::Result<String> {
+    fn filled_setting(
+        &self,
+        setting: &str,
+        run: usize,
+        item: Option<usize>,
+    ) -> anyhow::Result<String> {
         let setting = setting.replace("{{", OPENING).replace("}}", CLOSING);
         let mut filled = String::new();
         let mut left = &*setting;
@@ -158,7 +164,7 @@ impl<'a> EntryRuns<'a> {
             if is_in_text {
                 filled.push_str(&label(&self.runs[run], inner)?);
             } else {
-                filled.push_str(&written(self.constant(inner, run, item)?));
+                filled.push_str(&number_text(self.constant(inner, run, item)?));
             }
             left = after;
         }
@@ -171,7 +177,7 @@ impl<'a> EntryRuns<'a> {
         match self.meaning(run, name)? {
             Meaning::Number(number) => Ok(number),
             Meaning::Expression(expression) => {
-                let place = Place { run, row: None };
+                let place = RunRow { run, row: None };
                 expression.at(place, &mut |place, name| self.number(place.run, name))
             }
             _ => bail!("no label and no number is called `{name}`"),
@@ -208,7 +214,7 @@ impl<'a> EntryRuns<'a> {
 }
 
 /// Labels of runs, each with all labels of a key, or of several, in turn.
-pub(super) fn with_each(
+pub(super) fn combined_with_labels(
     runs: &[BTreeMap<String, String>],
     key: &str,
     labels: &[String],
@@ -262,7 +268,7 @@ pub(super) fn with_labels(text: &str, labels: &BTreeMap<String, String>) -> Stri
 }
 
 /// A number as TOML has it; a whole one without a point, as lattices count their cells.
-fn written(number: f64) -> String {
+fn number_text(number: f64) -> String {
     let whole = number.round();
     if (number - whole).abs() < 1e-9 * whole.abs().max(1.0) && whole.abs() < 1e9 {
         format!("{whole}")
@@ -273,13 +279,13 @@ fn written(number: f64) -> String {
 
 /// Results of all runs of an experiment, by their commands: equal commands give equal results.
 #[derive(Default)]
-pub(super) struct RunMemory {
+pub(super) struct RunCache {
     /// Quantities that are read from each run.
     wanted: BTreeMap<String, BTreeSet<String>>,
     found: BTreeMap<String, RunResults>,
 }
 
-impl RunMemory {
+impl RunCache {
     /// Notes the quantities that the value of some runs needs, so that each run is read at once.
     pub(super) fn plan(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<()> {
         (0..runs.runs.len()).try_for_each(|run| self.plan_names(runs, run, &runs.value))
@@ -298,7 +304,7 @@ impl RunMemory {
                 Meaning::Reference(other) => self.plan(&other)?,
                 Meaning::Quantity => {
                     ensure_known(name)?;
-                    self.want(runs, run, name)?;
+                    self.request_quantity(runs, run, name)?;
                 }
             }
         }
@@ -307,10 +313,15 @@ impl RunMemory {
 
     /// Notes that the curve of a run is needed.
     pub(super) fn plan_curve(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<()> {
-        self.want(runs, 0, CURVE)
+        self.request_quantity(runs, 0, CURVE)
     }
 
-    fn want(&mut self, runs: &EntryRuns<'_>, run: usize, name: &str) -> anyhow::Result<()> {
+    fn request_quantity(
+        &mut self,
+        runs: &EntryRuns<'_>,
+        run: usize,
+        name: &str,
+    ) -> anyhow::Result<()> {
         let wanted = self.wanted.entry(runs.command(run)?.to_owned());
         wanted.or_default().insert(name.to_owned());
         Ok(())
@@ -327,7 +338,7 @@ impl RunMemory {
     fn value_of_name(
         &mut self,
         runs: &EntryRuns<'_>,
-        place: Place,
+        place: RunRow,
         name: &str,
     ) -> anyhow::Result<f64> {
         match runs.meaning(place.run, name)? {
@@ -350,8 +361,8 @@ impl RunMemory {
         if !self.found.contains_key(command) {
             let wanted = self.wanted.get(command).cloned().unwrap_or_default();
             let number = |name: &str| runs.number(run, name);
-            let trial = runs.trial(run)?;
-            let results = RunResults::of_trial(&trial, &wanted, &number)?;
+            let case_run = runs.case_run(run)?;
+            let results = RunResults::from_case_run(&case_run, &wanted, &number)?;
             self.found.insert(command.to_owned(), results);
         }
         self.found.get(command).context("the run has no results")

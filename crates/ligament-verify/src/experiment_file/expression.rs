@@ -12,7 +12,7 @@ use ligament_study::line_fit::LineFit;
 use crate::fast_crack::rayleigh;
 use crate::record::Record;
 
-/// An expression.
+/// An expression of the results of runs.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Expression {
     Number(f64),
@@ -27,7 +27,7 @@ pub(super) enum Operator {
     Plus,
     Minus,
     Times,
-    Over,
+    LabelExpansion,
     Power,
 }
 
@@ -37,12 +37,12 @@ pub(super) struct Function {
     name: &'static str,
     /// Number of expressions; 0 for one or more.
     n_values: usize,
-    of: Of,
+    of: Evaluation,
 }
 
 #[derive(Debug)]
-enum Of {
-    /// Numbers.
+enum Evaluation {
+    /// A function of numbers.
     Numbers(fn(&[f64]) -> f64),
     /// The values of all runs; the only value of a run is the last one.
     Runs(fn(&[[f64; 2]]) -> anyhow::Result<f64>),
@@ -50,7 +50,7 @@ enum Of {
     Rows(fn(&Record, &[f64]) -> anyhow::Result<f64>),
 }
 
-use Of::{Numbers, Rows, Runs};
+use Evaluation::{Numbers, Rows, Runs};
 
 impl PartialEq for Function {
     fn eq(&self, other: &Self) -> bool {
@@ -58,7 +58,7 @@ impl PartialEq for Function {
     }
 }
 
-const fn function(name: &'static str, n_values: usize, of: Of) -> Function {
+const fn function(name: &'static str, n_values: usize, of: Evaluation) -> Function {
     Function { name, n_values, of }
 }
 
@@ -79,24 +79,24 @@ static FUNCTIONS: [Function; 30] = [
     function(
         "max",
         0,
-        Runs(|all| Ok(lasts(all).fold(f64::NEG_INFINITY, f64::max))),
+        Runs(|all| Ok(last_values(all).fold(f64::NEG_INFINITY, f64::max))),
     ),
     function(
         "min",
         0,
-        Runs(|all| Ok(lasts(all).fold(f64::INFINITY, f64::min))),
+        Runs(|all| Ok(last_values(all).fold(f64::INFINITY, f64::min))),
     ),
-    function("sum", 1, Runs(|all| Ok(lasts(all).sum()))),
+    function("sum", 1, Runs(|all| Ok(last_values(all).sum()))),
     function(
         "mean",
         1,
-        Runs(|all| Ok(lasts(all).sum::<f64>() / all.len() as f64)),
+        Runs(|all| Ok(last_values(all).sum::<f64>() / all.len() as f64)),
     ),
     // Largest minus smallest value over the mean, %.
     function(
         "spread",
         1,
-        Runs(|all| Ok(spread(&lasts(all).collect::<Vec<_>>()))),
+        Runs(|all| Ok(spread(&last_values(all).collect::<Vec<_>>()))),
     ),
     // Last minus first value over the first.
     function(
@@ -175,7 +175,7 @@ static FUNCTIONS: [Function; 30] = [
 ];
 
 /// The last values of all runs.
-fn lasts(all: &[[f64; 2]]) -> impl Iterator<Item = f64> {
+fn last_values(all: &[[f64; 2]]) -> impl Iterator<Item = f64> {
     all.iter().map(|it| it[1])
 }
 
@@ -193,13 +193,13 @@ pub(super) const TIME: &str = "history.time";
 
 /// A run, and a row of its history; without one its last state.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
+pub(super) struct RunRow {
     pub(super) run: usize,
     pub(super) row: Option<usize>,
 }
 
 /// Value of a name at a place.
-pub(super) type Value<'a> = &'a mut dyn FnMut(Place, &str) -> anyhow::Result<f64>;
+pub(super) type Value<'a> = &'a mut dyn FnMut(RunRow, &str) -> anyhow::Result<f64>;
 
 impl Expression {
     /// Reads an expression.
@@ -236,14 +236,14 @@ impl Expression {
     }
 
     /// Value of the expression at a place.
-    pub(super) fn at(&self, place: Place, of: Value<'_>) -> anyhow::Result<f64> {
+    pub(super) fn at(&self, place: RunRow, of: Value<'_>) -> anyhow::Result<f64> {
         self.in_row(place.run..place.run + 1, place.row, of)
     }
 
     fn in_row(&self, runs: Range<usize>, row: Option<usize>, of: Value<'_>) -> anyhow::Result<f64> {
         Ok(match self {
             Self::Number(number) => *number,
-            Self::Name(name) => of(place_of(name, runs, row)?, name)?,
+            Self::Name(name) => of(row_of(name, runs, row)?, name)?,
             Self::Negative(term) => -term.in_row(runs, row, of)?,
             Self::Both(operator, both) => {
                 let one = both[0].in_row(runs.clone(), row, of)?;
@@ -252,7 +252,7 @@ impl Expression {
                     Operator::Plus => one + other,
                     Operator::Minus => one - other,
                     Operator::Times => one * other,
-                    Operator::Over => one / other,
+                    Operator::LabelExpansion => one / other,
                     Operator::Power if other.fract() == 0.0 => one.powi(other as i32),
                     Operator::Power => one.powf(other),
                 }
@@ -280,7 +280,7 @@ impl Expression {
                     let (last, before) = terms.split_last().context("no values in the rows")?;
                     let before = before.iter().map(|it| it.in_row(runs.clone(), row, of));
                     let before = before.collect::<anyhow::Result<Vec<_>>>()?;
-                    let record = last.record(place_of(function.name, runs, None)?, of)?;
+                    let record = last.record(row_of(function.name, runs, None)?, of)?;
                     function_of_rows(&record, &before)?
                 }
             },
@@ -288,10 +288,10 @@ impl Expression {
     }
 
     /// The values in all rows of a run.
-    fn record(&self, place: Place, of: Value<'_>) -> anyhow::Result<Record> {
+    fn record(&self, place: RunRow, of: Value<'_>) -> anyhow::Result<Record> {
         let (mut times, mut values) = (Vec::new(), Vec::new());
         for row in 0..of(place, ROWS)? as usize {
-            let row = Place {
+            let row = RunRow {
                 row: Some(row),
                 ..place
             };
@@ -303,13 +303,13 @@ impl Expression {
 }
 
 /// The place of a name, which has one value.
-fn place_of(name: &str, runs: Range<usize>, row: Option<usize>) -> anyhow::Result<Place> {
+fn row_of(name: &str, runs: Range<usize>, row: Option<usize>) -> anyhow::Result<RunRow> {
     ensure!(
         runs.len() == 1,
         "`{name}` has {} values: it needs a statistic such as spread({name})",
         runs.len()
     );
-    Ok(Place {
+    Ok(RunRow {
         run: runs.start,
         row,
     })
@@ -329,7 +329,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Goes beyond a character if it is the next one.
-    fn takes(&mut self, wanted: char) -> bool {
+    fn skip_if(&mut self, wanted: char) -> bool {
         let is_next = self.next() == Some(wanted);
         if is_next {
             self.left = &self.left[wanted.len_utf8()..];
@@ -355,7 +355,7 @@ impl<'a> Reader<'a> {
         loop {
             let operator = match self.next() {
                 Some('*') => Operator::Times,
-                Some('/') => Operator::Over,
+                Some('/') => Operator::LabelExpansion,
                 _ => return Ok(found),
             };
             self.left = &self.left[1..];
@@ -364,11 +364,11 @@ impl<'a> Reader<'a> {
     }
 
     fn term(&mut self) -> anyhow::Result<Expression> {
-        if self.takes('-') {
+        if self.skip_if('-') {
             return Ok(Expression::Negative(Box::new(self.term()?)));
         }
         let base = self.base()?;
-        if !self.takes('^') {
+        if !self.skip_if('^') {
             return Ok(base);
         }
         let both = Box::new([base, self.term()?]);
@@ -376,9 +376,9 @@ impl<'a> Reader<'a> {
     }
 
     fn base(&mut self) -> anyhow::Result<Expression> {
-        if self.takes('(') {
+        if self.skip_if('(') {
             let found = self.sum()?;
-            ensure!(self.takes(')'), "a `)` is missing");
+            ensure!(self.skip_if(')'), "a `)` is missing");
             return Ok(found);
         }
         match self.next() {
@@ -415,7 +415,7 @@ impl<'a> Reader<'a> {
 
     fn name(&mut self) -> anyhow::Result<Expression> {
         let word = self.word(|it, _| it.is_alphanumeric() || it == '_' || it == '.');
-        if !self.takes('(') {
+        if !self.skip_if('(') {
             return Ok(Expression::Name(word.to_owned()));
         }
         let function = FUNCTIONS.iter().find(|it| it.name == word);
@@ -423,10 +423,10 @@ impl<'a> Reader<'a> {
         let function =
             function.with_context(|| format!("no function `{word}`; there are {}", known()))?;
         let mut terms = vec![self.sum()?];
-        while self.takes(',') {
+        while self.skip_if(',') {
             terms.push(self.sum()?);
         }
-        ensure!(self.takes(')'), "a `)` is missing");
+        ensure!(self.skip_if(')'), "a `)` is missing");
         let (found, expected) = (terms.len(), function.n_values);
         ensure!(
             expected == 0 || found == expected,
@@ -441,7 +441,7 @@ mod tests {
     use super::*;
 
     fn value(text: &str, runs: usize) -> anyhow::Result<f64> {
-        let mut of = |place: Place, name: &str| match name {
+        let mut of = |place: RunRow, name: &str| match name {
             "x" => Ok(place.run as f64),
             "crack.y_2" => Ok(3.0 * place.run as f64 + 1.0),
             ROWS => Ok(4.0),

@@ -6,25 +6,25 @@ use anyhow::{Context, bail};
 use ligament_plot::plots::{Colour, Mark, Plot, Series};
 
 use super::document::{
-    Choice, ExperimentFile, Figure, FixedLine, MarkOfFile, Run, RunSeries, TableSeries,
+    Choice, ExperimentFile, Figure, FileMark, FixedLine, Run, RunSeries, TableSeries,
 };
-use super::entry_runs::{EntryRuns, RunMemory, with_each, with_labels};
-use super::expression::{Expression, Place};
+use super::entry_runs::{EntryRuns, RunCache, combined_with_labels, with_labels};
+use super::expression::{Expression, RunRow};
 use crate::table::{Extent, Table, number};
 
 type LabelsOfRun = BTreeMap<String, String>;
 
 impl Figure {
     /// Notes the quantities that the plots need.
-    pub(super) fn plan(&self, file: &ExperimentFile, memory: &mut RunMemory) -> anyhow::Result<()> {
+    pub(super) fn plan(&self, file: &ExperimentFile, cache: &mut RunCache) -> anyhow::Result<()> {
         let Some(of_runs) = &self.runs else {
             return Ok(());
         };
-        for labels in self.of_each() {
+        for labels in self.labels_of_plots() {
             for labels in self.lines(&labels).into_iter().flat_map(|it| it.1) {
                 match &of_runs.y {
-                    Some(y) => memory.plan(&runs(file, y, labels)?)?,
-                    None => memory.plan_curve(&runs(file, "0", labels)?)?,
+                    Some(y) => cache.plan(&runs(file, y, labels)?)?,
+                    None => cache.plan_curve(&runs(file, "0", labels)?)?,
                 }
             }
         }
@@ -37,13 +37,13 @@ impl Figure {
         file: &ExperimentFile,
         extent: Extent,
         tables: &[Table],
-        memory: &mut RunMemory,
+        cache: &mut RunCache,
     ) -> anyhow::Result<Vec<Plot>> {
         if extent == Extent::Fast && self.runs.is_some() {
             return Ok(Vec::new());
         }
         let mut plots = Vec::new();
-        for labels in self.of_each() {
+        for labels in self.labels_of_plots() {
             let mut series = Vec::new();
             for line in &self.fixed {
                 series.push(line.series(file, &labels)?);
@@ -55,7 +55,7 @@ impl Figure {
                 for (place, (label, points)) in self.lines(&labels).into_iter().enumerate() {
                     let name = of_runs.name.replace("{}", &label);
                     let colour = of_runs.colours.get(place).context("a line has no colour")?;
-                    let (mark, points) = of_runs.points(file, points, memory)?;
+                    let (mark, points) = of_runs.points(file, points, cache)?;
                     series.push(Series::new(name, mark, colour_of(colour)?, points));
                 }
             }
@@ -75,10 +75,10 @@ impl Figure {
     }
 
     /// Labels of each plot.
-    fn of_each(&self) -> Vec<LabelsOfRun> {
+    fn labels_of_plots(&self) -> Vec<LabelsOfRun> {
         let mut all = vec![self.labels.clone()];
         for (key, labels) in &self.each {
-            all = with_each(&all, key, labels);
+            all = combined_with_labels(&all, key, labels);
         }
         all
     }
@@ -89,14 +89,14 @@ impl Figure {
             return Vec::new();
         };
         let line = |label: &String| {
-            let of_line = with_each(
+            let of_line = combined_with_labels(
                 std::slice::from_ref(labels),
                 &of_runs.line,
                 std::slice::from_ref(label),
             );
             let points = match &of_runs.x {
                 None => of_line,
-                Some(key) => with_each(&of_line, key, &of_runs.xs),
+                Some(key) => combined_with_labels(&of_line, key, &of_runs.xs),
             };
             (label.clone(), points)
         };
@@ -130,7 +130,7 @@ impl FixedLine {
     fn series(&self, file: &ExperimentFile, labels: &LabelsOfRun) -> anyhow::Result<Series> {
         let number = |text: &str| {
             let runs = runs(file, text, labels.clone())?;
-            let mut of = |place: Place, name: &str| runs.number(place.run, name);
+            let mut of = |place: RunRow, name: &str| runs.number(place.run, name);
             Expression::parse(text)?.value(0..1, &mut of)
         };
         let points = self
@@ -155,10 +155,10 @@ impl TableSeries {
             points.iter_mut().for_each(|point| point[1] -= point[0]);
         }
         let mark = match self.mark {
-            MarkOfFile::Line => Mark::Line,
-            MarkOfFile::Curve => Mark::Curve,
-            MarkOfFile::Circles => Mark::Circles,
-            MarkOfFile::Dashes => Mark::Dashes,
+            FileMark::Line => Mark::Line,
+            FileMark::Curve => Mark::Curve,
+            FileMark::Circles => Mark::Circles,
+            FileMark::Dashes => Mark::Dashes,
         };
         Ok(Series::new(
             &self.name,
@@ -175,7 +175,7 @@ impl RunSeries {
         &self,
         file: &ExperimentFile,
         points: Vec<LabelsOfRun>,
-        memory: &mut RunMemory,
+        cache: &mut RunCache,
     ) -> anyhow::Result<(Mark, Vec<[f64; 2]>)> {
         if let Some(axes) = &self.curve {
             let labels = points.into_iter().next().context("a curve has one run")?;
@@ -183,9 +183,9 @@ impl RunSeries {
             let axes = axes.each_ref().map(|text| Expression::parse(text));
             let [x, y] = axes;
             let (x, y) = (x?, y?);
-            let curve = memory.curve(&runs)?;
+            let curve = cache.curve(&runs)?;
             let point = |[displacement, reaction]: &[f64; 2]| {
-                let mut of = |place: Place, name: &str| match name {
+                let mut of = |place: RunRow, name: &str| match name {
                     "displacement" => Ok(*displacement),
                     "reaction" => Ok(*reaction),
                     other => runs.number(place.run, other),
@@ -200,7 +200,7 @@ impl RunSeries {
         };
         let point = |labels: LabelsOfRun| {
             let x = number(key, labels.get(key).context("no label along x")?)?;
-            Ok([x, memory.value(&runs(file, y, labels)?)?])
+            Ok([x, cache.value(&runs(file, y, labels)?)?])
         };
         let points = points.into_iter().map(point);
         let mut points = points.collect::<anyhow::Result<Vec<[f64; 2]>>>()?;

@@ -17,7 +17,7 @@ use ligament::run::Solution;
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
 use ligament_analysis::{Component, Observer};
 
-use crate::trial::Number;
+use crate::case_run::Number;
 
 /// First words of the names.
 pub(super) const NAMES: [&str; 10] = [
@@ -76,14 +76,14 @@ pub(super) fn value(solution: &Solution, row: &StepRecord, name: &str) -> anyhow
 }
 
 /// Data collected during a run.
-pub(super) struct Watch {
+pub(super) struct HistoryCollector {
     /// All breakages in their order.
     pub(super) breaks: Vec<BreakRecord>,
     /// Velocities of all degrees of freedom in all rows, where they are needed.
     velocities: Option<Vec<Vec<f64>>>,
 }
 
-impl Watch {
+impl HistoryCollector {
     /// Collects the data that the quantities of these names need.
     pub(super) fn new<'a>(mut names: impl Iterator<Item = &'a str>) -> Self {
         let needs_velocities = names.any(|it| it.starts_with("velocity."));
@@ -122,7 +122,7 @@ impl Watch {
     }
 }
 
-impl Observer for Watch {
+impl Observer for HistoryCollector {
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
         self.breaks.extend_from_slice(records);
         Ok(())

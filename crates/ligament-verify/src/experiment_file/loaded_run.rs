@@ -6,18 +6,18 @@ use anyhow::{Context, bail};
 use ligament::run::Solution;
 use ligament_analysis::driver::LoadPoint;
 use ligament_analysis::history::{BreakRecord, StepRecord};
-use ligament_output::csv::read::Sheet;
-use ligament_run::summary::DROP;
+use ligament_output::csv::read::CsvTable;
+use ligament_run::summary::LOAD_DROP;
 
 use super::history;
-use crate::crack_path::{Crack, Place, Segment, distance, ends, middle};
-use crate::fast_crack::{Branches, Break, FromNotches, breaks};
+use crate::case_run::{Number, displacement_at, largest_displacements};
+use crate::contact_pressure::{ContactPressure, contact_pressure};
+use crate::crack_path::{Crack, CrackPoint, Segment, distance, ends, middle};
+use crate::fast_crack::{Branches, Break, CracksOfNotches, breaks};
 use crate::hole::concentrations;
 use crate::places::repository;
-use crate::pressed::{Pressed, pressed};
 use crate::record::{Record, phase_speed};
 use crate::ring::{RadialDisplacements, Ring, radial_displacements};
-use crate::trial::{Number, displacement_at, largest_displacements};
 
 /// Distance from a circle within which a point lies on it, m: coordinates of a mesh are rounded.
 const ON_CIRCLE: f64 = 1e-9;
@@ -56,7 +56,7 @@ impl LoadedRun<'_> {
     }
 
     pub(super) fn first_peak(&self) -> anyhow::Result<LoadPoint> {
-        let peak = self.solution.outcome.first_peak(DROP);
+        let peak = self.solution.outcome.first_peak(LOAD_DROP);
         peak.context("the run has no state at rest")
     }
 
@@ -64,11 +64,11 @@ impl LoadedRun<'_> {
         self.breaks.first().context("no bond breaks")
     }
 
-    pub(super) fn first_break(&self) -> anyhow::Result<Place> {
+    pub(super) fn first_break(&self) -> anyhow::Result<CrackPoint> {
         Ok(middle(&self.solution.model, self.first()?.bond as usize))
     }
 
-    pub(super) fn first_crack(&self) -> anyhow::Result<Place> {
+    pub(super) fn first_crack(&self) -> anyhow::Result<CrackPoint> {
         let found = Crack::first_point(&self.solution.model, self.breaks);
         found.context("no point is cracked")
     }
@@ -95,7 +95,7 @@ impl LoadedRun<'_> {
     }
 
     /// Distance of a place from the nearest end of a cut, m.
-    pub(super) fn distance_from_tip(&self, place: Place) -> anyhow::Result<f64> {
+    pub(super) fn distance_from_tip(&self, place: CrackPoint) -> anyhow::Result<f64> {
         let cuts = self.cuts();
         let tips = cuts.iter().flatten();
         let distances = tips.map(|&tip| distance(place.at, [tip; 2]));
@@ -135,13 +135,13 @@ impl LoadedRun<'_> {
         Branches::new(&self.broken(), self.numbers)
     }
 
-    pub(super) fn notches(&self) -> anyhow::Result<FromNotches> {
-        FromNotches::new(&self.broken(), self.numbers)
+    pub(super) fn notches(&self) -> anyhow::Result<CracksOfNotches> {
+        CracksOfNotches::new(&self.broken(), self.numbers)
     }
 
-    pub(super) fn pressed(&self) -> anyhow::Result<Pressed> {
+    pub(super) fn contact_pressure(&self) -> anyhow::Result<ContactPressure> {
         let (directions, points) = (self.number("directions")?, self.number("side_points")?);
-        pressed(self.solution, directions as usize, points as u32)
+        contact_pressure(self.solution, directions as usize, points as u32)
     }
 
     pub(super) fn phase_speed(&self, points: f64) -> anyhow::Result<f64> {
@@ -208,24 +208,24 @@ impl LoadedRun<'_> {
         let (problem, of) = name.split_once('.').context("no component is named")?;
         let (problem, spacing, axis) = (problem.replace('_', "-"), self.number("d")?, axis(of)?);
         let text = std::fs::read_to_string(repository().join(ELEMENTS)).context(ELEMENTS)?;
-        let sheet = Sheet::parse(ELEMENTS, &text)?;
+        let sheet = CsvTable::parse(ELEMENTS, &text)?;
         let problems = sheet.values::<String>("problem")?.into_iter();
         let numbers = sheet.numbers(["d_mm", "x_mm", "y_mm", "ux_um", "uy_um"])?;
-        let (mut apart, mut size) = (0.0, 0.0);
+        let (mut difference, mut size) = (0.0, 0.0);
         for (of, [d, x, y, along, across]) in problems.zip(numbers) {
             if of == problem && d == spacing {
                 let element = [along, across][axis] / 1e6;
                 let found = displacement_at(self.solution, [1e-3 * x, 1e-3 * y])[axis];
-                apart += (found - element).powi(2);
+                difference += (found - element).powi(2);
                 size += element.powi(2);
             }
         }
-        Ok((apart / size).sqrt())
+        Ok((difference / size).sqrt())
     }
 
     pub(super) fn splits(&self, crack: &Crack) -> anyhow::Result<f64> {
         let [upper, lower] = self.platens()?;
-        Ok(f64::from(u8::from(crack.joins(upper, lower))))
+        Ok(f64::from(u8::from(crack.connects(upper, lower))))
     }
 }
 
@@ -246,7 +246,7 @@ pub(super) fn area(curve: &[LoadPoint]) -> f64 {
     curve.windows(2).map(of_pair).sum()
 }
 
-pub(super) fn radius(place: Place) -> f64 {
+pub(super) fn radius(place: CrackPoint) -> f64 {
     place.at[0].hypot(place.at[1])
 }
 

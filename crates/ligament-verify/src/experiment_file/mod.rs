@@ -6,7 +6,7 @@
 //! | `document` | the structure of the file |
 //! | `expression` | numbers, names, + - * / ^ and functions of numbers, of runs and of the history of a run |
 //! | `quantity`, `loaded_run`, `history` | quantities that an expression can read from a run, and from every row of its history |
-//! | `entry_runs` | the runs of an entry, each with its labels and its trial, and the memory of their results |
+//! | `entry_runs` | the runs of an entry, each with its labels and its case run, and the cache of their results |
 //! | `figure` | plots |
 
 mod document;
@@ -19,14 +19,14 @@ mod quantity;
 
 use anyhow::{Context, ensure};
 
+use super::case_run::CaseRun;
 use super::experiment::{Compute, Experiment, Findings};
 use super::published::{folder, known};
-use super::table::{Extent, Known};
-use super::trial::Trial;
+use super::table::{Extent, KnownTable};
 
 use document::Choice;
 pub use document::ExperimentFile;
-use entry_runs::{EntryRuns, RunMemory};
+use entry_runs::{EntryRuns, RunCache};
 
 impl ExperimentFile {
     /// Reads the experiment of a name.
@@ -67,12 +67,12 @@ impl ExperimentFile {
         cases
     }
 
-    /// The trial of the case of all tables with some labels, each after its key.
-    pub(super) fn trial(&self, labels: &[(&str, &str)]) -> anyhow::Result<Trial> {
+    /// The run of the case of all tables with some labels, each after its key.
+    pub(super) fn case_run(&self, labels: &[(&str, &str)]) -> anyhow::Result<CaseRun> {
         let labels = labels
             .iter()
             .map(|(key, label)| (key.to_string(), label.to_string()));
-        figure::runs(self, "0", labels.collect())?.trial(0)
+        figure::runs(self, "0", labels.collect())?.case_run(0)
     }
 
     /// Computes the tables, or their fast subset, and with all entries the plots.
@@ -82,11 +82,11 @@ impl ExperimentFile {
     /// If a table cannot be read, a case cannot be run, or a value has no meaning for an entry.
     pub(super) fn compute(&self, extent: Extent) -> anyhow::Result<Findings> {
         let known = self.table.iter().map(|table| known(&table.file));
-        let known: Vec<Known> = known.collect::<anyhow::Result<_>>()?;
-        let mut memory = RunMemory::default();
+        let known: Vec<KnownTable> = known.collect::<anyhow::Result<_>>()?;
+        let mut cache = RunCache::default();
         for (table, known) in self.table.iter().zip(&known) {
             known.judge(extent, |labels| {
-                memory.plan(&EntryRuns::of_entry(self, table, labels)?)?;
+                cache.plan(&EntryRuns::for_entry(self, table, labels)?)?;
                 Ok(f64::NAN)
             })?;
         }
@@ -95,17 +95,17 @@ impl ExperimentFile {
             Extent::Full => &self.plot,
         };
         for figure in figures {
-            figure.plan(self, &mut memory)?;
+            figure.plan(self, &mut cache)?;
         }
         let mut tables = Vec::new();
         for (table, known) in self.table.iter().zip(&known) {
             tables.push(known.judge(extent, |labels| {
-                memory.value(&EntryRuns::of_entry(self, table, labels)?)
+                cache.value(&EntryRuns::for_entry(self, table, labels)?)
             })?);
         }
         let mut plots = Vec::new();
         for figure in &self.plot {
-            plots.extend(figure.plots(self, extent, &tables, &mut memory)?);
+            plots.extend(figure.plots(self, extent, &tables, &mut cache)?);
         }
         Ok(Findings {
             tables,

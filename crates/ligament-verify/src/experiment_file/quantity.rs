@@ -24,37 +24,38 @@ use std::collections::{BTreeMap, BTreeSet};
 use anyhow::{Context, ensure};
 use ligament::patch_test::{PatchTest, patch_test};
 use ligament::run::Solution;
-use ligament_analysis::Termination;
+use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
+use ligament::{Loading, Model};
 use ligament_analysis::history::BreakRecord;
 use ligament_analysis::modal::ModeKind;
+use ligament_analysis::{Equilibrium, Termination};
 use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 
-use super::history::{self, Watch};
+use super::history::{self, HistoryCollector};
 use super::loaded_run::{
     LoadedRun, area, at_rim, axis, between_cuts, extent, half_turn, is_symmetric, leads_left, mean,
     radius, to_platens, towards_left,
 };
 use crate::anisotropy::Anisotropy;
+use crate::case_run::{CaseRun, Number};
 use crate::crack_path::{asymmetry, beside, ends};
 use crate::directions::stiffness;
-use crate::equations::Equations;
 use crate::named_modes::Frequencies;
 use crate::patch_test::{change_by_turn, poisson, scatter, young};
 use crate::square_elements::SquareLoad;
-use crate::trial::{Number, Trial};
 use crate::{griffith, lamina_elements, square_elements};
 
 /// Name of the curve of displacement and load among the quantities.
 pub(super) const CURVE: &str = "curve";
 
-/// Way to a quantity.
+/// Source of a quantity: a run, a case, its equations or a family of bonds.
 #[derive(Clone, Copy)]
 enum Source {
     Run(fn(&LoadedRun<'_>) -> anyhow::Result<f64>),
     /// Read from a run, with the rest of the name.
     Named(fn(&LoadedRun<'_>, &str) -> anyhow::Result<f64>),
-    /// Read from a trial, with the rest of the name.
-    Trial(fn(&Trial, &str, Number<'_>) -> anyhow::Result<f64>),
+    /// A function of the case run and of the rest of the name.
+    CaseRun(fn(&CaseRun, &str, Number<'_>) -> anyhow::Result<f64>),
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
@@ -196,15 +197,21 @@ static QUANTITIES: &[(&str, Source)] = &[
     ("notches.start", Source::Run(|it| Ok(it.notches()?.start))),
     ("notches.speed", Source::Run(|it| Ok(it.notches()?.speed))),
     // Pressures under a rigid body, over `directions` along the surface and `side_points` integration points of a side.
-    ("pressed.force", Source::Run(|it| Ok(it.pressed()?.force))),
-    ("pressed.reach", Source::Run(|it| Ok(it.pressed()?.reach))),
+    (
+        "pressed.force",
+        Source::Run(|it| Ok(it.contact_pressure()?.force)),
+    ),
+    (
+        "pressed.reach",
+        Source::Run(|it| Ok(it.contact_pressure()?.reach)),
+    ),
     (
         "pressed.largest",
-        Source::Run(|it| Ok(it.pressed()?.largest[0])),
+        Source::Run(|it| Ok(it.contact_pressure()?.largest[0])),
     ),
     (
         "pressed.fit",
-        Source::Run(|it| Ok(it.pressed()?.largest[1])),
+        Source::Run(|it| Ok(it.contact_pressure()?.largest[1])),
     ),
     // Share of the broken bonds that do not cross the lines y = `line` and -`line`, and the largest difference of damage between a point and its mirror images.
     (
@@ -311,7 +318,7 @@ static QUANTITIES: &[(&str, Source)] = &[
     ),
     (
         "griffith.released",
-        Source::Run(|it| griffith::released(it.solution, it.numbers)),
+        Source::Run(|it| griffith::released_energy_ratio(it.solution, it.numbers)),
     ),
     (
         "griffith.separation",
@@ -353,9 +360,11 @@ fn source(name: &str) -> anyhow::Result<Source> {
     Ok(match (found, first) {
         (Some(it), _) => it.1,
         (_, "frequency") => Source::Frequency,
-        (_, "turn") => Source::Trial(|trial, angle, _| change_by_turn(trial, angle.parse()?)),
-        (_, "direction") => Source::Trial(|trial, name, _| stiffness(trial, name)),
-        (_, "loaded_elements") => Source::Trial(|_, name, number| loaded_elements(name, number)),
+        (_, "turn") => {
+            Source::CaseRun(|case_run, angle, _| change_by_turn(case_run, angle.parse()?))
+        }
+        (_, "direction") => Source::CaseRun(|case_run, name, _| stiffness(case_run, name)),
+        (_, "loaded_elements") => Source::CaseRun(|_, name, number| loaded_elements(name, number)),
         (_, "intact") => Source::Named(|it, name| it.intact(name)),
         (_, "end") => Source::End,
         (_, "phase_speed") => Source::Named(|it, points| it.phase_speed(points.parse()?)),
@@ -382,16 +391,16 @@ pub(super) struct RunResults {
     pub(super) curve: Vec<[f64; 2]>,
 }
 
-/// Results of a trial that quantities need.
+/// Results of a case run that quantities need.
 #[derive(Default)]
-struct Found {
+struct ComputedResults {
     /// Frequencies of the elastic modes, Hz.
     modes: Vec<f64>,
     equations: Option<Equations>,
     /// Constants of the family of the point nearest to the origin.
     family: Option<EngineeringConstants>,
     patch: Option<PatchTest>,
-    run: Option<(Solution, Watch)>,
+    run: Option<(Solution, HistoryCollector)>,
     to_the_end: Option<Solution>,
     cantilevers: BTreeMap<Cantilever, Frequencies>,
     /// Breakages with explicit and with implicit steps.
@@ -400,10 +409,10 @@ struct Found {
     first_yields: BTreeMap<String, Anisotropy>,
 }
 
-impl Found {
-    /// Runs a trial in all ways that the sources need.
+impl ComputedResults {
+    /// Runs a case in all ways that the sources need.
     fn new(
-        trial: &Trial,
+        case_run: &CaseRun,
         sources: &[(String, Source)],
         numbers: Number<'_>,
     ) -> anyhow::Result<Self> {
@@ -416,38 +425,38 @@ impl Found {
                         let mut words = of.split('.').skip(1);
                         let (criterion, strain) =
                             words.next().zip(words.next()).context("no strain")?;
-                        let anisotropy = Anisotropy::new(&trial.model()?, criterion, strain)?;
+                        let anisotropy = Anisotropy::new(&case_run.model()?, criterion, strain)?;
                         found.first_yields.insert(of.to_owned(), anisotropy);
                     }
                 }
                 Source::CommonBreaks if found.schemes.is_empty() => {
                     for scheme in ["explicit", "implicit"] {
-                        let trial = trial.clone().set("motion.scheme", scheme);
-                        found.schemes.push(trial.solve_with_breakages()?.1);
+                        let case_run = case_run.clone().set("motion.scheme", scheme);
+                        found.schemes.push(case_run.solve_with_breakages()?.1);
                     }
                 }
-                Source::Frequency if found.modes.is_empty() => found.modes = frequencies(trial)?,
+                Source::Frequency if found.modes.is_empty() => found.modes = frequencies(case_run)?,
                 Source::Equations(_) if found.equations.is_none() => {
-                    found.equations = Some(Equations::from_model(&trial.model()?)?);
+                    found.equations = Some(Equations::from_model(&case_run.model()?)?);
                 }
                 Source::Family(_) if found.family.is_none() => {
-                    found.family = Some(family_in_the_middle(trial)?);
+                    found.family = Some(family_in_the_middle(case_run)?);
                 }
                 Source::Patch(_) if found.patch.is_none() => {
-                    found.patch = Some(patch_test(&trial.model()?)?);
+                    found.patch = Some(patch_test(&case_run.model()?)?);
                 }
                 Source::Modes(of) if !found.cantilevers.contains_key(of) => {
-                    let frequencies = of.frequencies(trial, numbers)?;
+                    let frequencies = of.frequencies(case_run, numbers)?;
                     found.cantilevers.insert(*of, frequencies);
                 }
                 Source::End if found.to_the_end.is_none() => {
-                    found.to_the_end = Some(trial.solve_to_the_end()?);
+                    found.to_the_end = Some(case_run.solve_to_the_end()?);
                 }
                 Source::Run(_) | Source::Named(_) | Source::Row | Source::Curve
                     if found.run.is_none() =>
                 {
-                    let mut watch = Watch::new(sources.iter().map(|it| &*it.0));
-                    found.run = Some((trial.solve_seen(&mut watch)?, watch));
+                    let mut watch = HistoryCollector::new(sources.iter().map(|it| &*it.0));
+                    found.run = Some((case_run.solve_with_observer(&mut watch)?, watch));
                 }
                 _ => {}
             }
@@ -459,7 +468,7 @@ impl Found {
     fn values(
         &self,
         (name, source): &(String, Source),
-        trial: &Trial,
+        case_run: &CaseRun,
         numbers: Number<'_>,
     ) -> anyhow::Result<Vec<f64>> {
         let run = || self.run.as_ref().context("the case was not run");
@@ -473,7 +482,7 @@ impl Found {
         };
         let (_, rest) = name.split_once('.').unwrap_or_default();
         Ok(vec![match source {
-            Source::Trial(of) => of(trial, rest, numbers)?,
+            Source::CaseRun(of) => of(case_run, rest, numbers)?,
             Source::Named(of) => of(&loaded()?, rest)?,
             Source::CommonBreaks => common_breaks(&self.schemes, 1e-6 * rest.parse::<f64>()?),
             Source::FirstYield => {
@@ -508,17 +517,17 @@ impl Found {
 }
 
 impl RunResults {
-    /// Runs a trial and reads some quantities.
-    pub(super) fn of_trial(
-        trial: &Trial,
+    /// Runs a case and reads some quantities.
+    pub(super) fn from_case_run(
+        case_run: &CaseRun,
         wanted: &BTreeSet<String>,
         numbers: Number<'_>,
     ) -> anyhow::Result<Self> {
         let sources = wanted.iter().map(|name| Ok((name.clone(), source(name)?)));
         let sources: Vec<(String, Source)> = sources.collect::<anyhow::Result<_>>()?;
-        let found = Found::new(trial, &sources, numbers)?;
+        let found = ComputedResults::new(case_run, &sources, numbers)?;
         let values = sources.iter().filter(|it| it.0 != CURVE).map(|it| {
-            let values = found.values(it, trial, numbers);
+            let values = found.values(it, case_run, numbers);
             (it.0.clone(), values.map_err(|error| format!("{error:#}")))
         });
         let curve = found.run.as_ref().map(|it| it.0.outcome.envelope());
@@ -546,9 +555,9 @@ impl RunResults {
 }
 
 impl Cantilever {
-    fn frequencies(self, trial: &Trial, number: Number<'_>) -> anyhow::Result<Frequencies> {
+    fn frequencies(self, case_run: &CaseRun, number: Number<'_>) -> anyhow::Result<Frequencies> {
         match self {
-            Self::Case => Frequencies::from_trial(trial, number("along")? as usize),
+            Self::Case => Frequencies::from_case_run(case_run, number("along")? as usize),
             Self::SquareOfElements => {
                 square_elements::frequencies(number("nu")?, number("density")?)
             }
@@ -576,16 +585,16 @@ fn loaded_elements(name: &str, number: Number<'_>) -> anyhow::Result<f64> {
     Ok(square_elements::largest_displacements(load, nu)?[axis(of)?])
 }
 
-fn family_in_the_middle(trial: &Trial) -> anyhow::Result<EngineeringConstants> {
-    let model = trial.model()?;
+fn family_in_the_middle(case_run: &CaseRun) -> anyhow::Result<EngineeringConstants> {
+    let model = case_run.model()?;
     let middle = model.plane().cloud.nearest_point([0.0, 0.0]);
     let stiffness = family_stiffness(model.plane(), middle);
     EngineeringConstants::from_stiffness(stiffness).context("the family has no stiffness")
 }
 
 /// Frequencies of the elastic modes, Hz.
-fn frequencies(trial: &Trial) -> anyhow::Result<Vec<f64>> {
-    let modes = trial.modes()?;
+fn frequencies(case_run: &CaseRun) -> anyhow::Result<Vec<f64>> {
+    let modes = case_run.modes()?;
     let elastic = modes.iter().filter(|mode| mode.kind == ModeKind::Elastic);
     Ok(elastic.map(|mode| mode.frequency()).collect())
 }
@@ -594,4 +603,42 @@ fn frequency(modes: &[f64], number: &str) -> anyhow::Result<f64> {
     let number: usize = number.parse()?;
     let found = number.checked_sub(1).and_then(|it| modes.get(it)).copied();
     found.with_context(|| format!("the body has no elastic mode {number}"))
+}
+
+/// Sizes of the equations of equilibrium, with the program's elimination order.
+#[derive(Debug, Clone, Copy)]
+struct Equations {
+    /// Number of bonds.
+    bonds: f64,
+    /// Number of unknowns, the order of the stiffness matrix.
+    unknowns: f64,
+    /// Number of entries of the matrix's lower triangle.
+    matrix: f64,
+    /// Number of values of the matrix's factor.
+    factor: f64,
+    /// Number of multiplications of the factorisation.
+    multiplications: f64,
+}
+
+impl Equations {
+    /// The sizes of the equations of a model.
+    ///
+    /// # Errors
+    ///
+    /// If the supports and loads, or the equations, cannot be set up.
+    fn from_model(model: &Model) -> anyhow::Result<Self> {
+        let loading = Loading::new(model)?;
+        let problem = loading.problem(model);
+        let equilibrium = Equilibrium::new(&problem, ELASTIC_ENERGY_TOLERANCE)?;
+        let stiffness = equilibrium.stiffness();
+        let stiffness = stiffness.context("the equations are solved without a matrix")?;
+        let symbolic = stiffness.symbolic();
+        Ok(Self {
+            bonds: model.plane().bonds.len() as f64,
+            unknowns: stiffness.unknowns().len() as f64,
+            matrix: symbolic.pattern().n_entries() as f64,
+            factor: symbolic.n_factor_values() as f64,
+            multiplications: symbolic.n_multiplications(),
+        })
+    }
 }

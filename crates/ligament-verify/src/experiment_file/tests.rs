@@ -18,10 +18,10 @@ fn the_experiments_of_the_repository_are_right() {
         }
         for table in &file.table {
             let known = known(&table.file).unwrap();
-            let mut memory = RunMemory::default();
+            let mut cache = RunCache::default();
             known
                 .judge(Extent::Full, |labels| {
-                    memory.plan(&EntryRuns::of_entry(&file, table, labels)?)?;
+                    cache.plan(&EntryRuns::for_entry(&file, table, labels)?)?;
                     Ok(f64::NAN)
                 })
                 .unwrap();
@@ -50,7 +50,7 @@ over = [{ key = "lambda", label = "all", members = ["3", "4"] }]
 fn runs<'a>(file: &'a ExperimentFile, labels: [&str; 2]) -> anyhow::Result<EntryRuns<'a>> {
     let keys = ["lambda", "correction"].map(str::to_owned);
     let labels = labels.map(str::to_owned);
-    EntryRuns::of_entry(
+    EntryRuns::for_entry(
         file,
         &file.table[0],
         crate::table::Labels::new(&keys, &labels),
@@ -61,14 +61,14 @@ fn runs<'a>(file: &'a ExperimentFile, labels: [&str; 2]) -> anyhow::Result<Entry
 #[test]
 fn labels_become_settings() {
     let file: ExperimentFile = toml::from_str(TEXT).unwrap();
-    let command = runs(&file, ["4", "patch"]).unwrap().trial(0).unwrap();
+    let command = runs(&file, ["4", "patch"]).unwrap().case_run(0).unwrap();
     assert_eq!(
         command.command(),
         "ligament run cases/plate-tension/case.toml --set model.horizon_factor=4 --set correction.surface=\"patch\" --set \
          lattice.cells=[15,90] --set fracture={ steps = 2 }"
     );
     let joined = runs(&file, ["all", "domain"]).unwrap();
-    assert_eq!(RunMemory::default().value(&joined).unwrap(), 2.5);
+    assert_eq!(RunCache::default().value(&joined).unwrap(), 2.5);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn what_is_wrong_is_told() {
         ),
     ] {
         let file: ExperimentFile = toml::from_str(&TEXT.replacen(from, to, 1)).unwrap();
-        let found = runs(&file, ["4", "patch"]).and_then(|it| RunMemory::default().plan(&it));
+        let found = runs(&file, ["4", "patch"]).and_then(|it| RunCache::default().plan(&it));
         let found = format!("{:#}", found.unwrap_err());
         assert!(found.contains(expected), "{from}: {found}");
     }
@@ -128,7 +128,7 @@ fn lists_and_stresses_become_settings() {
 list = { key = "fracture.steps", count = 3, item = "{item/2 + lambda}" }
 stress = { principal = "-2*area; 0", angle = "0*lambda" }"#;
     let file = file_with(&[(SET, settings)]);
-    let command = runs(&file, ["4", "patch"]).unwrap().trial(0).unwrap();
+    let command = runs(&file, ["4", "patch"]).unwrap().case_run(0).unwrap();
     assert_eq!(
         command.command(),
         "ligament run cases/plate-tension/case.toml --set fracture.steps=[4,4.5,5] --set \
@@ -156,7 +156,7 @@ sum = "lambda + coarse""#;
             r#"key = "lambda, factor", members = ["3, 2", "4, 5"]"#,
         ),
     ]);
-    let value = |labels| RunMemory::default().value(&runs(&file, labels).unwrap());
+    let value = |labels| RunCache::default().value(&runs(&file, labels).unwrap());
     assert_eq!(value(["3", "domain"]).unwrap(), 7.0 / (400.85 - 1403.0));
     let several = format!("{:#}", value(["3", "patch"]).unwrap_err());
     assert!(several.contains("`sum` has 2 values"), "{several}");
@@ -164,7 +164,7 @@ sum = "lambda + coarse""#;
         ("[numbers]", references),
         ("\"last.stiffness/force\"", "\"max(sum)\""),
     ]);
-    let value = |labels| RunMemory::default().value(&runs(&file, labels).unwrap());
+    let value = |labels| RunCache::default().value(&runs(&file, labels).unwrap());
     assert_eq!(value(["3", "patch"]).unwrap(), 43.0);
 }
 
@@ -189,7 +189,7 @@ other = "1 + {number}""#
             ("[numbers]", &references),
             ("last.stiffness/force", "other"),
         ]);
-        let planned = runs(&file, ["3", "patch"]).and_then(|it| RunMemory::default().plan(&it));
+        let planned = runs(&file, ["3", "patch"]).and_then(|it| RunCache::default().plan(&it));
         let found = format!("{:#}", planned.unwrap_err());
         assert!(found.contains(expected), "{number}: {found}");
     }

@@ -12,7 +12,7 @@ use crate::named_modes::NAMES;
 /// Displacements of a body, and rotations of a lattice.
 #[derive(Debug, Clone)]
 pub(super) struct Motion {
-    /// The body.
+    /// Points or elements that move.
     pub(super) body: Discretisation,
     /// Displacements of the body's points, shape (n_points, 2), m; for a mode with an arbitrary amplitude.
     pub(super) displacements: Vec<[f64; 2]>,
@@ -36,13 +36,13 @@ pub(super) enum Quantity {
     Component(usize),
     /// The length of the displacement, for modes.
     Length,
-    /// The rotation.
+    /// The rotation of the points.
     Rotation,
 }
 
 impl Motion {
     /// The motion of a lattice by the values of all its degrees of freedom.
-    pub(super) fn of_lattice(system: &dyn System<2>, of_all: &[f64]) -> anyhow::Result<Self> {
+    pub(super) fn from_lattice(system: &dyn System<2>, of_all: &[f64]) -> anyhow::Result<Self> {
         let (cloud, layout) = (&system.cloud, system.topology().layout);
         let [spacing, _] = cloud.lattice_cell.context("the body is no lattice")?;
         let points = 0..cloud.len() as u32;
@@ -57,7 +57,7 @@ impl Motion {
     }
 
     /// The motion of finite elements by the displacements of their nodes.
-    pub(super) fn of_elements(mesh: Mesh, displacements: Vec<[f64; 2]>) -> Self {
+    pub(super) fn from_elements(mesh: Mesh, displacements: Vec<[f64; 2]>) -> Self {
         Self {
             body: Discretisation::Elements(mesh),
             displacements,
@@ -149,8 +149,9 @@ impl Motion {
             values.map(|[u, v]| u * u + v * v).sum::<f64>()
         };
         let pairs = self.displacements.iter().zip(&other);
-        let apart = squares(&mut pairs.map(|(one, other)| [one[0] - other[0], one[1] - other[1]]));
-        (apart / squares(&mut other.iter().copied())).sqrt()
+        let difference =
+            squares(&mut pairs.map(|(one, other)| [one[0] - other[0], one[1] - other[1]]));
+        (difference / squares(&mut other.iter().copied())).sqrt()
     }
 
     /// Modal assurance (a . b)^2/(a . a b . b) with elements, at the points of this lattice: 1 for equal shapes.
@@ -166,7 +167,7 @@ impl Motion {
     }
 
     /// The body with a quantity, for drawing.
-    pub(super) fn drawn(&self, title: impl Into<String>, quantity: Quantity) -> MappedBody {
+    pub(super) fn mapped_body(&self, title: impl Into<String>, quantity: Quantity) -> MappedBody {
         let values = match quantity {
             Quantity::Component(axis) => self.displacements.iter().map(|u| u[axis]).collect(),
             Quantity::Length => self
@@ -178,9 +179,9 @@ impl Motion {
         };
         match &self.body {
             Discretisation::Lattice(points, spacing) => {
-                MappedBody::of_lattice(title, points, *spacing, &self.displacements, values)
+                MappedBody::from_lattice(title, points, *spacing, &self.displacements, values)
             }
-            Discretisation::Elements(mesh) => MappedBody::of_mesh(
+            Discretisation::Elements(mesh) => MappedBody::from_mesh(
                 title,
                 mesh.nodes.clone(),
                 quadrilaterals(mesh),
@@ -220,7 +221,7 @@ pub(super) fn maps_of_component(
         quantity: quantity.to_owned(),
         unit: "m",
         bodies: (motions.iter())
-            .map(|(title, motion)| motion.drawn(title, Quantity::Component(axis)))
+            .map(|(title, motion)| motion.mapped_body(title, Quantity::Component(axis)))
             .collect(),
         columns: motions.len(),
         are_modes: false,
@@ -233,7 +234,7 @@ pub(super) fn maps_of_modes(name: String, title: &str, methods: &[(&str, Vec<Mot
         let pairs = modes.iter().zip(NAMES);
         let drawn = |(motion, name): (&Motion, &str)| {
             let motion = motion.clone().with_sign();
-            motion.drawn(format!("{method}, {name}"), Quantity::Length)
+            motion.mapped_body(format!("{method}, {name}"), Quantity::Length)
         };
         pairs.map(drawn).collect::<Vec<_>>()
     };

@@ -8,8 +8,8 @@ use ligament_analysis::history::BreakRecord;
 use ligament_output::vtu::Cell;
 use ligament_plot::picture::maps::{MappedBody, Maps};
 
+use crate::case_run::CaseRun;
 use crate::experiment_file::ExperimentFile;
-use crate::trial::Trial;
 
 /// The correction of the paper, and the patch correction, under which uniform strains are in equilibrium.
 const CORRECTIONS: [&str; 2] = ["domain", "patch"];
@@ -45,21 +45,21 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     let [disk, slotted, inclined, plates] = [disk?, slotted?, inclined?, plates?];
     let of = |file: &ExperimentFile, correction: &str, labels: &[(&str, &str)]| {
         let all = [&[("correction", correction), ("lambda", "3")], labels].concat();
-        file.trial(&all)
+        file.case_run(&all)
     };
     for (mesh, figure) in DISKS {
-        let trial = |correction| of(&disk, correction, &[("mesh", mesh)]);
+        let case_run = |correction| of(&disk, correction, &[("mesh", mesh)]);
         let title = format!("Brazilian disk, lambda = 3, mesh of {mesh}");
-        maps.push(under_both(figure, title, trial)?);
+        maps.push(under_both(figure, title, case_run)?);
     }
     for (case, figure) in SLOTS {
-        let trial = |correction| of(&slotted, correction, &[("slots", case), ("mesh", "2 mm")]);
+        let case_run = |correction| of(&slotted, correction, &[("slots", case), ("mesh", "2 mm")]);
         let slots = match case.parse::<u32>() {
             Ok(angle) => format!("one slot at {angle} degrees"),
             Err(_) => format!("{case} slots"),
         };
         let title = format!("Disk with {slots}, lambda = 3");
-        maps.push(under_both(figure, title, trial)?);
+        maps.push(under_both(figure, title, case_run)?);
     }
     maps.push(under_both(
         24,
@@ -68,8 +68,8 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     )?);
     for (case, figure) in PLATES {
         let labels = [("case", case), ("d", "1"), ("criterion", "mixed-mode")];
-        let trial = (plates.trial(&labels)?).set("fracture.stop.load_fraction", END);
-        let run = trial.solve_with_breakages()?;
+        let case_run = (plates.case_run(&labels)?).set("fracture.stop.load_fraction", END);
+        let run = case_run.solve_with_breakages()?;
         maps.push(Maps {
             name: format!("mbb-figure-{figure}"),
             title: format!("Plate of MBB-PD, {case}, 1 mm"),
@@ -84,11 +84,11 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 fn under_both(
     figure: usize,
     title: String,
-    trial: impl Fn(&'static str) -> anyhow::Result<Trial>,
+    case_run: impl Fn(&'static str) -> anyhow::Result<CaseRun>,
 ) -> anyhow::Result<Maps> {
     let mut bodies = Vec::new();
     for correction in CORRECTIONS {
-        let run = trial(correction)?.solve_with_breakages()?;
+        let run = case_run(correction)?.solve_with_breakages()?;
         bodies.extend(stages(&format!("{correction}: "), &run)?);
     }
     Ok(Maps {
@@ -134,13 +134,13 @@ fn stages(
         let positions = &cloud.positions;
         if cells.is_empty() {
             let [spacing, _] = cloud.lattice_cell.context("the body has no cells")?;
-            return Ok(MappedBody::of_lattice(
+            return Ok(MappedBody::from_lattice(
                 title, positions, spacing, &unmoved, values,
             ));
         }
         let cells = cells.iter().map(|cell| Cell::from(*cell));
         let (positions, unmoved) = (positions.clone(), unmoved.clone());
-        Ok(MappedBody::of_mesh(
+        Ok(MappedBody::from_mesh(
             title,
             positions,
             cells.collect(),

@@ -6,10 +6,10 @@ use ligament_plot::picture::maps::{MappedBody, Maps};
 
 use super::Motion;
 use super::drawing::maps_of_component;
+use crate::case_run::CaseRun;
 use crate::experiment_file::ExperimentFile;
 use crate::finite_elements::{Body, Degree, Mesh};
 use crate::ring::{Ring, radial};
-use crate::trial::Trial;
 
 const YOUNG: f64 = 65.8e9;
 
@@ -25,7 +25,7 @@ const ELEMENTS: [usize; 2] = [100, 99];
 const FREE_STRAIN: f64 = 23e-6 * 50.0;
 
 /// Prescribed displacements of the nodes of elements, shape (n_nodes, 2), m.
-type Prescribed = Vec<[Option<f64>; 2]>;
+type PrescribedDisplacements = Vec<[Option<f64>; 2]>;
 
 /// All maps of intact bodies.
 pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
@@ -34,12 +34,12 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
         (1, "y", "mbb-plate/tension"),
         (0, "x", "mbb-plate/tension-x"),
     ] {
-        let motions = beside(pulled(axis)?, case, 0.2)?;
+        let motions = compared_motions(plate_in_tension(axis)?, case, 0.2)?;
         let title = format!("Plate in tension along {name}, nu = 0.2");
         let file = format!("mbb-figure-9-tension-{name}");
         maps.push(maps_of_component(file, &title, &motions, axis));
     }
-    let motions = beside(sheared()?, "mbb-plate/shear", 0.3)?;
+    let motions = compared_motions(plate_in_shear()?, "mbb-plate/shear", 0.3)?;
     let file = "mbb-figure-9-shear".to_owned();
     maps.push(maps_of_component(
         file,
@@ -55,7 +55,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
             "Heated plate, three edges clamped",
         ),
     ] {
-        let motions = beside(heated(edges)?, case, 0.4)?;
+        let motions = compared_motions(heated_plate(edges)?, case, 0.4)?;
         for axis in [1, 0] {
             let file = format!("mbb-figure-10-{edges}-edges");
             maps.push(maps_of_component(file, title, &motions, axis));
@@ -66,10 +66,15 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 }
 
 /// The motions of finite elements and of the lattice of a case.
-fn beside(elements: Motion, case: &str, ratio: f64) -> anyhow::Result<[(String, Motion); 2]> {
-    let trial = Trial::of_file(&format!("cases/{case}.toml"))?.set("material.poisson", ratio);
-    let solution = trial.solve()?;
-    let lattice = Motion::of_lattice(
+fn compared_motions(
+    elements: Motion,
+    case: &str,
+    ratio: f64,
+) -> anyhow::Result<[(String, Motion); 2]> {
+    let case_run =
+        CaseRun::from_file(&format!("cases/{case}.toml"))?.set("material.poisson", ratio);
+    let solution = case_run.solve()?;
+    let lattice = Motion::from_lattice(
         &**solution.model.plane(),
         &solution.outcome.state.displacement,
     )?;
@@ -89,19 +94,23 @@ fn plate(ratio: f64) -> Body {
 }
 
 /// Half of the elements' extent along x and y, m.
-fn half() -> [f64; 2] {
+fn half_extent() -> [f64; 2] {
     ELEMENTS.map(|cells| 0.5 * SPACING * cells as f64)
 }
 
-fn solved(body: Body, prescribed: &Prescribed, forces: &[[f64; 2]]) -> anyhow::Result<Motion> {
+fn plate_solution(
+    body: Body,
+    prescribed: &PrescribedDisplacements,
+    forces: &[[f64; 2]],
+) -> anyhow::Result<Motion> {
     let displacements = body.displacements(prescribed, forces)?;
-    Ok(Motion::of_elements(body.mesh, displacements))
+    Ok(Motion::from_elements(body.mesh, displacements))
 }
 
 /// The plate under 200 MPa on both ends, as a body force on the outermost elements; the middle is fixed.
-fn pulled(axis: usize) -> anyhow::Result<Motion> {
+fn plate_in_tension(axis: usize) -> anyhow::Result<Motion> {
     let body = plate(0.2);
-    let outermost = half()[axis] - SPACING;
+    let outermost = half_extent()[axis] - SPACING;
     let forces = body.volume_forces(|centre| {
         let mut force = [0.0; 2];
         if centre[axis].abs() > outermost {
@@ -111,14 +120,14 @@ fn pulled(axis: usize) -> anyhow::Result<Motion> {
     });
     let mut prescribed = vec![[None; 2]; body.mesh.nodes.len()];
     prescribed[body.mesh.nearest_node([0.0, 0.0])] = [Some(0.0); 2];
-    prescribed[body.mesh.nearest_node([0.0, half()[1]])][0] = Some(0.0);
-    Ok(solved(body, &prescribed, &forces)?.without_rigid_motion())
+    prescribed[body.mesh.nearest_node([0.0, half_extent()[1]])][0] = Some(0.0);
+    Ok(plate_solution(body, &prescribed, &forces)?.without_rigid_motion())
 }
 
 /// The plate with the upper edge moved along x by 1 mm, and the lower edge fixed.
-fn sheared() -> anyhow::Result<Motion> {
+fn plate_in_shear() -> anyhow::Result<Motion> {
     let body = plate(0.3);
-    let edge = half()[1] - 0.1 * SPACING;
+    let edge = half_extent()[1] - 0.1 * SPACING;
     let given = |[_, y]: &[f64; 2]| match (*y > edge, *y < -edge) {
         (true, _) => [Some(1e-3), Some(0.0)],
         (_, true) => [Some(0.0); 2],
@@ -126,19 +135,19 @@ fn sheared() -> anyhow::Result<Motion> {
     };
     let prescribed = body.mesh.nodes.iter().map(given).collect();
     let forces = vec![[0.0; 2]; body.mesh.nodes.len()];
-    solved(body, &prescribed, &forces)
+    plate_solution(body, &prescribed, &forces)
 }
 
 /// The heated plate: the free expansion about the origin, and displacements that cancel it at the clamped edges, top and bottom, and of
 /// three edges also the left one.
-fn heated(edges: usize) -> anyhow::Result<Motion> {
+fn heated_plate(edges: usize) -> anyhow::Result<Motion> {
     let body = plate(0.4);
-    let edge = half().map(|it| it - 0.1 * SPACING);
+    let edge = half_extent().map(|it| it - 0.1 * SPACING);
     let is_clamped = |[x, y]: [f64; 2]| y.abs() > edge[1] || (edges == 3 && x < -edge[0]);
     let given = |&node: &[f64; 2]| node.map(|it| is_clamped(node).then_some(-FREE_STRAIN * it));
     let prescribed = body.mesh.nodes.iter().map(given).collect();
     let forces = vec![[0.0; 2]; body.mesh.nodes.len()];
-    let mut motion = solved(body, &prescribed, &forces)?;
+    let mut motion = plate_solution(body, &prescribed, &forces)?;
     motion.expand(FREE_STRAIN);
     Ok(motion)
 }
@@ -149,7 +158,7 @@ fn cylinder() -> anyhow::Result<Maps> {
     let mut bodies = Vec::new();
     for ratio in [0.1, -0.1] {
         let solution = file
-            .trial(&[("d", "50"), ("nu", &ratio.to_string())])?
+            .case_run(&[("d", "50"), ("nu", &ratio.to_string())])?
             .solve()?;
         let ring = Ring {
             inner: 1.5,
@@ -168,7 +177,7 @@ fn cylinder() -> anyhow::Result<Maps> {
             };
             let displacements: Vec<[f64; 2]> = places.iter().zip(&values).map(moved).collect();
             let title = format!("{title}, nu = {ratio}");
-            bodies.push(MappedBody::of_lattice(
+            bodies.push(MappedBody::from_lattice(
                 title,
                 &places,
                 spacing,

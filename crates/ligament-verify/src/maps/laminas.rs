@@ -4,10 +4,10 @@ use ligament_plot::picture::maps::Maps;
 
 use super::Motion;
 use super::drawing::{Quantity, maps_of_component, maps_of_modes};
+use crate::case_run::CaseRun;
 use crate::lamina_elements;
 use crate::named_modes::in_named_order;
 use crate::tension;
-use crate::trial::Trial;
 
 /// Case of the natural modes.
 pub(super) const MODES: &str = "cases/verification/lamina-modes.toml";
@@ -24,15 +24,15 @@ const ANGLES: [(f64, usize, usize); 5] = [
     (90.0, 15, 23),
 ];
 
-/// All maps of the figures.
+/// Maps of all figures of laminas.
 pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     let mut maps = vec![rotations()?];
     for (angle, figure, _) in ANGLES {
         let (mesh, displacements) = lamina_elements::displacements(angle.to_radians())?;
-        let elements = Motion::of_elements(mesh, displacements).without_rigid_motion();
+        let elements = Motion::from_elements(mesh, displacements).without_rigid_motion();
         let motions = [
             ("finite elements".to_owned(), elements),
-            ("lattice".to_owned(), stretched(angle, true)?),
+            ("lattice".to_owned(), lamina_in_tension(angle, true)?),
         ];
         let title = format!("Lamina in tension, axis 1 at {angle} degrees");
         for axis in [0, 1] {
@@ -43,7 +43,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     for (angle, _, figure) in ANGLES {
         let (mesh, elements) = lamina_elements::modes(angle.to_radians())?;
         let elements = in_named_order(elements, |it| it.participation[ALONG])?;
-        let elements = elements.map(|mode| Motion::of_elements(mesh.clone(), mode.shape));
+        let elements = elements.map(|mode| Motion::from_elements(mesh.clone(), mode.shape));
         let methods = [
             ("finite elements", elements.into()),
             ("lattice", modes(angle)?),
@@ -56,13 +56,13 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 }
 
 /// The lamina in tension, with or without its hole.
-fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
-    let mut trial = Trial::of_file(tension::CASE)?.set("material.angle", angle.to_radians());
+fn lamina_in_tension(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
+    let mut case_run = CaseRun::from_file(tension::CASE)?.set("material.angle", angle.to_radians());
     if !has_hole {
-        trial = trial.set("lattice.remove", Vec::<f64>::new());
+        case_run = case_run.set("lattice.remove", Vec::<f64>::new());
     }
-    let solution = trial.solve()?;
-    let motion = Motion::of_lattice(
+    let solution = case_run.solve()?;
+    let motion = Motion::from_lattice(
         &**solution.model.plane(),
         &solution.outcome.state.displacement,
     )?;
@@ -70,11 +70,11 @@ fn stretched(angle: f64, has_hole: bool) -> anyhow::Result<Motion> {
 }
 
 fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
-    let trial = Trial::of_file(MODES)?.set("material.angle", angle.to_radians());
-    let model = trial.model()?;
+    let case_run = CaseRun::from_file(MODES)?.set("material.angle", angle.to_radians());
+    let model = case_run.model()?;
     let system = model.plane();
-    let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
-    let modes = modes.map(|mode| Motion::of_lattice(&**system, &mode.shape));
+    let modes = in_named_order(case_run.modes()?, |it| it.participation[ALONG])?;
+    let modes = modes.map(|mode| Motion::from_lattice(&**system, &mode.shape));
     modes.into_iter().collect()
 }
 
@@ -82,7 +82,7 @@ fn modes(angle: f64) -> anyhow::Result<Vec<Motion>> {
 fn rotations() -> anyhow::Result<Maps> {
     let mut bodies = Vec::new();
     for (title, has_hole) in [("without hole", false), ("with hole", true)] {
-        bodies.push(stretched(0.0, has_hole)?.drawn(title, Quantity::Rotation));
+        bodies.push(lamina_in_tension(0.0, has_hole)?.mapped_body(title, Quantity::Rotation));
     }
     Ok(Maps {
         name: "omppd-figure-9".to_owned(),

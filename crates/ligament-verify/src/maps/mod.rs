@@ -14,7 +14,7 @@ use super::table::Extent;
 use super::tension;
 use drawing::Motion;
 
-/// The experiment.
+/// Experiment that draws the maps of the papers.
 pub(super) const EXPERIMENT: Experiment = Experiment {
     name: "maps",
     title: "Maps of displacements, modes and damage",

@@ -5,10 +5,10 @@ use ligament_plot::picture::maps::Maps;
 
 use super::Motion;
 use super::drawing::{Quantity, maps_of_component, maps_of_modes};
+use crate::case_run::{CaseRun, ResultCache};
 use crate::named_modes::{NAMES, in_named_order};
 use crate::readings::case_of;
 use crate::square_elements::{self, SquareLoad};
-use crate::trial::{Memory, Trial};
 
 /// Case of the natural modes.
 pub(super) const MODES: &str = "cases/verification/square-modes.toml";
@@ -29,8 +29,8 @@ const MODELS: [&str; 2] = ["PDS", "MPPD"];
 /// Computed motions, by load, Poisson's ratio and model.
 #[derive(Debug, Default)]
 pub(super) struct Squares {
-    motions: Memory<Motion>,
-    modes: Memory<Vec<Motion>>,
+    motions: ResultCache<Motion>,
+    modes: ResultCache<Vec<Motion>>,
 }
 
 impl Squares {
@@ -39,7 +39,7 @@ impl Squares {
         self.motions.result(format!("elements {load} {ratio}"), || {
             let (mesh, displacements) =
                 square_elements::displacements(SquareLoad::named(load)?, ratio)?;
-            Ok(Motion::of_elements(mesh, displacements).without_rigid_motion())
+            Ok(Motion::from_elements(mesh, displacements).without_rigid_motion())
         })
     }
 
@@ -50,11 +50,11 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Motion> {
-        let trial = Trial::of_file(case_of(SquareLoad::named(load)?))?
+        let case_run = CaseRun::from_file(case_of(SquareLoad::named(load)?))?
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
-        self.motions.reading(&trial, |it| {
-            let motion = Motion::of_lattice(&**it.model.plane(), &it.outcome.state.displacement)?;
+        self.motions.reading(&case_run, |it| {
+            let motion = Motion::from_lattice(&**it.model.plane(), &it.outcome.state.displacement)?;
             Ok(motion.without_rigid_motion())
         })
     }
@@ -64,7 +64,7 @@ impl Squares {
         self.modes.result(format!("elements {ratio}"), || {
             let (mesh, modes) = square_elements::modes(ratio, DENSITY)?;
             let modes = in_named_order(modes, |it| it.participation[ALONG])?;
-            let motion = |shape| Motion::of_elements(mesh.clone(), shape);
+            let motion = |shape| Motion::from_elements(mesh.clone(), shape);
             Ok(modes.map(|mode| motion(mode.shape)).into())
         })
     }
@@ -75,19 +75,19 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Vec<Motion>> {
-        let trial = (Trial::of_file(MODES)?)
+        let case_run = (CaseRun::from_file(MODES)?)
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
-        self.modes.result(trial.command(), || {
-            let model = trial.model()?;
+        self.modes.result(case_run.command(), || {
+            let model = case_run.model()?;
             let system = model.plane();
-            let modes = in_named_order(trial.modes()?, |it| it.participation[ALONG])?;
-            let modes = modes.map(|mode| Motion::of_lattice(&**system, &mode.shape));
+            let modes = in_named_order(case_run.modes()?, |it| it.participation[ALONG])?;
+            let modes = modes.map(|mode| Motion::from_lattice(&**system, &mode.shape));
             modes.into_iter().collect()
         })
     }
 
-    /// All maps of the figures.
+    /// Maps of all figures of squares.
     pub(super) fn maps(&mut self) -> anyhow::Result<Vec<Maps>> {
         let mut maps = Vec::new();
         let mut turning = Vec::new();
@@ -98,7 +98,7 @@ impl Squares {
                     motions.push((model.to_owned(), self.lattice(load, ratio, model)?));
                 }
                 if let (2, Some((_, motion))) = (row, motions.last()) {
-                    turning.push(motion.drawn(format!("nu = {written}"), Quantity::Rotation));
+                    turning.push(motion.mapped_body(format!("nu = {written}"), Quantity::Rotation));
                 }
                 let name = format!("mppd-figure-{}", first + 3 * row);
                 let title = format!("Square plate in {load}, nu = {written}");

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Context;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 
 /// Points of a curve in their order, shape (n, 2).
 pub(super) type Points = [[f64; 2]];
@@ -28,7 +28,7 @@ impl MeasuredCurve {
     }
 
     fn parse(path: &Path, text: &str) -> anyhow::Result<Self> {
-        let sheet = Sheet::parse(path, text)?;
+        let sheet = CsvTable::parse(path, text)?;
         let shown = path.display();
         let [x, names @ ..] = sheet.columns() else {
             anyhow::bail!("{shown} is empty");

@@ -5,7 +5,7 @@ use super::reading::Reading;
 use super::size_effect::Law;
 use super::test::{Band, MeasuredTest, Quantity};
 use crate::entry::{Entry, Reliability};
-use crate::printed::{Allowed, Printed};
+use crate::printed::{PrintedNumber, Tolerance};
 use crate::table::{Heading, Row, Table};
 
 /// Judged values of a test.
@@ -29,7 +29,7 @@ impl Judgement {
         readings: &[Reading],
     ) -> anyhow::Result<Self> {
         let theory = test.size_effect.as_ref();
-        let laws = theory.map_or_else(Vec::new, |it| Law::of_series(it, readings));
+        let laws = theory.map_or_else(Vec::new, |it| Law::from_series(it, readings));
         let mut rows = Vec::new();
         for band in &test.band {
             let of_laws = theory.into_iter().flat_map(|theory| {
@@ -105,7 +105,7 @@ fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
     let [least, most] = band.between;
     let about = if of_crack { 0.0 } else { 1.0 };
     let [least, most] = [least, most].map(|it| (1e6 * (it - about)).round() / 1e6);
-    let allowed = Allowed::Between(least, most);
+    let allowed = Tolerance::Between(least, most);
     let standing = match &band.missed {
         Some(reason) if computed.is_finite() => {
             let rounded = printed(format!("{computed:.4}"))?;
@@ -139,8 +139,8 @@ fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
     })
 }
 
-fn printed(text: String) -> anyhow::Result<Printed> {
-    Printed::parse(&text).ok_or_else(|| anyhow::anyhow!("`{text}` is no number"))
+fn printed(text: String) -> anyhow::Result<PrintedNumber> {
+    PrintedNumber::parse(&text).ok_or_else(|| anyhow::anyhow!("`{text}` is no number"))
 }
 
 #[cfg(test)]

@@ -83,7 +83,9 @@ impl MeasuredTest {
         let measured = self.measured.as_ref();
         let measured = measured.map(|file| MeasuredCurve::read(&folder().join(file)));
         let measured = measured.transpose()?;
-        let readings = chosen.iter().map(|variant| Reading::of_run(self, variant));
+        let readings = chosen
+            .iter()
+            .map(|variant| Reading::from_run(self, variant));
         let readings: Vec<Reading> = readings.collect::<anyhow::Result<_>>()?;
         let judgement = Judgement::new(self, measured.as_ref(), &readings)?;
         let scores = Scores::new(self, &readings);

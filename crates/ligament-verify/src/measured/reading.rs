@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, bail};
 use ligament_case::case::CaseFile;
-use ligament_output::csv::read::Sheet;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::has_solid;
 use ligament_output::summary::Summary;
@@ -42,12 +42,12 @@ impl Reading {
     /// # Errors
     ///
     /// If the body cannot be meshed, or the case not run.
-    pub(super) fn of_run(test: &MeasuredTest, variant: &Variant) -> anyhow::Result<Self> {
+    pub(super) fn from_run(test: &MeasuredTest, variant: &Variant) -> anyhow::Result<Self> {
         let place = tempfile::tempdir().context("no folder for temporary results")?;
         let attempt = || {
-            let begun = processor_seconds();
+            let start = processor_seconds();
             let summary = results(test, variant, place.path())?;
-            let seconds = processor_seconds() - begun;
+            let seconds = processor_seconds() - start;
             Self::read(test, variant, &place.path().join(OUT), (summary, seconds))
         };
         attempt().with_context(|| format!("run `{}`", variant.name))
@@ -59,7 +59,7 @@ impl Reading {
         folder: &Path,
         (summary, seconds): (Summary, f64),
     ) -> anyhow::Result<Self> {
-        let history = Sheet::read(folder.join("history.csv"))?;
+        let history = CsvTable::read(folder.join("history.csv"))?;
         let [x, y] = [&test.x, &test.y].map(|axis| values(&history, axis));
         let at_rest: Vec<f64> = history.values("at_rest")?;
         let points = x?.into_iter().zip(y?).map(|(x, y)| [x, y]);
@@ -139,7 +139,7 @@ fn mesh(variant: &Variant, place: &Path) -> anyhow::Result<PathBuf> {
 }
 
 /// Values of an axis in the rows of a history.
-fn values(history: &Sheet, axis: &Axis) -> anyhow::Result<Vec<f64>> {
+fn values(history: &CsvTable, axis: &Axis) -> anyhow::Result<Vec<f64>> {
     let mut sums: Vec<f64> = Vec::new();
     for column in &axis.columns {
         let values: Vec<f64> = history.values(column)?;

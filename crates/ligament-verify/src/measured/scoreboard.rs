@@ -39,13 +39,13 @@ impl Scores {
         Self {
             case: test.case.clone(),
             material: test.material.clone(),
-            runs: readings.iter().map(Score::of_reading).collect(),
+            runs: readings.iter().map(Score::from_reading).collect(),
         }
     }
 }
 
 impl Score {
-    fn of_reading(reading: &Reading) -> Self {
+    fn from_reading(reading: &Reading) -> Self {
         let summary = &reading.summary;
         let ended = matches!(summary.end(), End::NoEquilibrium | End::Invalid);
         Self {

@@ -22,7 +22,7 @@ pub(super) struct Law {
 
 impl Law {
     /// The law of each series, in the order of their first runs.
-    pub(super) fn of_series(theory: &SizeEffect, readings: &[Reading]) -> Vec<Self> {
+    pub(super) fn from_series(theory: &SizeEffect, readings: &[Reading]) -> Vec<Self> {
         let mut series: Vec<(String, Vec<[f64; 2]>)> = Vec::new();
         for reading in readings {
             let Some((name, size)) = &reading.in_series else {
@@ -34,12 +34,12 @@ impl Law {
                 None => series.push((name.clone(), vec![[*size, strength]])),
             }
         }
-        let fit = |(series, strengths)| Self::through(series, strengths);
+        let fit = |(series, strengths)| Self::fit(series, strengths);
         series.into_iter().map(fit).collect()
     }
 
     /// Law by least squares of 1/sigma_N^2 over D.
-    fn through(series: String, strengths: Vec<[f64; 2]>) -> Self {
+    fn fit(series: String, strengths: Vec<[f64; 2]>) -> Self {
         let n = strengths.len() as f64;
         let sum = |of: &dyn Fn(f64, f64) -> f64| -> f64 {
             let terms = strengths.iter().map(|&[d, s]| of(d, 1.0 / (s * s)));
@@ -92,7 +92,7 @@ mod tests {
                 .sqrt()
         };
         let sizes = [0.05, 0.1, 0.2, 0.4];
-        let law = Law::through("h".to_owned(), sizes.map(|d| [d, strength(d)]).to_vec());
+        let law = Law::fit("h".to_owned(), sizes.map(|d| [d, strength(d)]).to_vec());
         assert!((law.energy_ratio(&theory) - 1.0).abs() < 1e-10);
         assert!((law.length_ratio(&theory) - 1.0).abs() < 1e-10);
         assert!((law.strength(0.3) / strength(0.3) - 1.0).abs() < 1e-12);

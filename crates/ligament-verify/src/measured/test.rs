@@ -59,7 +59,7 @@ fn one() -> f64 {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Band {
-    /// The quantity.
+    /// Quantity that the band judges.
     pub of: Quantity,
     /// Position of a crack, m: the x at which its y is read.
     pub at: Option<f64>,
@@ -147,7 +147,7 @@ pub enum TestError {
     /// The file cannot be read.
     #[error("cannot read {}", path.display())]
     Read {
-        /// The file.
+        /// File of the tests.
         path: PathBuf,
         /// The system's reason.
         source: std::io::Error,
@@ -155,7 +155,7 @@ pub enum TestError {
     /// The file is no table of measured tests.
     #[error("{}: {source}", path.display())]
     Parse {
-        /// The file.
+        /// File of the tests.
         path: PathBuf,
         /// The parser's reason, with line and column.
         source: Box<toml::de::Error>,

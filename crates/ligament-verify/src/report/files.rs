@@ -76,7 +76,7 @@ fn write_csv(folder: &ResultFolder, table: &Table) -> Result<(), ligament_output
         let (known, allowed) = (entry.known.to_string(), entry.allowed.to_string());
         let instead = entry
             .standing
-            .instead()
+            .replacement_value()
             .map(ToString::to_string)
             .unwrap_or_default();
         let mut cells: Vec<csv::Value<'_>> = entry

@@ -192,9 +192,12 @@ nu,known,allowed,subset,standing,instead,reason
     #[test]
     fn csv_has_all_digits_and_the_reason() {
         let parent = tempfile::tempdir().unwrap();
-        let folder =
-            ResultFolder::create_marked(parent.path().join("out"), Kind::marked(SUMMARY), false)
-                .unwrap();
+        let folder = ResultFolder::create_of_kind(
+            parent.path().join("out"),
+            Kind::with_marker(SUMMARY),
+            false,
+        )
+        .unwrap();
         let mut summary = Summary::create(&folder).unwrap();
         let findings = findings().unwrap();
         files::write(&folder, &findings).unwrap();

@@ -10,7 +10,7 @@ use crate::table::{Extent, Row, Table};
 use crate::tally::Tally;
 
 /// A row with its table.
-type Compared<'a> = (&'a Table, &'a Row);
+type RowOfTable<'a> = (&'a Table, &'a Row);
 
 /// Text of the page for the experiments that were run.
 ///
@@ -77,7 +77,7 @@ to run.
 ";
 
 /// Appends the numbers of values of each paper by verdict, separately for printed values and other references.
-fn push_counts(text: &mut String, compared: &[(&Item, Vec<Compared<'_>>)]) {
+fn push_counts(text: &mut String, compared: &[(&Item, Vec<RowOfTable<'_>>)]) {
     let words = Verdict::ALL.map(Verdict::words).join(" | ");
     let dashes = "---|".repeat(3 + Verdict::ALL.len());
     let _ = write!(
@@ -117,17 +117,17 @@ fn push_counts(text: &mut String, compared: &[(&Item, Vec<Compared<'_>>)]) {
 fn push_others(
     text: &mut String,
     done: &[(Experiment, Findings)],
-    compared: &[(&Item, Vec<Compared<'_>>)],
+    compared: &[(&Item, Vec<RowOfTable<'_>>)],
 ) {
     let is_told = |table: &Table| {
         let rows = compared.iter().flat_map(|(_, rows)| rows);
         rows.into_iter()
-            .any(|(told, _)| told.heading.name == table.heading.name)
+            .any(|(listed, _)| listed.heading.name == table.heading.name)
     };
     let mut lines = String::new();
     for (experiment, findings) in done {
         for table in findings.tables.iter().filter(|table| !is_told(table)) {
-            let rows: Vec<Compared<'_>> = table.rows.iter().map(|row| (table, row)).collect();
+            let rows: Vec<RowOfTable<'_>> = table.rows.iter().map(|row| (table, row)).collect();
             let _ = writeln!(
                 lines,
                 "| [{name}](report.md#{name}) | {} | {} | {} |",
@@ -147,7 +147,7 @@ fn push_others(
 }
 
 /// References of the rows, each once.
-fn against(rows: &[Compared<'_>]) -> String {
+fn against(rows: &[RowOfTable<'_>]) -> String {
     let mut known: Vec<&str> = Vec::new();
     for (table, _) in rows {
         if !known.contains(&&*table.heading.known) {
@@ -157,7 +157,7 @@ fn against(rows: &[Compared<'_>]) -> String {
     known.join("; ")
 }
 
-fn outcome(item: &Item, rows: &[Compared<'_>]) -> String {
+fn outcome(item: &Item, rows: &[RowOfTable<'_>]) -> String {
     match &item.comparison {
         Comparison::NoResult => "no result".to_owned(),
         Comparison::Drawn => "[drawn](report.md#maps)".to_owned(),
@@ -168,9 +168,9 @@ fn outcome(item: &Item, rows: &[Compared<'_>]) -> String {
 }
 
 /// Text of the numbers of values by verdict, and of the statements that hold.
-fn words(rows: &[Compared<'_>]) -> String {
-    let is_statement = |row: &&Compared<'_>| row.0.heading.known == "statement";
-    let (statements, values): (Vec<Compared<'_>>, Vec<_>) = rows.iter().partition(is_statement);
+fn words(rows: &[RowOfTable<'_>]) -> String {
+    let is_statement = |row: &&RowOfTable<'_>| row.0.heading.known == "statement";
+    let (statements, values): (Vec<RowOfTable<'_>>, Vec<_>) = rows.iter().partition(is_statement);
     let mut parts = words_of_values(&values);
     parts.extend(words_of_statements(&statements));
     parts.join("; ")
@@ -178,8 +178,8 @@ fn words(rows: &[Compared<'_>]) -> String {
 
 /// The rows by verdict, the best first.
 fn by_verdict<'a>(
-    rows: &'a [Compared<'a>],
-) -> impl Iterator<Item = (Verdict, Vec<Compared<'a>>)> + 'a {
+    rows: &'a [RowOfTable<'a>],
+) -> impl Iterator<Item = (Verdict, Vec<RowOfTable<'a>>)> + 'a {
     let of_verdict = |verdict: Verdict| {
         let those = rows.iter().filter(|(_, row)| row.verdict == verdict);
         (verdict, those.copied().collect::<Vec<_>>())
@@ -187,8 +187,8 @@ fn by_verdict<'a>(
     (Verdict::ALL.into_iter().map(of_verdict)).filter(|(_, those)| !those.is_empty())
 }
 
-fn words_of_values(rows: &[Compared<'_>]) -> Vec<String> {
-    let part = |(verdict, those): (Verdict, Vec<Compared<'_>>)| {
+fn words_of_values(rows: &[RowOfTable<'_>]) -> Vec<String> {
+    let part = |(verdict, those): (Verdict, Vec<RowOfTable<'_>>)| {
         let (count, largest) = (those.len(), largest(those.iter().copied()));
         match verdict {
             Verdict::Rounded => format!("{count} to the digit"),
@@ -205,8 +205,8 @@ fn words_of_values(rows: &[Compared<'_>]) -> Vec<String> {
 }
 
 /// Text of the numbers of statements by verdict; statements are compared by bounds that represent them.
-fn words_of_statements(rows: &[Compared<'_>]) -> Vec<String> {
-    let part = |(verdict, those): (Verdict, Vec<Compared<'_>>)| {
+fn words_of_statements(rows: &[RowOfTable<'_>]) -> Vec<String> {
+    let part = |(verdict, those): (Verdict, Vec<RowOfTable<'_>>)| {
         let count = those.len();
         match verdict {
             Verdict::Rounded | Verdict::Truncated => format!("stated: {count} hold"),
@@ -221,7 +221,7 @@ fn words_of_statements(rows: &[Compared<'_>]) -> Vec<String> {
 }
 
 /// Text of the largest difference from the known values, as a share and, in tables of amounts, as an amount.
-fn largest<'a>(rows: impl Iterator<Item = Compared<'a>> + Clone) -> String {
+fn largest<'a>(rows: impl Iterator<Item = RowOfTable<'a>> + Clone) -> String {
     let share = rows
         .clone()
         .filter_map(|(table, row)| match table.difference(row) {

@@ -79,7 +79,7 @@ fn is_missed(row: &Row) -> bool {
 }
 
 /// Text of a value, in bold where it is out of its band.
-fn shown(row: &Row) -> String {
+fn value_text(row: &Row) -> String {
     let value = match row.computed.is_finite() {
         true => format!(
             "{:.*}",
@@ -95,7 +95,7 @@ fn shown(row: &Row) -> String {
 }
 
 /// Text of the distance of a value beyond the nearer end of its band.
-fn beyond(table: &Table, row: &Row) -> String {
+fn distance_beyond_band(table: &Table, row: &Row) -> String {
     let difference = table.difference(row).words(&row.entry.known);
     format!("{difference}, allowed {}", row.entry.allowed)
 }
@@ -121,7 +121,7 @@ fn push_misses(text: &mut String, tests: &[Test<'_>]) {
             let _ = writeln!(
                 text,
                 "| [{name}](#{name}) | {run} | {quantity} | {} | {} |",
-                beyond(test.table, row),
+                distance_beyond_band(test.table, row),
                 row.entry.standing.reason().unwrap_or("not known"),
                 name = test.experiment.name,
             );
@@ -135,7 +135,7 @@ fn push_table(text: &mut String, tests: &[Test<'_>]) {
     );
     for test in tests {
         for score in &test.scores.runs {
-            let value = |quantity| test.row(&score.run, quantity).map(shown);
+            let value = |quantity| test.row(&score.run, quantity).map(value_text);
             let [peak, area] = ["peak", "area under the curve"].map(value);
             let _ = writeln!(
                 text,
@@ -187,7 +187,7 @@ fn push_test(text: &mut String, test: &Test<'_>) {
         }
     }
     for run in runs {
-        let cell = |quantity: &&str| test.row(run, quantity).map_or(String::new(), shown);
+        let cell = |quantity: &&str| test.row(run, quantity).map_or(String::new(), value_text);
         let cells: Vec<String> = quantities.iter().map(cell).collect();
         let _ = writeln!(text, "| {run} | {} |", cells.join(" | "));
     }

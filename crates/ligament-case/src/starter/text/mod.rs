@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use toml_edit::{Key, Value};
 
-use super::groups::{Ends, LoadPlace};
+use super::groups::{LoadPlace, SupportAndLoad};
 use crate::case::key_path::KeyPath;
 use crate::case::values::{is_unseen, require_column_name};
 pub(super) use body::{Body, Section};
@@ -34,7 +34,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Text of the case. Comments begin with `# `; settings that are activated by removing the sign begin with `#` without a space.
 pub(super) fn case_text<const D: usize>(
     body: &Body<D>,
-    ends: &Ends<D>,
+    ends: &SupportAndLoad<D>,
     law: Law,
     warnings: &[String],
 ) -> String {
@@ -200,7 +200,7 @@ fn has_patch<const D: usize>(body: &Body<D>, law: Law) -> bool {
 }
 
 /// The displacement of the load, m.
-fn displacement<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> f64 {
+fn displacement<const D: usize>(body: &Body<D>, ends: &SupportAndLoad<D>) -> f64 {
     let length = size(body, ends.axis);
     // A beam of span L and depth h under a load in its middle has stresses 6 E h u/L^2.
     let bent = BENT * ends.span.powi(2) / (6.0 * length);
@@ -211,7 +211,7 @@ fn displacement<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> f64 {
     digits(ends.away * stretched * STRETCH, 2)
 }
 
-fn conditions<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+fn conditions<const D: usize>(body: &Body<D>, ends: &SupportAndLoad<D>) -> String {
     let displacement = exact(displacement(body, ends));
     let (axis, how) = (
         AXES[ends.axis],
@@ -327,7 +327,7 @@ stop = {{ load_fraction = 0.5 }} # when the load has fallen to this share of its
     )
 }
 
-fn records<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+fn records<const D: usize>(body: &Body<D>, ends: &SupportAndLoad<D>) -> String {
     let point = |position| coordinates(body, position);
     format!(
         "\

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use ligament_mesh::Group;
 
 use super::body::{Body, Section, coordinates, exact, quantum, quoted, short, size};
-use crate::starter::groups::Ends;
+use crate::starter::groups::SupportAndLoad;
 
 /// Text of `[mesh]` or of the section of a lattice.
 pub(super) fn section<const D: usize>(body: &Body<D>) -> String {
@@ -112,7 +112,7 @@ top = {{ top = {held} }}
 }
 
 /// Text of `[[precrack]]`: a crack across the load, in the middle of the body.
-pub(super) fn precrack<const D: usize>(body: &Body<D>, ends: &Ends<D>) -> String {
+pub(super) fn precrack<const D: usize>(body: &Body<D>, ends: &SupportAndLoad<D>) -> String {
     let quantum = quantum(body);
     let across = (0..D).filter(|axis| *axis != ends.axis);
     let sizes = across.map(|axis| size(body, axis));

@@ -40,11 +40,11 @@ pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<Mesh
         .map(|node| [node.position[0], node.position[1]])
         .collect();
     let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions, size);
-    let planar = Cells::of_elements(cursor, records, &assembly, cells::cell, oriented)?;
+    let planar = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented)?;
     let (planar, cell_of_element) = merge_repeated(cursor, records, planar, positions.len())?;
     cells::check_common_edges(cursor, records, &planar)?;
     check_covering(cursor, records, &planar, &positions, Cell::triangles)?;
-    let mut remarks = assembly.remarks(planar.of_higher_order(records));
+    let mut remarks = assembly.remarks(planar.n_higher_order(records));
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
     let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
     let node_tags = assembly.nodes.iter().map(|node| node.tag).collect();

@@ -44,10 +44,10 @@ pub(super) fn oriented(
         largest = largest.max(volume);
     }
     let (place, shape) = (|| cursor.place(element.offset), cell.shape_name());
-    let turned = if smallest > least {
+    let reoriented = if smallest > least {
         cell
     } else if largest < -least {
-        turned_round(cell)
+        reversed_orientation(cell)
     } else if smallest >= -least && largest <= least {
         return Err(GmshError::FlatCell {
             place: place(),
@@ -63,10 +63,10 @@ pub(super) fn oriented(
             shape,
         });
     };
-    let is_tetrahedron = matches!(turned, SolidCell::Tetrahedron(_));
+    let is_tetrahedron = matches!(reoriented, SolidCell::Tetrahedron(_));
     let volume = |part: [u32; 4]| SolidCell::Tetrahedron(part).volume(positions);
-    if is_tetrahedron || turned.tetrahedra().all(|part| volume(part) > 0.0) {
-        return Ok(turned);
+    if is_tetrahedron || reoriented.tetrahedra().all(|part| volume(part) > 0.0) {
+        return Ok(reoriented);
     }
     Err(GmshError::NotConvexSolid {
         place: place(),
@@ -108,7 +108,7 @@ fn corner_tetrahedra(cell: &SolidCell) -> impl Iterator<Item = [u32; 4]> {
 }
 
 /// The cell with the opposite orientation: top and base are exchanged, or the corners of the base reversed.
-fn turned_round(cell: SolidCell) -> SolidCell {
+fn reversed_orientation(cell: SolidCell) -> SolidCell {
     match cell {
         SolidCell::Tetrahedron([a, b, c, d]) => SolidCell::Tetrahedron([a, c, b, d]),
         SolidCell::Hexahedron([a, b, c, d, e, f, g, h]) => {

@@ -2,14 +2,13 @@
 
 mod cells;
 
-use super::assembly::{Assembly, DROPPED};
+use super::assembly::{Assembly, DROPPED_NODE};
 use super::cells::{Cells, check_covering, merge_repeated};
 use super::cursor::Cursor;
 use super::error::GmshError;
 use super::records::Records;
 use super::{fields, groups, nodes};
-use crate::group::Group;
-use crate::mesh::SolidMesh;
+use crate::mesh::{Group, SolidMesh};
 use crate::solid::{Faces, SolidCell};
 
 /// Makes the solid mesh of the records, or refuses them.
@@ -27,9 +26,9 @@ pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<Soli
     }
     let positions: Vec<_> = assembly.nodes.iter().map(|node| node.position).collect();
     let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions);
-    let solid = Cells::of_elements(cursor, records, &assembly, cells::cell, oriented)?;
+    let solid = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented)?;
     let (solid, cell_of_element) = merge_repeated(cursor, records, solid, positions.len())?;
-    let mut remarks = assembly.remarks(solid.of_higher_order(records));
+    let mut remarks = assembly.remarks(solid.n_higher_order(records));
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
     drop(cell_of_element);
     let faces = Faces::new(&solid.cells, positions.len());
@@ -85,7 +84,7 @@ fn check_faces(
             continue;
         };
         let corners = &assembly.corners[element.corners()];
-        let is_face = !corners.contains(&DROPPED)
+        let is_face = !corners.contains(&DROPPED_NODE)
             && groups::face(corners).is_some_and(|face| !faces.sides_at(&face).is_empty());
         if !is_face {
             let mut named = groups.iter();

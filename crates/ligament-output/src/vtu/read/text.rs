@@ -23,23 +23,23 @@ const HEADER_ENTRY: usize = 8;
 
 /// The text of a file with the places of its arrays.
 #[derive(Debug)]
-pub(super) struct Text {
+pub(super) struct VtuText {
     path: PathBuf,
     text: String,
-    contents: Contents,
+    contents: VtuContents,
 }
 
 /// The arrays of a file, and the number of values that a field has.
 #[derive(Debug)]
-struct Contents {
-    arrays: Vec<Entry>,
+struct VtuContents {
+    arrays: Vec<ArrayEntry>,
     n_points: usize,
     n_cells: usize,
 }
 
 /// The part of a file that an array belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Section {
+pub(super) enum ArraySection {
     Fields(FieldLocation),
     FieldData,
     Points,
@@ -48,8 +48,8 @@ pub(super) enum Section {
 
 /// An array that was found.
 #[derive(Debug)]
-pub(super) struct Entry {
-    section: Section,
+pub(super) struct ArrayEntry {
+    section: ArraySection,
     pub(super) name: String,
     vtk_type: String,
     /// Number of values per point or cell.
@@ -60,11 +60,11 @@ pub(super) struct Entry {
     content: Range<usize>,
 }
 
-impl Text {
+impl VtuText {
     /// Reads a file and finds its arrays.
     pub(super) fn open(path: &Path) -> Result<Self, Error> {
         let text = read(path)?;
-        let contents = contents(&text).map_err(|reason| strange(path, reason))?;
+        let contents = contents(&text).map_err(|reason| malformed(path, reason))?;
         let path = path.to_path_buf();
         Ok(Self {
             path,
@@ -82,54 +82,56 @@ impl Text {
     }
 
     /// The arrays of a part of the file, in their order.
-    pub(super) fn arrays(&self, section: Section) -> impl Iterator<Item = &Entry> {
+    pub(super) fn arrays(&self, section: ArraySection) -> impl Iterator<Item = &ArrayEntry> {
         let arrays = self.contents.arrays.iter();
         arrays.filter(move |array| array.section == section)
     }
 
-    pub(super) fn find(&self, section: Section, name: &str) -> Option<&Entry> {
+    pub(super) fn find(&self, section: ArraySection, name: &str) -> Option<&ArrayEntry> {
         self.arrays(section).find(|it| it.name == name)
     }
 
     /// Numbers of any kind.
-    pub(super) fn floats(&self, entry: &Entry) -> Result<Vec<f64>, Error> {
+    pub(super) fn floats(&self, entry: &ArrayEntry) -> Result<Vec<f64>, Error> {
         match entry.vtk_type.as_str() {
             "Float64" => self.values(entry, f64::from_le_bytes),
             "Float32" => self.values(entry, |bytes| f64::from(f32::from_le_bytes(bytes))),
             "Int64" => self.values(entry, |bytes| i64::from_le_bytes(bytes) as f64),
-            other => Err(self.strange(format!("array {} has {other}, no numbers", entry.name))),
+            other => Err(self.malformed(format!("array {} has {other}, no numbers", entry.name))),
         }
     }
 
-    pub(super) fn whole(&self, entry: &Entry) -> Result<Vec<i64>, Error> {
+    pub(super) fn integers(&self, entry: &ArrayEntry) -> Result<Vec<i64>, Error> {
         match entry.vtk_type.as_str() {
             "Int64" => self.values(entry, i64::from_le_bytes),
-            other => Err(self.strange(format!("array {} has {other}, no integers", entry.name))),
+            other => Err(self.malformed(format!("array {} has {other}, no integers", entry.name))),
         }
     }
 
-    pub(super) fn bytes(&self, entry: &Entry) -> Result<Vec<u8>, Error> {
+    pub(super) fn bytes(&self, entry: &ArrayEntry) -> Result<Vec<u8>, Error> {
         self.values(entry, u8::from_le_bytes)
     }
 
-    pub(super) fn strange(&self, reason: impl Into<String>) -> Error {
-        strange(&self.path, reason)
+    pub(super) fn malformed(&self, reason: impl Into<String>) -> Error {
+        malformed(&self.path, reason)
     }
 
     fn values<T, const SIZE: usize>(
         &self,
-        entry: &Entry,
+        entry: &ArrayEntry,
         from_bytes: impl Fn([u8; SIZE]) -> T,
     ) -> Result<Vec<T>, Error> {
-        let damaged = || self.strange(format!("array {} is damaged", entry.name));
-        let Contents {
+        let damaged = || self.malformed(format!("array {} is damaged", entry.name));
+        let VtuContents {
             n_points, n_cells, ..
         } = self.contents;
         let (fewest, most) = match entry.section {
-            Section::Fields(FieldLocation::Point) | Section::Points => (n_points, n_points),
-            Section::Fields(FieldLocation::Cell) => (n_cells, n_cells),
-            Section::Cells => (n_cells, MOST_CORNERS * n_cells),
-            Section::FieldData => (1, 1),
+            ArraySection::Fields(FieldLocation::Point) | ArraySection::Points => {
+                (n_points, n_points)
+            }
+            ArraySection::Fields(FieldLocation::Cell) => (n_cells, n_cells),
+            ArraySection::Cells => (n_cells, MOST_CORNERS * n_cells),
+            ArraySection::FieldData => (1, 1),
         };
         let [fewest, most] = [fewest, most].map(|it| it * entry.n_components);
         let bytes = decode(self.text[entry.content.clone()].trim(), most * SIZE);
@@ -160,16 +162,16 @@ pub(super) fn sources(path: &Path) -> Result<Vec<String>, Error> {
         let is_in_pieces = grid.attribute("type") == Some("PUnstructuredGrid");
         names.filter(|names| is_in_pieces && !names.is_empty())
     };
-    names().ok_or_else(|| strange(path, "it is no PVTU file of this program"))
+    names().ok_or_else(|| malformed(path, "it is no PVTU file of this program"))
 }
 
 fn read(path: &Path) -> Result<String, Error> {
     let bytes = read_bytes(path).map_err(Error::system("read", path))?;
-    String::from_utf8(bytes).map_err(|_| strange(path, "it is no text"))
+    String::from_utf8(bytes).map_err(|_| malformed(path, "it is no text"))
 }
 
 /// The error for a file with an invalid part, given the reason.
-pub(super) fn strange(path: &Path, reason: impl Into<String>) -> Error {
+pub(super) fn malformed(path: &Path, reason: impl Into<String>) -> Error {
     Error::Unreadable {
         path: path.to_path_buf(),
         reason: reason.into(),
@@ -177,7 +179,7 @@ pub(super) fn strange(path: &Path, reason: impl Into<String>) -> Error {
 }
 
 /// The contents of a text.
-fn contents(text: &str) -> Result<Contents, String> {
+fn contents(text: &str) -> Result<VtuContents, String> {
     const OTHER: &str = "it is no VTU file of this program";
     let fault = |error: roxmltree::Error| match text.contains("<VTKFile") {
         true => format!("it is damaged: {error}"),
@@ -185,7 +187,7 @@ fn contents(text: &str) -> Result<Contents, String> {
     };
     let document = Document::parse(text).map_err(fault)?;
     let grid = document.root_element();
-    if !is_ours(grid) {
+    if !is_written_here(grid) {
         return Err(OTHER.to_owned());
     }
     let piece = grid.descendants().find(|it| it.has_tag_name("Piece"));
@@ -198,22 +200,22 @@ fn contents(text: &str) -> Result<Contents, String> {
         return Err("it is too short for its number of points and cells".to_owned());
     }
     let arrays = grid.descendants().filter(|it| it.has_tag_name("DataArray"));
-    Ok(Contents {
-        arrays: arrays.map(Entry::new).collect::<Result<_, _>>()?,
+    Ok(VtuContents {
+        arrays: arrays.map(ArrayEntry::new).collect::<Result<_, _>>()?,
         n_points,
         n_cells,
     })
 }
 
-impl Entry {
+impl ArrayEntry {
     fn new(array: Node<'_, '_>) -> Result<Self, &'static str> {
         let section = array.parent_element().map(|it| it.tag_name().name());
         let section = match section {
-            Some("PointData") => Section::Fields(FieldLocation::Point),
-            Some("CellData") => Section::Fields(FieldLocation::Cell),
-            Some("FieldData") => Section::FieldData,
-            Some("Points") => Section::Points,
-            Some("Cells") => Section::Cells,
+            Some("PointData") => ArraySection::Fields(FieldLocation::Point),
+            Some("CellData") => ArraySection::Fields(FieldLocation::Cell),
+            Some("FieldData") => ArraySection::FieldData,
+            Some("Points") => ArraySection::Points,
+            Some("Cells") => ArraySection::Cells,
             _ => return Err("an array is out of place"),
         };
         let text_of = |key: &str| array.attribute(key).map(str::to_owned);
@@ -233,7 +235,7 @@ impl Entry {
     }
 }
 
-fn is_ours(grid: Node<'_, '_>) -> bool {
+fn is_written_here(grid: Node<'_, '_>) -> bool {
     [
         ("type", "UnstructuredGrid"),
         ("byte_order", "LittleEndian"),

@@ -50,7 +50,7 @@ impl Scene {
         let pieces = self
             .edges
             .iter()
-            .flat_map(|ends| buffer.seen_pieces(ends.map(|end| seen[end as usize])));
+            .flat_map(|ends| buffer.visible_pieces(ends.map(|end| seen[end as usize])));
         let pieces = pieces.map(|ends| ends.map(|end| frame.to_pixels(end)));
         let (colour, width) = if self.shows_all_edges { FAINT } else { EDGE };
         drawing.lines(pieces, colour, width);

@@ -29,9 +29,9 @@ impl Scene {
     }
 
     /// Positions and displacements as seen, to the right and up, m.
-    pub(crate) fn seen(&self, view: View) -> [Vec<[f64; 2]>; 2] {
+    pub(crate) fn projected_places(&self, view: View) -> [Vec<[f64; 2]>; 2] {
         [&self.places, &self.moved].map(|all| {
-            let seen = all.iter().map(|it| view.seen(*it));
+            let seen = all.iter().map(|it| view.projected_places(*it));
             seen.map(|[right, up, _]| [right, up]).collect()
         })
     }
@@ -40,7 +40,7 @@ impl Scene {
     pub(super) fn deformed(&self, view: View, factor: f64) -> Vec<[f64; 3]> {
         let moved = self.places.iter().zip(&self.moved);
         moved
-            .map(|(p, u)| view.seen([0, 1, 2].map(|axis| p[axis] + factor * u[axis])))
+            .map(|(p, u)| view.projected_places([0, 1, 2].map(|axis| p[axis] + factor * u[axis])))
             .collect()
     }
 }

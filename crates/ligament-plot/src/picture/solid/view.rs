@@ -12,7 +12,7 @@ pub struct View {
 }
 
 impl View {
-    /// From the front, the right and above.
+    /// View from the front, the right and above.
     pub const OBLIQUE: Self = Self {
         azimuth: -60.0,
         elevation: 28.0,
@@ -30,7 +30,7 @@ impl View {
     }
 
     /// A place as seen: to the right, up and towards the eye, m.
-    pub(super) fn seen(self, place: [f64; 3]) -> [f64; 3] {
+    pub(super) fn projected_places(self, place: [f64; 3]) -> [f64; 3] {
         let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * place[k]).sum();
         self.axes().map(along)
     }
@@ -90,7 +90,11 @@ mod tests {
 
     #[test]
     fn views_along_the_axes_show_two_of_them() {
-        let seen = |view: &str| view.parse::<View>().unwrap().seen([1.0, 2.0, 3.0]);
+        let seen = |view: &str| {
+            view.parse::<View>()
+                .unwrap()
+                .projected_places([1.0, 2.0, 3.0])
+        };
         assert_eq!(seen("x"), [2.0, 3.0, 1.0]);
         assert_eq!(seen("y"), [1.0, 3.0, -2.0]);
         assert_eq!(seen("z"), [1.0, 2.0, 3.0]);

@@ -37,7 +37,7 @@ fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
     part
 }
 
-/// No triangle.
+/// Index of no triangle.
 const NONE: u32 = u32::MAX;
 
 impl DepthBuffer {
@@ -121,13 +121,13 @@ impl DepthBuffer {
         for (visible, corners) in visible.iter_mut().zip(triangles) {
             let corners = corners.map(|it| seen[it as usize]);
             let middle = [0, 1, 2].map(|axis| corners.iter().map(|it| it[axis]).sum::<f64>() / 3.0);
-            *visible |= self.is_seen(middle);
+            *visible |= self.is_visible(middle);
         }
         visible
     }
 
     /// Whether a place is not behind a triangle, with a tolerance of two dots.
-    pub(super) fn is_seen(&self, place: [f64; 3]) -> bool {
+    pub(super) fn is_visible(&self, place: [f64; 3]) -> bool {
         let [x, y] = self.dots(place).map(f64::round);
         let is_inside = x >= 0.0 && y >= 0.0 && x < self.size[0] as f64 && y < self.size[1] as f64;
         if !is_inside {
@@ -138,7 +138,7 @@ impl DepthBuffer {
     }
 
     /// The visible pieces of a line, in steps of a pixel.
-    pub(super) fn seen_pieces(&self, [from, to]: [[f64; 3]; 2]) -> Vec<[[f64; 2]; 2]> {
+    pub(super) fn visible_pieces(&self, [from, to]: [[f64; 3]; 2]) -> Vec<[[f64; 2]; 2]> {
         let [a, b] = [from, to].map(|it| self.dots(it));
         let length = (b[0] - a[0]).hypot(b[1] - a[1]) / DOTS;
         let count = if length.is_finite() {
@@ -150,7 +150,7 @@ impl DepthBuffer {
         let mut pieces: Vec<[f64; 2]> = Vec::new();
         for step in 0..count {
             let [start, middle, end] = [0.0, 0.5, 1.0].map(|it| (step as f64 + it) / count as f64);
-            if !self.is_seen(at(middle)) {
+            if !self.is_visible(at(middle)) {
                 continue;
             }
             match pieces.last_mut() {
@@ -187,7 +187,7 @@ mod tests {
         let triangles = [[0, 1, 2], [3, 4, 5], [6, 7, 8]];
         let buffer = DepthBuffer::new(&seen, &triangles, [[-4.0; 2], [4.0; 2]], 20.0);
         assert_eq!(buffer.visible(&seen, &triangles), [true, false, true]);
-        let pieces = buffer.seen_pieces([[-3.0, 1.0, -1.0], [3.0, 1.0, -1.0]]);
+        let pieces = buffer.visible_pieces([[-3.0, 1.0, -1.0], [3.0, 1.0, -1.0]]);
         assert_eq!(pieces.len(), 1);
         assert_eq!(pieces[0][0], [-3.0, 1.0]);
         assert!(pieces[0][1][0].abs() < 0.2, "{pieces:?}");

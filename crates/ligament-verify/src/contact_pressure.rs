@@ -7,7 +7,7 @@ use ligament::run::Solution;
 
 /// Pressures of a contact.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Pressed {
+pub(super) struct ContactPressure {
     /// Force, N; for the cylinder per length, N/m.
     pub(super) force: f64,
     /// Largest pressure of a side of a cell, and of the fit, Pa.
@@ -21,7 +21,11 @@ pub(super) struct Pressed {
 ///
 /// Hertz's pressure is p = p_0 sqrt(1 - r^2/a^2) at the distance r from the middle (Johnson 1985, sections 4.2 and 4.3), so that p^2 is a straight line over
 /// r^2, whose value at r = 0 is p_0^2. The mean of r^2, weighted by p, is a^2/4 over a strip and 2 a^2/5 over a disk.
-pub(super) fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow::Result<Pressed> {
+pub(super) fn contact_pressure(
+    solution: &Solution,
+    along: usize,
+    points: u32,
+) -> anyhow::Result<ContactPressure> {
     let pairs = &solution.outcome.state.surfaces.touching().pairs;
     let all = pairs.first().context("no contact")?.touches.iter();
     let all: Vec<_> = all.filter(|it| it.depth() > 0.0).collect();
@@ -52,7 +56,7 @@ pub(super) fn pressed(solution: &Solution, along: usize, points: u32) -> anyhow:
     let slope = products.sum::<f64>() / spread;
     let square = y - slope * x;
     let largest = places.iter().map(|it| it[1]).fold(0.0, f64::max);
-    Ok(Pressed {
+    Ok(ContactPressure {
         force,
         largest: [largest.sqrt(), square.sqrt()],
         reach: (second / of_reach).sqrt(),

@@ -10,12 +10,12 @@ use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
 use ligament_case::case::CaseFile;
 use ligament_output::quantity::{four_digits, place, quantity};
 use ligament_run::memory;
-use ligament_run::messages::named;
+use ligament_run::messages::with_point_names;
 use ligament_run::model::Model;
 use ligament_run::stability;
 use ligament_run::stages::Stages;
 
-use super::report::Extent;
+use super::report::CheckExtent;
 use super::report::Report;
 
 /// Largest number of a factor's multiplications for which the prediction is made by default, some seconds on one processor.
@@ -29,7 +29,7 @@ const MOST_UNKNOWNS: usize = 300_000;
 
 /// What a run would tell before its first load step.
 #[derive(Default)]
-pub(super) struct Foreseen {
+pub(super) struct PredictedRun {
     /// Messages of the run.
     pub(super) messages: Vec<Message>,
     /// Reason why the run would end there.
@@ -48,7 +48,7 @@ pub(super) fn write(
     problem: &Problem,
     too_costly: Option<String>,
     stages: &mut Stages,
-) -> anyhow::Result<Foreseen> {
+) -> anyhow::Result<PredictedRun> {
     let analysis = &model.setup.analysis;
     if let Some(reason) = too_costly {
         let name = match analysis.is_fracture() {
@@ -56,15 +56,15 @@ pub(super) fn write(
             false => "first solution",
         };
         report.entry(name, format!("not computed: {reason}"))?;
-        return Ok(Foreseen::default());
+        return Ok(PredictedRun::default());
     }
     let mut messages = Messages::default();
     let prediction = stages.time("first solution", || {
         predict(problem, analysis, &mut messages)
     });
-    let refused = match prediction.map_err(|it| case.explained(it))? {
+    let refused = match prediction.map_err(|it| case.error_in_case_terms(it))? {
         Some(Prediction::Refused(end)) => {
-            Some(stages.time("stability", || stability::words(&end, model)))
+            Some(stages.time("stability", || stability::end_text(&end, model)))
         }
         Some(prediction) => {
             write_prediction(report, model, problem, &prediction)?;
@@ -73,10 +73,10 @@ pub(super) fn write(
         None => None,
     };
     // Free rigid motions are reported with the supports.
-    let told = messages.0.into_iter().filter(|it| it.kind != "free-body");
-    let told = told.map(|it| named(it, model.body(), &model.setup));
-    Ok(Foreseen {
-        messages: told.collect(),
+    let shown = messages.0.into_iter().filter(|it| it.kind != "free-body");
+    let shown = shown.map(|it| with_point_names(it, model.body(), &model.setup));
+    Ok(PredictedRun {
+        messages: shown.collect(),
         refused,
     })
 }
@@ -84,15 +84,15 @@ pub(super) fn write(
 /// Reason why the prediction is not made by default, if it is too costly.
 pub(super) fn too_costly(
     case: &CaseFile,
-    extent: Extent,
+    extent: CheckExtent,
     problem: &Problem,
     equilibrium: &Equilibrium,
 ) -> Option<String> {
     let stiffness = equilibrium.stiffness();
-    if memory::foresee(case, &*problem.system, stiffness).is_err() {
+    if memory::check_memory(case, &*problem.system, stiffness).is_err() {
         return Some("the equations need more memory than is available".to_owned());
     }
-    if extent == Extent::PatchTest {
+    if extent == CheckExtent::PatchTest {
         return None;
     }
     let unknowns = equilibrium.unknowns().len();

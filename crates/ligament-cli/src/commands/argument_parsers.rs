@@ -1,4 +1,8 @@
-//! Numbers on the command line.
+//! Parsers of numbers and output paths on the command line.
+
+use std::path::{Path, PathBuf};
+
+use clap::builder::{PathBufValueParser, TypedValueParser};
 
 /// A finite number.
 pub(super) fn number(text: &str) -> Option<f64> {
@@ -7,7 +11,7 @@ pub(super) fn number(text: &str) -> Option<f64> {
 }
 
 /// A finite number greater than 0.
-pub(super) fn positive(text: &str) -> Option<f64> {
+pub(super) fn positive_number(text: &str) -> Option<f64> {
     number(text).filter(|it| *it > 0.0)
 }
 
@@ -24,6 +28,25 @@ pub(super) fn position(text: &str) -> Result<[f64; 2], String> {
         None => "",
     };
     numbers(text).ok_or_else(|| format!("expected X,Y in m, such as 0.01,-0.02{solid}"))
+}
+
+/// Path that stands for standard output, as in many programs.
+const STANDARD_OUTPUT: &str = "-";
+
+/// Parser of the path of a file to write.
+pub(super) fn output_file() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().map(|path| match path == Path::new(STANDARD_OUTPUT) {
+        true => PathBuf::from("/dev/stdout"),
+        false => path,
+    })
+}
+
+/// Parser of the path of a folder to write.
+pub fn output_folder() -> impl TypedValueParser<Value = PathBuf> {
+    PathBufValueParser::new().try_map(|path| match path == Path::new(STANDARD_OUTPUT) {
+        true => Err("the results are a folder, which standard output cannot take: name one"),
+        false => Ok(path),
+    })
 }
 
 #[cfg(test)]

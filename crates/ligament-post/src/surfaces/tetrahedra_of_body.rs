@@ -1,8 +1,32 @@
-//! Tetrahedra between the boxes of a lattice.
+//! Tetrahedra of a body: parts of the cells of a mesh, or between the boxes of a lattice.
 
 use std::collections::HashMap;
 
+use ligament_model::{BodyGrid, Canvas};
+
 use super::tetrahedra::Tetrahedra;
+
+impl Tetrahedra {
+    /// The tetrahedra of a body; none in the plane, or for boxes that do not fit together.
+    pub fn new(grid: &BodyGrid) -> Self {
+        match &grid.canvas {
+            Canvas::Solid(cells) => {
+                let numbered = (0..).zip(cells);
+                let all = numbered.flat_map(|(cell, it)| it.tetrahedra().map(move |of| (of, cell)));
+                let (corners, cells) = all.unzip();
+                Self {
+                    nodes: grid.positions.clone(),
+                    points: (0..grid.positions.len() as u32).collect(),
+                    corners,
+                    cells,
+                    held: vec![false; grid.positions.len()],
+                }
+            }
+            Canvas::Boxes(boxes) => between_boxes(boxes),
+            Canvas::Between(_) | Canvas::Around(_) => Self::default(),
+        }
+    }
+}
 
 /// Difference of sides and positions, relative to a side, up to which boxes fit together.
 const SAME: f64 = 0.01;
@@ -27,7 +51,7 @@ struct Nodes {
 }
 
 /// Boxes by their lattice positions.
-struct Places {
+struct BoxLattice {
     of_boxes: Vec<[i64; 3]>,
     boxes: HashMap<[i64; 3], u32>,
     middles: Vec<[f64; 3]>,
@@ -37,14 +61,14 @@ struct Places {
 /// The tetrahedra of the cubes between the middles of eight boxes; none where the boxes are of different size or form no lattice.
 ///
 /// Where a box around a corner is missing, at the outside of the body, a node on the face of an adjacent box replaces its middle.
-pub(super) fn between_boxes(boxes: &[[[f64; 3]; 2]]) -> Tetrahedra {
-    let Some(places) = Places::new(boxes) else {
+fn between_boxes(boxes: &[[[f64; 3]; 2]]) -> Tetrahedra {
+    let Some(places) = BoxLattice::new(boxes) else {
         return Tetrahedra::default();
     };
     // Each corner of a box is the middle of a cube, whose lowest box may be missing.
     let of_boxes = places.of_boxes.iter();
     let mut lowest: Vec<[i64; 3]> = of_boxes
-        .flat_map(|place| (0..8).map(|corner| stepped(*place, corner, -1)))
+        .flat_map(|place| (0..8).map(|corner| moved_position(*place, corner, -1)))
         .collect();
     lowest.sort_unstable();
     lowest.dedup();
@@ -65,11 +89,11 @@ pub(super) fn between_boxes(boxes: &[[[f64; 3]; 2]]) -> Tetrahedra {
 }
 
 /// A lattice position moved by a step along each axis whose bit is set.
-fn stepped(place: [i64; 3], steps: usize, by: i64) -> [i64; 3] {
+fn moved_position(place: [i64; 3], steps: usize, by: i64) -> [i64; 3] {
     std::array::from_fn(|axis| place[axis] + by * (steps >> axis & 1) as i64)
 }
 
-impl Places {
+impl BoxLattice {
     fn new(boxes: &[[[f64; 3]; 2]]) -> Option<Self> {
         let [low, high] = *boxes.first()?;
         let sides: [f64; 3] = std::array::from_fn(|axis| high[axis] - low[axis]);
@@ -101,13 +125,13 @@ impl Places {
 
 impl Nodes {
     /// Node at a corner of a cube whose lowest box has a given position.
-    fn at(&mut self, places: &Places, low: [i64; 3], corner: usize) -> u32 {
-        let place = stepped(low, corner, 1);
+    fn at(&mut self, places: &BoxLattice, low: [i64; 3], corner: usize) -> u32 {
+        let place = moved_position(low, corner, 1);
         // Nearest box of the cube, along as few axes as possible.
         let mut away: Vec<usize> = (0..8).collect();
         away.sort_by_key(|steps: &usize| (steps.count_ones(), *steps));
         let mut boxes = away.into_iter().filter_map(|steps| {
-            let number = places.boxes.get(&stepped(low, corner ^ steps, 1))?;
+            let number = places.boxes.get(&moved_position(low, corner ^ steps, 1))?;
             Some((*number, steps))
         });
         let (point, steps) = boxes.next().unwrap_or_default();

@@ -26,7 +26,7 @@ const PARTS: [(&str, &[&str]); 5] = [
 
 impl Case {
     /// The error of a faulty field of the setup, at the responsible key.
-    pub(super) fn located(&self, source: &Source, error: SetupError) -> CaseError {
+    pub(super) fn error_at_key(&self, source: &Source, error: SetupError) -> CaseError {
         let SetupError { field, fault } = error;
         let document = &source.document;
         let mut key = self.key_of_field(document, field);
@@ -49,7 +49,7 @@ impl Case {
                     _ => "",
                 },
             },
-            SetupFault::Contradiction(reason) => Fault::Other(reason.said(of_setup)),
+            SetupFault::Contradiction(reason) => Fault::Other(reason.said(setting_text)),
             SetupFault::NothingHappens => {
                 "there is no [[load]] and no change of temperature, so nothing would happen".into()
             }
@@ -159,7 +159,7 @@ fn key_of_material(part: &'static str) -> &'static str {
 }
 
 /// A setting of a setup in the form of a case.
-fn of_setup(setting: &Setting) -> String {
+fn setting_text(setting: &Setting) -> String {
     match setting {
         Setting::Law(laws) => format!("model.law = {}", listed(laws, BondLaw::quoted)),
         Setting::Calibration(it) => format!("model.calibration = {}", quoted(it)),
@@ -180,7 +180,7 @@ fn quoted(value: &impl Serialize) -> String {
 }
 
 /// A setting of a criterion in the form of a case.
-fn of_criterion(setting: &failure::Setting) -> String {
+fn criterion_setting_text(setting: &failure::Setting) -> String {
     use failure::Setting as S;
     match setting {
         S::Field(_) => setting.to_string(),
@@ -200,10 +200,10 @@ impl From<Unfit> for Fault {
         match unfit {
             Unfit::Missing { field, reason } => Self::Required {
                 key: field,
-                reason: reason.said(of_criterion),
+                reason: reason.said(criterion_setting_text),
             },
             Unfit::NotWith { .. } | Unfit::OutOfRange { .. } | Unfit::WithAxes { .. } => {
-                Self::Other(unfit.said(of_criterion))
+                Self::Other(unfit.said(criterion_setting_text))
             }
         }
     }

@@ -16,7 +16,7 @@ use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Field, UnstructuredGrid};
 
 /// A field interpolated to the vertices of a surface.
-struct Interpolated {
+struct InterpolatedField {
     name: String,
     stride: usize,
     components: Vec<String>,
@@ -49,7 +49,7 @@ pub fn write_level_set(
         [0, 1, 2].map(|axis| a[axis] + share * (b[axis] - a[axis]))
     });
     let places: Vec<[f64; 3]> = places.collect();
-    let fields = interpolated(file, body, &tetrahedra, &found)?;
+    let fields = interpolated_fields(file, body, &tetrahedra, &found)?;
     let names: Vec<Vec<&str>> = (fields.iter())
         .map(|it| it.components.iter().map(String::as_str).collect())
         .collect();
@@ -79,12 +79,12 @@ pub fn write_level_set(
 }
 
 /// The fields of the points, except integers, at the vertices of a surface.
-fn interpolated(
+fn interpolated_fields(
     file: &VtuFile,
     body: &SolidBody,
     tetrahedra: &Tetrahedra,
     found: &LevelSet,
-) -> Result<Vec<Interpolated>, Error> {
+) -> Result<Vec<InterpolatedField>, Error> {
     let mut fields = Vec::new();
     for name in file.fields(body.location) {
         if matches!(file.integers(body.location, name), Ok(Some(_))) {
@@ -96,7 +96,7 @@ fn interpolated(
         }
         let of_points = file.required_numbers(body.location, name)?;
         if of_points.len() != stride * body.grid.positions.len() {
-            return Err(file.strange(format!("{name} is not of its points")));
+            return Err(file.malformed(format!("{name} is not of its points")));
         }
         let mut values = Vec::with_capacity(stride * found.places.len());
         for (ends, share) in &found.places {
@@ -107,7 +107,7 @@ fn interpolated(
             };
             values.extend((0..stride).map(along));
         }
-        fields.push(Interpolated {
+        fields.push(InterpolatedField {
             name: name.to_owned(),
             stride,
             components: components.to_vec(),

@@ -23,36 +23,46 @@ const LONG: f64 = 60.0;
 const MANY: usize = 1_000_000_000;
 
 /// Announcement of a run of a body with a number of bonds, where it takes long.
-pub(crate) fn words(ahead: Ahead, bonds: usize) -> Option<String> {
+pub(crate) fn announcement(ahead: Ahead, bonds: usize) -> Option<String> {
     match ahead {
         Ahead::TimeSteps { count, is_implicit } => {
             let seconds = count as f64 * bonds as f64 * STEP_OF_BOND / current_num_threads() as f64;
             let at_least = if is_implicit { "more than " } else { "" };
             let is_told = seconds >= LONG || count >= MANY;
-            is_told.then(|| format!("{count} time steps: {at_least}{}", roughly(seconds)))
+            is_told.then(|| {
+                format!(
+                    "{count} time steps: {at_least}{}",
+                    rounded_duration_text(seconds)
+                )
+            })
         }
         Ahead::Factor { multiplications } => {
             let seconds = multiplications / MULTIPLICATIONS / current_num_threads() as f64;
-            let told = || {
+            let text = || {
                 format!(
                     "each factor of the stiffness takes {multiplications:.0e} multiplications: {}",
-                    roughly(seconds)
+                    rounded_duration_text(seconds)
                 )
             };
-            (seconds >= LONG).then(told)
+            (seconds >= LONG).then(text)
         }
     }
 }
 
 /// Announcement of the preparation of a number of bonds, where it takes long.
-pub(crate) fn of_preparation(bonds: f64) -> Option<String> {
+pub(crate) fn preparation_announcement(bonds: f64) -> Option<String> {
     let seconds = PREPARED_BOND * bonds / current_num_threads() as f64;
-    let told = || format!("about {bonds:.1e} bonds to prepare: {}", roughly(seconds));
-    (seconds >= LONG).then(told)
+    let text = || {
+        format!(
+            "about {bonds:.1e} bonds to prepare: {}",
+            rounded_duration_text(seconds)
+        )
+    };
+    (seconds >= LONG).then(text)
 }
 
 /// An estimated time as text.
-fn roughly(seconds: f64) -> String {
+fn rounded_duration_text(seconds: f64) -> String {
     let text = match Duration::try_from_secs_f64(seconds) {
         Ok(time) if seconds < 3e9 => duration_text(time),
         _ => "more than a hundred years".to_owned(),
@@ -70,16 +80,18 @@ mod tests {
             count,
             is_implicit: false,
         };
-        assert_eq!(words(steps(1000), 1000), None);
-        let told = words(steps(2 * MANY), 10).unwrap_or_default();
+        assert_eq!(announcement(steps(1000), 1000), None);
+        let text = announcement(steps(2 * MANY), 10).unwrap_or_default();
         assert!(
-            told.starts_with("2000000000 time steps: roughly "),
-            "{told}"
+            text.starts_with("2000000000 time steps: roughly "),
+            "{text}"
         );
         let factor = Ahead::Factor {
             multiplications: 1e20,
         };
-        assert!(words(factor, 10).is_some_and(|it| it.ends_with("years on this machine")));
-        assert!(of_preparation(1e6).is_none() && of_preparation(1e10).is_some());
+        assert!(announcement(factor, 10).is_some_and(|it| it.ends_with("years on this machine")));
+        assert!(
+            preparation_announcement(1e6).is_none() && preparation_announcement(1e10).is_some()
+        );
     }
 }

@@ -10,7 +10,7 @@ use twox_hash::XxHash64;
 
 /// Length and digest of the beginning of a written file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Written {
+pub struct FileDigest {
     /// Length, bytes.
     pub length: u64,
     /// XXH64 digest of these bytes.
@@ -20,23 +20,23 @@ pub struct Written {
 /// Size of a buffer for reading, bytes.
 const AT_ONCE: usize = 1 << 16;
 
-impl Written {
+impl FileDigest {
     /// Length and digest of a whole file.
     ///
     /// # Errors
     ///
     /// If the file cannot be read.
-    pub(crate) fn now(path: &Path) -> io::Result<Self> {
-        let (digest, length) = digested(path, u64::MAX)?;
+    pub(crate) fn of_file(path: &Path) -> io::Result<Self> {
+        let (digest, length) = digest_of_beginning(path, u64::MAX)?;
         let digest = digest.finish();
         Ok(Self { length, digest })
     }
 
     /// Reason why a file no longer begins as it was written; `None` if it does.
-    pub(crate) fn obstacle(self, path: &Path) -> Option<String> {
+    pub(crate) fn mismatch(self, path: &Path) -> Option<String> {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let length = self.length;
-        match digested(path, length) {
+        match digest_of_beginning(path, length) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 Some(format!("{name} is missing"))
             }
@@ -55,7 +55,7 @@ impl Written {
 }
 
 /// Digest of at most `most` bytes at the beginning of a file, which can be continued, and the number of bytes.
-pub(crate) fn digested(path: &Path, most: u64) -> io::Result<(XxHash64, u64)> {
+pub(crate) fn digest_of_beginning(path: &Path, most: u64) -> io::Result<(XxHash64, u64)> {
     let mut digest = XxHash64::with_seed(0);
     let mut file = File::open(path)?.take(most);
     let (mut bytes, mut length) = (vec![0; AT_ONCE], 0);

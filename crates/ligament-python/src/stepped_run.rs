@@ -21,13 +21,13 @@ use pyo3::types::PyDict;
 
 use crate::arrays::{array, rows};
 use crate::case::Case;
-use crate::errors::{Failure, of_request};
+use crate::errors::{Failure, request_error};
 
 /// Time between two checks for a signal.
 const LOOK: Duration = Duration::from_millis(50);
 
 /// A value of a row of the history.
-enum Entry {
+enum RowEntry {
     Count(i64),
     Number(f64),
     Word(String),
@@ -35,7 +35,7 @@ enum Entry {
 }
 
 /// Request from Python to the run.
-enum Question {
+enum RowRequest {
     Advance,
     NextLoadFactor(f64),
     Displacement,
@@ -43,9 +43,9 @@ enum Question {
 }
 
 /// Answer of the run to a request.
-enum Answer {
+enum RowAnswer {
     /// The rows since the last one, and the word and the sentence of the end, if the run ended.
-    Rows(Vec<Vec<Entry>>, Option<[String; 2]>),
+    SteppedRun(Vec<Vec<RowEntry>>, Option<[String; 2]>),
     /// Whether the run takes load factors.
     Takes(bool),
     /// Values at the points, in the order of the body's file.
@@ -54,29 +54,29 @@ enum Answer {
 }
 
 /// A run that goes on row by row.
-#[pyclass(frozen, module = "ligament._native")]
-pub(crate) struct Rows {
+#[pyclass(frozen, name = "Rows", module = "ligament._native")]
+pub(crate) struct SteppedRun {
     columns: Vec<String>,
     n_components: usize,
-    questions: Sender<Question>,
-    answers: Mutex<Receiver<Answer>>,
+    request_sender: Sender<RowRequest>,
+    answers: Mutex<Receiver<RowAnswer>>,
 }
 
 /// Observer that passes on the rows of the history.
-struct Collector {
-    rows: Sender<Vec<Entry>>,
+struct RowCollector {
+    rows: Sender<Vec<RowEntry>>,
 }
 
-impl Observer for Collector {
+impl Observer for RowCollector {
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         let entries = history_row(record, view)
             .into_iter()
             .map(|value| match value {
-                Value::Integer(it) => Entry::Count(it),
-                Value::Count(it) => Entry::Count(it as i64),
-                Value::Float(it) => Entry::Number(it),
-                Value::Text(it) => Entry::Word(it.to_owned()),
-                Value::Missing => Entry::Nothing,
+                Value::Integer(it) => RowEntry::Count(it),
+                Value::Count(it) => RowEntry::Count(it as i64),
+                Value::Float(it) => RowEntry::Number(it),
+                Value::Text(it) => RowEntry::Word(it.to_owned()),
+                Value::Missing => RowEntry::Nothing,
             });
         // Without a receiver nobody asks for rows.
         let _ = self.rows.send(entries.collect());
@@ -85,16 +85,16 @@ impl Observer for Collector {
 }
 
 /// Rows as dictionaries, and the word and the sentence of the end, if the run ended.
-type Advanced<'py> = (Vec<Bound<'py, PyDict>>, Option<[String; 2]>);
+type AdvancedRows<'py> = (Vec<Bound<'py, PyDict>>, Option<[String; 2]>);
 
 /// Names of the columns of the history, and the number of components of a displacement.
-type Begun = (Vec<String>, usize);
+type RunStart = (Vec<String>, usize);
 
 /// Begins the run of a case, reports the columns of its rows, and answers requests until there are no more.
 fn answer(
     file: &CaseFile,
-    begun: &Sender<Result<Begun, Failure>>,
-    (questions, answers): (&Receiver<Question>, &Sender<Answer>),
+    begun: &Sender<Result<RunStart, Failure>>,
+    (request_sender, answers): (&Receiver<RowRequest>, &Sender<RowAnswer>),
 ) -> anyhow::Result<()> {
     let progress = Progress::new(ProgressMode::Quiet);
     let model = build_model(file, &mut Stages::default(), &progress)?;
@@ -103,18 +103,18 @@ fn answer(
     let motion = loading.motion(&problem);
     let posed = Posed::new(&problem, motion.as_ref());
     let (sender, collected) = channel();
-    let mut observer = Collector { rows: sender };
+    let mut observer = RowCollector { rows: sender };
     let begin = begin(posed, &model.setup.analysis, &mut observer);
     let mut way = begin?;
     let _ = begun.send(Ok((history_columns(&problem), n_components(&problem))));
-    for question in questions {
-        let answer = match question {
-            Question::Advance => advance(&mut *way, &collected),
-            Question::NextLoadFactor(it) => Answer::Takes(way.set_next_load_factor(it)),
-            Question::Displacement => Answer::Values(displacement(&problem, way.state())),
-            Question::Damage => {
+    for request in request_sender {
+        let answer = match request {
+            RowRequest::Advance => advance(&mut *way, &collected),
+            RowRequest::NextLoadFactor(it) => RowAnswer::Takes(way.set_next_load_factor(it)),
+            RowRequest::Displacement => RowAnswer::Values(displacement(&problem, way.state())),
+            RowRequest::Damage => {
                 let damage = damage(&*problem.system, &way.state().intact);
-                Answer::Values(problem.system.numbering.to_file(damage))
+                RowAnswer::Values(problem.system.numbering.to_file(damage))
             }
         };
         if answers.send(answer).is_err() {
@@ -125,13 +125,13 @@ fn answer(
 }
 
 /// Advances by a row; returns the rows recorded meanwhile.
-fn advance(way: &mut dyn Way, collected: &Receiver<Vec<Entry>>) -> Answer {
+fn advance(way: &mut dyn Way, collected: &Receiver<Vec<RowEntry>>) -> RowAnswer {
     let end = match way.advance() {
         Ok(()) => None,
         Err(Stop::End(end)) => Some([end.name().to_owned(), end.to_string()]),
-        Err(Stop::Failed(error)) => return Answer::Failed(Failure::Other(error.into())),
+        Err(Stop::Failed(error)) => return RowAnswer::Failed(Failure::Other(error.into())),
     };
-    Answer::Rows(collected.try_iter().collect(), end)
+    RowAnswer::SteppedRun(collected.try_iter().collect(), end)
 }
 
 /// Displacements of the points in the order of the body's file, shape (n_points, n_components), m.
@@ -162,17 +162,17 @@ fn n_components(problem: &Problem) -> usize {
 }
 
 #[pymethods]
-impl Rows {
+impl SteppedRun {
     /// Begins the run of a case.
     #[new]
     fn begin(py: Python<'_>, case: &Bound<'_, Case>) -> PyResult<Self> {
         let file = case.get().file.clone();
         let (begun, first) = channel();
-        let (questions, asked) = channel();
-        let (told, answers) = channel();
+        let (request_sender, requests) = channel();
+        let (answer_sender, answers) = channel();
         thread::spawn(move || {
             let (threads, failing) = (file.threads(), begun.clone());
-            let run = move || answer(&file, &begun, (&asked, &told));
+            let run = move || answer(&file, &begun, (&requests, &answer_sender));
             let failed = match on_threads(threads, run) {
                 Ok(Ok(())) => return,
                 Ok(Err(error)) => error,
@@ -182,19 +182,19 @@ impl Rows {
             let _ = failing.send(Err(Failure::Other(failed)));
         });
         let (columns, n_components) =
-            received(py, &first)?.map_err(|failure| failure.exception(py))?;
+            next_value(py, &first)?.map_err(|failure| failure.exception(py))?;
         Ok(Self {
             columns,
             n_components,
-            questions,
+            request_sender,
             answers: Mutex::new(answers),
         })
     }
 
     /// Goes on by a row; the rows that were recorded meanwhile.
-    fn advance<'py>(&self, py: Python<'py>) -> PyResult<Advanced<'py>> {
-        let Answer::Rows(rows, end) = self.ask(py, Question::Advance)? else {
-            return Err(unexpected(py));
+    fn advance<'py>(&self, py: Python<'py>) -> PyResult<AdvancedRows<'py>> {
+        let RowAnswer::SteppedRun(rows, end) = self.ask(py, RowRequest::Advance)? else {
+            return Err(wrong_answer_error(py));
         };
         let rows: PyResult<Vec<_>> = rows.iter().map(|row| self.dictionary(py, row)).collect();
         Ok((rows?, end))
@@ -202,50 +202,50 @@ impl Rows {
 
     /// Gives the next row another load factor; whether the run takes one.
     fn set_next_load_factor(&self, py: Python<'_>, load_factor: f64) -> PyResult<bool> {
-        match self.ask(py, Question::NextLoadFactor(load_factor))? {
-            Answer::Takes(takes) => Ok(takes),
-            _ => Err(unexpected(py)),
+        match self.ask(py, RowRequest::NextLoadFactor(load_factor))? {
+            RowAnswer::Takes(takes) => Ok(takes),
+            _ => Err(wrong_answer_error(py)),
         }
     }
 
     /// Displacements of the points, in the order of the body's file: (n, 2) or (n, 3), m.
     fn displacement<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let values = self.values(py, Question::Displacement)?;
+        let values = self.values(py, RowRequest::Displacement)?;
         rows(py, values, self.n_components)
     }
 
     /// Damage of the points, in the order of the body's file: (n).
     fn damage<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(array(py, self.values(py, Question::Damage)?))
+        Ok(array(py, self.values(py, RowRequest::Damage)?))
     }
 }
 
-impl Rows {
-    fn ask(&self, py: Python<'_>, question: Question) -> PyResult<Answer> {
-        let over = || of_request(py, "the run is over; begin another one");
-        self.questions.send(question).map_err(|_| over())?;
+impl SteppedRun {
+    fn ask(&self, py: Python<'_>, request: RowRequest) -> PyResult<RowAnswer> {
+        let over = || request_error(py, "the run is over; begin another one");
+        self.request_sender.send(request).map_err(|_| over())?;
         let answers = self.answers.lock().map_err(|_| over())?;
-        match received(py, &answers)? {
-            Answer::Failed(failure) => Err(failure.exception(py)),
+        match next_value(py, &answers)? {
+            RowAnswer::Failed(failure) => Err(failure.exception(py)),
             answer => Ok(answer),
         }
     }
 
-    fn values(&self, py: Python<'_>, question: Question) -> PyResult<Vec<f64>> {
-        match self.ask(py, question)? {
-            Answer::Values(values) => Ok(values),
-            _ => Err(unexpected(py)),
+    fn values(&self, py: Python<'_>, request: RowRequest) -> PyResult<Vec<f64>> {
+        match self.ask(py, request)? {
+            RowAnswer::Values(values) => Ok(values),
+            _ => Err(wrong_answer_error(py)),
         }
     }
 
-    fn dictionary<'py>(&self, py: Python<'py>, row: &[Entry]) -> PyResult<Bound<'py, PyDict>> {
+    fn dictionary<'py>(&self, py: Python<'py>, row: &[RowEntry]) -> PyResult<Bound<'py, PyDict>> {
         let dictionary = PyDict::new(py);
         for (name, entry) in self.columns.iter().zip(row) {
             match entry {
-                Entry::Count(it) => dictionary.set_item(name, it),
-                Entry::Number(it) => dictionary.set_item(name, it),
-                Entry::Word(it) => dictionary.set_item(name, it),
-                Entry::Nothing => dictionary.set_item(name, py.None()),
+                RowEntry::Count(it) => dictionary.set_item(name, it),
+                RowEntry::Number(it) => dictionary.set_item(name, it),
+                RowEntry::Word(it) => dictionary.set_item(name, it),
+                RowEntry::Nothing => dictionary.set_item(name, py.None()),
             }?;
         }
         Ok(dictionary)
@@ -253,22 +253,22 @@ impl Rows {
 }
 
 /// Waits for the next value from another thread, and checks for signals meanwhile.
-fn received<T: Send>(py: Python<'_>, from: &Receiver<T>) -> PyResult<T> {
+fn next_value<T: Send>(py: Python<'_>, from: &Receiver<T>) -> PyResult<T> {
     loop {
         py.check_signals()?;
         match from.recv_timeout(LOOK) {
             Ok(value) => return Ok(value),
             Err(RecvTimeoutError::Timeout) => {}
             Err(RecvTimeoutError::Disconnected) => {
-                return Err(of_request(py, "the run is over; begin another one"));
+                return Err(request_error(py, "the run is over; begin another one"));
             }
         }
     }
 }
 
 /// The exception for an answer to another request, which may remain after Ctrl-C.
-fn unexpected(py: Python<'_>) -> PyErr {
-    of_request(
+fn wrong_answer_error(py: Python<'_>) -> PyErr {
+    request_error(
         py,
         "the run was interrupted between two rows; begin another one",
     )

@@ -1,6 +1,6 @@
 //! Plots with one scale along x and y, cut off at a window: loci that are open.
 
-use super::sheet::Sheet;
+use super::sheet::PageLayout;
 use super::{Plot, PlotError};
 use crate::drawing::{Drawing, Frame};
 
@@ -22,9 +22,9 @@ impl EqualScales {
     pub fn for_screen(&self) -> Result<Drawing, PlotError> {
         let [lower, upper] = self.window;
         if !(0..2).all(|axis| lower[axis] < upper[axis]) {
-            return Err(self.plot.is_empty());
+            return Err(self.plot.empty_error());
         }
-        let sheet = Sheet::screen(600.0, &self.plot.series);
+        let sheet = PageLayout::screen(600.0, &self.plot.series);
         let frame = self.plot.frame(sheet, self.window);
         // The window is enlarged along one axis until it fills the room at the common scale.
         let (size, scale) = (frame.size(), frame.scale[0].min(frame.scale[1]));

@@ -21,7 +21,7 @@ pub(super) type Number<'a> = &'a dyn Fn(&str) -> anyhow::Result<f64>;
 
 /// A case with settings (`key=value`, as with `--set`) for a run.
 #[derive(Clone)]
-pub(super) struct Trial {
+pub(super) struct CaseRun {
     /// Path of the case in the repository.
     path: String,
     text: String,
@@ -29,9 +29,9 @@ pub(super) struct Trial {
     mesh_file: Option<PathBuf>,
 }
 
-impl Trial {
-    /// A trial of a case file, by its path from the root of the repository, without settings.
-    pub(super) fn of_file(path: &str) -> anyhow::Result<Self> {
+impl CaseRun {
+    /// A run of a case file, given by the path from the root of the repository, without settings.
+    pub(super) fn from_file(path: &str) -> anyhow::Result<Self> {
         let text = std::fs::read_to_string(repository().join(path));
         Ok(Self {
             path: path.to_owned(),
@@ -41,19 +41,19 @@ impl Trial {
         })
     }
 
-    /// The trial with one more setting.
+    /// The case run with one more setting.
     pub(super) fn set(mut self, key: &str, value: impl std::fmt::Debug) -> Self {
         self.settings.push(format!("{key}={value:?}"));
         self
     }
 
-    /// The trial with a setting whose value is a text in TOML, such as an array of tables.
+    /// The case run with a setting whose value is a text in TOML, such as an array of tables.
     pub(super) fn set_toml(mut self, key: &str, value: &str) -> Self {
         self.settings.push(format!("{key}={value}"));
         self
     }
 
-    /// The trial on a mesh file.
+    /// The case run on a mesh file.
     pub(super) fn on_mesh_file(self, path: PathBuf) -> Self {
         Self {
             mesh_file: Some(path.clone()),
@@ -68,11 +68,11 @@ impl Trial {
 
     /// Runs the case, as `ligament run` does.
     pub(super) fn solve(&self) -> anyhow::Result<Solution> {
-        self.solve_seen(&mut NoObserver)
+        self.solve_with_observer(&mut NoObserver)
     }
 
     /// Runs the case with an observer.
-    pub(super) fn solve_seen(
+    pub(super) fn solve_with_observer(
         &self,
         observer: &mut (dyn Observer + Send),
     ) -> anyhow::Result<Solution> {
@@ -83,14 +83,14 @@ impl Trial {
     pub(super) fn solve_to_the_end(&self) -> anyhow::Result<Solution> {
         self.with_setup(|case, setup| {
             let solution = setup.solve(&mut NoObserver);
-            solution.map_err(|error| case.explained(error))
+            solution.map_err(|error| case.error_in_case_terms(error))
         })
     }
 
     /// Runs the case, and returns all breakages in their order.
     pub(super) fn solve_with_breakages(&self) -> anyhow::Result<(Solution, Vec<BreakRecord>)> {
         let mut breakages = Breakages::default();
-        let solution = self.solve_seen(&mut breakages)?;
+        let solution = self.solve_with_observer(&mut breakages)?;
         Ok((solution, breakages.records))
     }
 
@@ -103,14 +103,16 @@ impl Trial {
     pub(super) fn model_with(&self, change: impl FnOnce(&mut Setup)) -> anyhow::Result<Model> {
         self.with_setup(|case, mut setup| {
             change(&mut setup);
-            Ok(Model::build(setup, &mut ()).map_err(|error| case.located(error))?)
+            Ok(Model::build(setup, &mut ()).map_err(|error| case.error_at_key(error))?)
         })
     }
 
     /// The natural modes of the case, as `ligament run` finds them.
     pub(super) fn modes(&self) -> anyhow::Result<Vec<Mode>> {
         self.with_setup(|case, setup| {
-            let found = setup.modes().map_err(|error| case.explained(error))?;
+            let found = setup
+                .modes()
+                .map_err(|error| case.error_in_case_terms(error))?;
             match found.messages.first() {
                 Some(message) => Err(anyhow::anyhow!("{message}")),
                 None => Ok(found.modes),
@@ -149,7 +151,7 @@ fn run(
     observer: &mut (dyn Observer + Send),
 ) -> anyhow::Result<Solution> {
     let solution = setup.solve(observer);
-    let solution = solution.map_err(|error| case.explained(error))?;
+    let solution = solution.map_err(|error| case.error_in_case_terms(error))?;
     match &solution.outcome.termination {
         Termination::NoEquilibrium { .. } | Termination::NotAtRest { .. } => {
             Err(anyhow::anyhow!("{}", solution.outcome.termination))
@@ -187,9 +189,9 @@ pub(super) fn largest_displacements(solution: &Solution) -> anyhow::Result<[f64;
 
 /// Cached results of runs that several entries share, by the commands of the runs.
 #[derive(Debug)]
-pub(super) struct Memory<T>(BTreeMap<String, T>);
+pub(super) struct ResultCache<T>(BTreeMap<String, T>);
 
-impl<T: Clone> Memory<T> {
+impl<T: Clone> ResultCache<T> {
     /// The result of a run, computed on its first use.
     pub(super) fn result(
         &mut self,
@@ -204,17 +206,17 @@ impl<T: Clone> Memory<T> {
         Ok(result)
     }
 
-    /// The reading from the run of a trial, computed on its first use.
+    /// The reading from a case run, computed on its first use.
     pub(super) fn reading(
         &mut self,
-        trial: &Trial,
+        case_run: &CaseRun,
         read: impl FnOnce(&Solution) -> anyhow::Result<T>,
     ) -> anyhow::Result<T> {
-        self.result(trial.command(), || read(&trial.solve()?))
+        self.result(case_run.command(), || read(&case_run.solve()?))
     }
 }
 
-impl<T> Default for Memory<T> {
+impl<T> Default for ResultCache<T> {
     fn default() -> Self {
         Self(BTreeMap::new())
     }

@@ -4,16 +4,16 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
 use serde::{Deserialize, Serialize};
 
-use super::largest::Largest;
+use super::largest::LargestUtilisations;
 use super::softening_table::{self, SofteningProgress};
-use super::tables::{FILES, Progress};
+use super::tables::{FILES, TablesProgress};
+use crate::file_digest::FileDigest;
 use crate::folder::{Kind, ResultFolder};
-use crate::written::Written;
 
 /// State of the written results of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct OutputState {
-    pub(super) tables: Progress,
+    pub(super) tables: TablesProgress,
     pub(super) softening: Option<SofteningProgress>,
     pub(super) first: FirstBonds,
     /// Times and names of the field files.
@@ -22,9 +22,9 @@ pub struct OutputState {
     pub(super) bonds: Vec<(f64, String)>,
     /// Ends of the broken bonds with the steps.
     pub(super) breaks: Vec<([u32; 2], u32)>,
-    pub(super) largest: Option<Largest>,
+    pub(super) largest: Option<LargestUtilisations>,
     /// Names of the completed files, with their contents' lengths and digests.
-    pub(super) whole: Vec<(String, Written)>,
+    pub(super) whole: Vec<(String, FileDigest)>,
 }
 
 impl OutputState {
@@ -44,11 +44,11 @@ impl OutputState {
         bonds.all(|(ends, _)| is_bond(ends))
             && largest.all(|it| n_bonds.is_none_or(|n_bonds| it.fits(n_bonds, n_criteria)))
             && first.all(|it| is_bond(&it.ends) && (it.criterion as usize) < n_criteria)
-            && softening.is_none_or(|told| n_bonds.is_none_or(|it| told.fits(it)))
+            && softening.is_none_or(|progress| n_bonds.is_none_or(|it| progress.fits(it)))
     }
 
     /// Reason why a run cannot be resumed with the files of its folder; `None` if it can.
-    pub fn obstacle(&self, folder: &ResultFolder) -> Option<String> {
+    pub fn mismatch(&self, folder: &ResultFolder) -> Option<String> {
         let series = self.fields.iter().chain(&self.bonds);
         let whole = self.whole.iter().map(|(name, _)| name);
         let mut named = series.map(|(_, name)| name).chain(whole);
@@ -57,9 +57,9 @@ impl OutputState {
         }
         let tables = FILES.iter().copied().zip(self.tables.of_files);
         let softening = self.softening.iter();
-        let softening = softening.map(|told| (softening_table::FILE, told.written));
+        let softening = softening.map(|progress| (softening_table::FILE, progress.written));
         let whole = self.whole.iter().map(|(name, it)| (name.as_str(), *it));
         let mut all = tables.chain(softening).chain(whole);
-        all.find_map(|(name, written)| written.obstacle(&folder.file(name)))
+        all.find_map(|(name, written)| written.mismatch(&folder.file(name)))
     }
 }

@@ -15,14 +15,14 @@ const NEAR: f64 = 0.25;
 
 /// Merged corners and their places.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Joined {
+pub(super) struct MergedCorners {
     /// The number of the place of each corner, shape (n_corners).
     pub(super) place_of: Vec<u32>,
     /// Places, shape (n_places), m.
     pub(super) places: Vec<[f64; 2]>,
 }
 
-impl Joined {
+impl MergedCorners {
     /// Joins the corners of cells, by their positions without load and as they are drawn, both of shape (n_corners).
     pub(super) fn new(cells: &[Cell], reference: &[[f64; 2]], positions: &[[f64; 2]]) -> Self {
         let corners = cells.first().map_or(&[][..], Cell::points);
@@ -74,7 +74,7 @@ mod tests {
         let cells = [Cell::Quad([0, 1, 2, 3]), Cell::Quad([4, 5, 6, 7])];
         let joined = |moved: f64| {
             let positions = [square(0.0), square(0.1 + moved)].concat();
-            Joined::new(&cells, &reference, &positions)
+            MergedCorners::new(&cells, &reference, &positions)
         };
         let near = joined(0.01);
         assert_eq!(near.places.len(), 6);
@@ -102,7 +102,7 @@ mod tests {
         let cells: Vec<Cell> = (0..rows)
             .map(|row| Cell::Quad([0, 1, 2, 3].map(|corner| 4 * row + corner)))
             .collect();
-        let joined = Joined::new(&cells, &reference, &reference);
+        let joined = MergedCorners::new(&cells, &reference, &reference);
         assert_eq!(joined.places.len(), 2 * (rows as usize + 1));
         for (place, at) in joined.place_of.iter().zip(&reference) {
             let drawn = joined.places[*place as usize];

@@ -14,8 +14,8 @@ use crate::stored_loading::resolved_case;
 /// Whether the case of a run asks for pictures at its end, by `output.picture = true`.
 pub fn asks_for_pictures(folder: &Path) -> bool {
     let case = resolved_case(folder).ok();
-    let asked = |case: toml::Table| case.get("output")?.get("picture")?.as_bool();
-    case.and_then(asked).unwrap_or(false)
+    let requested = |case: toml::Table| case.get("output")?.get("picture")?.as_bool();
+    case.and_then(requested).unwrap_or(false)
 }
 
 /// Draws the last state of a run, or its first modes, as PNG into its folder; if the run breaks bonds, also the curve of force over
@@ -25,7 +25,9 @@ pub fn asks_for_pictures(folder: &Path) -> bool {
 ///
 /// If there are no such results, or a picture cannot be written.
 pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
-    let mut drawn = vec![draw_fields(&FieldRequest::usual(folder.to_path_buf()))?];
+    let mut drawn = vec![draw_fields(&FieldRequest::default_for(
+        folder.to_path_buf(),
+    ))?];
     let case = resolved_case(folder)?;
     let has_curve = case.contains_key("fracture") || case.contains_key("motion");
     if has_curve && kind_of(folder) == OutputKind::Steps {

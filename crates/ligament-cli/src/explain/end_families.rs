@@ -11,17 +11,17 @@ use ligament_output::results::stored::{Motions, StoredRun};
 use super::strains::breakages;
 
 /// The families of the ends of some bonds, with the steps in which their bonds broke.
-pub(super) struct Around<'a> {
+pub(super) struct EndFamilies<'a> {
     run: &'a StoredRun,
     /// Bonds of the requested points.
     families: BTreeMap<u32, Vec<usize>>,
     /// Step in which each bond broke, shape (n_bonds).
     broke_in: Vec<Option<usize>>,
-    /// Whether a moment is just before the breakages of its step.
+    /// Whether a stored step is just before the breakages of its step.
     before_breakages: bool,
 }
 
-impl<'a> Around<'a> {
+impl<'a> EndFamilies<'a> {
     /// The families of the ends of bonds.
     pub(super) fn new(
         run: &'a StoredRun,
@@ -48,7 +48,7 @@ impl<'a> Around<'a> {
         }
     }
 
-    /// The strain around a bond with these ends and this direction in the moment of a step; None where the bonds of neither end span the space.
+    /// The strain around a bond with these ends and this direction in a stored step; None where the bonds of neither end span the space.
     pub(super) fn strain(
         &self,
         (ends, direction): ([u32; 2], [f64; 3]),
@@ -67,13 +67,13 @@ impl<'a> Around<'a> {
         motions: &Motions,
         step: usize,
     ) -> Option<StrainAround> {
-        let of_ends = ends.map(|end| self.of_point::<D>(end, motions, step));
+        let of_ends = ends.map(|end| self.point_strain::<D>(end, motions, step));
         let n = from_fn(|axis| direction[axis]);
         Some(StrainAround::new(&mean_strain(of_ends)?, n))
     }
 
     /// Strain of a point without its thermal strain.
-    fn of_point<const D: usize>(
+    fn point_strain<const D: usize>(
         &self,
         point: u32,
         motions: &Motions,

@@ -21,9 +21,9 @@ pub(super) struct Settings {
 }
 
 /// Keys that do not apply with a setting.
-struct NotWith {
+struct IneffectiveKeys {
     /// Setting of the case with which they do not apply.
-    with: With,
+    with: CaseSetting,
     /// Section that has the keys; empty for keys outside of all sections.
     section: &'static str,
     keys: &'static [&'static str],
@@ -31,7 +31,7 @@ struct NotWith {
 }
 
 /// Setting of a case.
-enum With {
+enum CaseSetting {
     /// One of some analyses.
     Analysis(&'static [Analysis]),
     /// One of some schemes of a motion.
@@ -40,27 +40,28 @@ enum With {
     Setting(&'static str, fn(&Settings) -> bool),
 }
 
-const MODAL: With = With::Analysis(&[Analysis::Modal]);
-const MOTION: With = With::Analysis(&[Analysis::Motion]);
-const EVENT: With = With::Setting("control = \"event\"", |it| {
+const MODAL: CaseSetting = CaseSetting::Analysis(&[Analysis::Modal]);
+const MOTION: CaseSetting = CaseSetting::Analysis(&[Analysis::Motion]);
+const EVENT: CaseSetting = CaseSetting::Setting("control = \"event\"", |it| {
     it.scheme.is_none() && it.control == Some(Control::Event)
 });
-const STAGES: With = With::Setting("[[stage]]", |it| it.scheme.is_none() && it.has_stages);
-const EXPLICIT: With = With::Scheme(&[Scheme::Explicit]);
+const STAGES: CaseSetting =
+    CaseSetting::Setting("[[stage]]", |it| it.scheme.is_none() && it.has_stages);
+const EXPLICIT: CaseSetting = CaseSetting::Scheme(&[Scheme::Explicit]);
 
-const NOT_WITH: [NotWith; 19] = [
+const NOT_WITH: [IneffectiveKeys; 19] = [
     row(
-        With::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Motion]),
+        CaseSetting::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Motion]),
         ("", &["modal"]),
         "it says which modes are wanted, and only analysis = \"modal\" finds any",
     ),
     row(
-        With::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Modal]),
+        CaseSetting::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Modal]),
         ("", &["motion", "initial_velocity", "quiet"]),
         "only a motion takes place in time",
     ),
     row(
-        With::Analysis(&[Analysis::Static]),
+        CaseSetting::Analysis(&[Analysis::Static]),
         ("", &["fracture"]),
         "no bond breaks in an elastic solution",
     ),
@@ -136,12 +137,12 @@ const NOT_WITH: [NotWith; 19] = [
         "explicit steps take no energy and follow no equilibria",
     ),
     row(
-        With::Scheme(&[Scheme::Implicit]),
+        CaseSetting::Scheme(&[Scheme::Implicit]),
         ("motion", &["statics"]),
         "all implicit steps have inertia; those of the scheme \"auto\" have it where the body loses its balance",
     ),
     row(
-        With::Scheme(&[Scheme::Implicit, Scheme::Auto]),
+        CaseSetting::Scheme(&[Scheme::Implicit, Scheme::Auto]),
         ("motion", &["safety"]),
         "implicit steps are stable at any length",
     ),
@@ -167,11 +168,11 @@ const NOT_WITH: [NotWith; 19] = [
 ];
 
 const fn row(
-    with: With,
+    with: CaseSetting,
     (section, keys): (&'static str, &'static [&'static str]),
     reason: &'static str,
-) -> NotWith {
-    NotWith {
+) -> IneffectiveKeys {
+    IneffectiveKeys {
         with,
         section,
         keys,
@@ -179,15 +180,15 @@ const fn row(
     }
 }
 
-impl NotWith {
+impl IneffectiveKeys {
     /// The words of the setting, if a case with these settings has it.
     fn among(&self, settings: &Settings) -> Option<String> {
         match self.with {
-            With::Analysis(any) => {
+            CaseSetting::Analysis(any) => {
                 let analysis = settings.analysis.filter(|it| any.contains(it))?;
                 Some(format!("analysis = \"{}\"", word_of(&analysis)))
             }
-            With::Scheme(any) => {
+            CaseSetting::Scheme(any) => {
                 let scheme = settings.scheme.filter(|it| any.contains(it))?;
                 let section = if self.section == "motion" {
                     ""
@@ -196,7 +197,7 @@ impl NotWith {
                 };
                 Some(format!("{section}scheme = \"{}\"", word_of(&scheme)))
             }
-            With::Setting(words, holds) => holds(settings).then(|| words.to_owned()),
+            CaseSetting::Setting(words, holds) => holds(settings).then(|| words.to_owned()),
         }
     }
 }

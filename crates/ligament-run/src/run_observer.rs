@@ -1,4 +1,5 @@
-//! Observer of a run that writes its results, shows its progress and collects its messages.
+//! Observers of a run: the observer of rank 0 writes the results, shows the progress and collects the messages; the observer of any other
+//! rank writes pieces of grids.
 
 use std::time::Instant;
 
@@ -9,38 +10,38 @@ use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
     Ahead, BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, View,
 };
-use ligament_output::results::ResultWriter;
+use ligament_output::results::{PieceWriter, ResultWriter};
 
-use crate::checkpoints::{Checkpoints, Stops};
-use crate::messages::named;
-use crate::pace;
+use crate::checkpoints::{Checkpoints, IsStopped, StopRequests};
+use crate::messages::with_point_names;
 use crate::progress::{Progress, StepLine, noun};
+use crate::run_time_estimate;
 
 /// Largest number of messages shown during the run; all are in `summary.json`.
 const SHOWN: usize = 5;
 
 /// The observer of `ligament run`.
-pub(crate) struct Watch<'a> {
+pub(crate) struct RunObserver<'a> {
     writer: ResultWriter<'a>,
     checkpoints: Checkpoints<'a>,
-    requests: Stops<'a>,
+    requests: StopRequests<'a>,
     /// Whether the run stops in the next state.
     stops: bool,
     progress: &'a mut Progress,
     messages: Vec<Message>,
     last: StepLine,
-    /// The points of the whole body.
+    /// Body with the names of all points, also those of other processes.
     names: &'a dyn Body,
     setup: &'a Setup,
     /// Number of bonds.
     bonds: usize,
 }
 
-impl<'a> Watch<'a> {
+impl<'a> RunObserver<'a> {
     /// The observer of a run of a model, with a writer, checkpoints, a progress display and the messages of an earlier part of the run.
     pub(crate) fn new(
         (writer, checkpoints): (ResultWriter<'a>, Checkpoints<'a>),
-        requests: Stops<'a>,
+        requests: StopRequests<'a>,
         progress: &'a mut Progress,
         model: &'a Model,
         messages: Vec<Message>,
@@ -78,7 +79,7 @@ impl<'a> Watch<'a> {
         (self.messages, self.writer.first_bonds(), self.checkpoints)
     }
 
-    fn unless_aborted(&self) -> Result<(), ObserverError> {
+    fn require_not_aborted(&self) -> Result<(), ObserverError> {
         match (self.requests.is_aborted)() {
             true => Err(ObserverError("stopped at once".into())),
             false => Ok(()),
@@ -86,9 +87,9 @@ impl<'a> Watch<'a> {
     }
 }
 
-impl Observer for Watch<'_> {
+impl Observer for RunObserver<'_> {
     fn begins(&mut self, ahead: Ahead) {
-        if let Some(words) = pace::words(ahead, self.bonds) {
+        if let Some(words) = run_time_estimate::announcement(ahead, self.bonds) {
             self.progress.stage(&words);
         }
     }
@@ -109,7 +110,7 @@ impl Observer for Watch<'_> {
         if step > 0 && round > 0 {
             self.progress.round(&self.last);
         }
-        self.unless_aborted()?;
+        self.require_not_aborted()?;
         self.writer.round(step, round, load_factor, broken)
     }
 
@@ -119,7 +120,7 @@ impl Observer for Watch<'_> {
         residual: f64,
         stored_energy: f64,
     ) -> Result<(), ObserverError> {
-        self.unless_aborted()?;
+        self.require_not_aborted()?;
         self.writer.iteration(iteration, residual, stored_energy)
     }
 
@@ -128,7 +129,7 @@ impl Observer for Watch<'_> {
     }
 
     fn message(&mut self, message: Message) -> Result<(), ObserverError> {
-        let message = named(message, self.names, self.setup);
+        let message = with_point_names(message, self.names, self.setup);
         let is_new = |it: &Message| !it.tells_the_same(&message);
         if self.messages.len() < SHOWN && self.messages.iter().all(is_new) {
             self.progress.stage(&message.to_string());
@@ -140,17 +141,17 @@ impl Observer for Watch<'_> {
     fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
         self.stops = end.is_none() && (self.requests.is_stopped)();
         let stops = self.stops.then_some(&Termination::Stopped);
-        self.checkpoints.ask(stops.or(end));
+        self.checkpoints.decide(stops.or(end));
         Ok(self.checkpoints.is_due())
     }
 
     fn moment(&mut self, moment: &Moment<'_>) -> Result<Onward, ObserverError> {
         if self.checkpoints.is_due() {
-            let begun = Instant::now();
-            let results = self.writer.so_far().map_err(failed)?;
+            let start = Instant::now();
+            let results = self.writer.output_state().map_err(observer_error)?;
             let (checkpoints, solution) = (&mut self.checkpoints, moment.checkpoint);
-            let written = checkpoints.write(begun, solution, &results, &self.messages);
-            written.map_err(failed)?;
+            let written = checkpoints.write(start, solution, &results, &self.messages);
+            written.map_err(observer_error)?;
         }
         Ok(if self.stops { Onward::Stop } else { Onward::Go })
     }
@@ -179,6 +180,42 @@ impl Observer for Watch<'_> {
     }
 }
 
-fn failed(error: ligament_output::Error) -> ObserverError {
+fn observer_error(error: ligament_output::Error) -> ObserverError {
     ObserverError(Box::new(error))
+}
+
+/// The observer of a rank other than 0, which writes its pieces of grids and stops together with all other processes.
+pub(crate) struct PieceObserver<'a> {
+    is_stopped: IsStopped<'a>,
+    /// Whether the run stops in the next state.
+    stops: bool,
+    /// Writer of pieces; none where the body is not divided and rank 0 writes whole grids.
+    writer: Option<PieceWriter<'a>>,
+}
+
+impl<'a> PieceObserver<'a> {
+    /// The observer of a run, with a writer where the body is divided.
+    pub(crate) fn new(writer: Option<PieceWriter<'a>>, is_stopped: IsStopped<'a>) -> Self {
+        Self {
+            is_stopped,
+            stops: false,
+            writer,
+        }
+    }
+}
+
+impl Observer for PieceObserver<'_> {
+    fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
+        let writer = self.writer.as_mut();
+        writer.map_or(Ok(()), |it| it.step(record, view))
+    }
+
+    fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {
+        self.stops = end.is_none() && (self.is_stopped)();
+        Ok(false)
+    }
+
+    fn moment(&mut self, _: &Moment<'_>) -> Result<Onward, ObserverError> {
+        Ok(if self.stops { Onward::Stop } else { Onward::Go })
+    }
 }
