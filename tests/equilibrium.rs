@@ -25,7 +25,8 @@ use verification::problems::PLATE;
 #[test]
 fn rigid_motions_cost_no_energy() {
     for poisson in ["0.21", "0.333333333333333333", "0.38"] {
-        let bench = Bench::new(DISK, &[&format!("material.poisson={poisson}")]);
+        let setting = format!("material.poisson={poisson}");
+        let bench = Bench::new(DISK, &[&setting, "model.poisson=bonds"]);
         let system = &**bench.model.plane();
         let intact = vec![true; system.bonds.len()];
         let energy = |[u_x, u_y, angle]: [f64; 3], own_rotation: f64| {

@@ -133,8 +133,17 @@ fn disks_break_the_same_bonds() {
     const FORCE: &str = "load=[{ group = \"platen-top\", force = { y = -1e6 } }]";
     const PROBE: &str =
         "probe=[{ name = \"widening\", between = [[-0.04, 0.0], [0.04, 0.0]], component = \"x\" }]";
-    let many: [(&str, &[&str]); 5] = [
+    let many: [(&str, &[&str]); 7] = [
         ("nhpd", &[]),
+        ("cells", &["material.poisson=0.4"]),
+        (
+            "cells, bbpd",
+            &[
+                "model.law=bbpd",
+                "material.poisson=0.45",
+                "mesh.plane=strain",
+            ],
+        ),
         ("bbpd", &["model.law=bbpd", THIRD]),
         ("pds", &["model.law=pds"]),
         ("force", &[FORCE]),
@@ -150,12 +159,18 @@ fn disks_break_the_same_bonds() {
 /// Strengths at random, so that the next bond is anywhere: a bound that is too low anywhere would leave it behind.
 #[test]
 fn strengths_at_random_leave_no_bond_behind() {
-    for seed in 1..=5 {
+    for seed in 1..=7 {
+        // The last two with cells that carry a part of the stiffness.
+        let poisson = match seed {
+            6 => "material.poisson=0.38",
+            7 => "material.poisson=0.45",
+            _ => "material.poisson=0.21",
+        };
         let scatter = format!(
             "fracture={{ control = \"event\", stop = {{ bonds = 300 }}, scatter = {{ of = \"strength\", distribution = \"weibull\", \
              modulus = 6.0, correlation_length = 0.01, seed = {seed} }} }}"
         );
-        let bench = Bench::new(DISK, &[&scatter, DISSECTION]);
+        let bench = Bench::new(DISK, &[&scatter, DISSECTION, poisson]);
         assert_eq!(assert_alike(&format!("seed {seed}"), &bench), 300);
     }
 }

@@ -211,6 +211,8 @@ fn the_exact_path_with_parts_left_behind_goes_on_to_the_same_bits() {
     const DISSECTION: &str = "solver.ordering=nested-dissection";
     let disk = [EVENT, COARSE, DISSECTION];
     assert_resumes_looking("left behind", &Bench::new(DISK, &disk), 1, 7);
+    let cells = [EVENT, COARSE, DISSECTION, "material.poisson=0.4"];
+    assert_resumes_looking("left behind, cells", &Bench::new(DISK, &cells), 1, 7);
     let anew = [EVENT, COARSE, DISSECTION, "solver.rebuild_every=17"];
     assert_resumes_looking("left behind, anew", &Bench::new(DISK, &anew), 1, 9);
     let square = ["fracture={ control = \"event\" }", DISSECTION];

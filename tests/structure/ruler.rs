@@ -9,22 +9,22 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 98_062),
-    ("ligament-analysis", 198_947),
-    ("ligament-case", 58_678),
-    ("ligament-cli", 54_553),
+    ("ligament", 100_317),
+    ("ligament-analysis", 199_019),
+    ("ligament-case", 58_773),
+    ("ligament-cli", 54_603),
     ("ligament-linalg", 22_578),
     ("ligament-mesh", 35_967),
-    ("ligament-model", 200_914),
+    ("ligament-model", 212_695),
     ("ligament-output", 74_036),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_122),
     ("ligament-post", 26_668),
     ("ligament-python", 13_826),
     ("ligament-report", 17_811),
-    ("ligament-run", 29_794),
+    ("ligament-run", 30_022),
     ("ligament-study", 60_615),
-    ("ligament-verify", 74_183),
+    ("ligament-verify", 74_188),
 ];
 
 /// Short files of the crates. The numbers may fall.
@@ -35,7 +35,7 @@ const SHORT_FILES: [(&str, usize); 16] = [
     ("ligament-cli", 9),
     ("ligament-linalg", 2),
     ("ligament-mesh", 1),
-    ("ligament-model", 25),
+    ("ligament-model", 24),
     ("ligament-output", 3),
     ("ligament-petsc", 0),
     ("ligament-plot", 2),

@@ -280,7 +280,7 @@ impl Leaders {
     }
 
     /// Bonds tied with the largest ratio, and their ratios, in the order in which they were added.
-    fn tied(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+    pub(crate) fn tied(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
         let met = self.met.iter().copied();
         met.filter(|it| it.1 >= self.lowest_tied)
     }

@@ -25,6 +25,7 @@ use crate::sweep::BondSweep;
 use crate::system::UnbrokenBonds;
 use crate::thermal::ThermalStrain;
 use crate::topology::Topology;
+use crate::volumetric::CellPatch;
 
 /// The bonds of a body, as equations use them. Points, bonds and degrees of freedom are numbers; coordinates and the number of dimensions
 /// stay behind this interface. Bonds dereference to their [`Topology`].
@@ -162,6 +163,17 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         remaining: &StiffnessFactors,
         deformations: [&Deformations; 2],
     ) -> f64;
+
+    /// The patches of cells with a volumetric stiffness while no bond is broken; none without such cells.
+    fn cell_patches(&self) -> Vec<CellPatch>;
+
+    /// Force of the cells on a point, N, one component for each axis, for displacements (n_degrees_of_freedom) without thermal strains; empty
+    /// where cells have no stiffness.
+    fn force_of_cells(&self, intact: &[bool], displacement: &[f64], point: u32) -> Vec<f64>;
+
+    /// Points whose motions determine what a breakage of bonds changes, ascending: the ends of the bonds, and the points of the patches with a
+    /// cell along one of them.
+    fn points_of_breakage(&self, bonds: &[u32]) -> Vec<u32>;
 
     /// Energy 1/2 u^T (K - K') u', J, of the cells, of which bonds with the remaining stiffness `before` and `after` (n_bonds) leave the
     /// stiffnesses K and K', for two deformations of all bonds; 0 where cells have no stiffness.

@@ -23,6 +23,7 @@ use crate::law::BondStiffness;
 use crate::layout::{Component, Layout};
 use crate::material::{Stiffness, add_volumetric};
 use crate::point_sums::Reach;
+pub use crate::topology::UnbrokenBonds;
 use crate::topology::{CoupledPoints, Topology};
 use crate::volumetric::{VolumetricCells, VolumetricTerms};
 
@@ -198,25 +199,6 @@ pub(crate) struct ElementSystem<const D: usize, const M: usize, E: Element<D, M>
     pub(crate) topology: Topology,
     /// What the elements share.
     pub(crate) lattice: E::Lattice,
-}
-
-/// Unbroken bonds with their remaining stiffness.
-#[derive(Debug, Clone, Copy)]
-pub struct UnbrokenBonds<'a> {
-    /// For each bond, whether it is unbroken, shape (n_bonds).
-    pub intact: &'a [bool],
-    /// Remaining stiffness, shape (n_bonds); empty where it is whole.
-    pub remaining: &'a [StiffnessFactors],
-}
-
-impl<'a> UnbrokenBonds<'a> {
-    /// Unbroken bonds (n_bonds) with their whole stiffness.
-    pub fn whole(intact: &'a [bool]) -> Self {
-        Self {
-            intact,
-            remaining: &[],
-        }
-    }
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {

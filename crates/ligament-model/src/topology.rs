@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ligament_mesh::Numbering;
 
 use crate::bonds::Incidence;
-use crate::element::ElementKind;
+use crate::element::{ElementKind, StiffnessFactors};
 use crate::layout::Layout;
 use crate::subdomain::Subdomain;
 
@@ -61,6 +61,25 @@ impl Topology {
             ends: &self.ends,
             incidence: &self.incidence,
             far_field: self.far_field.as_ref(),
+        }
+    }
+}
+
+/// Unbroken bonds with their remaining stiffness.
+#[derive(Debug, Clone, Copy)]
+pub struct UnbrokenBonds<'a> {
+    /// For each bond, whether it is unbroken, shape (n_bonds).
+    pub intact: &'a [bool],
+    /// Remaining stiffness, shape (n_bonds); empty where it is whole.
+    pub remaining: &'a [StiffnessFactors],
+}
+
+impl<'a> UnbrokenBonds<'a> {
+    /// Unbroken bonds (n_bonds) with their whole stiffness.
+    pub fn whole(intact: &'a [bool]) -> Self {
+        Self {
+            intact,
+            remaining: &[],
         }
     }
 }

@@ -25,4 +25,4 @@ mod patches;
 pub use cells::VolumetricCells;
 pub(crate) use change::ChangedPatch;
 pub(crate) use patches::VolumetricStress;
-pub use patches::{PatchDilatation, VolumetricTerms};
+pub use patches::{CellPatch, VolumetricTerms};

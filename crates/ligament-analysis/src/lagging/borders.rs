@@ -8,9 +8,17 @@ use rayon::prelude::*;
 use super::bound::{Bound, Modes, NOT_THERE};
 use super::division::Division;
 use crate::problem::Problem;
+use crate::solver::n_axes;
 
-/// Part, border point and bond between them.
-type Across = (u32, u32, u32);
+/// Part, border point and element between them.
+type Across = (u32, u32, Element);
+
+/// An element by its number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Element {
+    Bond(u32),
+    Patch(u32),
+}
 
 /// Bounds of all parts of a body.
 pub(super) struct Bounds {
@@ -39,7 +47,11 @@ impl Bounds {
         }
         let bound = |(part, stiffness)| {
             let first = |part: usize| across.partition_point(|it| (it.0 as usize) < part);
-            let border = Border::new(system, &whole, &across[first(part)..first(part + 1)]);
+            let border = Border::new(
+                (system, &whole),
+                division,
+                &across[first(part)..first(part + 1)],
+            );
             let places = border.places(&division.parts[part].border, &row_of)?;
             let Border { dofs, blocks } = border;
             Some(Bound::new(&modes, (dofs, places), blocks, stiffness))
@@ -69,8 +81,8 @@ struct Border {
 }
 
 impl Border {
-    /// Border from the bonds across it, in the order of the points.
-    fn new(system: &dyn Bonds, whole: &[bool], across: &[Across]) -> Self {
+    /// Border from the elements across it, in the order of the points.
+    fn new((system, whole): (&dyn Bonds, &[bool]), division: &Division, across: &[Across]) -> Self {
         let layout = system.layout;
         let n = layout.components.len();
         let (mut dofs, mut blocks) = (Vec::new(), Vec::new());
@@ -79,17 +91,32 @@ impl Border {
             let start = blocks.len();
             blocks.resize(start + n * n, 0.0);
             dofs.extend(range.clone().map(|dof| dof as u32));
-            for &(_, _, bond) in of_point {
-                for (rigidity, entries) in
-                    system.terms(whole, bond as usize, &StiffnessFactors::WHOLE)
-                {
-                    let own = entries.iter().filter(|(dof, _)| range.contains(dof));
-                    let own: Vec<(usize, f64)> = own
-                        .map(|(dof, value)| (dof - range.start, *value))
-                        .collect();
-                    for &(i, of_i) in &own {
-                        for &(j, of_j) in &own {
-                            blocks[start + n * i + j] += rigidity * of_i * of_j;
+            let mut add = |rigidity: f64, own: &[(usize, f64)]| {
+                for &(i, of_i) in own {
+                    for &(j, of_j) in own {
+                        blocks[start + n * i + j] += rigidity * of_i * of_j;
+                    }
+                }
+            };
+            for &(_, point, element) in of_point {
+                match element {
+                    Element::Bond(bond) => {
+                        for (rigidity, entries) in
+                            system.terms(whole, bond as usize, &StiffnessFactors::WHOLE)
+                        {
+                            let own = entries.iter().filter(|(dof, _)| range.contains(dof));
+                            let own: Vec<(usize, f64)> = own
+                                .map(|(dof, value)| (dof - range.start, *value))
+                                .collect();
+                            add(rigidity, &own);
+                        }
+                    }
+                    Element::Patch(patch) => {
+                        let corners = division.patches[patch as usize].1.corners.iter();
+                        for (_, row) in corners.filter(|it| it.0 == point) {
+                            let own: Vec<(usize, f64)> =
+                                row.iter().copied().enumerate().take(n).collect();
+                            add(1.0, &own);
                         }
                     }
                 }
@@ -108,20 +135,32 @@ impl Border {
     }
 }
 
-/// Bonds from parts to points of their borders: part, point and bond, ascending.
+/// Bonds and patches from parts to points of their borders: part, point and element, ascending.
 fn across(system: &dyn Bonds, division: &Division) -> Vec<Across> {
     let mut across = Vec::new();
+    let mut add = |lowest: u32, point: u32, element: Element| {
+        let own = division.part_of(point);
+        let mut part = lowest as usize;
+        while part != own {
+            across.push((part as u32, point, element));
+            match division.parts[part].above {
+                Some(above) => part = above,
+                None => break,
+            }
+        }
+    };
     for (bond, ends) in (0..).zip(system.ends.iter()) {
         for &end in ends {
-            let own = division.part_of(end);
-            let mut part = division.part_of_bond[bond as usize] as usize;
-            while part != own {
-                across.push((part as u32, end, bond));
-                match division.parts[part].above {
-                    Some(above) => part = above,
-                    None => break,
-                }
-            }
+            add(
+                division.part_of_bond[bond as usize],
+                end,
+                Element::Bond(bond),
+            );
+        }
+    }
+    for (number, (lowest, patch)) in (0..).zip(&division.patches) {
+        for point in patch.points() {
+            add(*lowest, point, Element::Patch(number));
         }
     }
     across.sort_unstable();
@@ -147,8 +186,21 @@ fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>])
         }
         stiffness
     };
-    (0..division.parts.len())
+    let mut of_parts: Vec<Vec<f64>> = (0..division.parts.len())
         .into_par_iter()
         .map(of_part)
-        .collect()
+        .collect();
+    // The modes of one axis have the dilatation 1, those of two axes none.
+    let n = n_axes(system);
+    let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
+    let dilatations: Vec<f64> = pairs.map(|(i, j)| if i == j { 1.0 } else { 0.0 }).collect();
+    for (part, patch) in &division.patches {
+        let stiffness = &mut of_parts[*part as usize];
+        for (i, of_i) in dilatations.iter().enumerate() {
+            for (j, of_j) in dilatations.iter().enumerate() {
+                stiffness[modes.len() * i + j] += patch.rigidity * of_i * of_j;
+            }
+        }
+    }
+    of_parts
 }

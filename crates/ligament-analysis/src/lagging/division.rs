@@ -2,6 +2,7 @@
 
 use ligament_linalg::Part;
 use ligament_model::Bonds;
+use ligament_model::volumetric::CellPatch;
 
 use crate::probe::Reading;
 use crate::problem::Problem;
@@ -32,6 +33,8 @@ pub(super) struct Division {
     pub(super) wanted: Vec<u32>,
     /// Part of each bond.
     pub(super) part_of_bond: Vec<u32>,
+    /// Patches of cells with the lowest part that contains one of their points.
+    pub(super) patches: Vec<(u32, CellPatch)>,
 }
 
 impl Division {
@@ -49,12 +52,19 @@ impl Division {
         let degree_of_freedom: Vec<u32> = unknowns.map(|&unknown| dofs[unknown]).collect();
         let part_of_point = parts_of_points(system.layout, &parts, &degree_of_freedom)?;
         let ends = system.ends.iter();
-        let lower = |&[a, b]: &[u32; 2]| {
+        let of_bond = |&[a, b]: &[u32; 2]| {
             let [a, b] = [a, b].map(|end| part_of_point[end as usize]);
             lower(&parts, a, b)
         };
-        let part_of_bond: Vec<u32> = ends.map(lower).collect::<Option<_>>()?;
+        let part_of_bond: Vec<u32> = ends.map(of_bond).collect::<Option<_>>()?;
         let (bonds, starts) = sorted(&part_of_bond, parts.len());
+        let patches = system.cell_patches().into_iter().map(|patch| {
+            let mut of_points = (patch.points().into_iter()).map(|it| part_of_point[it as usize]);
+            let first = of_points.next()?;
+            let lowest = of_points.try_fold(first, |lowest, part| lower(&parts, lowest, part))?;
+            Some((lowest, patch))
+        });
+        let patches: Vec<(u32, CellPatch)> = patches.collect::<Option<_>>()?;
         let wanted = wanted(problem)?;
         let mut below = vec![Vec::new(); parts.len()];
         for (number, part) in parts.iter().enumerate() {
@@ -72,6 +82,7 @@ impl Division {
             starts,
             wanted,
             part_of_bond,
+            patches,
         };
         let asked_for = with_neighbours(system, &division.wanted);
         division.is_wanted = division.parts_above(asked_for.into_iter());
@@ -114,11 +125,15 @@ fn may_wait(problem: &Problem, choice: &DirectChoice) -> bool {
         let depends_on_motions = it.surroundings.is_none() || it.follows_stress();
         it.after.is_brittle() && depends_on_motions && !it.measure.takes_strains()
     };
+    // Stresses depend on cells around the points, for which there is no bound.
+    let by_patches = system.has_volumetric_cells
+        && system.far_field.is_none()
+        && !problem.criteria.list.iter().any(|it| it.follows_stress());
     system.element.is_linear()
         && system.element.has_energy()
         && !system.rigidities().some_negative(&system.subdomain)
         && !problem.may_press()
-        && system.coupled_points.are_ends_of_bonds()
+        && (system.coupled_points.are_ends_of_bonds() || by_patches)
         && loads.course().is_none()
         && loads.restraints().is_empty()
         && loads.temperature_change(1.0).is_empty()
@@ -149,11 +164,9 @@ fn wanted(problem: &Problem) -> Option<Vec<u32>> {
 
 /// Points and their neighbours, whose motions determine the forces at the points.
 fn with_neighbours(system: &dyn Bonds, points: &[u32]) -> Vec<u32> {
-    let families = system.families();
-    let neighbours = points.iter().flat_map(|&point| {
-        let bonds = families.incidence.at(point).iter();
-        bonds.map(move |&bond| families.neighbour(bond, point))
-    });
+    let neighbours = points
+        .iter()
+        .flat_map(|&point| system.coupled_points.at(point));
     points.iter().copied().chain(neighbours).collect()
 }
 

@@ -183,7 +183,10 @@ impl<'a> Lagging<'a> {
         self.judge_all(&substituted, points, state, &mut leaders);
         self.wait(&substituted, &is_asked_for, &mut waiting);
         loop {
-            let next = self.next(&mut waiting, leaders.lowest_tied);
+            let mut next = self.next(&mut waiting, leaders.lowest_tied);
+            if next.is_empty() {
+                next = self.behind(&leaders, &substituted);
+            }
             if next.is_empty() {
                 break;
             }
@@ -206,6 +209,21 @@ impl<'a> Lagging<'a> {
             self.combine_child_bounds(part);
         }
         leaders.first_to_break()
+    }
+
+    /// The highest parts that were not substituted of those with a point whose motion a breakage of the leading bonds depends on: cells reach
+    /// beyond the part of a bond.
+    fn behind(&self, leaders: &Leaders, substituted: &[usize]) -> Vec<usize> {
+        let bonds: Vec<u32> = leaders.tied().map(|it| it.0).collect();
+        let points = self.problem.system.points_of_breakage(&bonds).into_iter();
+        let is_behind = self.division.parts_above(points);
+        let parts = (0..is_behind.len()).filter(|&part| is_behind[part]);
+        let is_substituted = |part: usize| substituted.contains(&part);
+        let behind = parts.filter(|&part| !is_substituted(part));
+        let above = |part: usize| self.division.parts[part].above;
+        behind
+            .filter(|&part| above(part).is_none_or(is_substituted))
+            .collect()
     }
 
     /// Substitutes all parts, so that all displacements are up to date.

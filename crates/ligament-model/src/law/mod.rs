@@ -36,6 +36,8 @@ pub use options::{Calibration, Form, Options, Strains};
 pub use restraint::{Exchange, Restraint};
 pub use row::{BondLaw, Law, LawInput, MakeDensities, Materials, PaperCorrection, ShearForm};
 
+use crate::material::{Elasticity, Material, PoissonForm, Space};
+
 /// All laws. A law is one row: its own file and its entry here.
 pub const LAWS: [&BondLaw; 8] = [
     &beam::NHPD,
@@ -62,6 +64,26 @@ impl Law {
         }
         all
     };
+}
+
+impl Law {
+    /// The elasticity that the bonds of a material make up, and the modulus kappa of its cells against changes of volume, Pa; `None` for an
+    /// orthotropic material whose volumetric stiffness cells cannot carry.
+    pub fn of_bonds_and_cells(
+        &self,
+        material: &Material,
+        space: Space,
+    ) -> Option<(Elasticity, f64)> {
+        let by_cells = self.options.poisson == Some(PoissonForm::Cells);
+        match (self.split(material, space), material.elasticity) {
+            (Some(split), _) if split.is_split() => Some((split.bonds.into(), split.modulus)),
+            (None, Elasticity::Orthotropic(it)) if by_cells => {
+                let (of_bonds, modulus) = orthotropic::split(&it, space.plane())?;
+                Some((Elasticity::Orthotropic(of_bonds), modulus))
+            }
+            (_, elasticity) => Some((elasticity, 0.0)),
+        }
+    }
 }
 
 /// Laws that satisfy a condition.

@@ -106,9 +106,24 @@ pub fn split(material: &Orthotropic, plane: Plane) -> Option<(Orthotropic, f64)>
         }),
         angle: material.angle,
     };
-    let [axial, cos_2, sin_2, cos_4, sin_4, ..] =
-        harmonics(&Elasticity::Orthotropic(of_bonds), plane, 1.0);
-    (axial > cos_2.hypot(sin_2) + cos_4.hypot(sin_4)).then_some((of_bonds, modulus))
+    (smallest_axial(&of_bonds, plane) > 0.0).then_some((of_bonds, modulus))
+}
+
+/// Smallest k_n H^3 t over the directions of bonds, Pa: with c = cos 2 psi in the axes of the material it is a parabola in c.
+fn smallest_axial(material: &Orthotropic, plane: Plane) -> f64 {
+    let along_axes = Orthotropic {
+        angle: 0.0,
+        ..*material
+    };
+    let [mean, cos_2, _, cos_4, ..] = harmonics(&Elasticity::Orthotropic(along_axes), plane, 1.0);
+    let at = |c: f64| mean + cos_2 * c + cos_4 * (2.0 * c * c - 1.0);
+    let vertex = (-cos_2 / (4.0 * cos_4)).clamp(-1.0, 1.0);
+    let ends = at(1.0).min(at(-1.0));
+    if vertex.is_finite() {
+        ends.min(at(vertex))
+    } else {
+        ends
+    }
 }
 
 /// k_n H^3 and k_t H^3 (N/m^3) as series in the angle psi to the x axis: the constant term, and the factors of cos and sin of

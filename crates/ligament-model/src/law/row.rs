@@ -2,7 +2,6 @@
 
 use super::densities::{BondGeometry, BondStiffness, Densities};
 use super::options::Options;
-use super::orthotropic;
 use super::rotational::{Profile, RotationalStiffness};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
@@ -268,24 +267,6 @@ impl Law {
             true => VolumetricSplit::whole(given.with_central_forces(space)),
             false => split,
         })
-    }
-
-    /// The elasticity that the bonds of a material make up, and the modulus kappa of its cells against changes of volume, Pa; `None` for an
-    /// orthotropic material whose volumetric stiffness cells cannot carry.
-    pub fn of_bonds_and_cells(
-        &self,
-        material: &Material,
-        space: Space,
-    ) -> Option<(Elasticity, f64)> {
-        let by_cells = self.options.poisson == Some(PoissonForm::Cells);
-        match (self.split(material, space), material.elasticity) {
-            (Some(split), _) if split.is_split() => Some((split.bonds.into(), split.modulus)),
-            (None, Elasticity::Orthotropic(it)) if by_cells => {
-                let (of_bonds, modulus) = orthotropic::split(&it, space.plane())?;
-                Some((Elasticity::Orthotropic(of_bonds), modulus))
-            }
-            (_, elasticity) => Some((elasticity, 0.0)),
-        }
     }
 
     /// Elasticity of a material with its effective constants under the law.

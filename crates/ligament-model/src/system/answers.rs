@@ -22,6 +22,7 @@ use crate::sweep::BondSweep;
 use crate::tensor::SymTensor;
 use crate::thermal::ThermalStrain;
 use crate::topology::Topology;
+use crate::volumetric::CellPatch;
 
 impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D, M, E> {
     fn topology(&self) -> &Topology {
@@ -218,6 +219,30 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
     ) -> f64 {
         let element = self.whole(intact, bond).weakened(remaining);
         element.mutual_energy(&of_bonds(one)[bond], &of_bonds(other)[bond])
+    }
+
+    fn cell_patches(&self) -> Vec<CellPatch> {
+        let terms = self.system.volumetric.as_ref();
+        terms.map_or_else(Vec::new, |it| it.whole_patches())
+    }
+
+    fn force_of_cells(&self, intact: &[bool], displacement: &[f64], point: u32) -> Vec<f64> {
+        let bonds = UnbrokenBonds::whole(intact);
+        let terms = self.system.volumetric.as_ref();
+        let force = terms.map(|it| it.force_in_motions(bonds, (displacement, M), point));
+        force.map_or_else(Vec::new, |it| it.to_vec())
+    }
+
+    fn points_of_breakage(&self, bonds: &[u32]) -> Vec<u32> {
+        let ends = bonds
+            .iter()
+            .flat_map(|&bond| self.topology.ends[bond as usize]);
+        let terms = self.system.volumetric.iter();
+        let of_cells = terms.flat_map(|it| it.points_of_patches(bonds));
+        let mut points: Vec<u32> = ends.chain(of_cells).collect();
+        points.sort_unstable();
+        points.dedup();
+        points
     }
 
     fn energy_lost_by_cells(

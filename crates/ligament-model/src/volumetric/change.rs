@@ -2,8 +2,8 @@
 
 use super::patches::VolumetricTerms;
 use crate::element::Term;
-use crate::system::UnbrokenBonds;
 use crate::thermal::ThermalStrain;
+use crate::topology::UnbrokenBonds;
 
 /// Dilatation of a patch as an element: its stiffness kappa w t t^T.
 #[derive(Debug, Clone, PartialEq)]

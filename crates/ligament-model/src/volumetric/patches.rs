@@ -7,10 +7,10 @@ use crate::bonds::{BondSet, Incidence};
 use crate::correction::patch::{CellForces, uniform_strains};
 use crate::far_field::joined;
 use crate::material::add_volumetric;
-use crate::system::UnbrokenBonds;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::thermal::ThermalStrain;
 use crate::topology::CoupledPoints;
+use crate::topology::UnbrokenBonds;
 
 /// Cells or patches of a task worth while.
 const TASK: usize = 1024;
@@ -51,13 +51,33 @@ struct Patch {
     whole_volume: f64,
 }
 
+/// A patch of cells with its whole stiffness, for bounds of its energy.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellPatch {
+    /// kappa w, J: twice the energy of a uniform dilatation of 1.
+    pub rigidity: f64,
+    /// Corners of its cells: the point and a row g, J^(1/2)/m, one component for each axis, the others zero. Twice the energy of any motion u in
+    /// the patch, with all cells or with some, is at most the sum of (g . u)^2 over the corners.
+    pub corners: Vec<(u32, [f64; 3])>,
+}
+
+impl CellPatch {
+    /// Points of the cells, ascending.
+    pub fn points(&self) -> Vec<u32> {
+        let mut points: Vec<u32> = self.corners.iter().map(|it| it.0).collect();
+        points.sort_unstable();
+        points.dedup();
+        points
+    }
+}
+
 /// Dilatation of a patch.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PatchDilatation {
+pub(crate) struct PatchDilatation {
     /// Volume w of the living cells at the point, m^3.
-    pub volume: f64,
+    pub(crate) volume: f64,
     /// Mean dilatation theta less that by temperature; 0 without a living cell.
-    pub dilatation: f64,
+    pub(crate) dilatation: f64,
 }
 
 /// Stress kappa theta of the cells around a point, the same in all directions.
@@ -129,59 +149,60 @@ impl<const D: usize> VolumetricTerms<D> {
             let bonds = edges.filter_map(|edge| bonds.ends.binary_search(edge).ok());
             bonds.map(move |bond| (cell, bond as u32))
         });
-        let bonds_of_cells = Incidence::from_pairs(along_edges.clone(), cells.len());
-        let cells_of_bonds =
-            Incidence::from_pairs(along_edges.map(|(cell, bond)| (bond, cell)), bonds.len());
+        let reversed = along_edges.clone().map(|(cell, bond)| (bond, cell));
+        let bonds_of_cells = Incidence::from_pairs(along_edges, cells.len());
+        let cells_of_bonds = Incidence::from_pairs(reversed, bonds.len());
         let cell_of_corner: Vec<u32> = numbers
             .flat_map(|cell| cells.places(cell as usize).map(move |_| cell))
             .collect();
         let places = (0..)
             .zip(&cells.corners)
             .map(|(place, &point)| (point, place));
-        let corners_at_points = Incidence::from_pairs(places, n_points);
-        let mut patches: Vec<Patch> = Vec::new();
-        let mut first_patches = vec![0];
-        let mut patch_of_corner = vec![0; cells.corners.len()];
-        for point in 0..n_points as u32 {
-            let material = |place: u32| cells.materials[cell_of_corner[place as usize] as usize];
-            let mut corners = corners_at_points.at(point).to_vec();
-            corners.sort_by_key(|&place| material(place));
-            for of_material in corners.chunk_by(|one, other| material(*one) == material(*other)) {
-                let share = |place: &u32| {
-                    let cell = cell_of_corner[*place as usize] as usize;
-                    cells.volumes[cell] / cells.places(cell).len() as f64
-                };
-                for &place in of_material {
-                    patch_of_corner[place as usize] = patches.len() as u32;
-                }
-                patches.push(Patch {
-                    modulus: moduli[material(of_material[0]) as usize],
-                    whole_volume: of_material.iter().map(share).sum(),
-                });
-            }
-            first_patches.push(patches.len() as u32);
-        }
-        let of_corners = patch_of_corner
-            .iter()
-            .copied()
-            .zip(cell_of_corner.iter().copied());
-        let cells_of_patches = Incidence::from_pairs(of_corners, patches.len());
         let mut terms = Self {
-            cells,
+            corners_at_points: Incidence::from_pairs(places, n_points),
             bonds_of_cells,
             cells_of_bonds,
             cell_of_corner,
-            corners_at_points,
-            patch_of_corner,
-            patches,
-            cells_of_patches,
-            first_patches,
+            patch_of_corner: vec![0; cells.corners.len()],
+            patches: Vec::new(),
+            cells_of_patches: Incidence::from_pairs(std::iter::empty(), 0),
+            first_patches: vec![0],
+            cells,
             moduli: moduli.to_vec(),
             coupled_points: coupled.clone(),
             unconnected,
         };
+        terms.find_patches(n_points);
         terms.coupled_points = joined([coupled, &terms.neighbours(n_points)], n_points);
         terms
+    }
+
+    /// Sets the patches: those of each point by material.
+    fn find_patches(&mut self, n_points: usize) {
+        let cells = &self.cells;
+        let cell = |place: u32| self.cell_of_corner[place as usize] as usize;
+        let material = |place: u32| cells.materials[cell(place)];
+        for point in 0..n_points as u32 {
+            let mut corners = self.corners_at_points.at(point).to_vec();
+            corners.sort_by_key(|&place| material(place));
+            for of_material in corners.chunk_by(|one, other| material(*one) == material(*other)) {
+                let share = |&place: &u32| {
+                    let cell = cell(place);
+                    cells.volumes[cell] / cells.places(cell).len() as f64
+                };
+                for &place in of_material {
+                    self.patch_of_corner[place as usize] = self.patches.len() as u32;
+                }
+                self.patches.push(Patch {
+                    modulus: self.moduli[material(of_material[0]) as usize],
+                    whole_volume: of_material.iter().map(share).sum(),
+                });
+            }
+            self.first_patches.push(self.patches.len() as u32);
+        }
+        let patches = self.patch_of_corner.iter().copied();
+        let of_corners = patches.zip(self.cell_of_corner.iter().copied());
+        self.cells_of_patches = Incidence::from_pairs(of_corners, self.patches.len());
     }
 
     /// Points that the patches couple with each point, ascending.
@@ -540,6 +561,66 @@ impl<const D: usize> VolumetricTerms<D> {
             }
         }
         Some((volume, row))
+    }
+
+    /// All patches with their whole stiffness.
+    ///
+    /// By Jensen's inequality w theta^2 is at most the sum of (V_c/m_c) theta_c^2 over the cells, living or not, and theta_c^2 at most m_c times
+    /// the sum of (G_ca . u_a)^2/V_c^2 over the corners: g = sqrt(kappa/V_c) G_ca.
+    pub(crate) fn whole_patches(&self) -> Vec<CellPatch> {
+        let patch = |number: u32| {
+            let patch = &self.patches[number as usize];
+            let cells = self.cells_of_patches.at(number).iter();
+            let corners = cells.flat_map(|&cell| {
+                let size = (patch.modulus / self.cells.volumes[cell as usize]).sqrt();
+                let places = self.cells.places(cell as usize);
+                places.map(move |place| {
+                    let gradient = self.cells.gradients[place];
+                    let axis = |axis: usize| gradient.get(axis).map_or(0.0, |it| size * it);
+                    (self.cells.corners[place], std::array::from_fn(axis))
+                })
+            });
+            CellPatch {
+                rigidity: patch.modulus * patch.whole_volume,
+                corners: corners.collect(),
+            }
+        };
+        let numbers = (0..self.patches.len() as u32).into_par_iter();
+        numbers.map(patch).collect()
+    }
+
+    /// Points of the patches with a cell along some bonds.
+    pub(crate) fn points_of_patches(&self, bonds: &[u32]) -> Vec<u32> {
+        let cells = self.cells_along(bonds.iter().copied());
+        let patches = self.patches_of(&cells).into_iter();
+        let cells = patches.flat_map(|patch| self.cells_of_patches.at(patch));
+        let points = cells.flat_map(|&cell| &self.cells.corners[self.cells.places(cell as usize)]);
+        points.copied().collect()
+    }
+
+    /// Force of the cells on a point, N, in motions with a number of components a point.
+    pub(crate) fn force_in_motions(
+        &self,
+        bonds: UnbrokenBonds<'_>,
+        motions: (&[f64], usize),
+        point: u32,
+    ) -> [f64; D] {
+        let share = |cell: u32| self.share(bonds, cell);
+        let change = |cell: u32| self.change(cell, motions, ThermalStrain::NONE);
+        let mut force = [0.0; D];
+        for &place in self.corners_at_points.at(point) {
+            let place = place as usize;
+            let cell = self.cell_of_corner[place];
+            let patches = &self.patch_of_corner[self.cells.places(cell as usize)];
+            let pressure = |&patch: &u32| {
+                let found = self.dilatation(patch, share, change);
+                self.patches[patch as usize].modulus * found.dilatation
+            };
+            let sum: f64 = patches.iter().map(pressure).sum();
+            let pressure = share(cell) / patches.len() as f64 * sum;
+            (0..D).for_each(|axis| force[axis] += pressure * self.cells.gradients[place][axis]);
+        }
+        force
     }
 
     /// kappa of a patch, Pa.

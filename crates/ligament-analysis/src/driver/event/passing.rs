@@ -184,11 +184,7 @@ impl Passing<'_, '_> {
         let Run {
             equations, state, ..
         } = &mut *self.run;
-        let ends = &self.problem.system.ends;
-        let points = breakage.bonds.iter().flat_map(|&bond| ends[bond as usize]);
-        let mut points: Vec<u32> = points.collect();
-        points.sort_unstable();
-        points.dedup();
+        let points = self.problem.system.points_of_breakage(&breakage.bonds);
         let lagging = &mut self.lagging;
         let first = equations.update_and_forward_solve(state, breakage, |factor, half| {
             let correction = ForwardSubstituted {
@@ -215,14 +211,13 @@ impl Passing<'_, '_> {
         self.run.state.load_factor / self.load_factor
     }
 
-    /// Sets the motions of the observed points and of the ends of some bonds in the state.
+    /// Sets the motions of the observed points, and of those on which a breakage of some bonds depends, in the state.
     fn know(&mut self, bonds: &[u32]) {
         let factor = self.factor();
         let system = &self.problem.system;
-        let (layout, ends) = (system.layout, &system.ends);
-        let ends = bonds.iter().flat_map(|&bond| ends[bond as usize]);
-        for point in self.body.wanted().iter().copied().chain(ends) {
-            for dof in layout.range(point) {
+        let points = system.points_of_breakage(bonds);
+        for point in self.body.wanted().iter().copied().chain(points) {
+            for dof in system.layout.range(point) {
                 self.run.state.displacement[dof] = factor * self.lagging.displacement[dof];
             }
         }
@@ -248,6 +243,11 @@ impl Passing<'_, '_> {
                     }
                 }
             }
+            let of_cells = system.force_of_cells(intact, motions, point);
+            forces[dofs]
+                .iter_mut()
+                .zip(of_cells)
+                .for_each(|(sum, it)| *sum += it);
         }
     }
 
