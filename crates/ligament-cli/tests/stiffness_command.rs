@@ -101,8 +101,9 @@ fn isotropic_laws_have_no_direction() {
     for (law, poisson, sign) in [("nhpd", 0.2, 1.0), ("mppd", 0.4, -1.0), ("bbpd", 0.2, 0.0)] {
         let out = folder.path().join(law);
         let material = format!("material={{ young = 70e9, poisson = {poisson} }}");
+        let by_bonds = "model.poisson=bonds";
         let law = format!("model.law={law}");
-        let output = stiffness(&out, &[&material, &law]);
+        let output = stiffness(&out, &[&material, &law, by_bonds]);
         assert!(
             output.status.success(),
             "{}",

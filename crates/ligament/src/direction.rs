@@ -24,7 +24,7 @@ pub struct InDirection {
 }
 
 /// Stiffness of bonds of a material with a length (m) and a horizon (m) at some angles to the x axis (rad), by the integrals over a full
-/// circle; None for bonds that have strains of their own and no such stiffness (`mbb-pd`).
+/// circle, without what the cells carry; None for bonds that have strains of their own and no such stiffness (`mbb-pd`).
 pub fn over_direction(
     setup: &Setup,
     material: usize,
@@ -34,7 +34,8 @@ pub fn over_direction(
     if setup.law.row.has_own_strains() {
         return None;
     }
-    let mut setup = setup.clone();
+    let elasticity = setup.materials[material].material.elasticity;
+    let mut setup = setup.of_bonds().unwrap_or_else(|| setup.clone());
     if let Some(calibration) = &mut setup.law.options.calibration {
         *calibration = Calibration::Integral;
     }
@@ -43,7 +44,6 @@ pub fn over_direction(
     let horizons = Horizons::unified(horizon, cloud.len());
     let formulation = Formulation::new(&setup, &cloud, &horizons, &[]);
     let stiffness = formulation.stiffness(&bonds, &vec![1.0; bonds.len()]);
-    let elasticity = setup.materials[material].material.elasticity;
     let in_direction = |(place, &angle): (usize, &f64)| {
         let [normal_modulus, shear_modulus] = off_axis_moduli(&setup, &elasticity, angle);
         InDirection {

@@ -119,11 +119,14 @@ fn of_bonds<const D: usize>(model: &Model, system: &dyn System<D>) -> Result<Pat
         return Err(Untested::NoCells);
     }
     let (cloud, bonds) = (&system.cloud, &system.bonds);
-    let of_bonds = setup.of_bonds();
+    // On a lattice tractions act on the faces of cells, for bonds, and on the blocks between points, for what these carry themselves.
+    let origin = setup.body.origin();
+    let is_lattice = matches!(origin, Origin::Lattice(_) | Origin::SolidLattice(_));
+    let of_bonds = setup.of_bonds().filter(|_| is_lattice);
     let stiffness = stiffness_of_materials(of_bonds.as_ref().unwrap_or(setup));
     let materials = material_of_cell(setup)?;
     let mut forces = (setup.body.geometry()).cell_forces(cloud, &materials, stiffness);
-    if let Some(terms) = &system.volumetric {
+    if let Some(terms) = system.volumetric.as_ref().filter(|_| is_lattice) {
         terms.add_to(&mut forces);
     }
     let loads = uniform_strain::loads(system, &forces);

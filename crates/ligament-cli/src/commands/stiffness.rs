@@ -13,7 +13,7 @@ pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament stiffness case.toml                                  results/NAME-stiffness
   ligament stiffness case.toml --set material.angle=0.7854      with the axes turned
-  ligament stiffness case.toml --set material.poisson=0.4       where k_t is negative";
+  ligament stiffness case.toml --set model.poisson=bonds        where k_t may be negative";
 
 /// `ligament stiffness`.
 #[derive(Debug, Args)]

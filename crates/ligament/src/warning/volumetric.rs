@@ -44,7 +44,7 @@ pub(super) fn crack_excess(setup: &Setup, material: &Isotropic) -> Option<Messag
     (excess > TOLD).then(|| {
         let text = format!(
             "Poisson's ratio {}: cells that die with the bonds of a crack release energy too, so that it takes about {:.0} % more than \
-             the fracture energy at this horizon factor (in a notched plate)",
+             the fracture energy at this horizon factor in a notched plate, and more where the body cannot contract",
             material.poisson,
             100.0 * excess
         );

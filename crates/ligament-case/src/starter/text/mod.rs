@@ -136,6 +136,14 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
         }
         Materials::Isotropic | Materials::Anisotropic => match (row.fixes_poisson, D) {
             (false, _) => isotropic("0.2 #", &strength),
+            (true, 2) if row.options.poisson.is_some() => isotropic(
+                "0.3333 # the law has 1/3 (plane strain: 1/4), and larger ratios by cells;",
+                &strength,
+            ),
+            (true, _) if row.options.poisson.is_some() => isotropic(
+                "0.25 # the law has 1/4, and larger ratios by cells;",
+                &strength,
+            ),
             (true, 2) => isotropic(
                 "0.3333 # the law has 1/3 (plane strain: 1/4) whatever stands here;",
                 &strength,
