@@ -159,6 +159,11 @@ class Model(TypedDict, total=False):
     allow_unstable: bool
     """Whether a run goes on where the intact model is unstable, with more negative eigenvalues than its rotations explain; its results are
 then not to be trusted. Default false."""
+    poisson: Literal["cells", "bonds"]
+    """What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3); of `nhpd`, `bbpd`, `pds`, `mppd`, `mppd-beam`, `orthotropic`.
+
+- `cells`: The cells of the body, by their changes of volume.
+- `bonds`: The bonds, with a negative shear stiffness: the form of the papers, which cracks make unstable."""
     calibration: Literal["integral", "discrete"]
     """Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
 
