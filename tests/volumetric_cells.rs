@@ -40,8 +40,11 @@ fn built(setup: Setup) -> Model {
     Model::build(setup, &mut ()).unwrap()
 }
 
+/// Cells into which a hexahedron is split.
+type Split = fn(SolidCell) -> Vec<SolidCell>;
+
 /// A block of unit cells, moved inside without a pattern, each split as told.
-fn solid(counts: [usize; 3], split: fn(SolidCell) -> Vec<SolidCell>) -> SolidMeshBody {
+fn solid(counts: [usize; 3], split: Split) -> SolidMeshBody {
     let grid = block(counts, 0.05);
     let Canvas::Solid(cells) = grid.canvas else {
         unreachable!("a block is of solid cells")
@@ -125,7 +128,7 @@ fn orthotropic_bodies_may_have_their_stiffness_from_cells() {
 /// In space on cells of three shapes, with what the patch correction leaves of small bodies.
 #[test]
 fn free_solids_have_the_constants_of_the_material() {
-    let shapes: [(&str, fn(SolidCell) -> Vec<SolidCell>); 3] = [
+    let shapes: [(&str, Split); 3] = [
         ("hexahedra", |cell| vec![cell]),
         ("tetrahedra", tetrahedra),
         ("prisms", prisms),

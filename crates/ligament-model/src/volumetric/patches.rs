@@ -80,6 +80,9 @@ pub(crate) struct PatchDilatation {
     pub(crate) dilatation: f64,
 }
 
+/// Row of a dilatation: the entries of some points, ascending, 1/m.
+pub(super) type Row<const D: usize> = Vec<(u32, [f64; D])>;
+
 /// Stress kappa theta of the cells around a point, the same in all directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct VolumetricStress {
@@ -531,11 +534,7 @@ impl<const D: usize> VolumetricTerms<D> {
     }
 
     /// Row t of the dilatation theta_P = t . u of a patch, by point ascending, with the volume w of its living cells; none without one.
-    pub(super) fn row(
-        &self,
-        patch: u32,
-        share: impl Fn(u32) -> f64,
-    ) -> Option<(f64, Vec<(u32, [f64; D])>)> {
+    pub(super) fn row(&self, patch: u32, share: impl Fn(u32) -> f64) -> Option<(f64, Row<D>)> {
         let volume = self.dilatation(patch, &share, |_| 0.0).volume;
         if volume <= 0.0 {
             return None;
@@ -551,7 +550,7 @@ impl<const D: usize> VolumetricTerms<D> {
             }
         }
         entries.sort_by_key(|(point, _)| *point);
-        let mut row: Vec<(u32, [f64; D])> = Vec::new();
+        let mut row: Row<D> = Vec::new();
         for (point, gradient) in entries {
             match row.last_mut() {
                 Some((last, sum)) if *last == point => {
