@@ -56,16 +56,20 @@ fn a_uniform_strain_passes_from_bonds_to_elements() {
         (CUBE, HALF_OF_CUBE, "model.law=nhpd", 0.3),
         (CUBE, HALF_OF_CUBE, "model.law=pds", 0.45),
     ] {
+        let has_cells = poisson > 0.25;
         let poisson = format!("material.poisson={poisson:?}");
         let bench = Bench::new(text, &[near, law, &poisson]);
+        assert_eq!(bench.model.system.has_volumetric_cells, has_cells);
         let far_points = bench.model.counts.far_points;
         assert!(far_points > bench.points() / 5, "{far_points}");
         let test = patch_test(&bench.model).unwrap();
         let constants = test.constants.unwrap();
         let young = constants.body.young.iter().zip(constants.material.young);
         for (body, material) in young.filter(|(_, material)| *material > 0.0) {
-            // Bodies with bonds alone have 3e-4; the near field of the square has a corner more, at which bonds are few.
-            assert!((body / material - 1.0).abs() < 5e-4, "{constants:?}");
+            // Bodies with bonds alone have 3e-4; the near field of the square has a corner more, at which bonds are few, and without shear
+            // stiffness fewer factors meet the equations there.
+            let bound = if has_cells { 1e-3 } else { 5e-4 };
+            assert!((body / material - 1.0).abs() < bound, "{constants:?}");
         }
         // Bonds alone have 3e-3; those near the corner of the near field differ more.
         let scatter = test.scatter.iter().copied().fold(0.0, f64::max);

@@ -92,7 +92,8 @@ fn free_bodies_have_the_constants_of_the_material() {
 }
 
 /// A lamina whose shear stiffness of bonds is negative in some directions, in axes at an angle, has the constants of the material by cells as
-/// well: without negative stiffness of bonds. Its form by bonds stays the default.
+/// well: without negative stiffness of bonds, and to 2e-3, as bonds without shear stiffness along some directions have fewer factors to meet
+/// the equations of the patch. Its form by bonds stays the default.
 #[test]
 fn orthotropic_bodies_may_have_their_stiffness_from_cells() {
     let lamina = Orthotropic {
@@ -120,9 +121,9 @@ fn orthotropic_bodies_may_have_their_stiffness_from_cells() {
     let body = patch_test(&model).unwrap().constants.unwrap().body;
     println!("{body:?}");
     for (found, expected) in body.young.into_iter().zip(lamina.young) {
-        assert!(relative_error(found, expected) < 1e-3);
+        assert!(relative_error(found, expected) < 2e-3);
     }
-    assert!((body.poisson[0][1] - lamina.poisson).abs() < 1e-3);
+    assert!((body.poisson[0][1] - lamina.poisson).abs() < 2e-3);
 }
 
 /// In space on cells of three shapes, with what the patch correction leaves of small bodies.
@@ -419,7 +420,7 @@ lattice = { cells = [12, 12], spacing = 1e-4, thickness = 1e-3, plane = "strain"
 material = { young = 210e9, poisson = 0.4, fracture_energy = 2700.0, density = 7850.0 }
 model = { law = "nhpd", horizon_factor = 3.0 }
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
-fracture = { criterion = [{ kind = "bond-energy" }] }
+fracture = { steps = 2, criterion = [{ kind = "bond-energy" }] }
 "#;
     const STEPS: &str = "load=[{ group = \"top\", displacement = { y = 1e-6 } }]";
     let said = |settings: &[&str], kind: &str| {
@@ -453,6 +454,7 @@ fracture = { criterion = [{ kind = "bond-energy" }] }
     }
     let motion = [
         "analysis=motion",
+        "fracture={ criterion = [{ kind = \"bond-energy\" }] }",
         "motion={ duration = 1e-6 }",
         "load=[{ group = \"top\", velocity = { y = 1.0 } }]",
     ];
