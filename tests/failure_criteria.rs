@@ -386,6 +386,7 @@ fn the_energy_based_strength_depends_on_the_horizon() {
                 format!("model.law={law}"),
                 format!("material.poisson={given:?}"),
                 format!("model.horizon_factor={m:?}"),
+                "model.poisson=bonds".to_owned(),
             ];
             let bench = patch(
                 "kind = \"strength\"",

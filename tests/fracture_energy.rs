@@ -437,7 +437,7 @@ fn shear_comes_on_top_of_the_critical_stretch() {
         let mut shares = Vec::new();
         for m in [3.0, 4.0, 6.0, 8.0] {
             let setting = format!("material.poisson={word}");
-            let settings = [&UNCORRECTED[..], &[&setting]].concat();
+            let settings = [&UNCORRECTED[..], &[&setting, "model.poisson=bonds"]].concat();
             let bench = lattice("mppd", "critical-stretch", m, &settings);
             let opening = Separation::from_bench(&bench, &segment, OPENING);
             let ratio = (1.0 - 3.0 * poisson) / (1.0 + poisson);

@@ -133,6 +133,7 @@ experiments!(
     cost,
     patch_test,
     bars,
+    incompressible,
     ring,
     hole,
     disk_modes,
