@@ -15,7 +15,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-cli", 54_604),
     ("ligament-linalg", 22_578),
     ("ligament-mesh", 35_967),
-    ("ligament-model", 213_920),
+    ("ligament-model", 213_929),
     ("ligament-output", 74_036),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_122),

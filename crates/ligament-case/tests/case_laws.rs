@@ -129,7 +129,7 @@ fn the_size_of_the_rotational_stiffness_is_refused_by_name() {
     }
     assert_eq!(
         of_law("pds", "cosserat_length = 1e-3"),
-        "15:19: model.cosserat_length: `cosserat_length` does not apply with law = \"pds\": its points have no rotations; remove it"
+        "14:19: model.cosserat_length: `cosserat_length` does not apply with law = \"pds\": its points have no rotations; remove it"
     );
     assert_eq!(
         of_law(
@@ -166,7 +166,7 @@ fn a_cosserat_length_needs_a_shear_stiffness_that_is_not_negative() {
     };
     assert_eq!(
         error_of(&of_poisson("0.4")),
-        "14:19: model.cosserat_length: the shear stiffness of some bonds is negative (k_t H^3 t = -6.8209e9 Pa), and a length makes \
+        "15:19: model.cosserat_length: the shear stiffness of some bonds is negative (k_t H^3 t = -6.8209e9 Pa), and a length makes \
          their rotational stiffness positive, so that waves of rotation would cost nothing: take a factor, whose sign is that of the \
          shear stiffness, or a smaller Poisson's ratio"
     );

@@ -247,7 +247,7 @@ fn faults_of_overrides_are_blamed_on_them() {
         (
             "model.horizont_factor=4",
             "model.horizont_factor: unknown key `horizont_factor` in [model]; did you mean \
-             `horizon_factor`? valid keys: `law`, `horizon_factor`, `horizon`, `bonds_through_voids`, `closing`, `closing_friction`, `allow_unstable`, `calibration`, \
+             `horizon_factor`? valid keys: `law`, `horizon_factor`, `horizon`, `bonds_through_voids`, `closing`, `closing_friction`, `allow_unstable`, `poisson`, `calibration`, \
              `rotational_stiffness`, `rotational_factor`, `cosserat_length`, `form`, `strains`",
         ),
         (

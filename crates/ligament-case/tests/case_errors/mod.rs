@@ -48,7 +48,7 @@ fn unknown_keys_get_the_nearest_valid_one() {
     assert_eq!(
         error_with("horizon_factor", "horizont_factor"),
         "14:1: model.horizont_factor: unknown key `horizont_factor` in [model]; did you mean \
-         `horizon_factor`? valid keys: `law`, `horizon_factor`, `horizon`, `bonds_through_voids`, `closing`, `closing_friction`, `allow_unstable`, `calibration`, `rotational_stiffness`, `rotational_factor`, `cosserat_length`, `form`, `strains`"
+         `horizon_factor`? valid keys: `law`, `horizon_factor`, `horizon`, `bonds_through_voids`, `closing`, `closing_friction`, `allow_unstable`, `poisson`, `calibration`, `rotational_stiffness`, `rotational_factor`, `cosserat_length`, `form`, `strains`"
     );
     assert_eq!(
         error_with("group = \"platen-top\"", "grup = \"platen-top\""),

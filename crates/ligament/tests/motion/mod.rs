@@ -12,7 +12,7 @@ use std::sync::Arc;
 use ligament::body::{Cells, SolidLatticeBody};
 use ligament::prelude::*;
 use ligament::run::on_threads;
-use ligament::setup::{self, InitialVelocity};
+use ligament::setup::{self, InitialVelocity, PoissonForm};
 use ligament::{Loading, Vibration};
 use ligament_analysis::driver::{Outcome, Problem, motion};
 use ligament_analysis::history::{Moment, ObserverError, Onward, StepRecord, Termination, View};
