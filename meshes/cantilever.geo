@@ -1,9 +1,12 @@
-// Cantilever of 400 mm x 100 mm, ten cells high.
-h = 0.01;
-Point(1) = {0, 0, 0, h};
-Point(2) = {0.4, 0, 0, h};
-Point(3) = {0.4, 0.1, 0, h};
-Point(4) = {0, 0.1, 0, h};
+// Cantilever, one corner at the origin. Lengths in metres.
+DefineConstant[ size = 0.01 ];       // mesh size
+DefineConstant[ length = 0.4 ];      // along x
+DefineConstant[ height = 0.1 ];      // along y
+
+Point(1) = {0, 0, 0, size};
+Point(2) = {length, 0, 0, size};
+Point(3) = {length, height, 0, size};
+Point(4) = {0, height, 0, size};
 Line(1) = {1, 2};
 Line(2) = {2, 3};
 Line(3) = {3, 4};

@@ -1,9 +1,10 @@
-// Cook's membrane, 48 mm wide, 24 cells along each side.
-h = 0.048/24;
-Point(1) = {0, 0, 0, 0.044/24};
-Point(2) = {0.048, 0.044, 0, 0.016/12};
-Point(3) = {0.048, 0.060, 0, 0.016/12};
-Point(4) = {0, 0.044, 0, 0.044/24};
+// Cook's membrane, its lower left corner at the origin. Lengths in metres.
+DefineConstant[ cells = 24 ];        // along each side
+
+Point(1) = {0, 0, 0, 0.044 / cells};
+Point(2) = {0.048, 0.044, 0, 0.032 / cells};
+Point(3) = {0.048, 0.060, 0, 0.032 / cells};
+Point(4) = {0, 0.044, 0, 0.044 / cells};
 Line(1) = {1, 2};
 Line(2) = {2, 3};
 Line(3) = {3, 4};
