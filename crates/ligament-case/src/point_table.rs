@@ -1,4 +1,4 @@
-//! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points; and amplitudes, at times.
+//! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points; amplitudes, at times; and curves of softening.
 
 use std::path::Path;
 
@@ -99,6 +99,18 @@ impl Tables {
         }
         Ok(Amplitude::through(&points))
     }
+}
+
+/// Reads the corners (opening, stress) of a curve of softening; as the error a description of the fault.
+pub(crate) fn curve(path: &Path) -> Result<Vec<[f64; 2]>, String> {
+    let expected = "the first row must name the columns `opening` (m, or over any other) and `stress` (Pa, or over the strength)";
+    let table = Table::read(path, expected)?;
+    let columns = [table.place("opening")?, table.place("stress")?];
+    let corner = |row: &Row| {
+        let [opening, stress] = columns.map(|it| table.number(row, it));
+        Ok([opening?, stress?])
+    };
+    table.rows.iter().map(corner).collect()
 }
 
 /// Lines of the rows of a table; none of a file that is no table.

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use ligament_model::failure::AfterLimit;
+use ligament_model::failure::softening::{Curve, Law};
 use ligament_output::Error;
 use ligament_plot::stored_loading::resolved_case;
 use toml::{Table, Value};
@@ -66,7 +68,22 @@ impl Inputs {
                 loading.extend(self.entry(entry, &format!("{name}.{number}"), noun));
             }
         }
-        table("Body and material", &body) + &table("Supports and loads", &loading)
+        table("Body and material", &body)
+            + &table("Supports and loads", &loading)
+            + &self.softening()
+    }
+
+    /// Drawings of the laws of softening as HTML.
+    fn softening(&self) -> String {
+        let criteria = self.case.get("fracture").and_then(|it| it.get("criterion"));
+        let criteria = criteria.and_then(Value::as_array).into_iter().flatten();
+        let mut laws: Vec<Law> = Vec::new();
+        for law in criteria.filter_map(|it| softening_law(it.get("after")?)) {
+            if !laws.contains(&law) {
+                laws.push(law);
+            }
+        }
+        laws.iter().filter_map(drawing).collect()
     }
 
     /// Rows of the keys of a table; nested tables have their name before each key.
@@ -123,4 +140,46 @@ impl Inputs {
             other => other.to_string(),
         }
     }
+}
+
+/// The law of softening of a key `after`: a word, or the corners of a curve.
+fn softening_law(after: &Value) -> Option<Law> {
+    if let Some(word) = after.as_str() {
+        return AfterLimit::from_text(word, Vec::new()).map(|it| it.law().clone());
+    }
+    let corners = after.get("curve")?.as_array()?.iter().map(|corner| {
+        let [opening, stress] = corner.as_array()?.as_slice() else {
+            return None;
+        };
+        Some([opening.as_float()?, stress.as_float()?])
+    });
+    let corners: Option<Vec<[f64; 2]>> = corners.collect();
+    Some(Curve::new(&corners?).ok()?.law())
+}
+
+/// Stress over the opening of a crack by a law of softening, drawn as HTML; None for a law that no fracture energy decides about.
+fn drawing(law: &Law) -> Option<String> {
+    const SIZE: [f64; 2] = [320.0, 150.0];
+    const MARGIN: f64 = 24.0;
+    let curve = law.stress_over_opening()?;
+    let end = curve.last()?[0];
+    let points = curve.iter().map(|[opening, stress]| {
+        let x = MARGIN + opening / end * (SIZE[0] - 2.0 * MARGIN);
+        let y = MARGIN + (1.0 - stress) * (SIZE[1] - 2.0 * MARGIN);
+        format!("{x:.1},{y:.1}")
+    });
+    let points: Vec<String> = points.collect();
+    let ([width, height], base) = (SIZE, SIZE[1] - MARGIN);
+    let right = width - MARGIN;
+    Some(format!(
+        "<figure class=\"card softening\"><figcaption>Softening: stress over the opening of a crack, {word}</figcaption>\
+         <svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{words}\" fill=\"none\" stroke=\"currentColor\">\
+         <path d=\"M{MARGIN},{MARGIN}V{base}H{right}\" opacity=\"0.5\"/><polyline points=\"{points}\" stroke-width=\"2\"/>\
+         <g fill=\"currentColor\" stroke=\"none\" font-size=\"11\"><text x=\"2\" y=\"{MARGIN}\">f_t</text>\
+         <text x=\"{right}\" y=\"{below}\" text-anchor=\"end\">{end:.2} G_c/f_t</text></g></svg></figure>\n",
+        word = law.word,
+        words = law.words,
+        points = points.join(" "),
+        below = height - 6.0,
+    ))
 }

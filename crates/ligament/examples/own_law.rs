@@ -11,28 +11,34 @@ use std::f64::consts::PI;
 
 use ligament::Loading;
 use ligament::analysis::driver::stepped;
-use ligament::mechanics::failure::softening::{Law as SofteningLaw, linear};
+use ligament::mechanics::failure::softening::{Fall, Law as SofteningLaw, linear};
 use ligament::mechanics::failure::{AfterLimit, Criteria, Criterion, Measure, Softened};
 use ligament::prelude::*;
 
 /// mu = (1 + cos(pi (kappa - 1)/(r - 1)))/2 between the limit, kappa = 1, and the end, kappa = r.
-const COSINE: SofteningLaw = SofteningLaw {
-    word: "cosine",
-    words: "Its force falls to zero along half a wave of a cosine.",
-    at: |end, kappa| {
-        let phase = PI * (kappa - 1.0) / (end - 1.0);
-        let force = 0.5 * (1.0 + phase.cos());
-        // Work of the force since the limit, over twice the energy there.
-        let work = 0.5 * (kappa - 1.0 + (end - 1.0) / PI * phase.sin());
-        Softened {
-            force,
-            secant: force / kappa,
-            dissipated: 1.0 + 2.0 * work - force * kappa,
-        }
-    },
-    total: |end| end,
-    ..linear::LAW
-};
+fn cosine() -> SofteningLaw {
+    SofteningLaw {
+        word: "cosine",
+        words: "Its force falls to zero along half a wave of a cosine.",
+        fall: Fall::Formula {
+            at: |end, kappa| {
+                let phase = PI * (kappa - 1.0) / (end - 1.0);
+                let force = 0.5 * (1.0 + phase.cos());
+                // Work of the force since the limit, over twice the energy there.
+                let work = 0.5 * (kappa - 1.0 + (end - 1.0) / PI * phase.sin());
+                Softened {
+                    force,
+                    secant: force / kappa,
+                    dissipated: 1.0 + 2.0 * work - force * kappa,
+                }
+            },
+            end: |end| end,
+            total: |end| end,
+            for_energy: |energy| energy,
+        },
+        ..linear::LAW
+    }
+}
 
 pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut setup = watched_plate::plate()?;
@@ -47,7 +53,7 @@ pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
         .collect();
     let n_bonds = limits.len();
     let criterion = Criterion {
-        after: AfterLimit::new(COSINE, vec![6.0; n_bonds]),
+        after: AfterLimit::new(cosine(), vec![6.0; n_bonds]),
         ..Criterion::brittle("graded", Measure::Tension, limits)
     };
     problem.criteria = Criteria {

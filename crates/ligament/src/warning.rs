@@ -18,7 +18,7 @@ use self::criteria::{below_strength, rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
 use crate::described::Described;
 use crate::plausibility::corners;
-use crate::setup::{Horizon, Setup};
+use crate::setup::{Horizon, MaterialRegion, Setup};
 
 pub(crate) use volumetric::without_edges;
 
@@ -82,8 +82,8 @@ pub(crate) fn of_model(
         warnings.extend(of_virial_stress(&setup.body.origin()));
     }
     warnings.extend(scatter_below_spacing(setup, points));
-    let mut laws = setup.criteria.iter().map(|it| it.after);
-    if laws.any(|law| law == linear::BILINEAR) {
+    let mut laws = setup.criteria.iter().map(|it| &it.after);
+    if laws.any(|law| *law == linear::BILINEAR) {
         warnings.push(Message::new(
             "one-line",
             "after = \"bilinear\" is the older word for \"linear\", one straight line down; the two lines that concrete has, to a third of the force \
@@ -91,7 +91,41 @@ pub(crate) fn of_model(
         ));
     }
     warnings.extend(of_constants(setup));
+    warnings.extend(curve_of_another_material(setup));
     warnings
+}
+
+/// Warning where a curve of softening in m and Pa has another strength or area than a material.
+fn curve_of_another_material(setup: &Setup) -> Option<Message> {
+    /// Relative difference of values that were rounded.
+    const ROUNDED: f64 = 0.02;
+    let curves = setup
+        .criteria
+        .iter()
+        .filter_map(|it| it.after.given_curve());
+    let mut in_units = curves.filter(|it| it.strength() != 1.0);
+    in_units.find_map(|curve| {
+        let own = [curve.strength(), curve.area()];
+        let known = |it: &MaterialRegion| {
+            let material = &it.material;
+            [material.tensile_strength, material.fracture_energy]
+        };
+        let differs = |known: &[Option<f64>; 2]| {
+            let mut pairs = own.iter().zip(known);
+            pairs.any(|(own, known)| known.is_some_and(|it| (own / it - 1.0).abs() > ROUNDED))
+        };
+        let [strength, energy] = setup.materials.iter().map(known).find(differs)?;
+        let words = |value: Option<f64>| value.map_or("none".to_owned(), |it| format!("{it:.4e}"));
+        let text = format!(
+            "the curve of softening has a strength of {:.4e} Pa and an area of {:.4e} J/m^2, and the material has tensile_strength = {} and \
+             fracture_energy = {}: the shape of the curve counts, with the values of the material",
+            own[0],
+            own[1],
+            words(strength),
+            words(energy)
+        );
+        Some(Message::new("curve-and-material", text))
+    })
 }
 
 /// Warnings about the constants of the materials with the law and the criteria of a setup.

@@ -88,6 +88,15 @@ impl Node {
             .map(|entry| &entry.node)
     }
 
+    /// The value of a key to change, if this is a table that has it.
+    pub fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
+        let Value::Table(entries) = &mut self.value else {
+            return None;
+        };
+        let mut entries = entries.iter_mut();
+        entries.find(|it| it.key == key).map(|it| &mut it.node)
+    }
+
     /// The value for one path segment: a key of a table or an index of a list.
     pub fn step(&self, segment: &str) -> Option<&Node> {
         match &self.value {

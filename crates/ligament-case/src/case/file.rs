@@ -6,6 +6,7 @@ use ligament::SetupError;
 
 use super::document::{Node, Origin, line_and_column};
 use super::fault::{CaseError, Fault, KeyFault};
+use super::fracture;
 use super::key_path::KeyPath;
 use super::keys::check_ranges;
 use super::mesh_section::BodyKind;
@@ -86,10 +87,12 @@ impl CaseFile {
         Self::read(self.source.with_overrides(more)?)
     }
 
-    fn read(source: Source) -> Result<Self, CaseError> {
-        let folder = source.path.parent().unwrap_or(Path::new(""));
+    fn read(mut source: Source) -> Result<Self, CaseError> {
+        let folder = source.path.parent().unwrap_or(Path::new("")).to_owned();
+        let read = fracture::read_curves(&mut source.document, &folder);
+        read.map_err(|fault| source.error(fault))?;
         let document = &source.document;
-        let case = check_ranges(document).and_then(|()| Case::read(document, folder, source.body));
+        let case = check_ranges(document).and_then(|()| Case::read(document, &folder, source.body));
         let case = case.map_err(|fault| source.error(fault))?;
         let file = Self { source, case };
         file.case.check_kind(&file.source)?;

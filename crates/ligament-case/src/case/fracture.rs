@@ -1,21 +1,25 @@
 //! `[fracture]`: breakage of bonds, failure criteria, strengths and energies that vary at random, and stop rules.
 
+use super::document::{Entry, Node, Value};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{Form, each, missing_key, refuse, require};
 use super::word::word_of;
+use crate::point_table;
 use ligament::setup::{self, Analysis};
 use ligament_analysis::breaking::{BreakingOrder, BreakingRule};
 use ligament_analysis::driver::StopRules;
 use ligament_analysis::driver::event::EventSettings;
 use ligament_analysis::driver::stepped::SteppedSettings;
 use ligament_analysis::motion::StepBreakages;
+use ligament_model::failure::softening::Curve;
 use ligament_model::failure::{Choice, Kind, frictional};
 use ligament_model::scatter::{self, Scattered};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
+use std::path::Path;
 
 /// Largest number of equal load steps, and of parts of one: each has a row in the history.
 const MOST_STEPS: u32 = 1_000_000;
@@ -80,6 +84,52 @@ pub enum Steps {
     /// Load factors one after the other; where they fall, the body is unloaded.
     #[schemars(description = "These load factors; where they fall, the body is unloaded.")]
     Factors(#[schemars(length(min = 1))] Vec<f64>),
+}
+
+/// Puts the corners of curves of softening, `after = { table = "..." }`, in the place of their tables, which are relative to the folder of the
+/// case: results then hold the curve itself.
+pub(super) fn read_curves(document: &mut Node, folder: &Path) -> Result<(), KeyFault> {
+    let criteria = document
+        .get_mut("fracture")
+        .and_then(|it| it.get_mut("criterion"));
+    let Some(Value::List(criteria)) = criteria.map(|it| &mut it.value) else {
+        return Ok(());
+    };
+    for (place, criterion) in criteria.iter_mut().enumerate() {
+        let Some(after) = criterion.get_mut("after") else {
+            continue;
+        };
+        let [table] = after.entries() else {
+            continue;
+        };
+        let Value::String(file) = &table.node.value else {
+            continue;
+        };
+        if table.key != "table" {
+            continue;
+        }
+        let path = folder.join(file);
+        let corners = point_table::curve(&path);
+        let checked = corners.and_then(|it| match Curve::new(&it) {
+            Ok(_) => Ok(it),
+            Err(error) => Err(format!("{}: {error}", path.display())),
+        });
+        let corners = checked.map_err(|reason| {
+            let key = KeyPath::default().child("fracture").child("criterion");
+            let key = key.child(place.to_string()).child("after").child("table");
+            KeyFault::new(key, reason)
+        })?;
+        let origin = after.origin;
+        let node = |value| Node { origin, value };
+        let corner = |it: [f64; 2]| node(Value::List(it.map(|it| node(Value::Float(it))).to_vec()));
+        let list = Value::List(corners.into_iter().map(corner).collect());
+        after.value = Value::Table(vec![Entry {
+            key: "curve".to_owned(),
+            key_origin: origin,
+            node: node(list),
+        }]);
+    }
+    Ok(())
 }
 
 fn stepped() -> SteppedSettings {

@@ -322,7 +322,7 @@ impl Case {
             rigid_bodies: each(&at("rigid"), &self.rigid_bodies, |it, key| {
                 it.setup(key, dimensions, tables)
             })?,
-            criteria: criteria.flatten().copied().collect(),
+            criteria: criteria.flatten().cloned().collect(),
             scatter: (self.fracture.as_ref())
                 .and_then(|it| it.scatter.as_ref())
                 .map(|it| it.setup(&at("fracture").child("scatter")))

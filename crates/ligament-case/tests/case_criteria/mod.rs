@@ -10,7 +10,7 @@ use ligament_model::failure::fracture_energy::{BOND_ENERGY, CRITICAL_STRETCH};
 use ligament_model::failure::frictional::FRICTIONAL;
 use ligament_model::failure::mixed_mode::MIXED_MODE;
 use ligament_model::failure::sliding::SLIDING;
-use ligament_model::failure::softening::{Law, exponential, linear, plastic};
+use ligament_model::failure::softening::{Curve, Law, exponential, linear, plastic};
 use ligament_model::failure::strength::STRENGTH;
 use ligament_model::failure::stretch::{COMPRESSION, TENSION};
 use ligament_model::failure::{Calibration, Choice, Kind};
@@ -122,27 +122,54 @@ fn every_kind_and_every_end_is_read() {
             softening(CRITICAL_STRETCH, exponential::LAW, Some(0.5)),
         ),
     ];
-    for (text, expected) in cases {
+    for (text, expected) in &cases {
         let text = with(&format!("[[fracture.criterion]]\n{text}\n"));
-        assert_eq!(criteria_of(text, &[]), [expected]);
+        assert_eq!(criteria_of(text, &[]), [expected.clone()]);
     }
     let all: String = cases
+        .each_ref()
         .map(|(text, _)| format!("[[fracture.criterion]]\n{text}\n\n"))
         .concat();
     assert_eq!(criteria_of(with(&all), &[]), cases.map(|it| it.1));
 }
 
+/// A curve is given by its corners, by a kink or by a table, and its corners are written back.
+#[test]
+fn a_curve_of_softening_as_given() {
+    let corners = [[0.0, 1.0], [0.2, 0.25], [1.0, 0.0]];
+    let expected =
+        Choice::from(SLIDING).with_softening(Curve::new(&corners).unwrap().law(), Some(9.0));
+    let read_as = |after: &str| {
+        let lines = format!("kind = \"sliding\"\nlimit = 1e-3\nafter = {after}\nend = 9.0\n");
+        criteria_of(with(&format!("[[fracture.criterion]]\n{lines}")), &[])
+    };
+    let expected = Choice {
+        limit: Some(1e-3),
+        ..expected
+    };
+    let by_corners = read_as("{ curve = [[0, 1], [0.2, 0.25], [1, 0]] }");
+    assert_eq!(by_corners, [expected.clone()]);
+    assert_eq!(read_as("{ kink = [0.2, 0.25] }"), [expected.clone()]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("curve.csv");
+    std::fs::write(&path, "# w/w_c\nopening,stress\n0,1\n0.2,0.25\n1,0\n").unwrap();
+    assert_eq!(read_as(&format!("{{ table = {path:?} }}")), [expected]);
+}
+
 #[test]
 fn criteria_are_set_and_added_on_the_command_line() {
-    let (tension, compression) = (limited(TENSION, 2e-4), COMPRESSION.into());
+    let (tension, compression) = (limited(TENSION, 2e-4), Choice::from(COMPRESSION));
     let first = [
         "fracture.criterion.0.kind=tension",
         "fracture.criterion.0.limit=2e-4",
     ];
     let second = "fracture.criterion.1.kind=compression";
     let both = [first[0], first[1], second];
-    assert_eq!(criteria_of(with(""), &first), [tension]);
-    assert_eq!(criteria_of(with(""), &both), [tension, compression]);
+    assert_eq!(criteria_of(with(""), &first), [tension.clone()]);
+    assert_eq!(
+        criteria_of(with(""), &both),
+        [tension.clone(), compression.clone()]
+    );
     let in_file = "[[fracture.criterion]]\nkind = \"compression\"\nlimit = 1e-3\n";
     let mut from_file = criteria_of(with(in_file), &[second]);
     assert_eq!(from_file.pop().unwrap(), compression);

@@ -17,7 +17,7 @@ fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
     assert_eq!(
         error_with("kind = \"tension\"\nafter = \"liniar\""),
         "61:9: fracture.criterion.0.after: unknown value \"liniar\"; did you mean \"linear\"? valid values: \"brittle\", \
-         \"linear\", \"two-branch\", \"exponential\", \"plastic\", \"bilinear\""
+         \"linear\", \"two-branch\", \"cornelissen\", \"ceb-fip\", \"model-code-2010\", \"exponential\", \"plastic\", \"bilinear\""
     );
     assert_eq!(
         error_with("kind = \"frictional\"\ncalibration = \"exact\""),
@@ -36,6 +36,61 @@ fn misspelt_kinds_and_keys_get_the_nearest_valid_ones() {
         error_of(with("criterion = []\n")),
         "59:13: fracture.criterion: must be one criterion or more (without the key it is kind = \"strength\"), found []"
     );
+}
+
+/// Openings rise from zero, stresses fall to zero; a file is named with its line.
+#[test]
+fn curves_that_are_none_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = |text: &str| {
+        let path = folder.path().join("curve.csv");
+        std::fs::write(&path, text).unwrap();
+        format!("{{ table = {path:?} }}")
+    };
+    let path = folder.path().join("curve.csv");
+    let path = path.display();
+    let cases = [
+        (
+            "{ curve = [[0, 1]] }".to_owned(),
+            "after: a curve has two points or more".to_owned(),
+        ),
+        (
+            "{ curve = [[0, 1], [0.5, 1.2], [1, 0]] }".to_owned(),
+            "after: stresses must fall or stay, down to 0; point 2 has 1.2 after 1.0".to_owned(),
+        ),
+        (
+            "{ curve = [[0, 1], [0, 0.5], [1, 0]] }".to_owned(),
+            "after: openings must rise from point to point; point 2 has 0.0 after 0.0".to_owned(),
+        ),
+        (
+            "{ curve = [[0, 1], [1, 0.1]] }".to_owned(),
+            "after: the last stress must be 0, at the opening where the crack bears nothing; it is 0.1".to_owned(),
+        ),
+        (
+            "{ kink = [1.5, 0.2] }".to_owned(),
+            "after: openings must rise from point to point; point 3 has 1.0 after 1.5".to_owned(),
+        ),
+        (
+            "{ kink = [0.2, 0.3], curve = [[0, 1], [1, 0]] }".to_owned(),
+            "after: a curve is given by one of `curve`, `kink` and `table`".to_owned(),
+        ),
+        (
+            "{ knik = [0.2, 0.3] }".to_owned(),
+            "after.knik: unknown key `knik` in [fracture.criterion.after]; did you mean `kink`? valid keys: `curve`, `kink`, `table`".to_owned(),
+        ),
+        (
+            file("opening,strain\n0,1\n1,0\n"),
+            format!(
+                "after.table: {path}:1: there is no column `stress`: the first row must name the columns `opening` (m, or over any other) and \
+                 `stress` (Pa, or over the strength)"
+            ),
+        ),
+    ];
+    for (after, message) in cases {
+        let found = error_with(&format!("kind = \"rankine\"\nafter = {after}"));
+        let found = found.split_once("fracture.criterion.0.").unwrap().1;
+        assert_eq!(found, message);
+    }
 }
 
 #[test]
@@ -84,7 +139,7 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         ),
         (
             "kind = \"tension\"\nend = 3.0",
-            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls in straight lines, after = \"linear\" or \"two-branch\", has an end; remove it",
+            "61:7: fracture.criterion.0.end: `end` does not apply with after = \"brittle\": only a force that falls to zero, such as after = \"linear\", has an end; remove it",
         ),
         (
             "kind = \"tension\"\nafter = \"linear\"\nscale = 3.0",

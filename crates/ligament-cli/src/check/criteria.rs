@@ -5,6 +5,7 @@ use std::io;
 use ligament::crack_energy::crack_energies;
 use ligament_model::Material;
 use ligament_model::failure::crack_opening::CrackEnergy;
+use ligament_model::failure::softening::Law;
 use ligament_model::failure::starting::Starting;
 use ligament_model::failure::{Choice, Criterion};
 use ligament_model::scatter::{Distribution, Scatter, Scattered};
@@ -33,10 +34,49 @@ pub(super) fn write(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
             write_energy(report, model, criterion)?;
         }
     }
+    write_curves(report, model)?;
     write_cracks(report, model)?;
     crack_work::write(report, model)?;
     characteristic_length::write(report, model)?;
     write_scatters(report, model)
+}
+
+/// Draws the stress over the opening of a crack for each law of softening.
+fn write_curves(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
+    let mut drawn: Vec<&Law> = Vec::new();
+    for law in model.setup.criteria.iter().map(|it| &it.after) {
+        if let Some(curve) = law.stress_over_opening().filter(|_| !drawn.contains(&law)) {
+            drawn.push(law);
+            let name = format!("stress, {}", law.word);
+            for (place, line) in drawing(&curve).iter().enumerate() {
+                report.detail(if place == 0 { &name } else { "" }, line)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// Lines that draw stresses over the strength at openings over G_c/f_t, shape (n, 2), with a line below for the openings.
+fn drawing(curve: &[[f64; 2]]) -> Vec<String> {
+    const COLUMNS: usize = 48;
+    const ROWS: usize = 8;
+    let end = curve.last().map_or(0.0, |it| it[0]);
+    let stress_at = |opening: f64| {
+        let next = curve.partition_point(|it| it[0] < opening);
+        curve[next.min(curve.len() - 1)][1]
+    };
+    let row_of = |column: usize| {
+        let stress = stress_at(end * (column as f64 + 0.5) / COLUMNS as f64);
+        (((1.0 - stress) * ROWS as f64) as usize).min(ROWS - 1)
+    };
+    let line = |row: usize| {
+        let scale = if row == 0 { "f_t |" } else { "    |" };
+        let marks = (0..COLUMNS).map(|it| if row_of(it) == row { '*' } else { ' ' });
+        scale.to_owned() + marks.collect::<String>().trim_end()
+    };
+    let mut lines: Vec<String> = (0..ROWS).map(line).collect();
+    lines.push(format!("    0 to an opening of {end:.2} G_c/f_t"));
+    lines
 }
 
 /// Writes the energy that cracks dissipate in each material.
@@ -186,10 +226,10 @@ fn write_limits(report: &mut Report<'_>, criterion: &Criterion) -> io::Result<()
     let after = &criterion.after;
     words += &format!("; {}", after.law().force);
     let parameter = after.parameter();
-    if !parameter.is_empty()
+    if let Some(of_law) = after.law().parameter
         && let Some(ends) = of_bonds(&|bond| parameter[bond])
     {
-        words += &format!(" {ends} times the limit");
+        words += &format!("{} {ends} times the limit", of_law.words);
     }
     match criterion.limit.len() - bonds.len() {
         0 => {}

@@ -157,7 +157,7 @@ impl Limit {
             measure,
             limit: criterion.limit[pair],
             coefficients: criterion.coefficients.iter().map(|it| it[pair]).collect(),
-            after: AfterLimit::from_word(&criterion.after, parameter.into_iter().collect())?,
+            after: AfterLimit::from_text(&criterion.after, parameter.into_iter().collect())?,
         })
     }
 

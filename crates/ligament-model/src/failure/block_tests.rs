@@ -181,7 +181,7 @@ fn softening_takes_the_fracture_energy() {
         after: softening::linear::LAW,
         ..Choice::from(BOND_ENERGY)
     };
-    let criterion = made(&system, with_strength(1e3), choice).unwrap();
+    let criterion = made(&system, with_strength(1e3), choice.clone()).unwrap();
     let isotropic = Isotropic {
         young: YOUNG,
         poisson: 0.2,

@@ -83,7 +83,7 @@ fn after<const D: usize>(
     limits: &[f64],
     basis: &Basis<'_, D>,
 ) -> Result<AfterLimit, NoLimit> {
-    let law = choice.after;
+    let law = choice.after.clone();
     let (bonds, subdomain) = (&basis.system.bonds, &basis.system.cloud.subdomain);
     let parameter = match (law.parameter, choice.parameter()) {
         (None, _) => Vec::new(),
@@ -101,7 +101,7 @@ fn after<const D: usize>(
                     let [a, b] = bonds.ends[bond].map(f64::from);
                     return Err([a, b, bonds.horizon[bond], limit, brittle]);
                 }
-                Ok((parameter.for_energy)(energy))
+                Ok(law.parameter_for(energy))
             };
             let of_bonds = limits.iter().zip(&brittle).enumerate();
             let found: Result<Vec<f64>, _> = of_bonds.map(of_bond).collect();

@@ -147,7 +147,7 @@ impl Limits {
 
 crate::case_type! {
     /// A criterion of failure.
-    #[derive(Debug, Clone, Copy, PartialEq)]
+    #[derive(Debug, Clone, PartialEq)]
     pub struct Choice {
         /// What fails, and where its limit comes from.
         pub kind: Kind,
@@ -176,7 +176,7 @@ crate::case_type! {
         /// What a bond does after its limit.
         #[case(serde(default))]
         pub after: Law,
-        /// Deformation at which the force of `linear` (above 1) or `two-branch` (above 3) is gone, over that at the limit; without it so that the `fracture_energy` comes out.
+        /// Deformation at which a force that falls to zero is gone, over that at the limit: of `linear` above 1, of `two-branch` above 3; without it so that the `fracture_energy` comes out.
         #[range("exclusiveMinimum" = 1)]
         pub end: Option<f64>,
         /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.
@@ -282,12 +282,12 @@ impl Choice {
 
     /// The criterion with a law of softening and its parameter, where it is given.
     pub fn with_softening(mut self, law: Law, parameter: Option<f64>) -> Self {
-        self.after = law;
         match law.parameter.map(|it| it.key) {
             Some("scale") => self.scale = parameter,
             Some(_) => self.end = parameter,
             None => {}
         }
+        self.after = law;
         self
     }
 

@@ -182,17 +182,17 @@ impl Criteria {
             let Some(starting) = self.list[place].starting() else {
                 continue;
             };
-            let law = *self.list[place].after.law();
-            let of_energy = law.parameter.map(|it| it.for_energy);
+            let law = self.list[place].after.law().clone();
             let of_bonds = begun.iter().zip(&starting.critical);
             let parameter = of_bonds.map(|(began, critical)| {
                 let energy = (critical / began).powi(2);
                 match began.is_finite() {
-                    true => of_energy.map_or(f64::NAN, |parameter| parameter(energy)),
+                    true => law.parameter_for(energy),
                     false => f64::INFINITY,
                 }
             });
-            let after = AfterLimit::new(law, parameter.collect());
+            let parameter = parameter.collect();
+            let after = AfterLimit::new(law, parameter);
             variables[place].after = Some(Arc::new(after));
             variables[place].limit = Some(Arc::new(begun.clone()));
             for back in starting.never_began {

@@ -52,7 +52,7 @@ fn write_criteria(
         table.append(&[
             label.as_str().into(),
             criterion.measure.word().into(),
-            criterion.after.word().into(),
+            criterion.after.text().as_str().into(),
         ])?;
     }
     Ok(())

@@ -51,7 +51,7 @@ fn a_force_that_follows_its_displacement_is_its_reaction() {
         let (given, _) = run(pulled_at_a_point(
             Action::Displacement(moved),
             None,
-            criterion,
+            criterion.clone(),
         ));
         let control = Control {
             quantity: Quantity::Probes(vec![("hook".to_owned(), 1.0)]),
@@ -140,7 +140,7 @@ fn a_force_that_follows_its_displacement_closes_cracks() {
             ..Displacement::default()
         };
         let moved = Action::Displacement(moved);
-        let (given, _) = run(pressed_and_pulled(moved, TURNS, false, criterion));
+        let (given, _) = run(pressed_and_pulled(moved, TURNS, false, criterion.clone()));
         let force = Action::Force([1e5, 0.0, 0.0]);
         let (followed, _) = run(pressed_and_pulled(force, TURNS, true, criterion));
         assert_eq!(given.history.len(), 61, "{name}: {}", given.termination);

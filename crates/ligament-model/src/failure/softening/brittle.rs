@@ -1,6 +1,6 @@
 //! No force at all after the limit.
 
-use super::law::{Law, Softened};
+use super::law::{Fall, Law, Softened};
 
 /// A bond that breaks at its limit (Silling and Askari 2005, prototype microelastic brittle).
 pub const LAW: Law = Law {
@@ -11,9 +11,12 @@ pub const LAW: Law = Law {
     parameter: None,
     softens: false,
     sliding_because: None,
-    at: |_, _| Softened::SOUND,
-    end: |_| 1.0,
-    total: |_| 1.0,
+    fall: Fall::Formula {
+        at: |_, _| Softened::SOUND,
+        end: |_| 1.0,
+        total: |_| 1.0,
+        for_energy: |_| f64::NAN,
+    },
 };
 
 impl Default for Law {

@@ -1,6 +1,6 @@
 //! An exponential fall of the force.
 
-use super::law::{Law, Parameter, Softened};
+use super::law::{Fall, Law, Parameter, Softened};
 
 /// Force, relative to that at the limit, at which a bond breaks: an exponential never gets to zero.
 pub const LAST_FORCE: f64 = 1e-3;
@@ -11,19 +11,22 @@ pub const LAW: Law = Law {
     word: "exponential",
     words: "Its force falls exponentially.",
     source: "",
-    force: "force falls exponentially, with a scale of",
+    force: "force falls exponentially",
     parameter: Some(Parameter {
         key: "scale",
+        words: ", with a scale of",
         above: 0.0,
         of_it_alone: "only a force that falls exponentially, {}, has a scale",
         least_energy: 1.0,
-        for_energy: |energy| 0.5 * (energy - 1.0) / (1.0 - LAST_FORCE),
     }),
     softens: true,
     sliding_because: None,
-    at,
-    end: |scale| 1.0 - scale * LAST_FORCE.ln(),
-    total: |scale| 1.0 + 2.0 * scale * (1.0 - LAST_FORCE),
+    fall: Fall::Formula {
+        at,
+        end: |scale| 1.0 - scale * LAST_FORCE.ln(),
+        total: |scale| 1.0 + 2.0 * scale * (1.0 - LAST_FORCE),
+        for_energy: |energy| 0.5 * (energy - 1.0) / (1.0 - LAST_FORCE),
+    },
 };
 
 /// mu = exp(-(kappa - 1)/f) with f = e_f/e_0, omega = mu/kappa; what is gone is twice the area under mu less that of unloading,

@@ -1,9 +1,9 @@
 //! What a law of softening is.
 
+use super::curve::Curve;
+
 /// A law of softening: the fall of a bond's force after its limit e_0.
-///
-/// The functions take the law's parameter (any number where it has none) and the largest kappa = e/e_0 so far.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Law {
     /// Word of the law in case files and in results.
     pub word: &'static str,
@@ -11,7 +11,7 @@ pub struct Law {
     pub words: &'static str,
     /// Papers of the law, by the keys of the references, with their equations; empty without any.
     pub source: &'static str,
-    /// What the force does, in few words; the parameter follows, if there is one.
+    /// What the force does, in few words.
     pub force: &'static str,
     /// Parameter of the law, if there is one.
     pub parameter: Option<Parameter>,
@@ -19,12 +19,28 @@ pub struct Law {
     pub softens: bool,
     /// Reason why only bonds that slide may follow the law, if that is so, with `{}` for the criterion of sliding.
     pub sliding_because: Option<&'static str>,
-    /// The bond past its limit.
-    pub at: fn(f64, f64) -> Softened,
-    /// kappa at which the bond breaks; infinite if never.
-    pub end: fn(f64) -> f64,
-    /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
-    pub total: fn(f64) -> f64,
+    /// Force and energy after the limit.
+    pub fall: Fall,
+}
+
+/// Force and energy of a bond after its limit.
+#[derive(Debug, Clone)]
+pub enum Fall {
+    /// Functions of the law's parameter (any number where it has none).
+    Formula {
+        /// The bond past its limit, from the parameter and the largest kappa = e/e_0 so far.
+        at: fn(f64, f64) -> Softened,
+        /// kappa at which the bond breaks; infinite if never.
+        end: fn(f64) -> f64,
+        /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
+        total: fn(f64) -> f64,
+        /// The parameter for which the whole life takes so many times what the bond stores at its limit: the inverse of `total`.
+        for_energy: fn(f64) -> f64,
+    },
+    /// Stress over the opening of a crack, as a user gave it; the parameter is kappa at its end.
+    Curve(Curve),
+    /// Stress over the opening of a crack by a law that has a name; the parameter is kappa at its end.
+    Named(fn() -> &'static Curve),
 }
 
 /// The parameter of a law of softening.
@@ -32,19 +48,94 @@ pub struct Law {
 pub struct Parameter {
     /// Name of the parameter.
     pub key: &'static str,
+    /// What the parameter says about the force, in words before its value.
+    pub words: &'static str,
     /// Value that the parameter must exceed.
     pub above: f64,
     /// Reason why no other law has the parameter, with `{}` for this one.
     pub of_it_alone: &'static str,
     /// Energy of the whole life of a bond, over what it stores at its limit, that any parameter exceeds.
     pub least_energy: f64,
+}
+
+impl Parameter {
+    /// The deformation at which a force has fallen to zero, over that at the limit, of a law that falls without a jump above a value, for which
+    /// the whole life takes the least energy.
+    pub const fn end(above: f64, least_energy: f64) -> Self {
+        Self {
+            key: "end",
+            words: ", to zero at",
+            above,
+            of_it_alone: "only a force that falls to zero, such as {}, has an end",
+            least_energy,
+        }
+    }
+}
+
+impl Law {
+    /// The bond past its limit, from the law's parameter and the largest kappa = e/e_0 so far.
+    pub fn at(&self, parameter: f64, kappa: f64) -> Softened {
+        match &self.fall {
+            Fall::Formula { at, .. } => at(parameter, kappa),
+            Fall::Curve(curve) => curve.at(parameter, kappa),
+            Fall::Named(curve) => curve().at(parameter, kappa),
+        }
+    }
+
+    /// kappa at which the bond breaks; infinite if never.
+    pub fn end(&self, parameter: f64) -> f64 {
+        match &self.fall {
+            Fall::Formula { end, .. } => end(parameter),
+            Fall::Curve(_) | Fall::Named(_) => parameter,
+        }
+    }
+
+    /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
+    pub fn total(&self, parameter: f64) -> f64 {
+        match &self.fall {
+            Fall::Formula { total, .. } => total(parameter),
+            Fall::Curve(curve) => curve.total(parameter),
+            Fall::Named(curve) => curve().total(parameter),
+        }
+    }
+
     /// The parameter for which the whole life of a bond takes so many times what it stores at its limit, more than the least.
-    pub for_energy: fn(f64) -> f64,
+    pub fn parameter_for(&self, energy: f64) -> f64 {
+        match &self.fall {
+            Fall::Formula { for_energy, .. } => for_energy(energy),
+            Fall::Curve(_) | Fall::Named(_) => energy / self.total(1.0),
+        }
+    }
+
+    /// Openings of a crack over G/f_t and stresses over the strength f_t from the limit to the end of the law, shape (n, 2); None for a law
+    /// that no fracture energy G decides about.
+    pub fn stress_over_opening(&self) -> Option<Vec<[f64; 2]>> {
+        /// Energy of the life of a bond over that at the limit, of which the elastic energy is a small part.
+        const ENERGY: f64 = 1e3;
+        const INTERVALS: u32 = 720;
+        self.parameter?;
+        let parameter = self.parameter_for(ENERGY);
+        let end = self.end(parameter);
+        let corner = |interval: u32| {
+            let kappa = 1.0 + (end - 1.0) * f64::from(interval) / f64::from(INTERVALS);
+            let force = self.at(parameter, kappa).force;
+            [2.0 * (kappa - force) / ENERGY, force]
+        };
+        Some((0..=INTERVALS).map(corner).collect())
+    }
+
+    /// The curve that a user gave; None for a law with a name.
+    pub fn given_curve(&self) -> Option<&Curve> {
+        match &self.fall {
+            Fall::Curve(curve) => Some(curve),
+            Fall::Formula { .. } | Fall::Named(_) => None,
+        }
+    }
 }
 
 impl PartialEq for Law {
     fn eq(&self, other: &Self) -> bool {
-        self.word == other.word
+        self.word == other.word && self.given_curve() == other.given_curve()
     }
 }
 

@@ -1,6 +1,6 @@
 //! A force that stays at its limit; unloading goes to the origin, not parallel to the elastic line.
 
-use super::law::{Law, Softened};
+use super::law::{Fall, Law, Softened};
 
 /// The force stays for good.
 pub const LAW: Law = Law {
@@ -11,9 +11,12 @@ pub const LAW: Law = Law {
     parameter: None,
     softens: true,
     sliding_because: Some("only bonds that slide, {}, keep their force"),
-    at,
-    end: |_| f64::INFINITY,
-    total: |_| f64::INFINITY,
+    fall: Fall::Formula {
+        at,
+        end: |_| f64::INFINITY,
+        total: |_| f64::INFINITY,
+        for_energy: |_| f64::NAN,
+    },
 };
 
 /// mu = 1, omega = 1/kappa (MPPD eq. 50 with gamma_u to infinity); the energy gone is 2 (kappa - 1) + 1 - kappa = kappa - 1.

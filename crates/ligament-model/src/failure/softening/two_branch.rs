@@ -1,6 +1,6 @@
 //! A fall of the force in two straight lines, as concrete has it (Petersson 1981).
 
-use super::law::{Law, Parameter, Softened};
+use super::law::{Fall, Law, Parameter, Softened};
 
 /// Force over that at the limit where the second line begins.
 const KINK: f64 = 1.0 / 3.0;
@@ -17,19 +17,16 @@ pub const LAW: Law = Law {
     word: "two-branch",
     words: "Its force falls in two straight lines, to a third and then to zero (Petersson's, of concrete).",
     source: "Petersson 1981",
-    force: "force falls to a third and then to zero, in two straight lines (Petersson), which end at",
-    parameter: Some(Parameter {
-        key: "end",
-        above: 3.0,
-        of_it_alone: "only a force that falls in straight lines, {} or \"two-branch\", has an end",
-        least_energy: 5.0 / 3.0,
-        for_energy: |energy| energy / ENERGY,
-    }),
+    force: "force falls to a third and then to zero, in two straight lines (Petersson)",
+    parameter: Some(Parameter::end(3.0, 5.0 / 3.0)),
     softens: true,
     sliding_because: None,
-    at,
-    end: |end| end,
-    total: |end| ENERGY * end,
+    fall: Fall::Formula {
+        at,
+        end: |end| end,
+        total: |end| ENERGY * end,
+        for_energy: |energy| energy / ENERGY,
+    },
 };
 
 /// mu = 1 - (1 - 1/3)(kappa - 1)/(kappa_1 - 1) up to kappa_1 = 1/3 + 2 r/9, then (r - kappa)/(r - kappa_1)/3; omega = mu/kappa; what is gone
