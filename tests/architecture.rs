@@ -58,7 +58,10 @@ pub(crate) const ARROWS: [(&str, &[&str]); 16] = [
             "ligament-post",
         ],
     ),
-    ("ligament-report", &["ligament-output", "ligament-plot"]),
+    (
+        "ligament-report",
+        &["ligament-model", "ligament-output", "ligament-plot"],
+    ),
     (
         "ligament-study",
         &[

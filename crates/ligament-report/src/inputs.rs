@@ -2,8 +2,7 @@
 
 use std::path::Path;
 
-use ligament_model::failure::AfterLimit;
-use ligament_model::failure::softening::{Curve, Law};
+use ligament_model::failure::softening::Law;
 use ligament_output::Error;
 use ligament_plot::stored_loading::resolved_case;
 use toml::{Table, Value};
@@ -78,7 +77,7 @@ impl Inputs {
         let criteria = self.case.get("fracture").and_then(|it| it.get("criterion"));
         let criteria = criteria.and_then(Value::as_array).into_iter().flatten();
         let mut laws: Vec<Law> = Vec::new();
-        for law in criteria.filter_map(|it| softening_law(it.get("after")?)) {
+        for law in criteria.filter_map(|it| it.get("after")?.clone().try_into().ok()) {
             if !laws.contains(&law) {
                 laws.push(law);
             }
@@ -140,21 +139,6 @@ impl Inputs {
             other => other.to_string(),
         }
     }
-}
-
-/// The law of softening of a key `after`: a word, or the corners of a curve.
-fn softening_law(after: &Value) -> Option<Law> {
-    if let Some(word) = after.as_str() {
-        return AfterLimit::from_text(word, Vec::new()).map(|it| it.law().clone());
-    }
-    let corners = after.get("curve")?.as_array()?.iter().map(|corner| {
-        let [opening, stress] = corner.as_array()?.as_slice() else {
-            return None;
-        };
-        Some([opening.as_float()?, stress.as_float()?])
-    });
-    let corners: Option<Vec<[f64; 2]>> = corners.collect();
-    Some(Curve::new(&corners?).ok()?.law())
 }
 
 /// Stress over the opening of a crack by a law of softening, drawn as HTML; None for a law that no fracture energy decides about.

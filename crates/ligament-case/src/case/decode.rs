@@ -69,6 +69,13 @@ impl serde::de::Error for Fault {
         wrong_type(expected_words(expected), format!("a list of {length}"))
     }
 
+    fn unknown_variant(word: &str, valid: &'static [&'static str]) -> Self {
+        Self::UnknownValue {
+            found: word.to_owned(),
+            valid: valid.iter().map(|&word| word.to_owned()).collect(),
+        }
+    }
+
     fn unknown_field(key: &str, valid: &'static [&'static str]) -> Self {
         let valid = valid.iter().map(|&key| key.to_owned()).collect();
         Self::UnknownKey {
@@ -218,11 +225,7 @@ impl<'de> Deserializer<'de> for &'de Node {
             return Err(wrong_type(expected, found_words(unexpected(&self.value))));
         };
         if !variants.contains(&word.as_str()) {
-            let valid = variants.iter().map(|&variant| variant.to_owned()).collect();
-            return Err(Fault::UnknownValue {
-                found: word.clone(),
-                valid,
-            });
+            return Err(Fault::unknown_variant(word, variants));
         }
         visitor.visit_enum(BorrowedStrDeserializer::new(word))
     }

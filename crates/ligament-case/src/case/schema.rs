@@ -36,6 +36,7 @@ impl Transform for TomlAdaptation {
         schema.remove("format");
         without_null(schema);
         words(schema);
+        describe_words(schema);
         titles(schema);
     }
 }
@@ -117,8 +118,6 @@ fn without_null(schema: &mut Schema) {
                 schema.insert(key, value);
             }
         }
-        // The words of an alternative were combined before, with a description of the type.
-        describe_words(schema);
     }
 }
 
@@ -139,21 +138,20 @@ fn words(schema: &mut Schema) {
         "x-taplo".to_owned(),
         json!({ "docs": { "enumValues": docs } }),
     );
-    describe_words(schema);
 }
 
-/// Appends the meanings of the words to the description, once.
+/// Appends the meanings of the words to the description, once: of the schema or of one of its alternatives.
 fn describe_words(schema: &mut Schema) {
-    let Some(docs) = schema
-        .get("x-taplo")
-        .and_then(|it| it.pointer("/docs/enumValues"))
-    else {
+    let with_words = |it: &Value| {
+        let docs = it.pointer("/x-taplo/docs/enumValues")?.as_array()?.clone();
+        Some((it.get("enum")?.as_array()?.clone(), docs))
+    };
+    let alternatives = schema.get("anyOf").and_then(Value::as_array);
+    let of_alternatives = || alternatives?.iter().find_map(with_words);
+    let Some((words, docs)) = with_words(schema.as_value()).or_else(of_alternatives) else {
         return;
     };
-    let (Some(Value::Array(words)), Some(docs)) = (schema.get("enum"), docs.as_array()) else {
-        return;
-    };
-    let lines = words.iter().zip(docs).map(|(word, doc)| {
+    let lines = words.iter().zip(&docs).map(|(word, doc)| {
         let (word, doc) = (
             word.as_str().unwrap_or_default(),
             doc.as_str().unwrap_or_default(),

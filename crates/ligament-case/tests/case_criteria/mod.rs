@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
 
 use std::path::Path;
+use std::slice::from_ref;
 
 use ligament::body::{AnyBody, Points};
 use ligament_case::case::{CaseError, CaseFile};
@@ -124,7 +125,7 @@ fn every_kind_and_every_end_is_read() {
     ];
     for (text, expected) in &cases {
         let text = with(&format!("[[fracture.criterion]]\n{text}\n"));
-        assert_eq!(criteria_of(text, &[]), [expected.clone()]);
+        assert_eq!(criteria_of(text, &[]), from_ref(expected));
     }
     let all: String = cases
         .each_ref()
@@ -137,8 +138,8 @@ fn every_kind_and_every_end_is_read() {
 #[test]
 fn a_curve_of_softening_as_given() {
     let corners = [[0.0, 1.0], [0.2, 0.25], [1.0, 0.0]];
-    let expected =
-        Choice::from(SLIDING).with_softening(Curve::new(&corners).unwrap().law(), Some(9.0));
+    let expected = Choice::from(SLIDING)
+        .with_softening(Law::by_curve(Curve::new(&corners).unwrap()), Some(9.0));
     let read_as = |after: &str| {
         let lines = format!("kind = \"sliding\"\nlimit = 1e-3\nafter = {after}\nend = 9.0\n");
         criteria_of(with(&format!("[[fracture.criterion]]\n{lines}")), &[])
@@ -148,8 +149,8 @@ fn a_curve_of_softening_as_given() {
         ..expected
     };
     let by_corners = read_as("{ curve = [[0, 1], [0.2, 0.25], [1, 0]] }");
-    assert_eq!(by_corners, [expected.clone()]);
-    assert_eq!(read_as("{ kink = [0.2, 0.25] }"), [expected.clone()]);
+    assert_eq!(by_corners, from_ref(&expected));
+    assert_eq!(read_as("{ kink = [0.2, 0.25] }"), from_ref(&expected));
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("curve.csv");
     std::fs::write(&path, "# w/w_c\nopening,stress\n0,1\n0.2,0.25\n1,0\n").unwrap();
@@ -165,7 +166,7 @@ fn criteria_are_set_and_added_on_the_command_line() {
     ];
     let second = "fracture.criterion.1.kind=compression";
     let both = [first[0], first[1], second];
-    assert_eq!(criteria_of(with(""), &first), [tension.clone()]);
+    assert_eq!(criteria_of(with(""), &first), from_ref(&tension));
     assert_eq!(
         criteria_of(with(""), &both),
         [tension.clone(), compression.clone()]

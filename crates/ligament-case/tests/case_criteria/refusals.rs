@@ -76,7 +76,7 @@ fn curves_that_are_none_are_refused() {
         ),
         (
             "{ knik = [0.2, 0.3] }".to_owned(),
-            "after.knik: unknown key `knik` in [fracture.criterion.after]; did you mean `kink`? valid keys: `curve`, `kink`, `table`".to_owned(),
+            "after.knik: unknown key `knik` in `fracture.criterion.0.after`; did you mean `kink`? valid keys: `curve`, `kink`, `table`".to_owned(),
         ),
         (
             file("opening,strain\n0,1\n1,0\n"),

@@ -93,7 +93,7 @@ control = { probes = { opening = 1.0 }, to = 1e-4 }
 [fracture]
 stop = { load_fraction = 0.5 }
 scatter = { of = "strength", modulus = 12 }
-criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4 }]
+criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4, after = { kink = [0.2, 0.3] }, end = 9 }]
 [output]
 stress = ["material", "virial"]
 "#;

@@ -878,6 +878,18 @@ class FractureScatter(TypedDict, total=False):
     """Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself. Default 0.0."""
 
 
+class FractureCriterionAfter(TypedDict, total=False):
+    """A law by a curve of stress over the opening of a crack; one of the keys."""
+
+    curve: Sequence[Numbers]
+    """Opening and stress of each corner, from the opening 0 and the strength to the stress 0. Units do not matter: the curve is scaled so
+that the `fracture_energy` comes out."""
+    kink: Numbers
+    """Where two straight lines meet: opening over that at the end, and stress over the strength."""
+    table: str
+    """A table (`.csv`) of the corners with the columns `opening` and `stress`, from the folder of the case file."""
+
+
 class FractureCriterion(TypedDict, total=False):
     """A criterion of failure."""
 
@@ -917,17 +929,20 @@ compressive strength: compression by s makes its limit of sliding larger by s ta
     """Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`."""
     fibre_distance: float
     """Distance of the outermost fibre from the axis of a bond, m; of `fibre`."""
-    after: Literal["brittle", "linear", "two-branch", "exponential", "plastic", "bilinear"]
-    """What a bond does after its limit.
+    after: Literal["brittle", "linear", "two-branch", "cornelissen", "ceb-fip", "model-code-2010", "exponential", "plastic", "bilinear"] | FractureCriterionAfter
+    """What a bond does after its limit: a word, or a curve of stress over the opening of a crack.
 
 - `brittle`: It breaks.
 - `linear`: Its force falls in one straight line to zero.
 - `two-branch`: Its force falls in two straight lines, to a third and then to zero (Petersson's, of concrete).
+- `cornelissen`: Its force falls by the curve of Cornelissen, Hordijk and Reinhardt, of concrete.
+- `ceb-fip`: Its force falls in two straight lines, to .15 and then to zero (CEB-FIP Model Code 1990, aggregates of 16 mm).
+- `model-code-2010`: Its force falls in two straight lines, to a fifth and then to zero (fib Model Code 2010).
 - `exponential`: Its force falls exponentially.
 - `plastic`: Its force stays; of `sliding` alone.
 - `bilinear`: Older word for `linear`: one straight line, not the two of `two-branch` that concrete has. Default "brittle"."""
     end: float
-    """Deformation at which the force of `linear` (above 1) or `two-branch` (above 3) is gone, over that at the limit; without it so that the `fracture_energy` comes out."""
+    """Deformation at which a force that falls to zero is gone, over that at the limit: of `linear` above 1, of `two-branch` above 3; without it so that the `fracture_energy` comes out."""
     scale: float
     """Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out."""
 

@@ -1,6 +1,7 @@
 //! No force at all after the limit.
 
-use super::law::{Fall, Law, Softened};
+use super::law::{Fall, Law};
+use super::softened::Softened;
 
 /// A bond that breaks at its limit (Silling and Askari 2005, prototype microelastic brittle).
 pub const LAW: Law = Law {

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::fmt;
 
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Error, MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -103,7 +103,7 @@ impl<'de> Visitor<'de> for LawVisitor {
                 return Err(A::Error::custom(reason));
             }
         };
-        curve.map(Curve::law).map_err(A::Error::custom)
+        curve.map(Law::by_curve).map_err(A::Error::custom)
     }
 }
 
@@ -117,11 +117,6 @@ impl JsonSchema for Law {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let mut schema = word::schema::<Named>();
-        let by_curve = ByCurve::json_schema(generator);
-        if let Some(words) = schema.get_mut("oneOf").and_then(|it| it.as_array_mut()) {
-            words.push(by_curve.to_value());
-        }
-        schema
+        json_schema!({ "anyOf": [word::schema::<Named>(), ByCurve::json_schema(generator)] })
     }
 }

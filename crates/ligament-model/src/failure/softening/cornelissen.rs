@@ -12,7 +12,7 @@ const CONSTANTS: [f64; 2] = [3.0, 6.93];
 const LINES: u32 = 256;
 
 /// Stress over the strength at an opening x over the last one:
-/// y = (1 + (c_1 x)^3) exp(-c_2 x) - x (1 + c_1^3) exp(-c_2) (Cornelissen, Hordijk and Reinhardt 1986).
+/// y = (1 + (c_1 x)^3) exp(-c_2 x) - x (1 + c_1^3) exp(-c_2) (Cornelissen 1986).
 fn stress(x: f64) -> f64 {
     let [c1, c2] = CONSTANTS;
     let falling = |x: f64| (1.0 + (c1 * x).powi(3)) * libm::exp(-c2 * x);

@@ -3,10 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use super::law::{Fall, Law, Parameter, Softened};
-
-/// Word of a law by a curve that a user gave.
-const WORD: &str = "curve";
+use super::softened::Softened;
 
 /// Stress y, over the strength, in straight lines over the opening x of a crack, over the opening w_c at which the stress is gone.
 ///
@@ -44,7 +41,7 @@ pub enum CurveError {
     Opening {
         /// Number of the point, from 1.
         point: usize,
-        /// Its opening.
+        /// Opening of the point.
         opening: f64,
         /// Opening of the point before.
         before: f64,
@@ -53,7 +50,7 @@ pub enum CurveError {
     Stress {
         /// Number of the point, from 1.
         point: usize,
-        /// Its stress.
+        /// Stress of the point.
         stress: f64,
         /// Stress of the point before.
         before: f64,
@@ -214,38 +211,4 @@ impl Curve {
         let area = self.corners.last().map_or(0.0, |it| it.area);
         2.0 * end * area
     }
-
-    /// The law by this curve.
-    pub fn law(self) -> Law {
-        let steepest = self.steepest();
-        let least_energy = self.total(steepest);
-        Law {
-            word: WORD,
-            words: "Its force follows a curve of stress over opening.",
-            source: "",
-            force: "force falls by its curve of stress over opening",
-            parameter: Some(Parameter::end(steepest, least_energy)),
-            softens: true,
-            sliding_because: None,
-            fall: Fall::Curve(self),
-        }
-    }
-}
-
-/// Text of a curve in results: the [`WORD`], then opening and stress of each corner, "curve 0:1 0.2:0.3 1:0".
-pub(super) fn text(curve: &Curve) -> String {
-    let points = curve.points();
-    let points = points.map(|[opening, stress]| format!(" {opening}:{stress}"));
-    WORD.to_owned() + &points.collect::<String>()
-}
-
-/// The law of a [`text`]; None for any other.
-pub(super) fn from_text(text: &str) -> Option<Law> {
-    let corners = text.strip_prefix(WORD)?.split_whitespace();
-    let corner = |text: &str| {
-        let (opening, stress) = text.split_once(':')?;
-        Some([opening.parse().ok()?, stress.parse().ok()?])
-    };
-    let corners: Option<Vec<[f64; 2]>> = corners.map(corner).collect();
-    Some(Curve::new(&corners?).ok()?.law())
 }

@@ -1,6 +1,7 @@
 //! An exponential fall of the force.
 
-use super::law::{Fall, Law, Parameter, Softened};
+use super::law::{Fall, Law, Parameter};
+use super::softened::Softened;
 
 /// Force, relative to that at the limit, at which a bond breaks: an exponential never gets to zero.
 pub const LAST_FORCE: f64 = 1e-3;

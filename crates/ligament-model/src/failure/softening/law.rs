@@ -1,6 +1,10 @@
 //! What a law of softening is.
 
 use super::curve::Curve;
+use super::softened::Softened;
+
+/// Word of a law by a curve that a user gave.
+const WORD: &str = "curve";
 
 /// A law of softening: the fall of a bond's force after its limit e_0.
 #[derive(Debug, Clone)]
@@ -124,6 +128,41 @@ impl Law {
         Some((0..=INTERVALS).map(corner).collect())
     }
 
+    /// The law by a curve that a user gave.
+    pub fn by_curve(curve: Curve) -> Self {
+        let steepest = curve.steepest();
+        let least_energy = curve.total(steepest);
+        Self {
+            word: WORD,
+            words: "Its force follows a curve of stress over opening.",
+            source: "",
+            force: "force falls by its curve of stress over opening",
+            parameter: Some(Parameter::end(steepest, least_energy)),
+            softens: true,
+            sliding_because: None,
+            fall: Fall::Curve(curve),
+        }
+    }
+
+    /// The text for the law in results: its word, and after it opening and stress of each corner of a curve that a user gave,
+    /// `curve 0:1 0.2:0.3 1:0`.
+    pub fn text(&self) -> String {
+        let points = self.given_curve().into_iter().flat_map(Curve::points);
+        let points = points.map(|[opening, stress]| format!(" {opening}:{stress}"));
+        self.word.to_owned() + &points.collect::<String>()
+    }
+
+    /// The law by the curve of a [`text`](Self::text); None for any other text.
+    pub(super) fn of_text(text: &str) -> Option<Self> {
+        let corners = text.strip_prefix(WORD)?.split_whitespace();
+        let corner = |text: &str| {
+            let (opening, stress) = text.split_once(':')?;
+            Some([opening.parse().ok()?, stress.parse().ok()?])
+        };
+        let corners: Option<Vec<[f64; 2]>> = corners.map(corner).collect();
+        Curve::new(&corners?).ok().map(Self::by_curve)
+    }
+
     /// The curve that a user gave; None for a law with a name.
     pub fn given_curve(&self) -> Option<&Curve> {
         match &self.fall {
@@ -137,24 +176,4 @@ impl PartialEq for Law {
     fn eq(&self, other: &Self) -> bool {
         self.word == other.word && self.given_curve() == other.given_curve()
     }
-}
-
-/// A bond past its limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Softened {
-    /// Force over force at the limit: the printed mu of the damage variables (MPPD eqs 45, 46, 50).
-    pub force: f64,
-    /// Secant stiffness over elastic stiffness.
-    pub secant: f64,
-    /// Energy that is gone, over that stored at the limit.
-    pub dissipated: f64,
-}
-
-impl Softened {
-    /// A bond that never passed its limit.
-    pub const SOUND: Self = Self {
-        force: 1.0,
-        secant: 1.0,
-        dissipated: 0.0,
-    };
 }

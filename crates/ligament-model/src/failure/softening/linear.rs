@@ -1,6 +1,7 @@
 //! A straight fall of the force to zero (MPPD Fig. 7).
 
-use super::law::{Fall, Law, Parameter, Softened};
+use super::law::{Fall, Law, Parameter};
+use super::softened::Softened;
 
 /// The force falls in a straight line to zero at r = e_u/e_0, the key `end`.
 pub const LAW: Law = by_word("linear", "Its force falls in one straight line to zero.");

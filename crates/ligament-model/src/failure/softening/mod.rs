@@ -14,10 +14,12 @@ mod law;
 pub mod linear;
 pub mod model_codes;
 pub mod plastic;
+mod softened;
 pub mod two_branch;
 
 pub use curve::{Curve, CurveError};
-pub use law::{Fall, Law, Parameter, Softened};
+pub use law::{Fall, Law, Parameter};
+pub use softened::Softened;
 
 /// All laws of softening that have a name.
 pub const LAWS: [&Law; 9] = [
@@ -52,18 +54,12 @@ impl AfterLimit {
     /// The law of a [text](Self::text) in results, with its [`parameter`](Self::parameter) for each bond; None for any other text.
     pub fn from_text(text: &str, parameter: Vec<f64>) -> Option<Self> {
         let named = LAWS.into_iter().find(|law| law.word == text).cloned();
-        Some(Self::new(
-            named.or_else(|| curve::from_text(text))?,
-            parameter,
-        ))
+        Some(Self::new(named.or_else(|| Law::of_text(text))?, parameter))
     }
 
-    /// The text for the law in results: its word, and the corners of a curve that a user gave.
+    /// The [text](Law::text) for the law in results.
     pub fn text(&self) -> String {
-        match self.law.given_curve() {
-            None => self.law.word.to_owned(),
-            Some(curve) => curve::text(curve),
-        }
+        self.law.text()
     }
 
     /// The word for the law.
@@ -165,13 +161,13 @@ mod tests {
             cornelissen::LAW,
             model_codes::CEB_FIP,
             model_codes::FIB,
-            Curve::new(&given).map(Curve::law).unwrap(),
+            Curve::new(&given).map(Law::by_curve).unwrap(),
         ];
         laws.map(|law| AfterLimit::new(law, vec![12.0]))
     }
 
     /// Areas under the stress over the opening by the sources: w_c = 5.136 G/f_t with c_1 = 3 and c_2 = 6.93 (Cornelissen 1986), 7 G/f_t by CEB-FIP
-    /// 1990 and 5 G/f_t by the Model Code 2010. 1e-4: the straight lines of the first; the others are exact. 1e-8 of the energy: the rule above
+    /// 1990 and 5 G/f_t by the fib Model Code. 1e-4: the straight lines of the first; the others are exact. 1e-8 of the energy: the rule above
     /// across the corners, whose slopes differ by up to 3 over steps of 5e-4.
     #[test]
     fn curves_have_the_areas_of_their_sources() {
@@ -204,7 +200,7 @@ mod tests {
         let kinked = Curve::kinked([2.0 / 9.0, 1.0 / 3.0]).unwrap();
         let straight = Curve::new(&[[0.0, 1.0], [1.0, 0.0]]).unwrap();
         for (curve, law) in [(kinked, two_branch::LAW), (straight, linear::LAW)] {
-            let curve = curve.law();
+            let curve = Law::by_curve(curve);
             let [ours, known] = [&curve, &law].map(|it| it.parameter.unwrap());
             assert!((ours.above - known.above).abs() < 1e-12);
             assert!((ours.least_energy - known.least_energy).abs() < 1e-12);

@@ -1,6 +1,7 @@
 //! A force that stays at its limit; unloading goes to the origin, not parallel to the elastic line.
 
-use super::law::{Fall, Law, Softened};
+use super::law::{Fall, Law};
+use super::softened::Softened;
 
 /// The force stays for good.
 pub const LAW: Law = Law {

@@ -1,6 +1,7 @@
 //! A fall of the force in two straight lines, as concrete has it (Petersson 1981).
 
-use super::law::{Fall, Law, Parameter, Softened};
+use super::law::{Fall, Law, Parameter};
+use super::softened::Softened;
 
 /// Force over that at the limit where the second line begins.
 const KINK: f64 = 1.0 / 3.0;
