@@ -1,6 +1,6 @@
 //! Plots of numbers.
 //!
-//! A [`Plot`] has scales of its own along x and y; [`equal`] draws one with the same scale along both, [`polar`] draws
+//! A [`Plot`] has scales of its own along x and y; [`equal_scales`] draws one with the same scale along both, [`polar`] draws
 //! curves around a centre.
 
 pub mod equal_scales;
