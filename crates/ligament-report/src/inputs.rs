@@ -156,11 +156,12 @@ fn drawing(law: &Law) -> Option<String> {
     let ([width, height], base) = (SIZE, SIZE[1] - MARGIN);
     let right = width - MARGIN;
     Some(format!(
-        "<figure class=\"card softening\"><figcaption>Softening: stress over the opening of a crack, {word}</figcaption>\
+        "<section class=\"card\"><h3>Softening: {word}</h3>\
          <svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{words}\" fill=\"none\" stroke=\"currentColor\">\
          <path d=\"M{MARGIN},{MARGIN}V{base}H{right}\" opacity=\"0.5\"/><polyline points=\"{points}\" stroke-width=\"2\"/>\
          <g fill=\"currentColor\" stroke=\"none\" font-size=\"11\"><text x=\"2\" y=\"{MARGIN}\">f_t</text>\
-         <text x=\"{right}\" y=\"{below}\" text-anchor=\"end\">{end:.2} G_c/f_t</text></g></svg></figure>\n",
+         <text x=\"{right}\" y=\"{below}\" text-anchor=\"end\">{end:.2} G_c/f_t</text></g></svg>\
+         <p>Stress over the opening of a crack.</p></section>\n",
         word = law.word,
         words = law.words,
         points = points.join(" "),
