@@ -21,7 +21,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-plot", 54_122),
     ("ligament-post", 26_668),
     ("ligament-python", 13_826),
-    ("ligament-report", 18_364),
+    ("ligament-report", 18_423),
     ("ligament-run", 30_022),
     ("ligament-study", 60_615),
     ("ligament-verify", 74_188),
