@@ -121,6 +121,7 @@ impl Truss {
                 },
                 element: ElementKind::Beam,
                 beyond_correction: Vec::new(),
+                has_stress_across_plane: false,
                 materials: Vec::new(),
                 faces: Faces::default(),
                 far: None,

@@ -270,6 +270,16 @@ impl ResultField {
         self.components[usize::from(in_space)]
     }
 
+    /// Components in the results of a body: stresses by the law of the material have one across the plane where it is known.
+    pub fn components_of_body(&self, system: &dyn Bonds) -> Components {
+        match self.reading {
+            ByMaterial(..) if self.components == SYMMETRIC && system.has_stress_across_plane => {
+                Components::Named(SymTensor::<2>::NAMES_WITH_NORMAL)
+            }
+            _ => self.components(system.layout.is_in_space()),
+        }
+    }
+
     /// Values of the field in a state of a run; None where the run has no such field or the field does not depend on the state.
     pub fn values(&self, view: &View<'_>) -> Option<FieldValues> {
         match self.reading {
@@ -277,7 +287,7 @@ impl ResultField {
             Probed(read, _) => read(view.solution()).map(FieldValues::Numbers),
             Stress(reading) => numbers(stresses(view, reading)),
             ByMaterial(of, read, _) => {
-                let count = self.components(view.system.layout.is_in_space()).count();
+                let count = self.components_of_body(view.system).count();
                 numbers(material_stresses(view.solution(), of, read, count))
             }
             Model(_) | EnergyRatios | ScatterFactors | CrackSurface => None,

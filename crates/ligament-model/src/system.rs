@@ -46,6 +46,8 @@ pub struct BondSystem<const D: usize = 2> {
     /// Stiffness of each material with the effective constants of the law, shape (n_materials), Pa; empty where no stress is
     /// evaluated from it.
     pub materials: Vec<Stiffness>,
+    /// Whether the stress across the plane is known: of isotropic materials in plane strain.
+    pub has_stress_across_plane: bool,
     /// Crack faces.
     pub faces: Faces<D>,
     /// Elements in place of bonds where nothing breaks; none without a far field.
@@ -93,11 +95,7 @@ impl<const D: usize> BondSystem<D> {
             });
         let of_bond = |(bond, density): (usize, StrainStiffness)| {
             let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
-            let factor = weight[bond] * a * b * bonds.length[bond];
-            StrainStiffness {
-                entries: density.entries.map(|entry| factor * entry),
-                ..density
-            }
+            density.scaled(weight[bond] * a * b * bonds.length[bond])
         };
         let rigidities = Rigidities {
             strain: strain.into_iter().enumerate().map(of_bond).collect(),
@@ -113,6 +111,7 @@ impl<const D: usize> BondSystem<D> {
             bonds,
             cloud,
             materials: Vec::new(),
+            has_stress_across_plane: false,
             faces: Faces::default(),
             far: None,
             volumetric: None,
@@ -124,6 +123,14 @@ impl<const D: usize> BondSystem<D> {
     /// The system with the stiffnesses of its materials (n_materials), Pa.
     pub fn with_materials(self, materials: Vec<Stiffness>) -> Self {
         Self { materials, ..self }
+    }
+
+    /// The system in plane strain with isotropic materials, whose stress across the plane is known.
+    pub fn with_stress_across_plane(self) -> Self {
+        Self {
+            has_stress_across_plane: true,
+            ..self
+        }
     }
 
     /// The bonds of a part of a body between the points of the whole body: `points` has their numbers at the points of the part, ascending.
@@ -236,6 +243,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             coupled_points,
             far_field: system.far.as_ref().map(|it| it.neighbours.clone()),
             has_volumetric_cells: system.volumetric.is_some(),
+            has_stress_across_plane: system.has_stress_across_plane,
             faces_close: system.faces.close(),
         };
         Self {

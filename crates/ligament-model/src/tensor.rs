@@ -96,6 +96,12 @@ impl<const D: usize> SymTensor<D> {
     /// Names of the components in their order.
     pub const NAMES: &'static [&'static str] = NAMES.split_at(D * (D + 1) / 2).0;
 
+    /// Names of the components in their order, in the plane with the normal component across it.
+    pub const NAMES_WITH_NORMAL: &'static [&'static str] = match D {
+        2 => NAMES.split_at(4).0,
+        _ => Self::NAMES,
+    };
+
     /// The tensor whose components a function gives by row and column (row <= column).
     #[inline]
     pub fn from_fn(mut component: impl FnMut(usize, usize) -> f64) -> Self {

@@ -349,7 +349,11 @@ fn bond_system<const D: usize>(
     let system = BondSystem::new(cloud, bonds, element, stiffness, alpha.clone(), omega);
     require_finite_rigidities(names, &system)?;
     let materials = formulation::stiffness_of_materials(setup);
-    Ok(system.with_faces(faces).with_materials(materials))
+    let system = system.with_faces(faces).with_materials(materials);
+    Ok(match setup.has_stress_across_plane() {
+        true => system.with_stress_across_plane(),
+        false => system,
+    })
 }
 
 /// The system with the stiffness of the cells against changes of volume, where bonds do not make up the whole materials.

@@ -14,6 +14,16 @@ pub struct StrainStiffness {
     pub first_share: f64,
 }
 
+impl StrainStiffness {
+    /// A stiffness with entries that are a factor times as large.
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        Self {
+            entries: self.entries.map(|entry| factor * entry),
+            ..self
+        }
+    }
+}
+
 /// The symmetric matrix of given entries.
 pub fn matrix([d11, d12, d16, d22, d26, d66]: SymmetricEntries) -> Matrix3<f64> {
     Matrix3::new(d11, d12, d16, d12, d22, d26, d16, d26, d66)

@@ -14,25 +14,29 @@
 
 use rayon::prelude::*;
 
+use crate::interface::Stresses;
 use crate::layout::Layout;
-use crate::material::stress_component;
+use crate::material::{Stiffness, stress_component};
 use crate::system::{BondSystem, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
 use super::carried::StrainReading;
 
 impl<const D: usize> BondSystem<D> {
-    /// Stress of each point in a motion, shape (n_points), Pa; None where the bonds of a point do not span the space.
+    /// Stress of each point in a motion, Pa; not a number where the bonds of a point do not span the space.
     pub(crate) fn stresses_by_material(
         &self,
         layout: Layout,
         reading: StrainReading<'_>,
-    ) -> Vec<Option<SymTensor<D>>> {
+    ) -> Stresses {
         let strains = self.strains_of_all(|point| self.strain_by(layout, reading, point));
         let numbered = strains.into_par_iter().enumerate();
-        numbered
-            .map(|(point, strain)| self.stress_in(layout, reading, point as u32, &strain?))
-            .collect()
+        let of_point =
+            |(point, strain)| self.stress_components(layout, reading, point as u32, strain);
+        Stresses {
+            names: self.stress_names(),
+            values: numbered.flat_map_iter(of_point).collect(),
+        }
     }
 
     /// Stress of a point with a strain in a reading, Pa: that of the material of its bonds, and that of its cells; None where the system does
@@ -48,9 +52,10 @@ impl<const D: usize> BondSystem<D> {
         let Some(terms) = &self.volumetric else {
             return Some(stress);
         };
-        let (motion, remaining) = match reading {
-            StrainReading::Effective(motion) => (motion, &[][..]),
-            StrainReading::Carried(carried) => (carried.motion, carried.remaining),
+        let motion = reading.motion();
+        let remaining = match reading {
+            StrainReading::Effective(_) => &[][..],
+            StrainReading::Carried(carried) => carried.remaining,
         };
         let bonds = UnbrokenBonds {
             intact: motion.intact,
@@ -64,6 +69,58 @@ impl<const D: usize> BondSystem<D> {
         };
         let of_cells = of_cells.unwrap_or_else(|| self.volumetric_stress_of(point, strain));
         Some(stress.plus(&SymTensor::isotropic(of_cells)))
+    }
+
+    /// Components of the stress of a point with a strain in a reading, Pa, with that across the plane where it is known; not a number without
+    /// a strain or without the stiffnesses of the materials.
+    pub(crate) fn stress_components(
+        &self,
+        layout: Layout,
+        reading: StrainReading<'_>,
+        point: u32,
+        strain: Option<SymTensor<D>>,
+    ) -> Vec<f64> {
+        let stress = strain.and_then(|it| self.stress_in(layout, reading, point, &it));
+        let (Some(strain), Some(stress)) = (strain, stress) else {
+            return vec![f64::NAN; self.stress_names().len()];
+        };
+        let mut components: Vec<f64> = stress.components().collect();
+        if self.has_stress_across_plane {
+            components.push(self.stress_across_plane(reading, point, &strain, &stress));
+        }
+        components
+    }
+
+    /// Names of the [components of a stress](Self::stress_components).
+    pub(crate) fn stress_names(&self) -> &'static [&'static str] {
+        match self.has_stress_across_plane {
+            true => SymTensor::<D>::NAMES_WITH_NORMAL,
+            false => SymTensor::<D>::NAMES,
+        }
+    }
+
+    /// Stress across the plane of a point without strain across it, Pa, from its stress in the plane and its strain less what the temperature
+    /// gives it. By Hooke's law with the whole strain eps,
+    ///
+    /// sigma_zz = lambda tr(eps) - (3 lambda + 2 mu) alpha T = (sigma_xx + sigma_yy)/2 - mu tr(eps).
+    fn stress_across_plane(
+        &self,
+        reading: StrainReading<'_>,
+        point: u32,
+        strain: &SymTensor<D>,
+        stress: &SymTensor<D>,
+    ) -> f64 {
+        let trace = |tensor: &SymTensor<D>| (0..D).map(|axis| tensor.at(axis, axis)).sum::<f64>();
+        let expansion = reading.motion().expansion;
+        let free = match expansion.is_none() {
+            true => SymTensor::ZERO,
+            false => expansion.of_point(point as usize).resized(),
+        };
+        let of_shear = SymTensor::<D>::COMPONENTS.len() - 1;
+        let shear_modulus = |stiffness: &Stiffness| stiffness[(of_shear, of_shear)];
+        let moduli: Vec<f64> = self.materials.iter().map(shear_modulus).collect();
+        let mu = self.cloud.mean_property(point as usize, &moduli);
+        0.5 * trace(stress) - mu * (trace(strain) + trace(&free))
     }
 
     /// Stress of a strain of a point by the stiffness of its bonds, Pa; None where the system does not have the stiffnesses of its materials.

@@ -56,6 +56,16 @@ pub enum StrainReading<'a> {
     Carried(Carried<'a>),
 }
 
+impl<'a> StrainReading<'a> {
+    /// Motion of the points.
+    pub(crate) fn motion(&self) -> Motion<'a> {
+        match self {
+            Self::Effective(motion) => *motion,
+            Self::Carried(carried) => carried.motion,
+        }
+    }
+}
+
 impl Carried<'_> {
     /// Remaining stiffness of a bond; none of a broken one.
     fn factors(&self, bond: usize) -> StiffnessFactors {

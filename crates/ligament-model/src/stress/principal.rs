@@ -83,24 +83,29 @@ fn principal<const D: usize>(strain: &SymTensor<D>, moduli: &Moduli) -> [f64; 2]
 
 /// Principal values of a stress with these components, the largest first: two in the plane, three in space.
 pub fn values(stress: &[f64]) -> Vec<f64> {
-    match stress.len() == SymTensor::<2>::COMPONENTS.len() {
-        true => SymTensor::<2>::from_components(stress)
-            .principal_values()
-            .to_vec(),
-        false => SymTensor::<3>::from_components(stress)
+    match in_plane(stress) {
+        Some(stress) => stress.principal_values().to_vec(),
+        None => SymTensor::<3>::from_components(stress)
             .principal_values()
             .to_vec(),
     }
 }
 
+/// Stress in the plane of components in the plane, with or without one across it; None for components in space.
+fn in_plane(stress: &[f64]) -> Option<SymTensor<2>> {
+    let in_space = SymTensor::<3>::COMPONENTS.len();
+    let count = SymTensor::<2>::COMPONENTS.len();
+    (stress.len() < in_space).then(|| SymTensor::from_components(&stress[..count]))
+}
+
 /// Unit vector (x, y, z) along the largest principal stress of a stress with these components.
 pub fn direction_of_largest(stress: &[f64]) -> Vec<f64> {
-    match stress.len() == SymTensor::<2>::COMPONENTS.len() {
-        true => {
-            let [x, y] = SymTensor::<2>::from_components(stress).principal_direction();
+    match in_plane(stress) {
+        Some(stress) => {
+            let [x, y] = stress.principal_direction();
             vec![x, y, 0.0]
         }
-        false => SymTensor::<3>::from_components(stress)
+        None => SymTensor::<3>::from_components(stress)
             .principal_direction()
             .to_vec(),
     }

@@ -331,20 +331,15 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
     }
 
     fn stresses_by_material(&self, reading: StrainReading<'_>) -> Stresses {
-        let stresses = self
-            .system
-            .stresses_by_material(self.topology.layout, reading);
-        Stresses {
-            names: SymTensor::<D>::NAMES,
-            values: stresses.iter().flat_map(components_or_nan).collect(),
-        }
+        self.system
+            .stresses_by_material(self.topology.layout, reading)
     }
 
     fn stress_by_material(&self, reading: StrainReading<'_>, point: u32) -> Vec<f64> {
         let layout = self.topology.layout;
         let strain = self.system.strain_by(layout, reading, point);
-        let stress = strain.and_then(|it| self.system.stress_in(layout, reading, point, &it));
-        components_or_nan(&stress)
+        self.system
+            .stress_components(layout, reading, point, strain)
     }
 
     fn stresses_across(
@@ -434,12 +429,6 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         self.system
             .add_stresses_of_contact(reading, closed, &mut stresses.values);
     }
-}
-
-/// Components of a tensor; not a number without one.
-fn components_or_nan<const D: usize>(tensor: &Option<SymTensor<D>>) -> Vec<f64> {
-    let unknown = SymTensor::from_fn(|_, _| f64::NAN);
-    tensor.unwrap_or(unknown).components().collect()
 }
 
 /// Deformations of all bonds in the type of their elements, shape (n_bonds).

@@ -67,7 +67,7 @@ pub fn write_modes(
         let in_space = layout.is_in_space();
         let fields = values
             .iter()
-            .map(|(field, it)| vtu_field(field, in_space, it));
+            .map(|(field, it)| vtu_field(field, field.components(in_space), it));
         let tags = Field::integer(grid.tagged, &grid.tags);
         let fields: Vec<Field<'_>> = fields.chain([tags]).chain(fixed_fields(model)).collect();
         let time = f64::from(number);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::result_fields::{
-    FIELDS, FieldValues, HELD, HORIZON, ModelPoints, ResultField,
+    Components, FIELDS, FieldValues, HELD, HORIZON, ModelPoints, ResultField,
 };
 use ligament_model::ghosts::Ghosts;
 use ligament_model::subdomain::Subdomain;
@@ -28,18 +28,17 @@ pub(super) fn write(
     (record, view): (&StepRecord, &View<'_>),
 ) -> Result<(), Error> {
     let system = view.system;
-    let in_space = system.layout.is_in_space();
     let mut values = point_fields(rule, view);
     let ghosts = corners(grid, &system.subdomain);
     for (field, values) in &mut values {
         // Only the owner of a point has all of its bonds.
         if let FieldValues::Numbers(values) = values {
-            ghosts.update(values, field.components(in_space).count());
+            ghosts.update(values, field.components_of_body(system).count());
         }
     }
     let mut fields = Vec::new();
     for (field, values) in &values {
-        fields.push(vtu_field(field, in_space, values));
+        fields.push(vtu_field(field, field.components_of_body(system), values));
         if field.name == HELD.name {
             fields.push(Field::integer(grid.tagged, &grid.tags));
         }
@@ -74,10 +73,9 @@ pub fn location(file: &VtuFile) -> FieldLocation {
 /// A result field as a field of a VTU file.
 pub(super) fn vtu_field<'a>(
     field: &ResultField,
-    in_space: bool,
+    components: Components,
     values: &'a FieldValues,
 ) -> Field<'a> {
-    let components = field.components(in_space);
     match values {
         FieldValues::Integers(values) => Field::integer(field.name, values),
         FieldValues::Numbers(values) => {

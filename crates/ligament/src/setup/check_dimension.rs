@@ -21,6 +21,9 @@ use crate::error::Field;
 pub(super) const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
 /// Message about a component of the stress that bodies in the plane do not have.
+/// Place of zz among the components of a stress.
+const ACROSS_PLANE: usize = 3;
+
 const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress";
 
 /// Message about a component of motion that points in a space do not have.
@@ -185,12 +188,16 @@ impl Setup {
                         PointField {
                             reading:
                                 PointReading::MaterialStress {
-                                    in_plane: false, ..
+                                    in_plane: false,
+                                    component,
+                                    ..
                                 },
                             ..
                         },
                     ..
-                } if self.dimensions() == 2 => {
+                } if self.dimensions() == 2
+                    && !(component == ACROSS_PLANE && self.has_stress_across_plane()) =>
+                {
                     return contradiction(probed.part("field"), ONLY_OF_SOLIDS);
                 }
                 Reading::At { .. } | Reading::Section { .. } => continue,

@@ -248,6 +248,13 @@ impl Setup {
         self.space().plane()
     }
 
+    /// Whether the stress across the plane is known: of isotropic materials in plane strain.
+    pub fn has_stress_across_plane(&self) -> bool {
+        let is_isotropic =
+            |it: &MaterialRegion| matches!(it.material.elasticity, Elasticity::Isotropic(_));
+        self.space() == Space::Plane(Plane::Strain) && self.materials.iter().all(is_isotropic)
+    }
+
     /// Thickness of the body, m; 1 for a solid.
     pub fn thickness(&self) -> f64 {
         self.section.thickness()
