@@ -20,11 +20,11 @@ use crate::error::Field;
 /// Message about a z axis in the plane.
 pub(super) const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
-/// Message about a component of the stress that bodies in the plane do not have.
 /// Place of zz among the components of a stress.
 const ACROSS_PLANE: usize = 3;
 
-const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress";
+/// Message about a component of the stress that bodies in the plane do not have.
+const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress; zz is known in plane strain, of isotropic materials";
 
 /// Message about a component of motion that points in a space do not have.
 fn no_motion(space: Space) -> &'static str {
