@@ -82,8 +82,9 @@ impl Results {
 }
 
 /// Tension of 3 and 1 MPa with a shear of 1 MPa on all sides, in both states of the plane: the stress of every point, edges and corners
-/// too, its principal values (2 + sqrt 2 and 2 - sqrt 2) MPa and the larger one's direction at 22.5 degrees. The correction leaves .6 % of
-/// the largest at corners, of which the direction has its share over twice the radius of Mohr's circle. Across the plane strain it is nu (3 + 1) MPa.
+/// too, its principal values (2 + sqrt 2 and 2 - sqrt 2) MPa and the larger one's direction at 22.5 degrees; in plane strain also the stress
+/// nu (3 + 1) MPa across the plane. The correction leaves .6 % of the largest value at corners; the direction is off by the share of that error in
+/// twice the radius of Mohr's circle.
 #[test]
 fn a_uniform_stress_is_the_tractions() {
     let stress = [3e6, 1e6, 1e6];

@@ -8,7 +8,7 @@ use ligament_analysis::driver::{LoadPoint, StopRules};
 use ligament_analysis::{Component, ControlKind, SetupError, Termination, fields};
 use ligament_model::failure::rankine::RANKINE as RANKINE_KIND;
 use ligament_model::failure::softening::exponential::LAST_FORCE;
-use ligament_model::failure::softening::{brittle, exponential, linear, plastic};
+use ligament_model::failure::softening::{Curve, Law, brittle, exponential, linear, plastic};
 use ligament_model::failure::{AfterLimit, Choice, Weakened};
 use verification::bench::{self, Bench, Run};
 use verification::numbers::{damages, relative_error};
@@ -44,12 +44,17 @@ fn series(after: AfterLimit) -> Truss {
     truss
 }
 
-fn laws() -> [(&'static str, AfterLimit); 3] {
+fn laws() -> [(&'static str, AfterLimit); 4] {
+    let kinked = Curve::kinked([2.0 / 9.0, 1.0 / 3.0]).unwrap();
     [
         ("bilinear", AfterLimit::new(linear::LAW, vec![5.0; 2])),
         (
             "exponential",
             AfterLimit::new(exponential::LAW, vec![2.0; 2]),
+        ),
+        (
+            "kinked",
+            AfterLimit::new(Law::by_curve(kinked), vec![9.0; 2]),
         ),
         ("plastic", AfterLimit::new(plastic::LAW, Vec::new())),
     ]
@@ -61,6 +66,8 @@ fn force_factor(law: &str, kappa: f64) -> f64 {
         _ if kappa <= 1.0 => kappa,
         "bilinear" => (5.0 - kappa) / 4.0,
         "exponential" => (-(kappa - 1.0) / 2.0).exp(),
+        "kinked" if kappa < 7.0 / 3.0 => 1.0 - 0.5 * (kappa - 1.0),
+        "kinked" => (9.0 - kappa) / 20.0,
         "plastic" => 1.0,
         other => panic!("{other}"),
     }
@@ -124,6 +131,8 @@ fn the_whole_life_takes_the_area_under_the_law() {
             1.0 - 2.0 * LAST_FORCE.ln(),
             (0.5 + 2.0 * (1.0 - LAST_FORCE)) * unit,
         ),
+        // Twice the last deformation times the area 5/18 under the curve.
+        (9.0, 0.5 * 2.0 * 9.0 * (5.0 / 18.0) * unit),
     ]) {
         let beyond = displacement(law, end) + 0.01;
         let factors = (1..=400)
@@ -441,7 +450,8 @@ fn a_crack_through_an_irregular_mesh_spends_what_the_check_says() {
 
 /// `bond-energy` derives its limit from the tensile strength, so that the notched bar carries F_t between its notches though its bonds begin
 /// to soften at F_t/chi: measured 0.968, 0.960, 0.957, 0.948, 0.959 and 0.961 of F_t = 3 MPa by the laws below, in a section of two horizons. Below
-/// F_t, the more so the steeper the law begins: the bonds at the notches have fallen when those in the middle come to their limit.
+/// F_t, the more so the steeper the law begins: the bonds at the notches have fallen when those in the middle come to their limit. Within 5 %; 6 % of
+/// the steepest law.
 #[test]
 fn a_bar_has_its_tensile_strength() {
     const SECTION: f64 = 0.006;
@@ -467,7 +477,8 @@ fn a_bar_has_its_tensile_strength() {
         let outcome = bench.break_up().outcome;
         let stress = outcome.peak().unwrap().reaction / (SECTION * STRENGTH);
         println!("{after}: {stress:.3} F_t");
-        assert!((0.94..1.0).contains(&stress), "{after}: {stress}");
+        let least = if after == "cornelissen" { 0.94 } else { 0.95 };
+        assert!((least..1.0).contains(&stress), "{after}: {stress}");
     }
 }
 

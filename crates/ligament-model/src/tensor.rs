@@ -202,6 +202,12 @@ impl<const D: usize> SymTensor<D> {
         }
     }
 
+    /// The sum of the normal components.
+    #[inline]
+    pub fn trace(&self) -> f64 {
+        (0..D).map(|axis| self.at(axis, axis)).sum()
+    }
+
     /// The double contraction S : T, the sum over i and j of S_ij T_ij.
     pub fn contracted(&self, other: &Self) -> f64 {
         let work_conjugate = self.components().zip(other.engineering());

@@ -67,6 +67,14 @@ impl ThermalStrain<'_> {
         self.of_points[point].scaled(self.load_factor)
     }
 
+    /// Strain of a point in the space of its body; zero where no point has one.
+    pub(crate) fn in_body<const D: usize>(&self, point: u32) -> SymTensor<D> {
+        match self.is_none() {
+            true => SymTensor::ZERO,
+            false => self.of_point(point as usize).resized(),
+        }
+    }
+
     /// Mean strain of the ends of a bond.
     #[inline]
     pub fn of_bond<const D: usize>(&self, ends: [u32; 2]) -> SymTensor<D> {

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::interface::Stresses;
 use crate::layout::Layout;
-use crate::material::{Stiffness, stress_component};
+use crate::material::stress_component;
 use crate::system::{BondSystem, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
@@ -110,17 +110,14 @@ impl<const D: usize> BondSystem<D> {
         strain: &SymTensor<D>,
         stress: &SymTensor<D>,
     ) -> f64 {
-        let trace = |tensor: &SymTensor<D>| (0..D).map(|axis| tensor.at(axis, axis)).sum::<f64>();
-        let expansion = reading.motion().expansion;
-        let free = match expansion.is_none() {
-            true => SymTensor::ZERO,
-            false => expansion.of_point(point as usize).resized(),
-        };
+        let free = reading.motion().expansion.in_body::<D>(point);
         let of_shear = SymTensor::<D>::COMPONENTS.len() - 1;
-        let shear_modulus = |stiffness: &Stiffness| stiffness[(of_shear, of_shear)];
-        let moduli: Vec<f64> = self.materials.iter().map(shear_modulus).collect();
-        let mu = self.cloud.mean_property(point as usize, &moduli);
-        0.5 * trace(stress) - mu * (trace(strain) + trace(&free))
+        let shares = self.cloud.shares(point as usize).iter();
+        let moduli = shares.zip(&self.materials);
+        let mu: f64 = moduli
+            .map(|(share, stiffness)| share * stiffness[(of_shear, of_shear)])
+            .sum();
+        0.5 * stress.trace() - mu * (strain.trace() + free.trace())
     }
 
     /// Stress of a strain of a point by the stiffness of its bonds, Pa; None where the system does not have the stiffnesses of its materials.
@@ -146,8 +143,7 @@ impl<const D: usize> BondSystem<D> {
         let Some(terms) = self.volumetric.as_ref().filter(|_| has_elements) else {
             return 0.0;
         };
-        let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
-        self.cloud.mean_property(point as usize, terms.moduli()) * trace
+        self.cloud.mean_property(point as usize, terms.moduli()) * strain.trace()
     }
 }
 

@@ -122,10 +122,7 @@ impl<const D: usize> BondSystem<D> {
         let of_elements = elements.map(|seen| (seen, StiffnessFactors::WHOLE, 1.0));
         let all: Vec<_> = (family.iter().map(of_bond)).chain(of_elements).collect();
         let omega = rotation_of_least_shear(&all);
-        let free = match motion.expansion.is_none() {
-            true => SymTensor::ZERO,
-            false => motion.expansion.of_point(point as usize).resized(),
-        };
+        let free = motion.expansion.in_body::<D>(point);
         let mut fit = EnergyFit::default();
         for (seen, factors, ratio) in &all {
             let (turned, free) = (cross(omega, in_space(seen.n)), free.times(seen.n));

@@ -298,7 +298,7 @@ impl StrainAround {
     pub fn new<const D: usize>(strain: &SymTensor<D>, n: [f64; D]) -> Self {
         let along = strain.times(n);
         let normal = dot(n, along);
-        let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
+        let trace = strain.trace();
         let mut shear = [0.0; 3];
         for axis in 0..D {
             shear[axis] = along[axis] - normal * n[axis];

@@ -76,7 +76,7 @@ fn own_strain<const D: usize>(mean: &SymTensor<D>, stretch: f64, n: [f64; D]) ->
 
 /// The largest and the smallest principal stress of a strain over E'.
 fn principal<const D: usize>(strain: &SymTensor<D>, moduli: &Moduli) -> [f64; 2] {
-    let trace: f64 = (0..D).map(|axis| strain.at(axis, axis)).sum();
+    let trace = strain.trace();
     let values = strain.principal_values();
     [values[0], values[D - 1]].map(|it| moduli.shear * it + moduli.lateral * trace)
 }

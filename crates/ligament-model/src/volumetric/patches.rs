@@ -256,8 +256,7 @@ impl<const D: usize> VolumetricTerms<D> {
         }
         for cell in 0..self.cells.len() {
             let modulus = self.moduli[self.cells.materials[cell] as usize];
-            let traces =
-                uniform_strains::<D>().map(|it| (0..D).map(|axis| it.at(axis, axis)).sum::<f64>());
+            let traces = uniform_strains::<D>().map(|it| it.trace());
             let stresses: Vec<SymTensor<D>> = traces
                 .map(|trace| SymTensor::isotropic(modulus * trace))
                 .collect();

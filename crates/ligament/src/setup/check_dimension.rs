@@ -6,6 +6,7 @@ use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::law::{BondLaw, listed, orthotropic, suited};
 use ligament_model::material::Space;
+use ligament_model::tensor::SymTensor;
 use ligament_model::{Advice, ElementKind};
 
 use super::check::{Checked, contradiction, positive, require, within};
@@ -20,8 +21,8 @@ use crate::error::Field;
 /// Message about a z axis in the plane.
 pub(super) const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
-/// Place of zz among the components of a stress.
-const ACROSS_PLANE: usize = 3;
+/// Place of zz among the components of a stress: behind those in the plane.
+const ACROSS_PLANE: usize = SymTensor::<2>::NAMES.len();
 
 /// Message about a component of the stress that bodies in the plane do not have.
 const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress; zz is known in plane strain, of isotropic materials";

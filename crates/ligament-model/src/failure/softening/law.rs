@@ -114,7 +114,7 @@ impl Law {
     /// Openings of a crack over G/f_t and stresses over the strength f_t from the limit to the end of the law, shape (n, 2); None for a law
     /// that no fracture energy G decides about.
     pub fn stress_over_opening(&self) -> Option<Vec<[f64; 2]>> {
-        /// Energy of the life of a bond over that at the limit, of which the elastic energy is a small part.
+        /// Energy of a bond's whole life over the energy at its limit: so large that the elastic energy is a small part of it.
         const ENERGY: f64 = 1e3;
         const INTERVALS: u32 = 720;
         self.parameter?;

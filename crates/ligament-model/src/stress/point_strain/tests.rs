@@ -88,7 +88,7 @@ fn assert_affine_motions_are_exact<const D: usize, S: Region<D>>(
         for (stress, &n) in stresses.iter().zip(&system.bonds.direction) {
             let along = expected.times(n);
             let normal = dot(n, along);
-            let trace: f64 = (0..D).map(|axis| expected.at(axis, axis)).sum();
+            let trace = expected.trace();
             let shear = dot(stress.shear, stress.shear);
             assert!((stress.normal - trace).abs() < 1e-12);
             assert!((shear - (dot(along, along) - normal * normal)).abs() < 1e-12);
