@@ -3,10 +3,11 @@
 
 use ligament_model::bonds::BondSet;
 use ligament_model::cloud::PointCloud;
+use ligament_model::correction::domain::energy_ratios;
 use ligament_model::correction::domain::iterate;
 use ligament_model::correction::length::length_factors;
 use ligament_model::correction::surface::surface_factors;
-use ligament_model::correction::{CorrectionReport, StopRule, Sweeps, energy_ratios};
+use ligament_model::correction::{CorrectionReport, StopRule, Sweeps};
 use ligament_model::fixed::EnergyRatio;
 use ligament_model::horizon::Horizons;
 use ligament_model::law::{BondStiffness, Law};

@@ -22,17 +22,17 @@ fn patched(body: impl Into<AnyBody>, poisson: f64, law: Law) -> Setup {
     setup
 }
 
-/// With the factors of all families as those that the correction departs from.
-fn departing_from_families(mut setup: Setup) -> Setup {
+fn build(setup: Setup) -> Model {
+    Model::build(setup, &mut ()).unwrap()
+}
+
+/// With factors nearest to given ones.
+fn nearest_to(reference: Reference, mut setup: Setup) -> Setup {
     setup.correction.surface = Surface::Patch(Settings {
-        reference: Some(Reference::Families),
+        reference,
         ..Settings::default()
     });
     setup
-}
-
-fn build(setup: Setup) -> Model {
-    Model::build(setup, &mut ()).unwrap()
 }
 
 /// What the correction leaves of its equations, as a root mean square.
@@ -205,8 +205,9 @@ fn pulled(mut setup: Setup, displacement: f64) -> f64 {
     history.last().unwrap().reaction.abs() / displacement
 }
 
-/// The equations know no axes and no numbers of nodes: neither a turn nor other numbers change a factor. The factors are found to what the
-/// iteration leaves of them.
+/// The equations know no axes and no numbers of nodes: neither a turn nor other numbers change a factor. The regularisation is large: with that
+/// of the settings the last directions take a hundred products and more, in which rounding grows up to what the iteration leaves (7e-4 in the
+/// root mean square).
 #[test]
 fn a_turned_or_renumbered_mesh_has_the_same_factors() {
     let mesh = meshes::read("meshes/disk-4mm.msh");
@@ -221,10 +222,10 @@ fn a_turned_or_renumbered_mesh_has_the_same_factors() {
         turned(45.0),
         meshes::renumbered(&mesh, &shuffled),
     ];
-    for departing in [|setup| setup, departing_from_families] {
-        let expected = factors(&mesh, departing);
+    for reference in [Reference::Body, Reference::Families] {
+        let expected = factors(&mesh, reference);
         for (changed, name) in alike.iter().zip(["30 degrees", "45 degrees", "numbers"]) {
-            let found = factors(changed, departing);
+            let found = factors(changed, reference);
             let off = |factor: usize| {
                 let pairs = expected
                     .iter()
@@ -233,7 +234,7 @@ fn a_turned_or_renumbered_mesh_has_the_same_factors() {
             };
             let [omega, ratio] = [off(0), off(1)];
             assert!(
-                omega < 1e-6 && ratio < 1e-6,
+                omega < 1e-9 && ratio < 1e-9,
                 "{name}: {omega:.1e}, {ratio:.1e}"
             );
         }
@@ -241,9 +242,15 @@ fn a_turned_or_renumbered_mesh_has_the_same_factors() {
 }
 
 /// Omega and the ratio of shear of the bonds, by the tags of their nodes.
-fn factors(mesh: &Mesh, departing: impl Fn(Setup) -> Setup) -> BTreeMap<[u64; 2], [f64; 2]> {
+fn factors(mesh: &Mesh, reference: Reference) -> BTreeMap<[u64; 2], [f64; 2]> {
     let body = MeshBody::from(mesh.clone());
-    let model = build(departing(patched(body, 0.21, Law::NHPD)));
+    let mut setup = patched(body, 0.21, Law::NHPD);
+    setup.correction.surface = Surface::Patch(Settings {
+        reference,
+        regularisation: 1e-3,
+        ..Settings::default()
+    });
+    let model = build(setup);
     let (ends, fixed) = (&model.plane().bonds.ends, &model.fixed);
     let factors = fixed.domain_factor.iter().zip(&fixed.shear_ratio);
     let by_tags = ends.iter().zip(factors).map(|(ends, (omega, ratio))| {
@@ -255,27 +262,34 @@ fn factors(mesh: &Mesh, departing: impl Fn(Setup) -> Setup) -> BTreeMap<[u64; 2]
     by_tags.collect()
 }
 
-/// Energies of uniform strains over the material's where a mesh is refined about a hole, in the mean over the points: 4.2 to 5.2 % too large under
-/// factors that depart from one number for the body, and 0.6 to 1.1 % under such as make a dilation right at all points; less is left of
-/// the equations, 2.9e-4 for 4.1e-4.
+/// Energies of uniform strains over the material's where a mesh is refined about a hole by a third of the distance, in the mean over the points
+/// between 1.1 and 2 radii from its centre: a quarter too large under factors that depart from one number for the body, and within 2 % under such as
+/// make a dilation right at all points.
 #[test]
 fn families_leave_a_graded_mesh_its_energy() {
-    let setup = || {
-        let mesh = meshes::read("meshes/plate-with-hole-0.25mm.msh");
-        patched(MeshBody::from(mesh), 0.2, Law::NHPD)
-    };
-    let energies = |model: &Model| -> Vec<f64> {
+    let energies = |reference: Reference| -> Vec<f64> {
+        let mesh = meshes::read("meshes/plate-with-hole-0.3125mm-third.msh");
+        let setup = patched(MeshBody::from(mesh), 0.2, Law::NHPD);
+        let model = build(nearest_to(reference, setup));
+        let radius = 5e-3;
+        let positions = model.setup.body.geometry::<2>().positions().into_owned();
+        let is_around = |[x, y]: [f64; 2]| (1.1 * radius..2.0 * radius).contains(&x.hypot(y));
+        let around = |it: &[f64]| {
+            let points = positions.iter().zip(it);
+            let around: Vec<f64> = points
+                .filter_map(|(position, ratio)| is_around(*position).then_some(*ratio))
+                .collect();
+            around.iter().sum::<f64>() / around.len() as f64
+        };
         let ratios = model.fixed.energy_ratios.iter();
-        let mean = |it: &[f64]| it.iter().sum::<f64>() / it.len() as f64;
-        ratios.map(|it| mean(&it.at_points)).collect()
+        ratios.map(|it| around(&it.at_points)).collect()
     };
-    let of_body = build(setup());
-    let of_families = build(departing_from_families(setup()));
-    for (of_body, of_families) in energies(&of_body).into_iter().zip(energies(&of_families)) {
-        assert!(of_body > 1.035, "{of_body}");
-        assert!((of_families - 1.0).abs() < 0.015, "{of_families}");
+    let of_body = energies(Reference::Body);
+    let of_families = energies(Reference::Families);
+    for (of_body, of_families) in of_body.into_iter().zip(of_families) {
+        assert!(of_body > 1.15, "{of_body}");
+        assert!((of_families - 1.0).abs() < 0.02, "{of_families}");
     }
-    assert!(left(&of_families) < left(&of_body));
 }
 
 /// With hardly more bonds than equations they cannot be met, and the model says so.

@@ -136,7 +136,7 @@ fn shared(name: &str, setup: &Setup, accuracy: Accuracy) -> Model {
             {
                 let expected = &at(&numbers, expected);
                 let off = farthest(expected, found);
-                // What is left of equations that are met is a difference of near numbers.
+                // What is left of equations that are met is a difference of near numbers, in which the iteration makes more of rounding.
                 let is_left = accuracy == Accuracy::Newton && *what == "patch residual";
                 let least = 1e-9 * expected.iter().copied().fold(0.0, f64::max);
                 let is_near = |(one, other): (&f64, &f64)| (one - other).abs() <= least;
@@ -236,24 +236,23 @@ fn bodies_in_space_are_shared_out_to_the_bit() {
 }
 
 /// Several blocks of points a rank, points that turn and that do not, and factors of two materials.
+///
+/// The regularisation is large: with that of the settings the last directions take a hundred products and more, in which rounding grows up to
+/// what the iteration leaves (2e-3 of a factor in the bar).
 #[test]
 fn the_patch_correction_is_shared_out() {
-    prepared("disk", &named("brazilian-disk", &[PATCH]), Accuracy::Newton);
-    let springs = [PATCH, "model.law=pds"];
-    prepared("springs", &named("l-panel", &springs), Accuracy::Newton);
-    prepared("bar", &named("bimaterial-bar", &[]), Accuracy::Newton);
-    prepared("block", &named("split-block", &[PATCH]), Accuracy::Newton);
-    let families = "correction.reference=families";
-    prepared(
-        "bar",
-        &named("bimaterial-bar", &[families]),
-        Accuracy::Newton,
-    );
-    prepared(
-        "block",
-        &named("split-block", &[PATCH, families]),
-        Accuracy::Newton,
-    );
+    const SHORT: &str = "correction.regularisation=1e-3";
+    const BODY: &str = "correction.reference=body";
+    for (name, case, settings) in [
+        ("disk", "brazilian-disk", &[PATCH, SHORT][..]),
+        ("springs", "l-panel", &[PATCH, SHORT, "model.law=pds"]),
+        ("bar", "bimaterial-bar", &[SHORT]),
+        ("block", "split-block", &[PATCH, SHORT]),
+        ("bar", "bimaterial-bar", &[SHORT, BODY]),
+        ("block", "split-block", &[PATCH, SHORT, BODY]),
+    ] {
+        prepared(name, &named(case, settings), Accuracy::Newton);
+    }
 }
 
 /// What no rank sees by itself is refused by all of them with the words of one process.

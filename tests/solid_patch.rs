@@ -101,9 +101,8 @@ fn bodies_of_all_cells_have_the_material_s_constants() {
     }
 }
 
-/// Energies of uniform strains over the material's in a block that is refined fourfold about its middle, in the mean over the points: a third
-/// too large under factors that depart from one number for the body, and 7 to 9 % under such as make a dilation right at all points; a tenth is
-/// asked for.
+/// Energies of uniform strains over the material's in a block that is refined fourfold about its middle, in the mean over the points: a quarter
+/// too large under factors that depart from one number for the body, and within a tenth under such as make a dilation right at all points.
 #[test]
 fn families_leave_a_graded_block_its_energy() {
     let energies = |reference: &str| -> Vec<f64> {
@@ -120,7 +119,7 @@ fn families_leave_a_graded_block_its_energy() {
     let of_body = energies("body");
     let of_families = energies("families");
     for (of_body, of_families) in of_body.into_iter().zip(of_families) {
-        assert!(of_body > 1.3, "{of_body}");
+        assert!(of_body > 1.2, "{of_body}");
         assert!((of_families - 1.0).abs() < 0.1, "{of_families}");
     }
 }

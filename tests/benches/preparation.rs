@@ -58,9 +58,9 @@ fn preparation(criterion: &mut Criterion) {
             };
             let alpha = length_factors(&bonds, &cloud);
             let settings = Settings::DEFAULT;
-            let nearest_to = patch::reference(settings.reference, &bonds, &cloud, &alpha, || {
-                stiffness.axial.clone()
-            });
+            let axial = || stiffness.axial.clone();
+            let nearest_to =
+                patch::reference(settings.reference, &bonds, &cloud, &horizons, &alpha, axial);
             patch::correct(&bonds, &points, &stiffness, (alpha, &nearest_to), &settings)
         };
         let correction = correct();

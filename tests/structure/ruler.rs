@@ -9,22 +9,22 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 100_872),
+    ("ligament", 102_198),
     ("ligament-analysis", 199_846),
-    ("ligament-case", 59_613),
-    ("ligament-cli", 55_062),
+    ("ligament-case", 59_637),
+    ("ligament-cli", 55_500),
     ("ligament-linalg", 22_578),
     ("ligament-mesh", 35_967),
-    ("ligament-model", 219_680),
-    ("ligament-output", 74_031),
+    ("ligament-model", 223_060),
+    ("ligament-output", 74_048),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 54_122),
     ("ligament-post", 26_668),
     ("ligament-python", 13_826),
     ("ligament-report", 18_423),
-    ("ligament-run", 30_022),
+    ("ligament-run", 30_130),
     ("ligament-study", 60_615),
-    ("ligament-verify", 74_188),
+    ("ligament-verify", 75_193),
 ];
 
 /// Short files of the crates. The numbers may fall.

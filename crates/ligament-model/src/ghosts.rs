@@ -1,5 +1,7 @@
 //! Ghosts: copies of the points of other processes that a process reads.
 
+use std::ops::Range;
+
 use crate::subdomain::Subdomain;
 
 /// Ghosts of a process. Only the owner of a point sends its values, and only to processes that read the point.
@@ -66,20 +68,43 @@ impl Ghosts {
 
     /// Replaces the values at the ghosts by those of their owners, shape (n_points, n_values); collective.
     pub fn update(&self, values: &mut [f64], n_values: usize) {
-        if self.subdomain.is_whole() {
-            return;
-        }
-        let rows = |point: u32| n_values * point as usize..n_values * (point as usize + 1);
-        let times = |counts: &[usize]| counts.iter().map(|it| n_values * it).collect::<Vec<_>>();
-        let (sent, to) = &self.sent;
-        let sent: Vec<f64> = (sent.iter())
-            .flat_map(|&point| values[rows(point)].iter().copied())
-            .collect();
-        let (ghosts, from) = &self.received;
-        let communicator = self.subdomain.communicator();
-        let received = communicator.all_to_all(&sent, &times(to), &times(from));
-        for (&point, received) in ghosts.iter().zip(received.chunks_exact(n_values)) {
-            values[rows(point)].copy_from_slice(received);
+        let of_owners = self.exchanged(values, n_values, &self.sent, &self.received.1);
+        let ghosts = self.received.0.iter();
+        for (&ghost, of_owner) in ghosts.zip(of_owners.chunks_exact(n_values)) {
+            values[row(ghost, n_values)].copy_from_slice(of_owner);
         }
     }
+
+    /// Adds the values at the ghosts to those of their owners, shape (n_points, n_values); collective.
+    pub fn add_to_owners(&self, values: &mut [f64], n_values: usize) {
+        let of_ghosts = self.exchanged(values, n_values, &self.received, &self.sent.1);
+        let owned = self.sent.0.iter();
+        for (&owned, of_ghost) in owned.zip(of_ghosts.chunks_exact(n_values)) {
+            let of_owned = values[row(owned, n_values)].iter_mut();
+            of_owned.zip(of_ghost).for_each(|(sum, term)| *sum += term);
+        }
+    }
+
+    /// Values that other processes send in their order, `from` of each, for the values of some points that are sent to them.
+    fn exchanged(
+        &self,
+        values: &[f64],
+        n_values: usize,
+        (sent, to): &(Vec<u32>, Vec<usize>),
+        from: &[usize],
+    ) -> Vec<f64> {
+        if self.subdomain.is_whole() {
+            return Vec::new();
+        }
+        let times = |counts: &[usize]| counts.iter().map(|it| n_values * it).collect::<Vec<_>>();
+        let rows = sent.iter().map(|&point| &values[row(point, n_values)]);
+        let sent: Vec<f64> = rows.flatten().copied().collect();
+        let communicator = self.subdomain.communicator();
+        communicator.all_to_all(&sent, &times(to), &times(from))
+    }
+}
+
+/// Range of the values of a point, with `n_values` for each.
+fn row(point: u32, n_values: usize) -> Range<usize> {
+    n_values * point as usize..n_values * (point as usize + 1)
 }

@@ -1,9 +1,7 @@
 //! The formulation that a setup chooses: law, calibration and corrections of the bonds.
 
 use ligament_model::bonds::BondSet;
-use ligament_model::correction::{
-    Correction, domain, energy_ratios, length, partial_volume, patch, surface,
-};
+use ligament_model::correction::{Correction, domain, length, partial_volume, patch, surface};
 use ligament_model::dimension::cast_ref;
 use ligament_model::failure::crack_energies::{Components, Lattice};
 use ligament_model::failure::{self, Basis, Criteria, NoLimit};
@@ -148,7 +146,17 @@ impl<'a, const D: usize> Formulation<'a, D> {
         correction: &Correction,
     ) -> Vec<EnergyRatio> {
         let continuum = stiffness_of_materials(self.setup);
-        energy_ratios(bonds, self.cloud, stiffness, correction, &continuum)
+        match self.setup.correction.surface {
+            Surface::Patch(_) => patch::energy_ratios(
+                bonds,
+                self.cloud,
+                self.horizons,
+                stiffness,
+                correction,
+                &continuum,
+            ),
+            _ => domain::energy_ratios(bonds, self.cloud, stiffness, correction, &continuum),
+        }
     }
 
     /// The correction of bonds between the materials of the setup.
@@ -191,7 +199,14 @@ impl<'a, const D: usize> Formulation<'a, D> {
                         of_one_material.stiffness(bonds, &alpha).axial
                     }
                 };
-                let nearest_to = patch::reference(settings.reference, bonds, cloud, &alpha, axial);
+                let nearest_to = patch::reference(
+                    settings.reference,
+                    bonds,
+                    cloud,
+                    self.horizons,
+                    &alpha,
+                    axial,
+                );
                 patch::correct(bonds, &points, stiffness, (alpha, &nearest_to), &settings)
             }
             Surface::Volume => {

@@ -168,7 +168,8 @@ pub struct Correction {
     /// Sweeps of the domain correction at most.
     #[schemars(range(min = 1), extend("default" = Iteration::default().max_sweeps))]
     pub max_sweeps: Option<usize>,
-    /// The factors that those of the patch correction are the nearest to; without it `body` in the plane and `families` in space.
+    /// The factors that those of the patch correction are the nearest to.
+    #[schemars(extend("default" = Settings::DEFAULT.reference))]
     pub reference: Option<Reference>,
     /// Smallest factor of the patch correction over the uncorrected one.
     #[schemars(transform = Settings::LOWEST.keywords(), extend("default" = Settings::DEFAULT.lowest))]
@@ -224,7 +225,7 @@ impl Correction {
     fn patch(&mut self) -> Settings {
         let default = Settings::DEFAULT;
         Settings {
-            reference: self.reference,
+            reference: *self.reference.get_or_insert(default.reference),
             lowest: *self.smallest_factor.get_or_insert(default.lowest),
             highest: *self.largest_factor.get_or_insert(default.highest),
             moment_weight: *self.moment_weight.get_or_insert(default.moment_weight),

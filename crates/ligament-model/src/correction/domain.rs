@@ -17,7 +17,7 @@ use crate::law::BondStiffness;
 use crate::material::Stiffness;
 
 /// Largest number of strains in which energies are compared.
-const MOST_MODES: usize = 7;
+pub(super) const MOST_MODES: usize = 7;
 
 /// Iterates Omega from 1 (NHPD eq. 13; the numerator printed as the strain is the energy density e):
 ///
@@ -44,7 +44,8 @@ pub fn iterate<const D: usize>(
     sweeps.correct(families, length_factor)
 }
 
-/// Ratio of the strain energy density of every point to that of the continuum, for each of [`StrainMode::all`].
+/// Ratio of the strain energy density of every point to that of the continuum, for each of [`StrainMode::all`], with half the energy of a
+/// bond at either end.
 pub fn energy_ratios<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
@@ -67,10 +68,23 @@ pub fn energy_ratios<const D: usize>(
         }
         energies.map(|sum| 0.5 * sum)
     });
+    ratios(&modes, cloud, continuum, |place| {
+        energies.iter().map(|it| it[place]).collect()
+    })
+}
+
+/// Ratios of the energy densities of the points under each of some strains to those of the continuum; `energies` gives the densities in the
+/// strain of a number (n_points, J/m^3).
+pub(super) fn ratios<const D: usize>(
+    modes: &[StrainMode<D>],
+    cloud: &PointCloud<D>,
+    continuum: &[Stiffness],
+    energies: impl Fn(usize) -> Vec<f64>,
+) -> Vec<EnergyRatio> {
     let ratios = modes.iter().enumerate().map(|(place, mode)| {
         let target = target_energies(mode, cloud, continuum);
-        let ratios = energies.iter().zip(target);
-        mode.named(ratios.map(|(energies, e)| energies[place] / e).collect())
+        let ratios = energies(place).into_iter().zip(target);
+        mode.named(ratios.map(|(energy, e)| energy / e).collect())
     });
     ratios.collect()
 }
@@ -92,7 +106,7 @@ fn share<const D: usize>(
 }
 
 /// Product alpha (k_n s^2 + k_t |gamma|^2) l of a bond under a strain of size one.
-fn energy_density<const D: usize>(
+pub(super) fn energy_density<const D: usize>(
     mode: &StrainMode<D>,
     bond: usize,
     bonds: &BondSet<D>,

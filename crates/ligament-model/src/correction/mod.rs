@@ -19,7 +19,6 @@ pub mod surface;
 mod sweep_order;
 mod sweeps;
 
-pub use domain::energy_ratios;
 pub use strain_mode::StrainMode;
 pub use sweeps::{StopRule, Sweeps};
 

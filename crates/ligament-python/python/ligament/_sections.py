@@ -221,10 +221,10 @@ class Correction(TypedDict, total=False):
     max_sweeps: int
     """Sweeps of the domain correction at most. Default 500."""
     reference: Literal["body", "families"]
-    """The factors that those of the patch correction are the nearest to; without it `body` in the plane and `families` in space.
+    """The factors that those of the patch correction are the nearest to.
 
 - `body`: alpha times one number for the body.
-- `families`: alpha times factors with which a dilation has one stress at all points, also where the mesh is graded."""
+- `families`: alpha times factors with which a dilation has one stress at all points, also where the mesh is graded. Default "families"."""
     smallest_factor: float
     """Smallest factor of the patch correction over the uncorrected one. Default 0.02."""
     largest_factor: float
@@ -232,7 +232,7 @@ class Correction(TypedDict, total=False):
     moment_weight: float
     """Weight of the equations of moments against those of forces in the patch correction. Default 0.04."""
     regularisation: float
-    """Regularisation of the patch correction, which lets go where its equations cannot be met. Default 0.00001."""
+    """Regularisation of the patch correction, which lets go where its equations cannot be met. Default 1e-6."""
     domain: Literal["whole", "cracked"]
     """The body that the correction sees.
 

@@ -1,10 +1,11 @@
-//! Coarse space of the multipliers: multipliers that are constant over all points of an aggregate.
+//! Coarse space of the multipliers: multipliers that are linear over all points of an aggregate.
 //!
 //! The ends of a bond have opposite terms in the equations of forces, so multipliers that are equal at both ends cost nothing, and long
 //! waves of them little: less, in a large body, than the regularisation. The residual that regularisation leaves in unsatisfiable equations
-//! is local, at corners and points of few bonds; in long waves it would add up to forces, and the body would be too soft. So the points are
-//! divided into aggregates, over which multipliers may be constant at hardly any cost, and the directions of Newton steps are solved exactly
-//! for such multipliers (a coarse space, Nicolaides 1987).
+//! is local, at corners and points of few bonds; in long waves it would add up to forces, and to moments of forces about the centre of an
+//! aggregate, which are its mean stress: the body would be too soft. So the points are divided into aggregates, over which multipliers may
+//! be linear at hardly any cost, and the directions of Newton steps are solved exactly for such multipliers (a coarse space, Nicolaides
+//! 1987).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 use rayon::prelude::*;
@@ -14,18 +15,21 @@ use super::pairs::BLOCK;
 use crate::cloud::{PointCloud, distance};
 use crate::correction::sweep_order::SweepOrder;
 
-/// Largest number of aggregates: the dense matrix of their multipliers is to cost less than a product.
-const MOST: usize = 64;
+/// Largest number of multipliers of all aggregates: their dense matrix is to cost less than the products.
+const MOST_MULTIPLIERS: usize = 720;
 
-/// Smallest number of points of an aggregate: fewer are hardly more than the block of a point covers.
-const FEWEST_POINTS: usize = 32;
+/// Smallest number of points of an aggregate, for the same reason.
+const FEWEST_POINTS: usize = 64;
 
 /// Ratio below which one of two distances or volumes is the smaller one in spite of rounding.
 const TIE: f64 = 1.0 - 1e-9;
 
-/// Regularisation of multipliers that are constant over aggregates relative to that of others: it fixes those that are constant over the
+/// Regularisation of multipliers that are linear over aggregates relative to that of others: it fixes those that are constant over the
 /// body, which have no equation.
 const SHARE: f64 = 1e-3;
+
+/// Part of the second moments of an aggregate below which it has no extent in a direction.
+const FLAT: f64 = 1e-9;
 
 /// Aggregates of points: each point belongs to the nearest of some seeds far from each other.
 ///
@@ -33,67 +37,128 @@ const SHARE: f64 = 1e-3;
 /// same aggregates. The numbers in the file matter only where a body is as symmetric as its mesh.
 pub(crate) struct Aggregates<'a> {
     order: &'a SweepOrder<'a>,
-    /// Index of the first number of the aggregate of each point.
-    first: Vec<u32>,
+    /// Points with their indices by aggregate.
+    aggregate: Vec<u32>,
     count: usize,
-    /// Numbers per aggregate: one for each equation of forces.
+    /// Values of the functions of the aggregate of each point, `n_functions` for each: a constant and the coordinates, orthonormal over the
+    /// aggregate in the weights of its points; zero where an aggregate has no extent.
+    functions: Vec<f64>,
+    n_functions: usize,
+    /// Numbers per function: one for each equation of forces.
     width: usize,
 }
 
 impl<'a> Aggregates<'a> {
-    /// Aggregates of the points of a cloud in the order of sweeps, with `width` numbers each.
+    /// Aggregates of the points of a cloud in the order of sweeps, with `width` equations of forces a point. The weights of owned points in
+    /// the regularisation are given by index.
     pub(crate) fn new<const D: usize>(
         cloud: &PointCloud<D>,
         order: &'a SweepOrder<'a>,
         width: usize,
+        weights: &[f64],
     ) -> Self {
-        let count = (cloud.subdomain.n_all() / FEWEST_POINTS).clamp(1, MOST);
-        let mut distance = vec![f64::INFINITY; cloud.len()];
-        let mut aggregate = vec![0; cloud.len()];
-        let mut seed = farthest(cloud, &distances_from(centroid(cloud), cloud));
-        for number in 0..count {
-            let from_seed = distances_from(seed, cloud);
-            for (point, from_seed) in from_seed.into_iter().enumerate() {
-                if from_seed < TIE * distance[point] {
-                    (distance[point], aggregate[point]) = (from_seed, number);
-                }
-            }
-            seed = farthest(cloud, &distance);
-        }
-        let first = |&point: &u32| (width * aggregate[point as usize]) as u32;
-        Self {
-            first: order.all().iter().map(first).collect(),
+        let n_functions = 1 + D;
+        let most = MOST_MULTIPLIERS / (n_functions * width);
+        let count = (cloud.subdomain.n_all() / FEWEST_POINTS).clamp(1, most);
+        let aggregate = nearest_seeds(cloud, count);
+        let by_index = order.all().iter().map(|&point| aggregate[point as usize]);
+        let mut aggregates = Self {
+            aggregate: by_index.collect(),
             order,
             count,
+            functions: Vec::new(),
+            n_functions,
             width,
+        };
+        aggregates.functions = aggregates.orthonormal(cloud, weights);
+        aggregates
+    }
+
+    /// Values of the functions of each point, from a Cholesky factor of the second moments of each aggregate about its centre.
+    fn orthonormal<const D: usize>(&self, cloud: &PointCloud<D>, weights: &[f64]) -> Vec<f64> {
+        let mut sums = vec![[0.0; 4]; self.count];
+        let mut moments = vec![[[0.0; D]; D]; self.count];
+        let position = |index: usize| cloud.positions[self.order.all()[index] as usize];
+        for (index, weight) in weights.iter().enumerate() {
+            let [total, first @ ..] = &mut sums[self.aggregate[index] as usize];
+            *total += weight;
+            for (first, coordinate) in first.iter_mut().zip(position(index)) {
+                *first += weight * coordinate;
+            }
         }
+        self.order.subdomain.all_reduce_sum(sums.as_flattened_mut());
+        let from_centre = |index: usize| {
+            let [total, first @ ..] = sums[self.aggregate[index] as usize];
+            let position = position(index);
+            std::array::from_fn::<f64, D, _>(|axis| position[axis] - first[axis] / total)
+        };
+        for (index, weight) in weights.iter().enumerate() {
+            let from_centre = from_centre(index);
+            let moments = &mut moments[self.aggregate[index] as usize];
+            for (row, one) in moments.iter_mut().zip(from_centre) {
+                for (entry, other) in row.iter_mut().zip(from_centre) {
+                    *entry += weight * one * other;
+                }
+            }
+        }
+        let values = moments.as_flattened_mut().as_flattened_mut();
+        self.order.subdomain.all_reduce_sum(values);
+        let factors: Vec<_> = moments.into_iter().map(factor).collect();
+        let indices = 0..self.aggregate.len();
+        let of_point = |index: usize| {
+            let aggregate = self.aggregate[index] as usize;
+            let linear = solved(&factors[aggregate], from_centre(index));
+            std::iter::once(1.0 / sums[aggregate][0].sqrt()).chain(linear)
+        };
+        indices.flat_map(of_point).collect()
     }
 
-    /// Numbers of the aggregate of a point.
+    /// Values of the functions of a point.
     #[inline(always)]
-    pub(super) fn at<'b>(&self, of_aggregates: &'b [f64], index: usize) -> &'b [f64] {
-        &of_aggregates[self.first[index] as usize..][..self.width]
+    fn functions(&self, index: usize) -> &[f64] {
+        &self.functions[index * self.n_functions..][..self.n_functions]
     }
 
-    /// Sums over the points of each aggregate, from the values of owned points.
+    /// Index of the first number of the aggregate of a point.
+    #[inline(always)]
+    fn first(&self, index: usize) -> usize {
+        self.aggregate[index] as usize * self.n_functions * self.width
+    }
+
+    /// Multipliers of a point for given numbers of the aggregates.
+    #[inline(always)]
+    pub(super) fn at<const N: usize>(&self, of_aggregates: &[f64], index: usize) -> [f64; N] {
+        let mut multipliers = [0.0; N];
+        let numbers = of_aggregates[self.first(index)..].chunks_exact(self.width);
+        for (function, numbers) in self.functions(index).iter().zip(numbers) {
+            for (multiplier, number) in multipliers.iter_mut().zip(numbers) {
+                *multiplier += function * number;
+            }
+        }
+        multipliers
+    }
+
+    /// Sums over the points of each aggregate of the functions times values of owned points.
     pub(super) fn sums<const N: usize>(
         &self,
         value: impl Fn(usize) -> [f64; N] + Sync,
     ) -> Vec<f64> {
-        let zeros = || vec![0.0; self.width * self.count];
-        let of_block = |(block, firsts): (usize, &[u32])| {
+        let zeros = || vec![0.0; self.width * self.n_functions * self.count];
+        let n_own = self.order.owned().len();
+        let of_block = |block: usize| {
             let mut sums = zeros();
-            for (index, &first) in (block * BLOCK..).zip(firsts) {
+            for index in block * BLOCK..((block + 1) * BLOCK).min(n_own) {
                 let values = value(index);
-                let of_aggregate = &mut sums[first as usize..][..self.width];
-                for (sum, value) in of_aggregate.iter_mut().zip(values) {
-                    *sum += value;
+                let of_aggregate = sums[self.first(index)..].chunks_exact_mut(self.width);
+                for (function, sums) in self.functions(index).iter().zip(of_aggregate) {
+                    for (sum, value) in sums.iter_mut().zip(values) {
+                        *sum += function * value;
+                    }
                 }
             }
             sums
         };
-        let own = &self.first[..self.order.owned().len()];
-        let blocks = own.par_chunks(BLOCK).enumerate().map(of_block);
+        let blocks = (0..n_own.div_ceil(BLOCK)).into_par_iter().map(of_block);
         let mut all = zeros();
         for sums in blocks.collect::<Vec<_>>() {
             for (all, sum) in all.iter_mut().zip(sums) {
@@ -103,6 +168,54 @@ impl<'a> Aggregates<'a> {
         self.order.subdomain.all_reduce_sum(&mut all);
         all
     }
+}
+
+/// Number of the nearest of some seeds of all points: the point farthest from the centre of the body, and then one after the other the point
+/// farthest from all seeds before.
+fn nearest_seeds<const D: usize>(cloud: &PointCloud<D>, count: usize) -> Vec<u32> {
+    let mut distance = vec![f64::INFINITY; cloud.len()];
+    let mut aggregate = vec![0; cloud.len()];
+    let mut seed = farthest(cloud, &distances_from(centroid(cloud), cloud));
+    for number in 0..count {
+        let from_seed = distances_from(seed, cloud);
+        for (point, from_seed) in from_seed.into_iter().enumerate() {
+            if from_seed < TIE * distance[point] {
+                (distance[point], aggregate[point]) = (from_seed, number as u32);
+            }
+        }
+        seed = farthest(cloud, &distance);
+    }
+    aggregate
+}
+
+/// Lower Cholesky factor L of second moments, with zeros in the rows of directions without extent.
+fn factor<const D: usize>(moments: [[f64; D]; D]) -> [[f64; D]; D] {
+    let extent = FLAT * (0..D).map(|axis| moments[axis][axis]).sum::<f64>();
+    let mut lower = [[0.0; D]; D];
+    for row in 0..D {
+        for column in 0..=row {
+            let known: f64 = (0..column).map(|k| lower[row][k] * lower[column][k]).sum();
+            let left = moments[row][column] - known;
+            lower[row][column] = match (row == column, lower[column][column]) {
+                (true, _) if left > extent => left.sqrt(),
+                (false, pivot) if pivot > 0.0 => left / pivot,
+                _ => 0.0,
+            };
+        }
+    }
+    lower
+}
+
+/// Solution of L x = r; zero in the rows without extent.
+fn solved<const D: usize>(lower: &[[f64; D]; D], mut right: [f64; D]) -> [f64; D] {
+    for row in 0..D {
+        let known: f64 = (0..row).map(|k| lower[row][k] * right[k]).sum();
+        right[row] = match lower[row][row] {
+            pivot if pivot > 0.0 => (right[row] - known) / pivot,
+            _ => 0.0,
+        };
+    }
+    right
 }
 
 /// Volume-weighted mean of the positions, m.
@@ -144,93 +257,76 @@ fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> [f64; D
     std::array::from_fn(|axis| best.map_or(0.0, |it| it[2 + axis]))
 }
 
-/// Regularisation of the multipliers of each point about a centre: r/d^2 times their deviation from it, less the mean deviation of the
-/// aggregate.
+/// Regularisation of the multipliers of each point about a centre: r/d^2 times their deviation from it, less that part of the deviation
+/// which is linear over the aggregate.
 pub(super) struct Regularisation<'a, const N: usize> {
-    /// Weights r/d^2 of owned points, by index.
-    pub(super) of_points: Multipliers<N>,
+    pub(super) r: f64,
+    /// Weights 1/d^2 of owned points, by index.
+    pub(super) weights: &'a Multipliers<N>,
     pub(super) aggregates: &'a Aggregates<'a>,
-    /// Sums of r/d^2 over the aggregates.
-    totals: Vec<f64>,
 }
 
-impl<'a, const N: usize> Regularisation<'a, N> {
-    pub(super) fn new(of_points: Multipliers<N>, aggregates: &'a Aggregates<'a>) -> Self {
-        let totals = aggregates.sums(|index| of_points[index]);
-        Self {
-            of_points,
-            aggregates,
-            totals,
-        }
-    }
-
-    /// Weighted means over the aggregates of deviations (n_own) from a centre, reduced by the fraction that stays regularised.
+impl<const N: usize> Regularisation<'_, N> {
+    /// Linear parts of deviations (n_own) from a centre over the aggregates, reduced by the fraction that stays regularised.
     pub(super) fn common(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
         let weighted = |index: usize| {
-            let (distance, weight) = (distance(index), &self.of_points[index]);
+            let (distance, weight) = (distance(index), &self.weights[index]);
             std::array::from_fn(|k| weight[k] * distance[k])
         };
-        let sums = self.aggregates.sums::<N>(weighted);
-        let means = sums.iter().zip(&self.totals);
-        means
-            .map(|(sum, total)| (1.0 - SHARE) * sum / total)
-            .collect()
+        let mut sums = self.aggregates.sums::<N>(weighted);
+        sums.iter_mut().for_each(|sum| *sum *= 1.0 - SHARE);
+        sums
     }
 
     /// Gradient of the regularisation at a point for its deviation from the centre.
     #[inline(always)]
-    pub(super) fn force(&self, index: usize, mut distance: [f64; N], common: &[f64]) -> [f64; N] {
-        let of_aggregate = self.aggregates.at(common, index);
-        for (distance, common) in distance.iter_mut().zip(of_aggregate) {
-            *distance -= common;
-        }
-        std::array::from_fn(|k| self.of_points[index][k] * distance[k])
+    pub(super) fn force(&self, index: usize, distance: [f64; N], common: &[f64]) -> [f64; N] {
+        let common: [f64; N] = self.aggregates.at(common, index);
+        let weights = &self.weights[index];
+        std::array::from_fn(|k| self.r * weights[k] * (distance[k] - common[k]))
     }
 }
 
-/// Hessian of the multipliers of forces that are constant over each aggregate.
+/// Hessian of the multipliers of forces that are linear over each aggregate.
 pub(super) struct CoarseHessian {
     /// Cholesky factor; `None` if the matrix is not definite to rounding.
     factor: Option<Cholesky<f64, Dyn>>,
 }
 
 impl CoarseHessian {
-    /// Assembles the matrix of the aggregates from the slopes of the pairs.
+    /// Assembles the matrix of the aggregates from the slopes of the pairs, with a regularisation r.
     pub(super) fn new<const N: usize, E: Equations<N>>(
         equations: &E,
-        regularisation: &Regularisation<'_, N>,
+        aggregates: &Aggregates<'_>,
         slopes: &[[f64; 2]],
+        r: f64,
     ) -> Self {
-        let (pairs, aggregates) = (equations.pairs(), regularisation.aggregates);
-        let mut held = DVector::from_vec(regularisation.totals.clone());
-        if !pairs.order.subdomain.communicator().is_root() {
-            held.fill(0.0);
-        }
-        let mut matrix = SHARE * DMatrix::from_diagonal(&held);
+        let n_numbers = aggregates.count * aggregates.n_functions * aggregates.width;
+        let mut matrix = DMatrix::zeros(n_numbers, n_numbers);
+        let mut terms = Vec::new();
+        let pairs = equations.pairs();
         for index in 0..pairs.n_points() {
-            let own = aggregates.first[index] as usize;
             for pair in pairs.inner(index).chain(pairs.outer(index)) {
-                let other = aggregates.first[pairs.other[pair] as usize] as usize;
-                if other == own {
-                    continue;
-                }
-                let is_inner = pairs.inner(index).contains(&pair);
-                let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| equations.forces(pair, it));
-                for i in 0..aggregates.width {
-                    let weighted = [0, 1].map(|factor| slopes[pair][factor] * rows[factor][i]);
-                    for k in 0..aggregates.width {
-                        let square = weighted[0] * rows[0][k] + weighted[1] * rows[1][k];
-                        matrix[(own + i, own + k)] += square;
-                        matrix[(own + i, other + k)] -= square;
-                        if is_inner {
-                            matrix[(other + i, other + k)] += square;
-                            matrix[(other + i, own + k)] -= square;
-                        }
+                aggregates.terms(equations, index, pair, &mut terms);
+                // A pair between two blocks stands in both.
+                let share = if pairs.inner(index).contains(&pair) {
+                    1.0
+                } else {
+                    0.5
+                };
+                let slopes = slopes[pair].map(|slope| share * slope);
+                for &(column, one) in &terms {
+                    let weighted = [slopes[0] * one[0], slopes[1] * one[1]];
+                    for &(row, other) in &terms {
+                        matrix[(row, column)] += weighted[0] * other[0] + weighted[1] * other[1];
                     }
                 }
             }
         }
         pairs.order.subdomain.all_reduce_sum(matrix.as_mut_slice());
+        for number in 0..n_numbers {
+            matrix[(number, number)] += SHARE * r;
+        }
         Self {
             factor: Cholesky::new(matrix),
         }
@@ -242,5 +338,35 @@ impl CoarseHessian {
             return vec![0.0; sums.len()];
         };
         factor.solve(&DVector::from_column_slice(sums)).data.into()
+    }
+}
+
+impl Aggregates<'_> {
+    /// Derivatives of both entries of G^T mu of a pair with respect to the numbers of the aggregates, with the index of each number.
+    fn terms<const N: usize, E: Equations<N>>(
+        &self,
+        equations: &E,
+        index: usize,
+        pair: usize,
+        terms: &mut Vec<(usize, [f64; 2])>,
+    ) {
+        terms.clear();
+        let other = equations.pairs().other[pair] as usize;
+        let [axial, shear] = [[1.0, 0.0], [0.0, 1.0]].map(|it| equations.forces(pair, it));
+        let mut push = |first: usize, size: f64| {
+            let rows = (0..self.width).map(|k| (first + k, [size * axial[k], size * shear[k]]));
+            terms.extend(rows);
+        };
+        let firsts = [self.first(index), self.first(other)];
+        let functions = self.functions(index).iter().zip(self.functions(other));
+        for (number, (own, other)) in functions.enumerate() {
+            let [own_first, other_first] = firsts.map(|first| first + number * self.width);
+            if own_first != other_first {
+                push(own_first, -own);
+                push(other_first, *other);
+            } else if number > 0 {
+                push(own_first, other - own);
+            }
+        }
     }
 }

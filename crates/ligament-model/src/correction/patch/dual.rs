@@ -19,21 +19,30 @@
 
 use rayon::prelude::*;
 
-use super::aggregates::{Aggregates, Regularisation};
+use super::aggregates::{Aggregates, CoarseHessian, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::newton::Hessian;
 use super::pairs::{BLOCK, Pairs};
 use super::settings::Settings;
+use crate::cloud::PointCloud;
 
 /// Regularisation of the first outer step.
 const FIRST_REGULARISATION: f64 = 1e-2;
 
-/// Ratio of the regularisations of successive outer steps: three steps to that of the default settings leave hardly more residual than four,
-/// for half the products.
-const NEXT_REGULARISATION: f64 = 0.03;
+/// Smallest and largest ratio of the regularisations of successive outer steps. Where the first step leaves little, two more reach the
+/// regularisation of the default settings; where it leaves much, factors would run to their limits, from which they hardly return.
+const RATIOS: [f64; 2] = [0.0025, 0.03];
 
-/// Reduction of the gradient in an outer step.
-const REDUCTION: f64 = 0.1;
+/// Ratio of the regularisations of successive outer steps over the scaled residual that the first of them has left, between the limits.
+const RATIO_OF_RESIDUAL: f64 = 0.1;
+
+/// Regularisation at which the iteration ends over the square of the scaled residual, and its largest ratio to that of the settings. Where
+/// many equations cannot be satisfied, a smaller one scatters the factors, and takes several times the products for the same residual.
+const OF_SQUARED_RESIDUAL: f64 = 0.05;
+const LARGEST_RATIO_OF_UNSATISFIABLE: f64 = 10.0;
+
+/// Reduction of the gradient in an outer step: half of it takes two to three times the products, for changes of a stiffness of 0.1 %.
+const REDUCTION: f64 = 0.2;
 
 /// Largest number of Newton steps of an outer step: two to four suffice, about ten where the equations cannot be satisfied. More show that
 /// the change of the regularisation was too large.
@@ -50,7 +59,7 @@ const GROWTH: f64 = 1e3;
 const SMALLEST_CHANGE: f64 = 0.7;
 
 /// Smallest and largest relative accuracy of the direction of a Newton step: early steps are solved more accurately than the last ones.
-const ACCURACIES: [f64; 2] = [0.1, 0.5];
+const ACCURACIES: [f64; 2] = [0.1, 0.2];
 
 /// Report of the iteration for the factors.
 #[derive(Debug, Clone, PartialEq)]
@@ -73,8 +82,10 @@ pub(crate) struct Factors {
     pub(crate) report: Report,
 }
 
-struct Dual<'a, E> {
+struct Dual<'a, E, const N: usize> {
     equations: &'a E,
+    /// Weights 1/d^2 of the equations of owned points in the regularisation, by index.
+    weights: Multipliers<N>,
     lowest: f64,
     span: f64,
     /// Argument z_0 of the uncorrected factors.
@@ -94,34 +105,51 @@ struct Place<const N: usize> {
     unbalanced: Multipliers<N>,
 }
 
-/// Factors that satisfy the equations as far as possible, with aggregates of one number for each equation of forces.
-pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
-    equations: &'a E,
-    aggregates: Aggregates<'a>,
+/// Factors of the bonds of a cloud that satisfy the equations as far as possible.
+pub(crate) fn minimise<const D: usize, const N: usize, E: Equations<N>>(
+    equations: &E,
+    cloud: &PointCloud<D>,
     settings: &Settings,
 ) -> Factors {
+    let order = &equations.pairs().order;
+    let weights = weights(equations);
+    let of_forces: Vec<f64> = weights.iter().map(|weights| weights[0]).collect();
+    let aggregates = Aggregates::new(cloud, order, E::FORCES, &of_forces);
     let dual = Dual {
         equations,
+        weights,
         lowest: settings.lowest,
         span: settings.highest - settings.lowest,
         offset: ((1.0 - settings.lowest) / (settings.highest - 1.0)).ln(),
         aggregates,
     };
     let mut place = dual.start();
+    // The matrix of the first iterate serves for all: the slopes change little, and the largest part of the products is that of the last step.
+    let coarse = CoarseHessian::new(
+        equations,
+        &dual.aggregates,
+        &place.slopes,
+        settings.regularisation,
+    );
     let (mut steps, mut products) = (0, 0);
-    let mut r = FIRST_REGULARISATION.max(settings.regularisation);
+    let mut last = settings.regularisation;
+    let mut r = FIRST_REGULARISATION.max(last);
     let mut reached = 1.0;
     let [mut most_products, more_products] = MOST_PRODUCTS;
     loop {
         let (centre, z) = (place.mu.clone(), place.z.clone());
-        let outer = dual.outer_step(&mut place, (r, &centre), most_products);
+        let outer = dual.outer_step(&mut place, (r, &centre), &coarse, most_products);
         (steps, products) = (steps + outer.steps, products + outer.products);
         if outer.has_converged {
             reached = r;
-            if r <= settings.regularisation {
+            if r <= last {
                 return dual.factors(place, steps, products);
             }
-            r = (NEXT_REGULARISATION * r).max(settings.regularisation);
+            let left = dual.root_mean_square(&place.unbalanced);
+            let largest_last = LARGEST_RATIO_OF_UNSATISFIABLE * settings.regularisation;
+            last = (OF_SQUARED_RESIDUAL * left * left).clamp(settings.regularisation, largest_last);
+            let [smallest, largest] = RATIOS;
+            r = last.max((RATIO_OF_RESIDUAL * left).clamp(smallest, largest) * r);
         } else {
             // Restarts before the failed outer step, first with more accurate directions, then with a smaller change of the regularisation.
             let nowhere = vec![[0.0; N]; centre.len()];
@@ -137,6 +165,19 @@ pub(crate) fn minimise<'a, const N: usize, E: Equations<N>>(
             r = (r * reached).sqrt();
         }
     }
+}
+
+/// Weights 1/d^2 of the equations of owned points, by index, from their scales d. In an equation without terms any positive weight keeps its
+/// multiplier at zero.
+fn weights<const N: usize, E: Equations<N>>(equations: &E) -> Multipliers<N> {
+    let weight = |scale: f64| match scale > 0.0 {
+        true => 1.0 / (scale * scale),
+        false => 1.0,
+    };
+    let indices = 0..equations.pairs().n_points();
+    indices
+        .map(|index| equations.scale(index).map(weight))
+        .collect()
 }
 
 /// Cost and outcome of an outer step.
@@ -167,18 +208,20 @@ impl<const N: usize> Place<N> {
     }
 }
 
-impl<E> Dual<'_, E> {
+impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
     /// Solves the equations with a regularisation r about a centre, from the current iterate, with so many products at most for a direction.
-    fn outer_step<const N: usize>(
+    fn outer_step(
         &self,
         place: &mut Place<N>,
         (r, centre): (f64, &Multipliers<N>),
+        coarse: &CoarseHessian,
         most_products: usize,
-    ) -> OuterStep
-    where
-        E: Equations<N>,
-    {
-        let regularisation = self.regularisation(r);
+    ) -> OuterStep {
+        let regularisation = Regularisation {
+            r,
+            weights: &self.weights,
+            aggregates: &self.aggregates,
+        };
         let first = self.root_mean_square(&place.unbalanced);
         let mut products = 0;
         for steps in 0..MOST_STEPS {
@@ -195,7 +238,7 @@ impl<E> Dual<'_, E> {
             // The direction need not be more accurate than the reduction that remains.
             let [finest, coarsest] = ACCURACIES;
             let accuracy = (0.5 * REDUCTION * first / size).clamp(finest, coarsest);
-            let hessian = Hessian::new(self.equations, &regularisation, &place.slopes);
+            let hessian = Hessian::new(self.equations, &regularisation, &place.slopes, coarse);
             let (direction, done) = hessian.solve(gradient, accuracy, most_products);
             products += done;
             self.advance(place, &direction);
@@ -207,31 +250,8 @@ impl<E> Dual<'_, E> {
         }
     }
 
-    /// Regularisation with the weights r/d^2.
-    fn regularisation<const N: usize>(&self, r: f64) -> Regularisation<'_, N>
-    where
-        E: Equations<N>,
-    {
-        let of_index = |index: usize| {
-            self.equations.scale(index).map(|scale| {
-                if scale > 0.0 {
-                    r / (scale * scale)
-                } else {
-                    // In an equation without terms any positive weight keeps its multiplier at zero.
-                    1.0
-                }
-            })
-        };
-        let pairs = self.equations.pairs();
-        let of_points = (0..pairs.n_points()).map(of_index).collect();
-        Regularisation::new(of_points, &self.aggregates)
-    }
-
     /// Root mean square of values times their scales.
-    fn root_mean_square<const N: usize>(&self, values: &Multipliers<N>) -> f64
-    where
-        E: Equations<N>,
-    {
+    fn root_mean_square(&self, values: &Multipliers<N>) -> f64 {
         let squares = (values.iter().enumerate()).map(|(index, values)| {
             let scaled = values.iter().zip(self.equations.scale(index));
             scaled
@@ -243,10 +263,7 @@ impl<E> Dual<'_, E> {
     }
 
     /// The iterate of the uncorrected factors.
-    fn start<const N: usize>(&self) -> Place<N>
-    where
-        E: Equations<N>,
-    {
+    fn start(&self) -> Place<N> {
         let pairs = self.equations.pairs();
         let zeros = vec![[0.0; N]; pairs.order.all().len()];
         let mut place = Place {
@@ -260,10 +277,7 @@ impl<E> Dual<'_, E> {
     }
 
     /// Advances the iterate along the direction of a Newton step.
-    fn advance<const N: usize>(&self, place: &mut Place<N>, direction: &Multipliers<N>)
-    where
-        E: Equations<N>,
-    {
+    fn advance(&self, place: &mut Place<N>, direction: &Multipliers<N>) {
         let directions = direction.as_flattened().iter();
         for (mu, direction) in place.mu.as_flattened_mut().iter_mut().zip(directions) {
             *mu += direction;
@@ -298,19 +312,13 @@ impl<E> Dual<'_, E> {
         place.unbalanced = sums;
     }
 
-    fn minus_right<const N: usize>(&self) -> Multipliers<N>
-    where
-        E: Equations<N>,
-    {
+    fn minus_right(&self) -> Multipliers<N> {
         let right = self.equations.right().iter();
         right.map(|right| right.map(|it| -it)).collect()
     }
 
     /// Factors of an iterate, with the residual G q - f of the equations.
-    fn factors<const N: usize>(&self, place: Place<N>, steps: usize, products: usize) -> Factors
-    where
-        E: Equations<N>,
-    {
+    fn factors(&self, place: Place<N>, steps: usize, products: usize) -> Factors {
         let (pairs, stiffness) = (self.equations.pairs(), self.equations.stiffness());
         let factors: Vec<[f64; 2]> = (place.z.par_iter().zip(self.equations.start()))
             .map(|(z, start)| z.map(|z| start * (self.lowest + self.span * logistic(z))))

@@ -17,7 +17,7 @@
 //! |---|---|
 //! | `forces.rs`, `lattice_forces.rs` | f of meshes and of lattices |
 //! | `equations.rs`, `rows.rs`, `harmonics.rs` | G, as sums over the bonds; its rows, and the harmonics in them |
-//! | `reference.rs` | reference factors |
+//! | `reference.rs`, `lines.rs` | reference factors; shares of the points in the bonds, and energies by them |
 //! | `pairs.rs` | order of the sums over the bonds |
 //! | `dual.rs` | iteration for the factors by Newton steps |
 //! | `newton.rs` | direction of a Newton step |
@@ -36,6 +36,7 @@ mod equations;
 mod forces;
 mod harmonics;
 mod lattice_forces;
+mod lines;
 mod newton;
 mod pairs;
 mod reference;
@@ -47,15 +48,14 @@ pub use forces::{CellForces, Points, of_mesh, of_solid_mesh};
 pub(crate) use forces::{gradients, uniform_strains};
 pub use lattice_forces::of_lattice;
 pub(crate) use lattice_forces::{blocks, gradient as block_gradient};
-pub use reference::{Reference, reference};
-pub use settings::Settings;
+pub use lines::energy_ratios;
+pub use reference::reference;
+pub use settings::{Reference, Settings};
 
 use super::{Correction, CorrectionReport};
 use crate::bonds::BondSet;
 use crate::law::BondStiffness;
-use aggregates::Aggregates;
 use dual::Factors;
-use equations::Equations;
 use rows::Rows;
 
 /// The correction of bonds with uncorrected factors alpha (n_bonds): Omega = q_n/alpha, and the ratio q_t/q_n for shear and rotation. The
@@ -86,8 +86,7 @@ fn nearest<const D: usize, const N: usize>(
 ) -> Factors {
     let weight = settings.moment_weight;
     let rows = Rows::<D, N>::new(bonds, points, stiffness, nearest_to, weight);
-    let aggregates = Aggregates::new(points.cloud, &rows.pairs().order, Rows::<D, N>::FORCES);
-    dual::minimise(&rows, aggregates, settings)
+    dual::minimise(&rows, points.cloud, settings)
 }
 
 impl Factors {

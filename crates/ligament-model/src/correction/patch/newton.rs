@@ -15,7 +15,7 @@ pub(super) struct Hessian<'a, E, const N: usize> {
     /// Inverses of the blocks of owned points, by index; single precision would round them along the axes, and factors of a turned body
     /// would differ.
     inverses: Vec<[[f64; N]; N]>,
-    coarse: CoarseHessian,
+    coarse: &'a CoarseHessian,
 }
 
 /// The preconditioner applied to a residual.
@@ -32,15 +32,16 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         equations: &'a E,
         regularisation: &'a Regularisation<'a, N>,
         slopes: &'a [[f64; 2]],
+        coarse: &'a CoarseHessian,
     ) -> Self {
         let mut hessian = Self {
             equations,
             regularisation,
             slopes,
             inverses: Vec::new(),
-            coarse: CoarseHessian::new(equations, regularisation, slopes),
+            coarse,
         };
-        let mut inverses = vec![[[0.0; N]; N]; regularisation.of_points.len()];
+        let mut inverses = vec![[[0.0; N]; N]; regularisation.weights.len()];
         let blocks = inverses.par_chunks_mut(BLOCK).enumerate();
         blocks.for_each(|(block, inverses)| {
             hessian.add_blocks(block, inverses);
@@ -57,8 +58,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
         let first = indices.start;
         for index in indices {
             let own = &mut sums[index - first];
-            for (k, r) in self.regularisation.of_points[index].iter().enumerate() {
-                own[k][k] += r;
+            for (k, weight) in self.regularisation.weights[index].iter().enumerate() {
+                own[k][k] += self.regularisation.r * weight;
             }
             for pair in pairs.inner(index).chain(pairs.outer(index)) {
                 let rows = [[1.0, 0.0], [0.0, 1.0]].map(|it| self.equations.forces(pair, it));
@@ -127,7 +128,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
                     *direction = solved + share * *direction;
                 }
                 let aggregates = self.regularisation.aggregates;
-                let common = aggregates.at(&solved.aggregates, index);
+                let common: [f64; N] = aggregates.at(&solved.aggregates, index);
                 for (direction, common) in direction.iter_mut().zip(common) {
                     *direction += common;
                 }

@@ -2,9 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::lines::Lines;
+use super::settings::Reference;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::correction::sweep_order::SweepOrder;
+use crate::horizon::Horizons;
 
 /// Number of sweeps over the points. On a block of tetrahedra graded four to one they leave 8 % of T_P/T - I as a root mean square, of 180 %
 /// before, most of it at edges and corners; with four times as many the energy released by a crack in the block changes by less than 1 %.
@@ -13,65 +16,60 @@ const SWEEPS: usize = 10;
 /// Largest change of a factor, and the reciprocal of the smallest: the family of a corner of a solid is an eighth of one inside.
 const LARGEST: f64 = 8.0;
 
-crate::case_type! {
-    /// Reference factors, from which the patch correction departs as little as it can: alpha times one number for the body, which for `Families` is
-    /// multiplied by a factor of each bond.
-    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    pub enum Reference {
-        /// alpha times one number for the body.
-        Body,
-        /// alpha times factors with which a dilation has one stress at all points, also where the mesh is graded.
-        Families,
-    }
-}
-
 /// A symmetric tensor at a point.
 type Tensor<const D: usize> = [[f64; D]; D];
 
 /// Reference factors of the correction, but for one number for the body, shape (n_bonds), from factors alpha (n_bonds) and axial densities
-/// k_n (n_bonds, N/m^6) of bonds as in a body of one material, which are computed only if needed.
+/// k_n (n_bonds, N/m^6) of bonds as in a body of one material, which are computed only if needed; collective.
 ///
 /// Horizons follow the mesh. Where it is graded, families reach farther to one side than to the other, and with alpha alone they store more
 /// or less energy of a uniform strain than the material does; the factors nearest to these reproduce the strain and keep the energy.
 /// [`Reference::Families`] uses alpha g instead, with g nearest to 1 in the entropy g log g for which
 ///
-/// T_P = sum over the bonds of P of alpha g k_n l V_J n n^T = T I
+/// T_P V_P = sum over the bonds of s_P alpha g k_n l V_A V_B n n^T = T V_P I
 ///
-/// at every point P with neighbours J. T_P, in Pa, is twice the stress of the bonds at P under the dilation eps = I, and T the mean over the body
-/// of a third (in the plane half) of its trace with g = 1, by volume. Then g = exp(n . (M_P + M_J) n/2) with a symmetric tensor M a point. Where the directions of a family are spread evenly
-/// and both ends change alike, a change of M changes T_P/T by (2 M + I tr M)/(D + 2), by which each sweep goes on. The equations are this
-/// project's own.
+/// at every point P. The stress of a bond acts along its whole length: s_P is the share of the bond that lies nearest to P. T_P, in Pa, is the
+/// stress at P under the dilation eps = I, and T the mean over the body of a third (in the plane half) of its trace with g = 1, by volume.
+/// Then g = exp(n . M n), with a symmetric tensor M_P a point and its mean along the bond, M = sum over the points of s_P M_P. Where the
+/// directions of the bonds at P are spread evenly and M is uniform, a change of M changes T_P/T by (2 M + I tr M)/(D + 2), by which each
+/// sweep goes on. The equations are this project's own.
 pub fn reference<const D: usize>(
-    kind: Option<Reference>,
+    kind: Reference,
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
+    horizons: &Horizons,
     alpha: &[f64],
     axial: impl FnOnce() -> Vec<f64>,
 ) -> Vec<f64> {
-    if kind.unwrap_or(Reference::of_dimension(D)) == Reference::Body {
+    if kind == Reference::Body {
         return alpha.to_vec();
     }
     let (order, axial) = (SweepOrder::new(bonds, cloud), axial());
+    let volume = |&point: &u32| cloud.volumes[point as usize];
+    let weight = |bond: usize| {
+        let [a, b] = bonds.ends[bond].map(|end| volume(&end));
+        alpha[bond] * axial[bond] * bonds.length[bond] * a * b
+    };
     let families = Families {
         bonds,
-        cloud,
-        indices: order.indices(),
-        weights: (0..bonds.len())
-            .map(|bond| alpha[bond] * axial[bond] * bonds.length[bond])
-            .collect(),
+        lines: Lines::new(bonds, cloud, horizons, &order),
+        weights: (0..bonds.len()).map(weight).collect(),
+        volumes: order.owned().iter().map(volume).collect(),
+        order,
     };
-    let mut tensors = vec![[[0.0; D]; D]; order.all().len()];
-    let mean = families.mean_stress(&order, &tensors);
+    let mean = families.mean_stress();
+    let mut tensors = vec![[[0.0; D]; D]; families.order.all().len()];
     for _ in 0..SWEEPS {
-        let stresses = families.stresses(&order, &tensors);
+        let stresses = families.stresses(&families.factors(&tensors));
         for (tensor, stress) in tensors.iter_mut().zip(stresses) {
             approach(tensor, stress.map(|row| row.map(|it| it / mean)));
         }
         let values = tensors.as_flattened_mut().as_flattened_mut();
-        order.ghosts.update(values, D * D);
+        families.order.ghosts.update(values, D * D);
     }
-    let factors = (0..bonds.len()).map(|bond| alpha[bond] * families.factor(bond, &tensors));
-    factors.collect()
+    let factors = families.of_all_bonds(families.factors(&tensors));
+    let products = alpha.iter().zip(factors);
+    products.map(|(alpha, factor)| alpha * factor).collect()
 }
 
 /// Changes M of a point such that T_P/T would become the unit tensor if all families were spread evenly.
@@ -90,68 +88,71 @@ fn approach<const D: usize>(tensor: &mut Tensor<D>, mut excess: Tensor<D>) {
 
 struct Families<'a, const D: usize> {
     bonds: &'a BondSet<D>,
-    cloud: &'a PointCloud<D>,
-    /// Index of each point.
-    indices: Vec<u32>,
-    /// Products alpha k_n l of the bonds.
+    order: SweepOrder<'a>,
+    lines: Lines,
+    /// Products alpha k_n l V_A V_B of the bonds.
     weights: Vec<f64>,
-}
-
-impl Reference {
-    /// The better choice by dimension. In space, where families grow with the third power of the horizon, a mesh graded four to one has 1.3
-    /// times the energy of a uniform strain in the mean with one number for the body. In the plane it has 1.05 times at most, and stresses
-    /// at holes, deflections and places of first breakage are more accurate with one number.
-    const fn of_dimension(dimension: usize) -> Self {
-        match dimension {
-            3 => Self::Families,
-            _ => Self::Body,
-        }
-    }
+    /// Volumes of the owned points, by index.
+    volumes: Vec<f64>,
 }
 
 impl<const D: usize> Families<'_, D> {
-    /// Mean T for tensors M by index, Pa.
-    fn mean_stress(&self, order: &SweepOrder<'_>, tensors: &[Tensor<D>]) -> f64 {
-        let mut sums = [0.0; 2];
-        for (&point, stress) in order.owned().iter().zip(self.stresses(order, tensors)) {
-            let volume = self.cloud.volumes[point as usize];
-            sums[0] += volume * trace(&stress) / D as f64;
-            sums[1] += volume;
-        }
-        order.subdomain.all_reduce_sum(&mut sums);
+    /// Mean T without factors, Pa.
+    fn mean_stress(&self) -> f64 {
+        let divided = (0..self.bonds.len()).filter(|&bond| !self.lines.of_bond(bond).is_empty());
+        let mut sums = [
+            divided.map(|bond| self.weights[bond]).sum::<f64>(),
+            D as f64 * self.volumes.iter().sum::<f64>(),
+        ];
+        self.order.subdomain.all_reduce_sum(&mut sums);
         sums[0] / sums[1]
     }
 
-    /// Tensors T_P of the owned points, by index, for tensors M by index, Pa.
-    fn stresses(&self, order: &SweepOrder<'_>, tensors: &[Tensor<D>]) -> Vec<Tensor<D>> {
-        let own = order.owned().par_iter();
-        own.map(|&point| self.stress(point, tensors)).collect()
-    }
-
-    fn stress(&self, point: u32, tensors: &[Tensor<D>]) -> Tensor<D> {
-        let mut stress = [[0.0; D]; D];
-        for &bond in self.bonds.incidence.at(point) {
-            let volume = self.cloud.volumes[self.bonds.neighbour(bond, point) as usize];
-            let bond = bond as usize;
-            let size = self.factor(bond, tensors) * self.weights[bond] * volume;
+    /// Tensors T_P of the owned points, by index, for factors g (n_bonds), Pa.
+    fn stresses(&self, factors: &[f64]) -> Vec<Tensor<D>> {
+        let sums = self.lines.sums(&self.order, |bond| {
+            let size = factors[bond] * self.weights[bond];
             let direction = self.bonds.direction[bond];
-            for (row, one) in stress.iter_mut().zip(direction) {
-                for (entry, other) in row.iter_mut().zip(direction) {
-                    *entry += size * one * other;
-                }
-            }
-        }
-        stress
+            direction.map(|one| direction.map(|other| size * one * other))
+        });
+        let own = sums.into_iter().zip(&self.volumes);
+        own.map(|(sum, volume)| sum.map(|row| row.map(|it| it / volume)))
+            .collect()
     }
 
-    /// Factor g of a bond.
-    fn factor(&self, bond: usize, tensors: &[Tensor<D>]) -> f64 {
-        let direction = &self.bonds.direction[bond];
-        let [one, other] = self.bonds.ends[bond].map(|end| {
-            let index = self.indices[end as usize] as usize;
-            along(direction, &tensors[index])
-        });
-        (0.5 * (one + other)).exp().clamp(1.0 / LARGEST, LARGEST)
+    /// Factors g for tensors M by index, shape (n_bonds); 1 of bonds that another process divides.
+    fn factors(&self, tensors: &[Tensor<D>]) -> Vec<f64> {
+        let of_bond = |bond: usize| {
+            let direction = &self.bonds.direction[bond];
+            let shares = self.lines.of_bond(bond).iter();
+            let terms = shares.map(|it| it.share * along(direction, &tensors[it.index as usize]));
+            terms.sum::<f64>().exp().clamp(1.0 / LARGEST, LARGEST)
+        };
+        (0..self.bonds.len()).into_par_iter().map(of_bond).collect()
+    }
+
+    /// The factors (n_bonds) with those that other processes compute; collective.
+    fn of_all_bonds(&self, mut factors: Vec<f64>) -> Vec<f64> {
+        let subdomain = self.order.subdomain;
+        let across = self
+            .bonds
+            .ends
+            .iter()
+            .enumerate()
+            .filter_map(|(bond, ends)| {
+                let is_divided = !self.lines.of_bond(bond).is_empty();
+                let other = ends
+                    .iter()
+                    .find(|&&end| is_divided && !subdomain.owns(end))?;
+                let [a, b] = subdomain.numbers(*ends).map(f64::from);
+                Some((subdomain.rank(*other), [a, b, factors[bond]]))
+            });
+        for [a, b, factor] in subdomain.send(across.collect()) {
+            let ends = [a, b].map(|end| subdomain.point(end as u32));
+            let bond = (self.bonds.ends).binary_search_by(|it| it.map(Some).cmp(&ends));
+            bond.into_iter().for_each(|bond| factors[bond] = factor);
+        }
+        factors
     }
 }
 

@@ -1,7 +1,18 @@
 //! Settings of the patch correction.
 
-use super::reference::Reference;
 use crate::case_type::Range;
+
+crate::case_type! {
+    /// Reference factors, from which the patch correction departs as little as it can: alpha times one number for the body, which for `Families` is
+    /// multiplied by a factor of each bond.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub enum Reference {
+        /// alpha times one number for the body.
+        Body,
+        /// alpha times factors with which a dilation has one stress at all points, also where the mesh is graded.
+        Families,
+    }
+}
 
 /// Settings of the patch correction.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -12,9 +23,9 @@ pub struct Settings {
     pub highest: f64,
     /// Weight of the equations of moments against those of forces.
     pub moment_weight: f64,
-    /// Reference factors; `None` stands for [`Reference::Body`] in the plane and [`Reference::Families`] in space.
-    pub reference: Option<Reference>,
-    /// Regularisation r of the last outer step. The first step has 1e-2, and each has three hundredths of the one before.
+    /// Reference factors.
+    pub reference: Reference,
+    /// Regularisation r of the last outer step, where the equations can be satisfied; elsewhere it is up to ten times as large.
     pub regularisation: f64,
 }
 
@@ -36,8 +47,8 @@ impl Settings {
         lowest: 0.02,
         highest: 20.0,
         moment_weight: 0.04,
-        reference: None,
-        regularisation: 1e-5,
+        reference: Reference::Families,
+        regularisation: 1e-6,
     };
 }
 
