@@ -5,6 +5,9 @@ use std::path::Path;
 use anyhow::Context;
 use ligament_output::csv::read::CsvTable;
 
+use super::test::Axis;
+use crate::places::repository;
+
 /// Points of a curve in their order, shape (n, 2).
 pub(super) type Points = [[f64; 2]];
 
@@ -25,6 +28,19 @@ impl MeasuredCurve {
         let text = std::fs::read_to_string(path);
         let text = text.with_context(|| format!("cannot read {}", path.display()))?;
         Self::parse(path, &text)
+    }
+
+    /// Reads the curve of an independent solution, in m and N, into the units of the axes of a test: mm, and the load times the factor of y.
+    ///
+    /// # Errors
+    ///
+    /// As for a measured curve.
+    pub(super) fn independent(file: &str, y: &Axis) -> anyhow::Result<Self> {
+        let mut curve = Self::read(&repository().join(file))?;
+        for point in curve.specimens.iter_mut().flat_map(|(_, points)| points) {
+            *point = [1e3 * point[0], y.factor * point[1]];
+        }
+        Ok(curve)
     }
 
     fn parse(path: &Path, text: &str) -> anyhow::Result<Self> {
@@ -59,9 +75,9 @@ impl MeasuredCurve {
         [0, 1].map(|axis| self.mean(|points| peak(points)[axis]))
     }
 
-    /// Mean of the areas under the specimens' curves.
-    pub(super) fn area(&self) -> f64 {
-        self.mean(|points| area(points, self.end()))
+    /// Mean of the areas under the specimens' curves up to an x.
+    pub(super) fn area(&self, end: f64) -> f64 {
+        self.mean(|points| area(points, end))
     }
 
     /// Largest x.
@@ -114,7 +130,7 @@ mod tests {
         let curve = parse(TEXT).unwrap();
         assert_eq!(curve.specimens[1].0, "two (N)");
         assert_eq!(curve.peak(), [1.5, 11.0]);
-        assert_eq!((curve.area(), curve.end()), (18.0, 3.0));
+        assert_eq!((curve.area(3.0), curve.end()), (18.0, 3.0));
     }
 
     #[test]

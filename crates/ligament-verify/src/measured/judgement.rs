@@ -1,6 +1,6 @@
 //! Values of the runs of a measured test against its bands.
 
-use super::curve::{MeasuredCurve, area, peak};
+use super::curve::{MeasuredCurve, Points, area, peak};
 use super::reading::Reading;
 use super::size_effect::Law;
 use super::test::{Band, MeasuredTest, Quantity};
@@ -31,7 +31,10 @@ impl Judgement {
         let theory = test.size_effect.as_ref();
         let laws = theory.map_or_else(Vec::new, |it| Law::from_series(it, readings));
         let mut rows = Vec::new();
-        for band in &test.band {
+        for (place, band) in test.band.iter().enumerate() {
+            let independent = band.independent.as_ref();
+            let independent = independent.map(|file| MeasuredCurve::independent(file, &test.y));
+            let independent = independent.transpose()?;
             let of_laws = theory.into_iter().flat_map(|theory| {
                 let value = |law: &Law| match band.of {
                     Quantity::SizeEffectEnergy => Some(law.energy_ratio(theory)),
@@ -42,10 +45,15 @@ impl Judgement {
                     .filter_map(move |law| Some((&*law.series, value(law)?)))
             });
             let of_runs = readings.iter().filter_map(|reading| {
-                let value = value(band, measured, reading)?;
-                Some((&*reading.run, value))
+                let curve = reading.curve(place);
+                let value = match &independent {
+                    Some(known) => over(band.of, known, measured, curve),
+                    None => value(band, measured, reading, curve),
+                };
+                Some((&*reading.run, value?))
             });
-            for (name, computed) in of_laws.chain(of_runs) {
+            let judged = of_laws.chain(of_runs);
+            for (name, computed) in judged.filter(|(name, _)| band.judges(name)) {
                 rows.push(row(band, name, computed)?);
             }
         }
@@ -56,15 +64,16 @@ impl Judgement {
     pub(super) fn table(&self, test: &MeasuredTest) -> Table {
         let reasons = test.band.iter().map(|band| {
             let reason = band.because.trim_end_matches('.');
-            format!("{}: {reason}", band.of.words())
+            format!("{}: {reason}", band.words())
         });
         Table {
             heading: Heading {
                 name: format!("experiments-{}", test.name),
                 title: test.title.clone(),
                 source: test.source.clone(),
-                quantity: "computed over measured; of a crack its height, mm".to_owned(),
-                known: "measured".to_owned(),
+                quantity: "computed over measured or independent; of a crack its height, mm"
+                    .to_owned(),
+                known: "measured or independent".to_owned(),
                 tolerance: format!("{}.", reasons.collect::<Vec<_>>().join("; ")),
                 keys: ["run", "quantity"].map(str::to_owned).to_vec(),
             },
@@ -74,7 +83,12 @@ impl Judgement {
 }
 
 /// Value of a run for a band: a ratio to the measured value, or the height of a crack, mm. None for quantities of series.
-fn value(band: &Band, measured: Option<&MeasuredCurve>, reading: &Reading) -> Option<f64> {
+fn value(
+    band: &Band,
+    measured: Option<&MeasuredCurve>,
+    reading: &Reading,
+    curve: &Points,
+) -> Option<f64> {
     let known = |of_curve: fn(&MeasuredCurve) -> f64| {
         let of_curve = || measured.map(of_curve);
         band.measured.or_else(of_curve).unwrap_or(f64::NAN)
@@ -84,14 +98,32 @@ fn value(band: &Band, measured: Option<&MeasuredCurve>, reading: &Reading) -> Op
         Some(_) => f64::INFINITY,
     };
     match band.of {
-        Quantity::Peak => Some(peak(&reading.curve)[1] / known(|it| it.peak()[1])),
-        Quantity::XAtPeak => Some(peak(&reading.curve)[0] / known(|it| it.peak()[0])),
-        Quantity::Area => Some(area(&reading.curve, end) / known(MeasuredCurve::area)),
+        Quantity::Peak => Some(peak(curve)[1] / known(|it| it.peak()[1])),
+        Quantity::XAtPeak => Some(peak(curve)[0] / known(|it| it.peak()[0])),
+        Quantity::Area => Some(area(curve, end) / known(|it| it.area(it.end()))),
         Quantity::CrackY => {
             let (at, known) = band.at.zip(band.measured)?;
             Some(1e3 * reading.crack_height(at, 1e-3 * known))
         }
         Quantity::SizeEffectEnergy | Quantity::SizeEffectLength => None,
+    }
+}
+
+/// Ratio of a value of a computed curve to that of an independent one. Areas end where the measured curve or the independent one does.
+fn over(
+    of: Quantity,
+    known: &MeasuredCurve,
+    measured: Option<&MeasuredCurve>,
+    curve: &Points,
+) -> Option<f64> {
+    let end = measured
+        .map_or(f64::INFINITY, MeasuredCurve::end)
+        .min(known.end());
+    match of {
+        Quantity::Peak => Some(peak(curve)[1] / known.peak()[1]),
+        Quantity::XAtPeak => Some(peak(curve)[0] / known.peak()[0]),
+        Quantity::Area => Some(area(curve, end) / known.area(end)),
+        Quantity::CrackY | Quantity::SizeEffectEnergy | Quantity::SizeEffectLength => None,
     }
 }
 
@@ -126,7 +158,7 @@ fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
         false => standing,
     };
     let entry = Entry {
-        labels: vec![name.to_owned(), band.of.words().to_owned()],
+        labels: vec![name.to_owned(), band.words()],
         known,
         allowed,
         standing,
@@ -153,6 +185,9 @@ mod tests {
             of,
             at: None,
             measured,
+            independent: None,
+            x: None,
+            runs: Vec::new(),
             between,
             because: String::new(),
             missed: missed.map(str::to_owned),
@@ -185,6 +220,19 @@ mod tests {
             let found = row(&band, "4 mm", value).unwrap().verdict;
             assert_eq!(found, Verdict::Missed, "{value}");
         }
+    }
+
+    /// By hand: the known curve has its peak 10 at 1 mm and the area 5 up to there; the computed one has 12 at 2 mm, and up to 1 mm the area 3.
+    #[test]
+    fn an_independent_curve_gives_ratios() {
+        let known = MeasuredCurve {
+            specimens: vec![("load".to_owned(), vec![[0.0, 0.0], [1.0, 10.0]])],
+        };
+        let curve = [[0.0, 0.0], [2.0, 12.0]];
+        let of = |quantity| over(quantity, &known, None, &curve).unwrap();
+        assert_eq!(of(Quantity::Peak), 1.2);
+        assert_eq!(of(Quantity::XAtPeak), 2.0);
+        assert_eq!(of(Quantity::Area), 0.6);
     }
 
     /// Heights of cracks are judged by their distance, mm, and not as ratios.

@@ -26,6 +26,8 @@ pub(super) struct Reading {
     pub(super) in_series: Option<(String, f64)>,
     /// Computed curve in the units of the axes, shape (n_rows, 2).
     pub(super) curve: Vec<[f64; 2]>,
+    /// Curves over the own quantities of the bands, in the order of the bands; none for a band over the quantity of the test.
+    of_bands: Vec<Option<Vec<[f64; 2]>>>,
     /// Lines of the cracks at the end, where a band asks for them.
     pub(super) cracks: Vec<CrackLine>,
     /// Number of load steps or events that did not come to rest.
@@ -60,10 +62,17 @@ impl Reading {
         (summary, seconds): (Summary, f64),
     ) -> anyhow::Result<Self> {
         let history = CsvTable::read(folder.join("history.csv"))?;
-        let [x, y] = [&test.x, &test.y].map(|axis| values(&history, axis));
         let at_rest: Vec<f64> = history.values("at_rest")?;
-        let points = x?.into_iter().zip(y?).map(|(x, y)| [x, y]);
-        let at = at_rest.iter().zip(points).filter(|(rest, _)| **rest > 0.0);
+        let curve_over = |x: &Axis| {
+            let [x, y] = [x, &test.y].map(|axis| values(&history, axis));
+            let points = x?.into_iter().zip(y?).map(|(x, y)| [x, y]);
+            let at = at_rest.iter().zip(points).filter(|(rest, _)| **rest > 0.0);
+            anyhow::Ok(at.map(|(_, point)| point).collect::<Vec<_>>())
+        };
+        let of_bands = test
+            .band
+            .iter()
+            .map(|it| it.x.as_ref().map(curve_over).transpose());
         let wants_cracks = test.band.iter().any(|it| it.of == Quantity::CrackY);
         let cracks = match wants_cracks && !has_solid(folder)? {
             true => StoredCracks::open(folder)?.lines(usize::MAX),
@@ -72,12 +81,18 @@ impl Reading {
         Ok(Self {
             run: variant.name.clone(),
             in_series: variant.series.clone().zip(variant.size),
-            curve: at.map(|(_, point)| point).collect(),
+            curve: curve_over(&test.x)?,
+            of_bands: of_bands.collect::<anyhow::Result<_>>()?,
             cracks,
             failed: at_rest.iter().filter(|rest| **rest == 0.0).count(),
             seconds,
             summary,
         })
+    }
+
+    /// Curve that a band judges, by its place among the bands of the test.
+    pub(super) fn curve(&self, band: usize) -> &[[f64; 2]] {
+        self.of_bands[band].as_ref().unwrap_or(&self.curve)
     }
 
     /// Height y of the cracks where they pass an x nearest to a height that is expected, m; NaN where none does.

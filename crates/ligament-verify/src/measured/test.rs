@@ -65,6 +65,14 @@ pub struct Band {
     pub at: Option<f64>,
     /// Measured value, in the units of the axes (mm for a crack); by default the value of the measured curve.
     pub measured: Option<f64>,
+    /// Curve of an independent solution that the runs are compared with instead, from the root of the repository: the reading along x, m,
+    /// and the load, N. Such a band verifies the program; the others validate the data together with it.
+    pub independent: Option<String>,
+    /// Quantity along x of this band alone.
+    pub x: Option<Axis>,
+    /// Names of the runs, or of the series, that the band judges; by default all.
+    #[serde(default)]
+    pub runs: Vec<String>,
     /// Smallest and largest accepted ratio to the measured value; for a crack the differences from it, mm.
     pub between: [f64; 2],
     /// Reason of the band.
@@ -209,6 +217,8 @@ impl MeasuredTest {
         let is_missing = |path: &PathBuf| !path.is_file();
         let files = (self.run.iter()).flat_map(|it| it.mesh.iter().chain(&it.geometry));
         let files = files.chain([&self.case]).map(|it| repository().join(it));
+        let curves = self.band.iter().flat_map(|it| &it.independent);
+        let files = files.chain(curves.map(|it| repository().join(it)));
         let mut files = files.chain(self.measured.iter().map(|it| folder().join(it)));
         if let Some(file) = files.find(is_missing) {
             return Some(format!("there is no file {}", file.display()));
@@ -240,17 +250,57 @@ impl MeasuredTest {
         );
         let of_crack = band.of == Quantity::CrackY;
         let [least, most] = band.between;
+        let is_unknown = |name: &&String| {
+            let known = self
+                .run
+                .iter()
+                .flat_map(|it| [Some(&it.name), it.series.as_ref()]);
+            !known.flatten().any(|it| it == *name)
+        };
+        if let Some(name) = band.runs.iter().find(is_unknown) {
+            return Some(format!(
+                "the band of the {of} judges `{name}`, and there is no such run"
+            ));
+        }
         if least.partial_cmp(&most) != Some(std::cmp::Ordering::Less) {
             Some(format!("the band of the {of} is empty: {least} to {most}"))
         } else if of_series && self.size_effect.is_none() {
             Some(format!("the {of} needs `size_effect`"))
         } else if of_crack && (band.at.is_none() || band.measured.is_none()) {
             Some(format!("the {of} needs `at` and `measured`"))
-        } else if !of_series && band.measured.is_none() && self.measured.is_none() {
+        } else if band.independent.is_some() && (of_series || of_crack) {
+            Some(format!(
+                "no curve has a {of}, so that `independent` cannot judge it"
+            ))
+        } else if band.independent.is_none()
+            && !of_series
+            && band.measured.is_none()
+            && self.measured.is_none()
+        {
             Some(format!("the {of} has neither a measured value nor a curve"))
         } else {
             None
         }
+    }
+}
+
+/// End of the names of values that are compared with an independent solution.
+pub const VERIFIED: &str = " over the independent solution";
+
+impl Band {
+    /// Name of what the band judges.
+    pub fn words(&self) -> String {
+        let axis = self
+            .x
+            .as_ref()
+            .map_or(String::new(), |it| format!(", {}", it.name));
+        let over = self.independent.as_ref().map_or("", |_| VERIFIED);
+        format!("{}{axis}{over}", self.of.words())
+    }
+
+    /// Whether the band judges a run or a series.
+    pub fn judges(&self, name: &str) -> bool {
+        self.runs.is_empty() || self.runs.iter().any(|it| it == name)
     }
 }
 
@@ -335,6 +385,16 @@ fast = true
             ),
             ("x-at-peak", "maximum", "unknown variant `maximum`"),
             ("because", "reason", "unknown field `reason`"),
+            (
+                "because",
+                "runs = [\"4 mm\"]\nbecause",
+                "judges `4 mm`, and there is no such run",
+            ),
+            (
+                "because",
+                "independent = \"tests/none.csv\"\nbecause",
+                "`bar`: there is no file",
+            ),
         ] {
             let found = fault(&TEXT.replacen(from, to, 1));
             assert!(found.contains(expected), "{from} -> {to}: {found}");
