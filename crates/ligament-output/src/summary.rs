@@ -313,6 +313,10 @@ pub struct CertificateSummary {
     /// Fracture energy that the case gives, J/m^2; none where materials differ, and where no criterion has one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fracture_energy: Option<f64>,
+    /// Horizon over the smallest ligament: ahead of the tip of a pre-crack, or across the thinnest section. Peaks of bodies that soften are
+    /// too high where it is above 0.15. None without criteria, and where the ligament is not known.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub horizon_over_ligament: Option<f64>,
     /// Largest residual of the states that were found, unbalanced force over the forces that meet at a point; none where no iteration was
     /// needed.
     #[serde(skip_serializing_if = "Option::is_none")]

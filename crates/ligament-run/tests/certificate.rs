@@ -45,6 +45,8 @@ fn a_bar_pulled_apart_spends_its_fracture_energy() {
     assert_eq!(certificate.fracture_energy, Some(100.0));
     let ratio = certificate.spent_ratio().unwrap();
     assert!((ratio - 0.01 * certificate.dissipated / area).abs() < 1e-12);
+    // A lattice has no outline of sides, along which a ligament could be measured.
+    assert_eq!(certificate.horizon_over_ligament, None);
     let residual = certificate.largest_residual.unwrap();
     assert!((0.0..1e-3).contains(&residual), "{certificate:?}");
 }

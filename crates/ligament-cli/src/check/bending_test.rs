@@ -1,10 +1,11 @@
-//! Report of `ligament check` on the stiffness of the body in bending and, in space, in torsion.
+//! Report of `ligament check` on the stiffness of the body in bending and, in space, in torsion, and on the horizon over the smallest ligament.
 
 use std::io;
 
 use ligament::Model;
 use ligament::bending_test::{
-    BendingTest, MOST_SIDES, Section, THICK, TOO_STIFF, bending_test, most_points, thinnest_section,
+    BendingTest, MOST_SIDES, Section, THICK, TOO_STIFF, WIDE, bending_test, most_points,
+    smallest_ligament, thinnest_section,
 };
 use ligament::setup::Surface;
 use ligament_output::quantity::{place, quantity};
@@ -12,6 +13,15 @@ use ligament_run::stages::Stages;
 
 use super::report::CheckExtent;
 use super::report::Report;
+
+/// Errors of peaks by the ratio of the horizon to the ligament, up to a ratio: notched beams, panels and a torsion test against cohesive
+/// finite elements (docs/verification.md).
+const ERRORS: [(f64, &str); 4] = [
+    (0.2, "some 2 to 5 %"),
+    (0.27, "some 4 to 7 %"),
+    (0.4, "some 8 to 10 %"),
+    (f64::INFINITY, "20 % and more"),
+];
 
 /// Writes the stiffness of the body at its thinnest section over that of the continuum; returns a warning where it is too large.
 pub(super) fn write(
@@ -105,4 +115,39 @@ fn warning(model: &Model, section: &Section, test: &BendingTest) -> String {
         quantity(section.thickness, "m"),
         place(&section.place[..model.setup.body.dimensions()]),
     )
+}
+
+/// Writes the smallest ligament of a body whose bonds may break, in horizons; returns a warning where bonds soften and it has too few.
+pub(super) fn write_ligament(
+    report: &mut Report<'_>,
+    extent: CheckExtent,
+    model: &Model,
+    stages: &mut Stages,
+) -> io::Result<Option<String>> {
+    let criteria = &model.criteria.list;
+    if extent == CheckExtent::Model || criteria.is_empty() {
+        return Ok(None);
+    }
+    let Ok(section) = stages.time("ligament", || smallest_ligament(model, MOST_SIDES)) else {
+        return Ok(None);
+    };
+    let dimensions = model.setup.body.dimensions();
+    let ratio = 1.0 / section.horizons();
+    let [length, middle] = [
+        quantity(section.thickness, "m"),
+        place(&section.place[..dimensions]),
+    ];
+    report.head("smallest ligament");
+    report.detail("ligament", format!("{length}, its middle at {middle}"))?;
+    report.detail("horizon", format!("{ratio:.2} of it"))?;
+    let softens = criteria.iter().any(|it| !it.after.is_brittle());
+    let error = ERRORS.iter().find(|(up_to, _)| ratio <= *up_to);
+    Ok(error
+        .filter(|_| softens && ratio > WIDE)
+        .map(|(_, error)| {
+            format!(
+                "the horizon is {ratio:.2} of the ligament of {length} at {middle}: the largest load is then {error} too high, because \
+                 the stress of a bond is that of a horizon around it; a finer mesh there reduces this"
+            )
+        }))
 }

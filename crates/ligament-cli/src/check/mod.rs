@@ -88,6 +88,7 @@ fn write_report(
     };
     patch_test::write(report, extent, model, &mut stages)?;
     let too_stiff = bending_test::write(report, extent, model, &mut stages)?;
+    let too_wide = bending_test::write_ligament(report, extent, model, &mut stages)?;
     write_stages(report, stages.done())?;
     let intact = vec![true; model.system.ends.len()];
     let loose = Fragments::find(&*model.system, &intact).points.len();
@@ -99,7 +100,7 @@ fn write_report(
     for warning in merged_messages(model.warnings.iter().cloned().chain(messages)) {
         report.line(format!("warning: {warning}"))?;
     }
-    if let Some(warning) = too_stiff {
+    for warning in too_stiff.into_iter().chain(too_wide) {
         report.line(format!("warning: {warning}"))?;
     }
     for note in notes(&model.setup) {

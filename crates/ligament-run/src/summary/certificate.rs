@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament::Model;
+use ligament::bending_test::smallest_ligament;
 use ligament::setup::Analysis;
 use ligament_analysis::driver::{Outcome, Rows};
 use ligament_analysis::history::StepRecord;
@@ -16,6 +17,9 @@ use ligament_output::summary::CertificateSummary;
 
 /// Largest number of points of a body whose cracks are traced at the end of a run, which takes a second.
 const MOST_POINTS: usize = 100_000;
+
+/// Largest number of sides of an outline whose thinnest section is searched at the end of a run, which takes a tenth of a second.
+const MOST_SIDES_AFTER_RUN: usize = 4_000;
 
 /// Certificate of the last state at rest of a run whose tables are complete in a folder; none for a motion, and for a run without a result.
 ///
@@ -52,9 +56,19 @@ pub(crate) fn certificate(
         crack_area: area,
         dissipated_per_area: area.map(|area| last.dissipated_energy / area),
         fracture_energy: model.setup.spent_fracture_energy(),
+        horizon_over_ligament: horizon_over_ligament(model),
         largest_residual: largest_residual(&folder.join("iterations.csv"), until(outcome, last))?,
         ties: ties(&folder.join("breaks.csv"), tie_tolerance(model, outcome))?,
     }))
+}
+
+/// Horizon over the smallest ligament of a body whose bonds may break; none where the search of its thinnest section takes long.
+fn horizon_over_ligament(model: &Model) -> Option<f64> {
+    if model.criteria.list.is_empty() || !model.system.subdomain.is_whole() {
+        return None;
+    }
+    let section = smallest_ligament(model, MOST_SIDES_AFTER_RUN).ok()?;
+    Some(1.0 / section.horizons())
 }
 
 /// Step and round of the last solution that a run found up to its last record at rest.
@@ -131,6 +145,12 @@ pub(super) fn write_certificate(
             "  cracks             {}, over which {} were spent{over}",
             quantity(area, "m^2"),
             quantity(per_area, "J/m^2")
+        )?;
+    }
+    if let Some(ratio) = certificate.horizon_over_ligament {
+        writeln!(
+            out,
+            "  horizon            {ratio:.2} of the smallest ligament"
         )?;
     }
     let residual = certificate.largest_residual;

@@ -13,6 +13,7 @@
 //! rigid motion. The share c of u_0 in their motions u is fitted by least squares in the middle half of the strip: the strip is 1/c times
 //! as stiff as the continuum.
 
+mod ahead_of_tips;
 mod facets;
 mod part;
 mod solution;
@@ -20,5 +21,6 @@ mod stress;
 mod strip;
 mod thinnest;
 
+pub use ahead_of_tips::{WIDE, smallest_ligament};
 pub use solution::{BendingTest, THICK, TOO_STIFF, bending_test, most_points};
 pub use thinnest::{MOST_SIDES, Section, thinnest_section};

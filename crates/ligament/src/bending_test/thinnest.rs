@@ -74,7 +74,7 @@ fn thinnest<const D: usize>(
     let section = |from: &Facet<D>| {
         let inward = from.area.map(|it| -it / size(from.area));
         let middle = from.middle();
-        let (thickness, to) = path_through_body(&facets, middle, inward)?;
+        let (thickness, to) = path_to_side(&facets, middle, inward, true)?;
         let is_opposite = dot(inward, to.area) >= OPPOSITE * size(to.area);
         is_opposite.then(|| Section {
             place: widened(std::array::from_fn::<f64, D, _>(|axis| {
@@ -101,16 +101,17 @@ fn thinnest<const D: usize>(
         .ok_or(Untested::NoSection)
 }
 
-/// Length of the path from a position on the outline to its exit from the body, m, and the side there.
-fn path_through_body<const D: usize>(
+/// Length of the path from a position to the first side through which it leaves the body, or else enters it, m, and the side.
+pub(super) fn path_to_side<const D: usize>(
     facets: &[Facet<D>],
     from: [f64; D],
     direction: [f64; D],
+    outwards: bool,
 ) -> Option<(f64, &Facet<D>)> {
     let mut found: Option<(f64, &Facet<D>)> = None;
     for facet in facets {
         let rate = dot(direction, facet.area);
-        if rate <= 0.0 {
+        if rate == 0.0 || (rate > 0.0) != outwards {
             continue;
         }
         let length = dot(minus(facet.places[0], from), facet.area) / rate;
