@@ -138,7 +138,7 @@ fn broken(Solution { model, outcome, .. }: &Solution) -> BTreeSet<[u32; 2]> {
         .collect()
 }
 
-/// Largest force and mean force of the steps of two bodies, of the first over those of the second, less one.
+/// Relative differences between two bodies in the largest force and in the mean force of the steps.
 fn differences(one: &Solution, other: &Solution) -> [f64; 2] {
     let reactions = |it: &Solution| it.outcome.history.iter().map(|it| it.reaction).collect();
     let [one, other]: [Vec<f64>; 2] = [one, other].map(reactions);

@@ -75,7 +75,7 @@ impl Ghosts {
         }
     }
 
-    /// Adds the values at the ghosts to those of their owners, shape (n_points, n_values); collective.
+    /// Adds the values at the ghosts to the values at their owners, shape (n_points, n_values); collective.
     pub fn add_to_owners(&self, values: &mut [f64], n_values: usize) {
         let of_ghosts = self.exchanged(values, n_values, &self.received, &self.sent.1);
         let owned = self.sent.0.iter();

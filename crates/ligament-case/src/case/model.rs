@@ -168,7 +168,7 @@ pub struct Correction {
     /// Sweeps of the domain correction at most.
     #[schemars(range(min = 1), extend("default" = Iteration::default().max_sweeps))]
     pub max_sweeps: Option<usize>,
-    /// The factors that those of the patch correction are the nearest to.
+    /// Reference factors, from which the factors of the patch correction differ as little as they can.
     #[schemars(extend("default" = Settings::DEFAULT.reference))]
     pub reference: Option<Reference>,
     /// Smallest factor of the patch correction over the uncorrected one.

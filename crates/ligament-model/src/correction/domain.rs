@@ -73,8 +73,8 @@ pub fn energy_ratios<const D: usize>(
     })
 }
 
-/// Ratios of the energy densities of the points under each of some strains to those of the continuum; `energies` gives the densities in the
-/// strain of a number (n_points, J/m^3).
+/// Energy densities of the points under some uniform strains over the energy density of the continuum; the function `energies` gives the
+/// densities (n_points, J/m^3) under the strain of a number.
 pub(super) fn ratios<const D: usize>(
     modes: &[StrainMode<D>],
     cloud: &PointCloud<D>,

@@ -221,7 +221,7 @@ class Correction(TypedDict, total=False):
     max_sweeps: int
     """Sweeps of the domain correction at most. Default 500."""
     reference: Literal["body", "families"]
-    """The factors that those of the patch correction are the nearest to.
+    """Reference factors, from which the factors of the patch correction differ as little as they can.
 
 - `body`: alpha times one number for the body.
 - `families`: alpha times factors with which a dilation has one stress at all points, also where the mesh is graded. Default "families"."""

@@ -11,14 +11,14 @@ use crate::places::repository;
 /// Points of a curve in their order, shape (n, 2).
 pub(super) type Points = [[f64; 2]];
 
-/// A measured curve: one column of y for each specimen over a common x.
+/// A measured curve, one column of y for each specimen over a common x, or the curve of an independent solution.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct MeasuredCurve {
+pub(super) struct KnownCurve {
     /// Specimens with their points.
     pub(super) specimens: Vec<(String, Vec<[f64; 2]>)>,
 }
 
-impl MeasuredCurve {
+impl KnownCurve {
     /// Reads a table whose first column is x, and whose others are y of one specimen each.
     ///
     /// # Errors
@@ -120,8 +120,8 @@ mod tests {
 
     const TEXT: &str = "x (mm),one (N),two (N)\n0,0,0\n1,10,8\n2,4,12\n3,0,4\n";
 
-    fn parse(text: &str) -> anyhow::Result<MeasuredCurve> {
-        MeasuredCurve::parse(Path::new("curve.csv"), text)
+    fn parse(text: &str) -> anyhow::Result<KnownCurve> {
+        KnownCurve::parse(Path::new("curve.csv"), text)
     }
 
     /// By hand: peaks 10 at 1 and 12 at 2; areas 5 + 7 + 2 = 14 and 4 + 10 + 8 = 22.

@@ -2,7 +2,7 @@
 
 use ligament_plot::plots::{Colour, Plot, Series};
 
-use super::curve::MeasuredCurve;
+use super::curve::KnownCurve;
 use super::judgement::Judgement;
 use super::reading::Reading;
 use super::size_effect::Law;
@@ -20,7 +20,7 @@ const COLOURS: [Colour; 5] = [
 /// Draws the figure of a test.
 pub(super) fn figure(
     test: &MeasuredTest,
-    measured: Option<&MeasuredCurve>,
+    measured: Option<&KnownCurve>,
     readings: &[Reading],
     judgement: &Judgement,
 ) -> Plot {
@@ -53,7 +53,7 @@ fn colours() -> impl Iterator<Item = Colour> {
 /// Two lines at the ends of the band of the peak.
 fn band_of_peak(
     test: &MeasuredTest,
-    measured: Option<&MeasuredCurve>,
+    measured: Option<&KnownCurve>,
     readings: &[Reading],
 ) -> Vec<Series> {
     let band = test.band.iter().find(|it| it.of == Quantity::Peak);

@@ -1,6 +1,6 @@
 //! Values of the runs of a measured test against its bands.
 
-use super::curve::{MeasuredCurve, Points, area, peak};
+use super::curve::{KnownCurve, Points, area, peak};
 use super::reading::Reading;
 use super::size_effect::Law;
 use super::test::{Band, MeasuredTest, Quantity};
@@ -25,7 +25,7 @@ impl Judgement {
     /// If a number cannot be written.
     pub(super) fn new(
         test: &MeasuredTest,
-        measured: Option<&MeasuredCurve>,
+        measured: Option<&KnownCurve>,
         readings: &[Reading],
     ) -> anyhow::Result<Self> {
         let theory = test.size_effect.as_ref();
@@ -33,8 +33,11 @@ impl Judgement {
         let mut rows = Vec::new();
         for (place, band) in test.band.iter().enumerate() {
             let independent = band.independent.as_ref();
-            let independent = independent.map(|file| MeasuredCurve::independent(file, &test.y));
+            let independent = independent.map(|file| KnownCurve::independent(file, &test.y));
             let independent = independent.transpose()?;
+            let known = independent.as_ref().or(measured);
+            let ends = [independent.as_ref(), measured].into_iter().flatten();
+            let end = ends.map(KnownCurve::end).fold(f64::INFINITY, f64::min);
             let of_laws = theory.into_iter().flat_map(|theory| {
                 let value = |law: &Law| match band.of {
                     Quantity::SizeEffectEnergy => Some(law.energy_ratio(theory)),
@@ -46,9 +49,9 @@ impl Judgement {
             });
             let of_runs = readings.iter().filter_map(|reading| {
                 let curve = reading.curve(place);
-                let value = match &independent {
-                    Some(known) => over(band.of, known, measured, curve),
-                    None => value(band, measured, reading, curve),
+                let value = match band.of {
+                    Quantity::CrackY => crack_height(band, reading),
+                    _ => ratio(band, known, end, curve),
                 };
                 Some((&*reading.run, value?))
             });
@@ -82,49 +85,28 @@ impl Judgement {
     }
 }
 
-/// Value of a run for a band: a ratio to the measured value, or the height of a crack, mm. None for quantities of series.
-fn value(
-    band: &Band,
-    measured: Option<&MeasuredCurve>,
-    reading: &Reading,
-    curve: &Points,
-) -> Option<f64> {
-    let known = |of_curve: fn(&MeasuredCurve) -> f64| {
-        let of_curve = || measured.map(of_curve);
-        band.measured.or_else(of_curve).unwrap_or(f64::NAN)
-    };
-    let end = match band.measured {
-        None => measured.map_or(f64::INFINITY, MeasuredCurve::end),
-        Some(_) => f64::INFINITY,
+/// Ratio of a value of a computed curve to the known one. Areas end at the given x, or, where the band has the measured value, nowhere. None for
+/// quantities that no curve has.
+fn ratio(band: &Band, known: Option<&KnownCurve>, end: f64, curve: &Points) -> Option<f64> {
+    let of_curve = |of: &dyn Fn(&KnownCurve) -> f64| {
+        let value = || known.map(of);
+        band.measured.or_else(value).unwrap_or(f64::NAN)
     };
     match band.of {
-        Quantity::Peak => Some(peak(curve)[1] / known(|it| it.peak()[1])),
-        Quantity::XAtPeak => Some(peak(curve)[0] / known(|it| it.peak()[0])),
-        Quantity::Area => Some(area(curve, end) / known(|it| it.area(it.end()))),
-        Quantity::CrackY => {
-            let (at, known) = band.at.zip(band.measured)?;
-            Some(1e3 * reading.crack_height(at, 1e-3 * known))
+        Quantity::Peak => Some(peak(curve)[1] / of_curve(&|it| it.peak()[1])),
+        Quantity::XAtPeak => Some(peak(curve)[0] / of_curve(&|it| it.peak()[0])),
+        Quantity::Area => {
+            let end = band.measured.map_or(end, |_| f64::INFINITY);
+            Some(area(curve, end) / of_curve(&|it| it.area(end)))
         }
-        Quantity::SizeEffectEnergy | Quantity::SizeEffectLength => None,
+        Quantity::CrackY | Quantity::SizeEffectEnergy | Quantity::SizeEffectLength => None,
     }
 }
 
-/// Ratio of a value of a computed curve to that of an independent one. Areas end where the measured curve or the independent one does.
-fn over(
-    of: Quantity,
-    known: &MeasuredCurve,
-    measured: Option<&MeasuredCurve>,
-    curve: &Points,
-) -> Option<f64> {
-    let end = measured
-        .map_or(f64::INFINITY, MeasuredCurve::end)
-        .min(known.end());
-    match of {
-        Quantity::Peak => Some(peak(curve)[1] / known.peak()[1]),
-        Quantity::XAtPeak => Some(peak(curve)[0] / known.peak()[0]),
-        Quantity::Area => Some(area(curve, end) / known.area(end)),
-        Quantity::CrackY | Quantity::SizeEffectEnergy | Quantity::SizeEffectLength => None,
-    }
+/// Height of the crack of a run where its x is given, mm.
+fn crack_height(band: &Band, reading: &Reading) -> Option<f64> {
+    let (at, known) = band.at.zip(band.measured)?;
+    Some(1e3 * reading.crack_height(at, 1e-3 * known))
 }
 
 /// Judged row of a computed value. A value out of its band keeps the reason of the band, or fails without one.
@@ -225,11 +207,14 @@ mod tests {
     /// By hand: the known curve has its peak 10 at 1 mm and the area 5 up to there; the computed one has 12 at 2 mm, and up to 1 mm the area 3.
     #[test]
     fn an_independent_curve_gives_ratios() {
-        let known = MeasuredCurve {
+        let known = KnownCurve {
             specimens: vec![("load".to_owned(), vec![[0.0, 0.0], [1.0, 10.0]])],
         };
         let curve = [[0.0, 0.0], [2.0, 12.0]];
-        let of = |quantity| over(quantity, &known, None, &curve).unwrap();
+        let of = |quantity| {
+            let band = band(quantity, None, [0.9, 1.1], None);
+            ratio(&band, Some(&known), known.end(), &curve).unwrap()
+        };
         assert_eq!(of(Quantity::Peak), 1.2);
         assert_eq!(of(Quantity::XAtPeak), 2.0);
         assert_eq!(of(Quantity::Area), 0.6);

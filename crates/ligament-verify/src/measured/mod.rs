@@ -26,7 +26,7 @@ use super::experiment::{Compute, Experiment, Findings};
 use super::table::Extent;
 
 use crate::places::folder;
-use curve::MeasuredCurve;
+use curve::KnownCurve;
 use judgement::Judgement;
 use reading::Reading;
 use scoreboard::Scores;
@@ -81,7 +81,7 @@ impl MeasuredTest {
             return Ok(Findings::default());
         }
         let measured = self.measured.as_ref();
-        let measured = measured.map(|file| MeasuredCurve::read(&folder().join(file)));
+        let measured = measured.map(|file| KnownCurve::read(&folder().join(file)));
         let measured = measured.transpose()?;
         let readings = chosen
             .iter()

@@ -12,6 +12,8 @@
 //! distributed to the points by linear shape functions, the points should move by u_0 of the continuum, quadratic in the position, and a
 //! rigid motion. The share c of u_0 in their motions u is fitted by least squares in the middle half of the strip: the strip is 1/c times
 //! as stiff as the continuum.
+//!
+//! The search of the thinnest section also finds the smallest ligament, the section through which a crack has to run ([`smallest_ligament`]).
 
 mod ahead_of_tips;
 mod facets;

@@ -37,7 +37,7 @@ const FLAT: f64 = 1e-9;
 /// same aggregates. The numbers in the file matter only where a body is as symmetric as its mesh.
 pub(crate) struct Aggregates<'a> {
     order: &'a SweepOrder<'a>,
-    /// Points with their indices by aggregate.
+    /// Number of the aggregate of each point, by index.
     aggregate: Vec<u32>,
     count: usize,
     /// Values of the functions of the aggregate of each point, `n_functions` for each: a constant and the coordinates, orthonormal over the
@@ -260,6 +260,7 @@ fn farthest<const D: usize>(cloud: &PointCloud<D>, distances: &[f64]) -> [f64; D
 /// Regularisation of the multipliers of each point about a centre: r/d^2 times their deviation from it, less that part of the deviation
 /// which is linear over the aggregate.
 pub(super) struct Regularisation<'a, const N: usize> {
+    /// Regularisation r.
     pub(super) r: f64,
     /// Weights 1/d^2 of owned points, by index.
     pub(super) weights: &'a Multipliers<N>,
