@@ -450,6 +450,13 @@ def bodies():
     laws = ("two-branch", "linear", "exponential", "cornelissen")
     more_laws = {"petersson-beam": (*laws, "ceb-fip", "model-code-2010")}
     found = {f"{name}-{law}": replace(body, softening=law) for name, body in tests.items() for law in more_laws.get(name, laws)}
+    # Strengths, energies and laws with which others model two of the tests.
+    as_modelled = {
+        "l-panel": ("cornelissen", dict(young=20e9, strength=2.4e6, energy=113.0)),
+        "half-notched-beam": ("exponential", dict(strength=3.5e6, energy=90.0)),
+    }
+    for name, (law, material) in as_modelled.items():
+        found[f"{name}-as-modelled-{law}"] = replace(tests[name], softening=law, **material)
     for size in (0.05, 0.1, 0.2, 0.4):
         found[f"size-effect-{1000 * size:.0f}mm"] = beam(size, 2 * size, 0.3 * size, 8e-4 * size, 0.1 * size, thickness=0.1, young=30e9,
                                                          poisson=0.2, strength=3e6, energy=100.0, softening="linear")
