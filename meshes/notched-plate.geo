@@ -1,6 +1,7 @@
 // Square plate; its notch is a pre-crack of the case. Lengths in metres.
 DefineConstant[ size = 2.5e-5 ];     // mesh size
 DefineConstant[ side = 1e-3 ];
+DefineConstant[ algorithm = 5 ];     // 5: Delaunay, 6: Frontal-Delaunay
 
 Point(1) = {0, 0, 0, size};
 Point(2) = {side, 0, 0, size};
@@ -15,4 +16,4 @@ Plane Surface(1) = {1};
 Physical Curve("bottom") = {1};
 Physical Curve("top") = {3};
 Physical Surface("plate") = {1};
-Mesh.Algorithm = 5;
+Mesh.Algorithm = algorithm;

@@ -6,18 +6,22 @@ solution of the same problem says how far a lattice is from the continuum:
     - the orthotropic lamina with a hole of OMPPD (Diana, Casolo: "A full orthotropic micropolar peridynamic formulation
       for linearly elastic solids"), section 3: tension, and the frequencies of its tables 3-5;
     - the square plate of MPPD (Diana, Casolo: "A bond-based micropolar peridynamic model with shear deformability"),
-      tables 4-6: frequencies.
+      tables 4-6: frequencies;
+    - straight cracks of linear elastic fracture mechanics in the notched plate of cases/steel-plate and the double
+      cantilever of cases/double-cantilever: load and displacement at which each crack grows, by the energy of the body.
 
     pip install -r tools/requirements-reference.txt
     python tools/reference_fem.py [DIRECTORY]           # default: tests/reference beside this script's folder
 
 writes DIRECTORY/fem-*.csv, reads DIRECTORY/lattice-hole-edge.csv if it is there, and prints what it compares (about
-half a minute).  SI units; thickness 1 mm.  Plates are held as the lattices are: in whole rows of cells, not at edges.
+a minute).  SI units; thickness 1 mm, of the double cantilever 3 mm.  Lattices are held, and so are the plates that are
+compared with them, in whole rows of cells, not at edges.
 """
 import logging
 import sys
 from pathlib import Path
 import numpy as np
+from scipy.optimize import brentq
 from scipy.sparse.linalg import eigsh, splu
 from skfem import Basis, BilinearForm, ElementQuad2, ElementVector, MeshQuad, MeshQuad2
 from skfem.helpers import dot, sym_grad
@@ -180,6 +184,80 @@ def square_frequencies(folder):
     write(folder / "fem-square-frequencies.csv", "nu,f1,f2,f3", rows)
 
 
+def graded(length, first, count):
+    """Lines of a mesh from 0 to `length`, the first of `count` parts `first` long, each longer than the one before by a factor."""
+    factor = brentq(lambda it: first * np.sum(it**np.arange(count)) - length, 1, 3)
+    return np.concatenate([[0], np.cumsum(first * factor**np.arange(count))])
+
+
+def stiffnesses(body, held, value, lengths):
+    """Force per displacement of a body whose middle line is held across beyond a crack of each length; half of it is meshed.
+
+    `value` is a displacement of 1/2.  The half is factored once, with a free line; holding the line takes the forces that close it.
+    """
+    free = ~held
+    factor = splu(body.K[free][:, free].tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+    u = np.where(held, value, 0.0)
+    u[free] = factor.solve(-(body.K @ u)[free])
+    line = np.flatnonzero(free & ~body.horizontal & (body.x[1] < 1e-12))
+    at = (np.cumsum(free) - 1)[line]
+    forces = np.zeros((free.sum(), len(line)))
+    forces[at, np.arange(len(line))] = 1
+    flexibility = factor.solve(forces)[at]
+    found = []
+    for length in lengths:
+        closed = body.x[0][line] > length - 1e-9
+        opening = u[line][closed]
+        found.append(2 * (u @ (body.K @ u) + opening @ np.linalg.solve(flexibility[np.ix_(closed, closed)], opening)))
+    return np.array(found)
+
+
+def growth(lengths, stiffness, thickness, energy, first):
+    """Displacements and loads at which a straight crack grows: first that of length `first`, then those between the lengths beyond it."""
+    slope = -np.diff(stiffness) / np.diff(lengths)
+    start = np.abs(lengths - first).argmin()
+    at = np.concatenate([[(slope[start - 1] + slope[start]) / 2], slope[start:]])
+    stiff = np.concatenate([[stiffness[start]], np.sqrt(stiffness[start:-1] * stiffness[start + 1:])])
+    displacement = np.sqrt(2 * energy * thickness / at)
+    return np.column_stack([displacement, stiff * displacement]), stiffness[start]
+
+
+def notched_plate(n):
+    """Half of cases/steel-plate in tension, plane strain, `n` elements along it; lengths of the crack and stiffnesses."""
+    side, young, nu = 1e-3, 210e9, 0.3
+    x = np.linspace(0, side, n + 1)
+    mesh = MeshQuad2.from_mesh(MeshQuad.init_tensor(x, graded(side / 2, side / n, n // 3)))
+    body = Continuum(mesh, isotropic_tensor(young / (1 - nu**2), nu / (1 - nu)))
+    top = body.x[1] > side / 2 - 1e-9
+    lengths = x[n // 2 - 1:int(0.92 * n)]
+    return lengths, stiffnesses(body, top, np.where(body.horizontal, 0.0, 0.5), lengths)
+
+
+def double_cantilever(n):
+    """Half of cases/double-cantilever, plane stress, `n` elements along it; lengths of the crack and stiffnesses."""
+    length, half_height, grip = 50e-3, 10e-3, 1e-3
+    x = np.linspace(0, length, n + 1)
+    mesh = MeshQuad2.from_mesh(MeshQuad.init_tensor(x, graded(half_height, length / n, n // 8)))
+    body = Continuum(mesh, isotropic_tensor(2.1e9, 0.3))
+    held = ~body.horizontal & (body.x[0] < grip + 1e-9)
+    value = np.where(held, 0.5, 0.0)
+    held |= body.horizontal & (body.x[0] > length - 1e-9) & (body.x[1] < 1e-12)
+    lengths = x[(x > 4.2e-3) & (x < 21e-3)]
+    return lengths, stiffnesses(body, held, value, lengths) * 3e-3 / THICKNESS
+
+
+def straight_cracks(folder):
+    """Loads at which the cracks of two cases grow straight, while they grow at rising displacements."""
+    print("Straight cracks: elements, stiffness in N/m, displacement in m and load in N at the first growth")
+    for name, body, thickness, energy, first, counts in (("notched-plate", notched_plate, 1e-3, 2700.0, 0.5e-3, (60, 120)),
+                                                         ("double-cantilever", double_cantilever, 3e-3, 12.0, 5e-3, (100, 200))):
+        for n in counts:
+            found, stiffness = growth(*body(n), thickness, energy, first)
+            print(f"   {name}  {n:4} {stiffness:.5g} {found[0, 0]:.5g} {found[0, 1]:.5g}")
+        found = found[:found[:, 0].argmax() + 1]
+        write(folder / f"fem-{name}-growth.csv", "reading,load", [(0.0, 0.0), *(map(float, (f"{x:.6g}", f"{y:.6g}")) for x, y in found)])
+
+
 def write(path, header, rows):
     def text(v):
         return v if isinstance(v, str) else repr(v.item() if hasattr(v, "item") else v)
@@ -187,7 +265,7 @@ def write(path, header, rows):
 
 
 def main(folder):
-    for part in lamina_edge, lamina_frequencies, square_frequencies:
+    for part in lamina_edge, lamina_frequencies, square_frequencies, straight_cracks:
         part(folder)
 
 
