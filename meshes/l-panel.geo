@@ -1,5 +1,10 @@
 // L-shaped panel: a square, one corner at the origin, without its lower right quarter. Lengths in metres.
-DefineConstant[ size = 0.02 ];       // mesh size
+DefineConstant[ size = 0.02 ];       // largest mesh size
+DefineConstant[ corner = size ];     // mesh size at the inner corner and along the crack that is expected there
+DefineConstant[ path = 0.08 ];       // length of that crack, from the corner to the left
+DefineConstant[ rise = 20 ];         // the angle at which it rises, degrees
+DefineConstant[ band = 0.015 ];      // half-width of the fine strip along it
+DefineConstant[ growth = 1 / 3 ];    // by how much the size grows with the distance from the strip
 DefineConstant[ side = 0.5 ];        // of the square
 DefineConstant[ arm = 0.03 ];        // from the free end of the arm to the load at its lower edge
 DefineConstant[ algorithm = 6 ];      // 5: Delaunay, 6: Frontal-Delaunay
@@ -26,9 +31,18 @@ Physical Point("load", 1) = {4};
 Physical Curve("foot", 2) = {1};
 Physical Surface("panel", 3) = {1};
 
+c = Cos(rise * Pi / 180);
+s = Sin(rise * Pi / 180);
+along = StrCat(Sprintf("(%g * (%g - x)", c, h), Sprintf(" + %g * (y - %g))", s, h));
+across = StrCat(Sprintf("(%g * (%g - x)", s, h), Sprintf(" - %g * (y - %g))", c, h));
+beyond = StrCat("Max(Max(", along, Sprintf(" - %g, 0), 0 - ", path), along, ")");
 Field[1] = MathEval;
-Field[1].F = Sprintf("%g", size);
-Background Field = 1;
+Field[1].F = StrCat(Sprintf("%g + %g * Max(Sqrt((", corner, growth), beyond, ")^2 + (", across, Sprintf(")^2) - %g, 0)", band));
+Field[2] = MathEval;
+Field[2].F = Sprintf("%g", size);
+Field[3] = Min;
+Field[3].FieldsList = {1, 2};
+Background Field = 3;
 Mesh.MeshSizeFromPoints = 0;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.Algorithm = algorithm;

@@ -7,6 +7,7 @@ use ligament_analysis::user_message::Place;
 use ligament_model::contact::ContactPair;
 use ligament_model::thermal::ThermalStrain;
 use verification::bench::{Bench, Run};
+use verification::meshes;
 
 /// A bar 40 x 20 mm on a lattice, which is pressed along x.
 const BAR: &str = r#"
@@ -376,4 +377,74 @@ fracture = { control = "event", stop = { bonds = 40 }, criterion = [{ kind = "st
     let stepped = Bench::new(WINGS, &[&stepped]).break_up();
     assert_eq!(stepped.breaks[0].bond, exact.breaks[0].bond);
     assert!(to >= first);
+}
+
+/// What is told of a notch, and its mean opening in it, m.
+fn told_closing(bench: &Bench) -> Option<f64> {
+    let run = bench.solve();
+    let told = run.messages.iter().find(|it| it.kind == "notch-closes")?;
+    let from = told.text.find("by ").unwrap() + 3;
+    let words = told.text[from..].split(' ').next().unwrap();
+    Some(words.parse().unwrap())
+}
+
+/// A crack of 2a in an infinite plate under a pressure sigma would close by pi sigma a/E in the mean (Westergaard). In a plate four times as
+/// wide it closes by up to a tenth more, and the crack is longer by about half a horizon at either end, 1.5 of 10 mm. It is told where it is
+/// pressed; not where it is pulled, where its faces carry pressure, or where it lies along the load, whose bonds across it Poisson's effect
+/// shortens without its faces coming nearer.
+#[test]
+fn a_crack_that_closes_is_told_with_its_mean_opening() {
+    const PLATE: &str = r#"
+lattice = { cells = [80, 80], spacing = 0.001, corner = [-0.04, -0.04], thickness = 0.01, set = { bottom = { bottom = 1 }, top = { top = 1 } } }
+material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+precrack = [{ points = [[-0.01, 0.0], [0.01, 0.0]] }]
+support = [{ group = "bottom", displacement = { y = 0.0 } }, { at = [-0.0005, -0.0395], displacement = { x = 0.0, y = 0.0 } }]
+load = [{ group = "top", displacement = { y = -4e-5 } }]
+fracture = { steps = 1, criterion = [{ kind = "strength" }] }
+"#;
+    let bench = Bench::new(PLATE, &[]);
+    let closed = told_closing(&bench).unwrap();
+    let stress = -bench.solve().last().reaction / (0.08 * 0.01);
+    let ratio = closed / (std::f64::consts::PI * stress.abs() * 0.01 / 15e9);
+    println!("closes by {closed:.3e} m, {ratio:.3} of an infinite plate's");
+    assert!((1.0..1.25).contains(&ratio), "{ratio}");
+    let along = "precrack=[{ points = [[0.0, -0.01], [0.0, 0.01]] }]";
+    for setting in ["load.0.displacement.y=4e-5", "model.closing=true", along] {
+        assert_eq!(
+            told_closing(&Bench::new(PLATE, &[setting])),
+            None,
+            "{setting}"
+        );
+    }
+    let pulled = Bench::new(PLATE, &[along, "load.0.displacement.y=4e-5"]);
+    assert_eq!(told_closing(&pulled), None);
+}
+
+/// A notch of the mesh is told as a crack is, and a hole, which has no faces, is not.
+#[test]
+fn a_notch_of_the_mesh_that_closes_is_told() {
+    const PLATE: &str = r#"
+mesh = { file = "plate.msh", thickness = 0.01, plane = "stress" }
+material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
+load = [{ group = "top", displacement = { y = -4e-5 } }]
+fracture = { steps = 1, criterion = [{ kind = "strength" }] }
+"#;
+    const PULLED: &str = "load.0.displacement.y=4e-5";
+    let without = |is_void: &dyn Fn(usize, usize) -> bool| {
+        let mut mesh = meshes::lattice(41, 0.001, [0.0, -0.0205]);
+        let cells = std::mem::take(&mut mesh.cells).into_iter().enumerate();
+        let kept = cells.filter(|(cell, _)| !is_void(cell % 41, cell / 41));
+        mesh.cells = kept.map(|(_, cell)| cell).collect();
+        mesh
+    };
+    let notched = without(&|column, row| row == 20 && column < 15);
+    assert!(told_closing(&Bench::on(&notched, PLATE, &[])).unwrap() > 0.0);
+    assert_eq!(told_closing(&Bench::on(&notched, PLATE, &[PULLED])), None);
+    let holed = without(&|column, row| column.abs_diff(20).pow(2) + row.abs_diff(20).pow(2) < 30);
+    for settings in [&[][..], &[PULLED]] {
+        assert_eq!(told_closing(&Bench::on(&holed, PLATE, settings)), None);
+    }
 }

@@ -296,6 +296,7 @@ fn problem(
         loads: Arc::new(loads),
         solver,
         probes: Arc::new([]),
+        notches: Arc::default(),
         face_friction: 0.0,
         contact: Default::default(),
     }

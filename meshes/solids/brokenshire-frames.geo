@@ -6,6 +6,10 @@ DefineConstant[ fine = 0.0125, coarse = 0.025, length = 0.4, side = 0.1, depth =
 DefineConstant[ frame = 0.125 ];     // outer side of a frame
 DefineConstant[ bar = 0.025 ];       // width of a frame along the beam, and section of its arm
 DefineConstant[ reach = 0.1 ];       // from the axis to the end of an arm
+DefineConstant[ ligament = fine ];   // size at the plane of the notch below its root, if it is smaller than `fine`
+DefineConstant[ near = 0.01 ];       // half-width of the layer of that size
+DefineConstant[ steel = coarse ];    // size in the frames, if it is smaller than `coarse`
+DefineConstant[ slope = 1 / 3 ];     // by how much these sizes grow with the distance
 DefineConstant[ algorithm = 6 ];     // of the surfaces, 5: Delaunay, 6: Frontal-Delaunay
 
 Box(1) = {-length/2, -side/2, -side/2, length, side, side};
@@ -43,9 +47,18 @@ Field[1].Thickness = growth;
 Field[1].VIn = fine;
 Field[1].VOut = coarse;
 Background Field = 1;
+If (ligament < fine || steel < coarse)
+  Field[2] = MathEval;
+  Field[2].F = Sprintf("Min(%g, %g + %g * Sqrt(Max(Abs(y - x) / Sqrt(2) - %g, 0)^2 + Max(z - %g, 0)^2))", coarse, ligament, slope, near, side/2 - depth);
+  Field[3] = MathEval;
+  Field[3].F = Sprintf("Min(%g, %g + %g * Sqrt(Max(%g - Abs(x), 0)^2 + Max(%g - Max(Abs(y), Abs(z)), 0)^2))", coarse, steel, slope, length/2 - bar, side/2);
+  Field[4] = Min;
+  Field[4].FieldsList = {1, 2, 3};
+  Background Field = 4;
+EndIf
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeFromPoints = 0;
-Mesh.MeshSizeMin = Min(width, fine);
+Mesh.MeshSizeMin = Min(width, Min(fine, ligament));
 Mesh.MeshSizeMax = coarse;
 Mesh.Algorithm = algorithm;
 Mesh.MshFileVersion = 4.1;

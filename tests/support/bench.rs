@@ -146,6 +146,7 @@ impl Bench {
             loads: Arc::new(self.boundary.clone()),
             solver: self.model.setup.solver.clone(),
             probes: self.probes.clone(),
+            notches: self.model.notches.clone(),
             face_friction: self.model.setup.closing_friction,
             contact: contact_problem(&self.model).unwrap(),
         }

@@ -105,6 +105,7 @@ pub fn pulled(system: &Arc<dyn System<3>>, method: Method) -> Problem {
             ..SolverSettings::default()
         },
         probes: Arc::default(),
+        notches: Arc::default(),
         face_friction: 0.0,
         contact: Default::default(),
     }

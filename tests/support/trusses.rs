@@ -156,6 +156,7 @@ impl Truss {
             loads: Arc::new(self.boundary.clone()),
             solver: SolverSettings::default(),
             probes: Arc::default(),
+            notches: Arc::default(),
             face_friction: 0.0,
             contact: Default::default(),
         }

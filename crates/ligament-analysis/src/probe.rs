@@ -8,6 +8,9 @@ use crate::material_stress::MaterialStress;
 use crate::result_fields::{FIELDS, FieldReading, Solution, unit_of};
 use crate::unknowns::{Component, Layout};
 
+/// Determinant of the scaled normal equations of a fit below which distances are alike.
+const ALIKE: f64 = 1e-3;
+
 /// Probe, a column of the history.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Probe {
@@ -46,6 +49,65 @@ pub enum Reading {
         /// Component of the force: x or y.
         component: Component,
     },
+}
+
+/// Gap of a body, whose faces its loads open or close: a notch or a slot of its mesh, or a pre-crack.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Notch {
+    /// Points A < B of each pair without a bond across the gap, shape (n_pairs).
+    pub ends: Vec<[u32; 2]>,
+    /// Normal of the gap, on the side of B of each pair, shape (n_pairs, n_axes).
+    pub normals: Vec<f64>,
+    /// Distance of the points of each pair along the normal, shape (n_pairs), m.
+    pub distances: Vec<f64>,
+    /// Square of the cosine of each pair against the normal, shape (n_pairs).
+    pub weights: Vec<f64>,
+}
+
+/// Motion of the faces of a gap against each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct NotchOpening {
+    /// Mean opening w of the gap, m.
+    pub opening: f64,
+    /// Lengthening s d of the material beside the gap over the mean distance d of the pairs, m.
+    pub strained: f64,
+    /// Root mean square of |u_B - u_A|, m.
+    pub motion: f64,
+}
+
+impl Notch {
+    /// Motion of the faces in a motion of the points (n_degrees_of_freedom): the openings n . (u_B - u_A) of pairs with the distances d are fitted
+    /// by w + s d, with the weights of the pairs; s is zero where all distances are alike.
+    pub(crate) fn opening(&self, layout: Layout, displacement: &[f64]) -> NotchOpening {
+        let (mut sums, mut openings, mut squares) = ([0.0; 3], [0.0; 2], 0.0);
+        let normals = self.normals.chunks(self.normals.len() / self.ends.len());
+        let pairs = self.ends.iter().zip(normals);
+        for (([a, b], normal), (d, weight)) in pairs.zip(self.distances.iter().zip(&self.weights)) {
+            let [a, b] = [a, b].map(|&point| &displacement[layout.range(point)]);
+            let mut opening = 0.0;
+            for ((a, b), n) in a.iter().zip(b).zip(normal) {
+                opening += n * (b - a);
+                squares += (b - a) * (b - a);
+            }
+            for (power, sum) in sums.iter_mut().enumerate() {
+                *sum += weight * d.powi(power as i32);
+            }
+            openings[0] += weight * opening;
+            openings[1] += weight * d * opening;
+        }
+        let [zeroth, first, second] = sums;
+        let determinant = zeroth * second - first * first;
+        let strain = match determinant > ALIKE * zeroth * second {
+            true => (zeroth * openings[1] - first * openings[0]) / determinant,
+            false => 0.0,
+        };
+        let strained = strain * first / zeroth;
+        NotchOpening {
+            opening: openings[0] / zeroth - strained,
+            strained,
+            motion: (squares / self.ends.len() as f64).sqrt(),
+        }
+    }
 }
 
 /// A field that a probe can read at a point.

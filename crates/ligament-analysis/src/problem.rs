@@ -9,7 +9,7 @@ use ligament_model::stress::point_strain::Motion;
 use crate::balanced::Balanced;
 use crate::contact::ContactProblem;
 use crate::load_program::LoadProgram;
-use crate::probe::Probe;
+use crate::probe::{Notch, Probe};
 use crate::result_fields::Solution;
 use crate::solver::SolverSettings;
 use crate::state::State;
@@ -30,6 +30,8 @@ pub struct Problem {
     pub solver: SolverSettings,
     /// Probes of the history.
     pub probes: Arc<[Probe]>,
+    /// Notches, slots and pre-cracks of the body.
+    pub notches: Arc<[Notch]>,
     /// Coefficient of friction on faces of cracks that close.
     pub face_friction: f64,
     /// Contacts between surfaces and with rigid bodies in equilibria.

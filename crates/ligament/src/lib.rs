@@ -66,6 +66,7 @@ mod local;
 pub mod model;
 mod near_field;
 pub mod near_growth;
+mod notches;
 mod parts;
 pub mod patch_test;
 pub mod plausibility;

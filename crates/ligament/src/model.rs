@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use ligament_analysis::Message;
+use ligament_analysis::probe::Notch;
 use ligament_model::bonds::precrack::{Crack, cut_bonds};
 use ligament_model::contact::Faces;
 use ligament_model::correction::{Correction, CorrectionReport};
@@ -24,6 +25,7 @@ use crate::formulation::{self, Formulation};
 use crate::loading;
 use crate::local::{Bounds, Discrete, bounds, points};
 use crate::near_field::NearField;
+use crate::notches::notches;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
 use crate::processes::partition_communicator;
@@ -50,6 +52,8 @@ pub struct Model {
     pub correction_range: (f64, f64),
     /// Numbers of bonds.
     pub counts: BondCounts,
+    /// Notches, slots and pre-cracks of a body that is not shared out.
+    pub notches: Arc<[Notch]>,
     /// Failure criteria of the bonds.
     pub criteria: Arc<Criteria>,
     /// Warnings for the user.
@@ -148,6 +152,7 @@ impl Model {
                 .collect(),
             correction_range: counts::correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system, &fixed.absent),
+            notches: notches(&system.cloud, &fixed.absent),
             correction: correction.report,
             names,
             setup,

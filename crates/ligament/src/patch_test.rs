@@ -159,6 +159,7 @@ fn displacements(
         criteria: Arc::default(),
         loads: loads[0].clone(),
         probes: Arc::default(),
+        notches: Arc::default(),
         face_friction: 0.0,
         contact: Default::default(),
     };

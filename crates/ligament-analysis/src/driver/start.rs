@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::energies::Energies;
 use super::record::{StepCounters, largest_ratio_by, step_record};
+use super::run_messages;
 use super::way::LoadPoint;
 use crate::balanced::{Attempt, Balanced, Stability};
 use crate::connectivity::{AddedSupport, Fragments};
@@ -101,6 +102,9 @@ fn begin_proportional(
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
         if start.elastic.refused(problem).is_some() {
             return Ok(start);
+        }
+        if let Some(message) = run_messages::closed_notch(problem, &at_one) {
+            observer.message(message)?;
         }
         match is_deformed(problem, &at_one, &balanced) {
             true => start.deformed = Some(balanced),

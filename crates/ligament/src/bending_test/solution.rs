@@ -120,6 +120,7 @@ impl Solver {
             criteria: Arc::default(),
             loads: free_loading(layout, vec![0.0; layout.n_degrees_of_freedom()]),
             probes: Arc::default(),
+            notches: Arc::default(),
             face_friction: 0.0,
             contact: Default::default(),
         };

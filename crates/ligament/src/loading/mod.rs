@@ -117,6 +117,7 @@ impl Loading {
             loads,
             solver: self.solver.clone(),
             probes: self.probes.clone(),
+            notches: model.notches.clone(),
             face_friction: self.face_friction,
             contact: self.contact.clone(),
         }

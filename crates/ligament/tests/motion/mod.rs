@@ -105,6 +105,7 @@ fn motion_of(setup: &Setup, velocity: impl FnOnce(&Model) -> Vec<f64>) -> Motion
             loads: Arc::new(loads),
             solver: model.setup.solver.clone(),
             probes: Arc::new([]),
+            notches: Arc::default(),
         },
         mass,
     }
