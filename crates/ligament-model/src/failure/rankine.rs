@@ -1,7 +1,7 @@
 //! Softening that the largest principal stress around a bond starts, after Rankine.
 //!
-//! A bond begins to soften where the stress sigma = C : eps around it, with its own stretch along it and the strains of its ends beside it
-//! ([`Surroundings`]), has a principal stress sigma_1 = F_t, and is pulled across by at least a quarter of that. With the deformation e_i at
+//! A bond begins to soften where the stress sigma = C : eps around it, with its own stretch and shear along it and the strains of its ends beside
+//! it ([`Surroundings`]), has a principal stress sigma_1 = F_t, and is pulled across by at least a quarter of that. With the deformation e_i at
 //! which that happens its force falls to zero so that the bond takes what one of `bond-energy` takes: in one straight line at
 //!
 //! e_f = e_c^2/e_i, e = sqrt(max(s, 0)^2 + gamma^2 k_t/k_n),

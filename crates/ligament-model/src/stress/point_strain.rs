@@ -15,7 +15,7 @@ use rayon::prelude::*;
 use crate::ghosts::Ghosts;
 use crate::layout::Layout;
 use crate::system::BondSystem;
-use crate::tensor::{SymTensor, dot, minus, norm};
+use crate::tensor::{SymTensor, cross, dot, minus, norm};
 use crate::thermal::ThermalStrain;
 
 /// Smallest det(D K/tr K) with which the bonds of a point span the space; a full family has 1.
@@ -240,6 +240,21 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
+    /// Slopes du/l - phi x n of a bond with the rotations phi of its first and second end, where points have rotations.
+    pub(super) fn slopes_of(
+        &self,
+        layout: Layout,
+        displacement: &[f64],
+        bond: usize,
+    ) -> [[f64; D]; 2] {
+        let bonds = &self.bonds;
+        let [a, b] = bonds.ends[bond].map(|end| &displacement[layout.range(end)]);
+        let place = |motion: &[f64]| -> [f64; D] { std::array::from_fn(|axis| motion[axis]) };
+        let (n, moved) = (bonds.direction[bond], minus(place(b), place(a)));
+        let slope = moved.map(|it| it / bonds.length[bond]);
+        [a, b].map(|motion| minus(slope, turned(&motion[D..], n)))
+    }
+
     /// Sums over the points that elements of the far field couple with a point, with w = V_Q.
     pub(super) fn fit_of_elements(&self, layout: Layout, motion: Motion<'_>, point: u32) -> Fit<D> {
         let mut fit = Fit::default();
@@ -281,6 +296,18 @@ impl<const D: usize> BondSystem<D> {
                 .collect()
         })
     }
+}
+
+/// phi x n for the rotation of a point, about z or about all axes.
+fn turned<const D: usize>(rotation: &[f64], n: [f64; D]) -> [f64; D] {
+    let about = match *rotation {
+        [z] => [0.0, 0.0, z],
+        _ => std::array::from_fn(|axis| rotation[axis]),
+    };
+    let mut direction = [0.0; 3];
+    direction[..D].copy_from_slice(&n);
+    let product = cross(about, direction);
+    std::array::from_fn(|axis| product[axis])
 }
 
 /// Strains of the points around a bond that its own stretch says nothing of. Both are linear in the motion.

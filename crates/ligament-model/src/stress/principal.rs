@@ -8,17 +8,20 @@ use crate::failure::hooke::Moduli;
 use crate::failure::starting::{SHARE, Starting, Surface};
 use crate::layout::Layout;
 use crate::system::BondSystem;
-use crate::tensor::{SymTensor, dot};
+use crate::tensor::{SymTensor, dot, minus};
 
 impl<const D: usize> BondSystem<D> {
     /// Stress around each bond over the strength at which it begins to soften, shape (n_bonds); 0 where tension pulls the bond across by less
     /// than [`SHARE`] of it.
     ///
-    /// The strain is that of the ends, with the bond's own stretch in the place of theirs along it,
+    /// The strain is that of the ends, with what the bond itself has in the place of theirs along it: its stretch, and for tension, where points have
+    /// rotations, also its shear deformation, g = s n + gamma,
     ///
-    /// eps = eps_m + (s - n . eps_m n) n (x) n, sigma_i = 2 mu eps_i + lambda tr(eps),
+    /// eps = eps_m + d (x) n + n (x) d - (n . d) n (x) n, d = g - eps_m n, sigma_i = 2 mu eps_i + lambda tr(eps),
     ///
-    /// where neither end has a strain sigma_1 = E s of a bar.
+    /// so that eps n = g; where neither end has a strain sigma_1 = E s of a bar. Where a crack opens, bonds at an angle to it are sheared more than
+    /// the points around them: with the shear of the points such bonds begin later than bonds across it, at up to twice the deformation, and a notched
+    /// beam carries too much (docs/decisions.md). Under pressure the shear of single bonds scatters by more than the strains of their ends.
     pub(crate) fn utilisations(
         &self,
         layout: Layout,
@@ -40,8 +43,11 @@ impl<const D: usize> BondSystem<D> {
             };
             let n = self.bonds.direction[bond];
             let of_cells = of_cells.around(self.bonds.ends[bond]) / moduli.along;
-            let principal =
-                || principal(&own_strain(&mean, stretch, n), moduli).map(|it| it + of_cells);
+            let principal = |slope: [f64; D]| {
+                let more = stretch - dot(n, slope);
+                let own = std::array::from_fn(|axis| slope[axis] + more * n[axis]);
+                principal(&with_own(&mean, own, n), moduli).map(|it| it + of_cells)
+            };
             match &starting.surface {
                 Surface::Tension => {
                     let around = StrainAround::new(&mean, n);
@@ -49,7 +55,7 @@ impl<const D: usize> BondSystem<D> {
                     if normal <= 0.0 {
                         return 0.0;
                     }
-                    let [largest, _] = principal();
+                    let [largest, _] = principal(self.own_slope(layout, motion, bond, &mean));
                     match normal >= SHARE * largest {
                         true => largest / strength,
                         false => 0.0,
@@ -57,7 +63,7 @@ impl<const D: usize> BondSystem<D> {
                 }
                 Surface::Shear { slope } => {
                     let slope = slope[bond];
-                    let [largest, smallest] = principal();
+                    let [largest, smallest] = principal(mean.times(n));
                     let (mean, radius) = (0.5 * (largest + smallest), 0.5 * (largest - smallest));
                     let worst = radius * slope.hypot(1.0) + mean * slope;
                     (worst / strength).max(0.0)
@@ -66,12 +72,31 @@ impl<const D: usize> BondSystem<D> {
         };
         deformations.par_iter().enumerate().map(of_bond).collect()
     }
+
+    /// Slope of a bond, the mean of those at its ends; without rotations that of the strain of its ends.
+    fn own_slope(
+        &self,
+        layout: Layout,
+        motion: Motion<'_>,
+        bond: usize,
+        mean: &SymTensor<D>,
+    ) -> [f64; D] {
+        if !layout.components.iter().any(|it| it.is_rotation()) {
+            return mean.times(self.bonds.direction[bond]);
+        }
+        let [a, b] = self.slopes_of(layout, motion.displacement, bond);
+        std::array::from_fn(|axis| 0.5 * (a[axis] + b[axis]))
+    }
 }
 
-/// Strain around a bond with the direction n, from that of its ends and its own stretch.
-fn own_strain<const D: usize>(mean: &SymTensor<D>, stretch: f64, n: [f64; D]) -> SymTensor<D> {
-    let along = dot(n, mean.times(n));
-    SymTensor::from_fn(|row, column| mean.at(row, column) + (stretch - along) * n[row] * n[column])
+/// The strain that takes the direction n to a given slope, eps n = g, and else is that of the ends of a bond.
+fn with_own<const D: usize>(mean: &SymTensor<D>, own: [f64; D], n: [f64; D]) -> SymTensor<D> {
+    let less = minus(own, mean.times(n));
+    let along = dot(n, less);
+    SymTensor::from_fn(|row, column| {
+        let across = less[row] * n[column] + n[row] * less[column];
+        mean.at(row, column) + across - along * n[row] * n[column]
+    })
 }
 
 /// The largest and the smallest principal stress of a strain over E'.

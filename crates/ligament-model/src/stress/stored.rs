@@ -21,7 +21,7 @@ use crate::element::Rigidities;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::layout::Layout;
 use crate::system::BondSystem;
-use crate::tensor::{SymTensor, cross, dot, minus};
+use crate::tensor::{SymTensor, dot};
 
 use super::point_strain::{Fit, StrainAround, mean_strain};
 
@@ -95,16 +95,6 @@ impl<const D: usize> StoredSlopes<'_, D> {
         fit
     }
 
-    /// Slopes of a bond at its ends.
-    fn slopes_of(&self, displacement: &[f64], bond: usize) -> [[f64; D]; 2] {
-        let bonds = &self.system.bonds;
-        let [a, b] = bonds.ends[bond].map(|end| &displacement[self.layout.range(end)]);
-        let place = |motion: &[f64]| -> [f64; D] { std::array::from_fn(|axis| motion[axis]) };
-        let (n, moved) = (bonds.direction[bond], minus(place(b), place(a)));
-        let slope = moved.map(|it| it / bonds.length[bond]);
-        [a, b].map(|motion| minus(slope, turned(&motion[D..], n)))
-    }
-
     /// Bound Q of a point; None where its bonds do not span the space.
     fn bound(&self, intact: &[bool], point: u32) -> Option<f64> {
         let mut weights = Vec::new();
@@ -127,7 +117,10 @@ impl<const D: usize> StoredSlopes<'_, D> {
 
 impl<const D: usize> StoredMotions for StoredSlopes<'_, D> {
     fn store(&mut self, displacement: &[f64], bonds: &[u32]) {
-        let of_bond = |&bond: &u32| self.slopes_of(displacement, bond as usize);
+        let of_bond = |&bond: &u32| {
+            self.system
+                .slopes_of(self.layout, displacement, bond as usize)
+        };
         let found: Vec<_> = bonds.par_iter().with_min_len(TASK).map(of_bond).collect();
         for (&bond, slopes) in bonds.iter().zip(found) {
             self.slopes[bond as usize] = slopes;
@@ -170,16 +163,4 @@ impl<const D: usize> StoredMotions for StoredSlopes<'_, D> {
             shear: [size * 0.5_f64.sqrt(), 0.0, 0.0],
         })
     }
-}
-
-/// phi x n for the rotation of a point, about z or about all axes.
-fn turned<const D: usize>(rotation: &[f64], n: [f64; D]) -> [f64; D] {
-    let about = match *rotation {
-        [z] => [0.0, 0.0, z],
-        _ => std::array::from_fn(|axis| rotation[axis]),
-    };
-    let mut direction = [0.0; 3];
-    direction[..D].copy_from_slice(&n);
-    let product = cross(about, direction);
-    std::array::from_fn(|axis| product[axis])
 }
