@@ -16,11 +16,10 @@ use super::report::Report;
 
 /// Errors of peaks by the ratio of the horizon to the ligament, up to a ratio: notched beams, panels and a torsion test against cohesive
 /// finite elements (docs/verification.md).
-const ERRORS: [(f64, &str); 4] = [
-    (0.2, "some 2 to 5 %"),
-    (0.27, "some 4 to 7 %"),
-    (0.4, "some 8 to 10 %"),
-    (f64::INFINITY, "20 % and more"),
+const ERRORS: [(f64, &str); 3] = [
+    (0.2, "some 1 to 3 %"),
+    (0.4, "some 2 to 5 %"),
+    (f64::INFINITY, "some 10 to 20 %"),
 ];
 
 /// Writes the stiffness of the body at its thinnest section over that of the continuum; returns a warning where it is too large.
@@ -146,8 +145,8 @@ pub(super) fn write_ligament(
         .filter(|_| softens && ratio > WIDE)
         .map(|(_, error)| {
             format!(
-                "the horizon is {ratio:.2} of the ligament of {length} at {middle}: the largest load is then {error} too high, because \
-                 the stress of a bond is that of a horizon around it; a finer mesh there reduces this"
+                "the horizon is {ratio:.2} of the ligament of {length} at {middle}: the largest load is then {error} too high by \
+                 `rankine`, because bonds resist gradients and rotations; a finer mesh there reduces this"
             )
         }))
 }
