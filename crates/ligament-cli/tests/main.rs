@@ -4,6 +4,7 @@ mod calibrate_command;
 mod cite_command;
 mod columns;
 mod command_line;
+mod converge_command;
 mod crack_command;
 mod ends;
 mod ensemble_command;

@@ -14,6 +14,10 @@
 //! assert_eq!(mesh.group("7").map(|group| group.cells.len()), Some(1));
 //! # Ok::<(), ligament_mesh::gmsh::GmshError>(())
 //! ```
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
+)]
 
 mod cell;
 mod curve;
@@ -24,6 +28,7 @@ mod numbering;
 mod overlap;
 mod remark;
 mod solid;
+mod subdivision;
 
 pub use cell::{Cell, MeshCell};
 pub use curve::along_hilbert_curve;

@@ -49,6 +49,36 @@ impl Mesh {
     pub fn area(&self) -> f64 {
         self.size()
     }
+
+    /// Edges that belong to one cell alone, ascending.
+    pub fn outline(&self) -> Vec<[u32; 2]> {
+        let mut uses: BTreeMap<[u32; 2], usize> = BTreeMap::new();
+        for edge in self.cells.iter().flat_map(Cell::edges) {
+            *uses.entry(edge).or_default() += 1;
+        }
+        uses.retain(|_, count| *count == 1);
+        uses.into_keys().collect()
+    }
+
+    /// Angle of the cells at each node, rad, shape (n_nodes): 2 pi inside, pi on a straight outline, more at re-entrant corners.
+    pub fn angles_at_nodes(&self) -> Vec<f64> {
+        let mut angles = vec![0.0; self.positions.len()];
+        for cell in &self.cells {
+            let corners = cell.corners();
+            let n = corners.len();
+            for (place, &node) in corners.iter().enumerate() {
+                let [xo, yo] = self.positions[node as usize];
+                let towards = |place: usize| {
+                    let [x, y] = self.positions[corners[place % n] as usize];
+                    [x - xo, y - yo]
+                };
+                let (u, v) = (towards(place + 1), towards(place + n - 1));
+                let (cross, dot) = (u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
+                angles[node as usize] += cross.atan2(dot);
+            }
+        }
+        angles
+    }
 }
 
 impl SolidMesh {

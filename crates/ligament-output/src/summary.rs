@@ -65,6 +65,9 @@ pub struct Summary {
     pub reactions_at_peak: BTreeMap<String, Resultant>,
     /// Largest reaction before its first decrease by more than a fixed share; on the exact path as in a test with increasing displacement.
     pub first_peak: Option<PathPoint>,
+    /// Values of the probes in the last state, by their names.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub probes_at_end: BTreeMap<String, f64>,
     /// Number of broken bonds at the end.
     pub broken_bonds: usize,
     /// Number of unbroken softening bonds at the end; only where bonds soften.

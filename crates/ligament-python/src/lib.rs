@@ -10,6 +10,7 @@
 //! | `stepped_run` | a run that advances row by row |
 //! | `case` | cases |
 //! | `solution` | a run on a separate thread, with progress and Ctrl-C |
+//! | `convergence` | intervals of convergence of a case, in a folder |
 //! | `ensemble` | samples of a case whose strength varies at random, in a folder |
 //! | `folder` | results of a run in their folder, as arrays and words |
 //! | `arrays` | arrays that are moved and not copied |
@@ -21,6 +22,7 @@ mod arrays;
 mod body;
 mod calibration;
 mod case;
+mod convergence;
 mod document;
 mod drawing;
 mod ensemble;
@@ -44,6 +46,8 @@ mod native {
     use crate::calibration::{next_trial, numbers};
     #[pymodule_export]
     use crate::case::Case;
+    #[pymodule_export]
+    use crate::convergence::compute_convergence;
     #[pymodule_export]
     use crate::drawing::{PythonDrawing, draw_curves, draw_fields};
     #[pymodule_export]

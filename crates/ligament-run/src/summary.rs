@@ -113,6 +113,7 @@ pub fn summary(
         reactions_at_peak: resultants_at_peak(boundary, model.system.layout, outcome),
         // The force of a motion rises and falls with its waves.
         first_peak: loaded(outcome.first_peak(LOAD_DROP)).filter(|_| outcome.rows != Rows::Times),
+        probes_at_end: probes_at_end(model, outcome),
         broken_bonds: outcome.broken_bonds,
         softened_bonds: (model.criteria.soften()).then_some(outcome.softened_bonds),
         steps: history.len().saturating_sub(1),
@@ -292,6 +293,15 @@ fn bond_event(model: &Model, first: &FirstBond) -> BondEvent {
         tagged: model.names.tagged(),
     }
 }
+
+/// Values of the probes in the last state.
+fn probes_at_end(model: &Model, outcome: &Outcome) -> BTreeMap<String, f64> {
+    let names = model.setup.probes.iter().map(|probe| probe.name.clone());
+    let values = outcome.history.last().into_iter().flat_map(|it| &it.probes);
+    let named = names.zip(values.copied());
+    named.filter(|(_, value)| value.is_finite()).collect()
+}
+
 /// Resultants of the groups, by their names in the history, at the record with the largest reaction and no bond left to break.
 fn resultants_at_peak(
     loads: &dyn LoadProgram,

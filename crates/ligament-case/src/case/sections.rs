@@ -247,7 +247,7 @@ impl Case {
     }
 
     /// Thickness of a body in the plane, m, where it is given.
-    fn thickness(&self) -> Option<f64> {
+    pub fn thickness(&self) -> Option<f64> {
         let of_mesh = self.mesh.as_ref().and_then(|it| it.thickness);
         let of_lattice = self.lattice.as_ref().and_then(|it| it.thickness);
         of_mesh.or(of_lattice)

@@ -19,7 +19,7 @@ use super::report::Report;
 const ERRORS: [(f64, &str); 3] = [
     (0.2, "some 1 to 3 %"),
     (0.4, "some 2 to 5 %"),
-    (f64::INFINITY, "some 10 to 20 %"),
+    (f64::INFINITY, "some 8 to 22 %"),
 ];
 
 /// Writes the stiffness of the body at its thinnest section over that of the continuum; returns a warning where it is too large.

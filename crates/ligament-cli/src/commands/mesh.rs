@@ -105,7 +105,7 @@ impl MeshArgs {
 }
 
 /// A number of the geometry on the command line.
-fn number_setting(text: &str) -> Result<(String, f64), String> {
+pub(super) fn number_setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text
         .split_once('=')
         .ok_or("expected NAME=VALUE, such as h=0.001")?;

@@ -6,6 +6,7 @@ mod case_args;
 mod check;
 mod cite;
 mod completions;
+mod converge;
 mod crack;
 mod ensemble;
 mod explain;
@@ -34,6 +35,7 @@ pub use case_args::CaseArgs;
 pub use check::CheckArgs;
 pub use cite::CiteArgs;
 pub use completions::CompletionsArgs;
+pub use converge::ConvergeArgs;
 pub use crack::CrackArgs;
 pub use ensemble::EnsembleArgs;
 pub use explain::{ExplainArgs, SubjectArgs};
@@ -74,6 +76,7 @@ Examples:
   ligament resume results/disk              continue a run that was stopped
   ligament repeat results/disk              run it again and compare all bits
   ligament sweep study.toml                 a case over horizons, meshes, strengths
+  ligament converge case.toml               between which values is the peak? an interval
   ligament ensemble case.toml               a thousand samples of a random strength
   ligament plot results/disk                a picture of its damage
   ligament report results/disk              a page for a browser: fields, curves, bonds
@@ -117,6 +120,12 @@ pub enum Command {
     /// Writes a table of all runs (CSV), plots (SVG) and least-squares lines.
     #[command(after_help = sweep::EXAMPLES)]
     Sweep(SweepArgs),
+    /// Between which values do the results of a case lie as its points become finer? An interval for each
+    ///
+    /// Runs the case at two sizes with two meshes each, and gives an interval for each result, or the reason why it has no limit.
+    /// Writes the intervals as table (CSV), JSON and plots (SVG).
+    #[command(after_help = converge::EXAMPLES)]
+    Converge(ConvergeArgs),
     /// Run many samples of a case whose strength or fracture energy varies at random
     ///
     /// All samples share the body, its corrections and its intact factor. Writes a row for each sample (CSV), quantiles of
@@ -228,6 +237,7 @@ impl Cli {
             Command::Resume(args) => return args.execute(),
             Command::Repeat(args) => return args.execute(),
             Command::Sweep(args) => args.execute(program),
+            Command::Converge(args) => args.execute(program),
             Command::Ensemble(args) => return args.execute(),
             Command::Check(args) => return args.execute(),
             Command::Calibrate(args) => args.execute(),

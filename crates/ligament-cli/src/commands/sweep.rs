@@ -102,7 +102,7 @@ impl SweepArgs {
     }
 }
 
-fn gigabytes(text: &str) -> Result<f64, String> {
+pub(super) fn gigabytes(text: &str) -> Result<f64, String> {
     positive_number(text).ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
 }
 

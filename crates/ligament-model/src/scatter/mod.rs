@@ -13,6 +13,7 @@ use ligament_mesh::Numbering;
 use rayon::prelude::*;
 
 pub use distribution::Distribution;
+pub use random::uniform;
 
 use crate::case_type::Range;
 use waves::RandomWaves;

@@ -15,7 +15,7 @@ pub(super) fn bits(seed: u64, place: u64) -> u64 {
 }
 
 /// Number `place` of a seed, uniform between 0 and 1: an odd multiple of 2^-54, which excludes both ends.
-pub(super) fn uniform(seed: u64, place: u64) -> f64 {
+pub fn uniform(seed: u64, place: u64) -> f64 {
     const STEP: f64 = 1.0 / (1u64 << 53) as f64;
     ((bits(seed, place) >> 11) as f64 + 0.5) * STEP
 }

@@ -25,6 +25,7 @@ from typing import TYPE_CHECKING, Any
 from ligament import examples
 from ligament._by_hand import Rows, begin
 from ligament._case import Case, Setup
+from ligament._convergence import Convergence, Interval, converge
 from ligament._ensemble import Ensemble, Weibull, ensemble
 from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, NotCalibrated, SolutionError
 from ligament._keys import Key, Keys, keys
@@ -51,10 +52,12 @@ __all__ = [
     "Calibration",
     "Case",
     "CaseError",
+    "Convergence",
     "CrackLine",
     "CrackSurface",
     "Ensemble",
     "Interrupted",
+    "Interval",
     "Key",
     "Keys",
     "LigamentError",
@@ -70,6 +73,7 @@ __all__ = [
     "__version__",
     "begin",
     "calibrate",
+    "converge",
     "ensemble",
     "examples",
     "keys",

@@ -13,6 +13,8 @@ use std::time::{Duration, Instant};
 use ligament_output::remove_if_there;
 use ligament_run::end::leaves_results;
 use ligament_run::memory;
+use ligament_run::progress::ProgressMode;
+use ligament_run::run::run as run_case;
 
 use super::estimate::Estimates;
 use super::plan::Run;
@@ -79,8 +81,16 @@ impl Resources {
     }
 }
 
-/// Index, exit status and duration of a run that has ended.
-type EndedRun = (usize, io::Result<ExitStatus>, Duration);
+/// Index, end and duration of a run that has ended.
+type EndedRun = (usize, EndOfRun, Duration);
+
+/// End of a run.
+enum EndOfRun {
+    /// Exit status of its process.
+    Exit(io::Result<ExitStatus>),
+    /// Result of a run in this process.
+    Done(anyhow::Result<()>),
+}
 
 /// A run in progress.
 struct RunningProcess {
@@ -92,7 +102,8 @@ struct RunningProcess {
     _leash: Option<ChildStdin>,
 }
 
-/// Executes runs in their order, as many at once as resources allow; returns the sum of their times.
+/// Executes runs in their order, as many at once as resources allow, or one after the other in this process where no program is given; returns
+/// the sum of their times.
 ///
 /// # Errors
 ///
@@ -173,6 +184,17 @@ impl Launcher<'_, '_> {
             .room
             .threads(self.running.len() + self.runs.len() - index);
         let start = Instant::now();
+        if self.program.is_empty() {
+            let done = run_case(&run.case, &written, true, ProgressMode::Quiet).map(|_| ());
+            self.running.push(RunningProcess {
+                index,
+                bytes,
+                written,
+                _leash: None,
+            });
+            let ended = (index, EndOfRun::Done(done), start.elapsed());
+            return Ok(self.sender.send(ended)?);
+        }
         let mut child = self.spawn(run, &written, threads)?;
         self.progress.begins(run, threads);
         self.running.push(RunningProcess {
@@ -183,7 +205,10 @@ impl Launcher<'_, '_> {
         });
         let sender = self.sender.clone();
         // A closed channel has no receiver.
-        thread::spawn(move || sender.send((index, child.wait(), start.elapsed())));
+        thread::spawn(move || {
+            let exit = child.wait();
+            sender.send((index, EndOfRun::Exit(exit), start.elapsed()))
+        });
         Ok(())
     }
 
@@ -225,15 +250,20 @@ impl Launcher<'_, '_> {
     /// Waits for a run to end.
     fn wait(&mut self) -> anyhow::Result<()> {
         // The launcher has a sender itself, so the channel is never closed.
-        let (index, status, time) = self.receiver.recv()?;
+        let (index, end, time) = self.receiver.recv()?;
         let place = self.running.iter().position(|it| it.index == index);
         let ended = place.map(|place| self.running.remove(place));
         self.time += time;
         let run = self.runs[index];
-        let exit = status?;
         // A run that ended during breakage or without equilibrium also has results, which include its end.
-        if !leaves_results(exit.code()) {
-            let reason = self.last_words(run, exit);
+        let failed = match end {
+            EndOfRun::Exit(exit) => {
+                let exit = exit?;
+                (!leaves_results(exit.code())).then(|| self.last_words(run, exit))
+            }
+            EndOfRun::Done(done) => done.err().map(|error| format!("{error:#}")),
+        };
+        if let Some(reason) = failed {
             return self.progress.fails(run, self.folder, &reason, time);
         }
         let recorded = RecordedRun::in_folder(run, self.folder);

@@ -18,7 +18,7 @@ pub struct MeshPlan {
 impl MeshPlan {
     /// The mesh of a geometry with some numbers. The file's name depends on the content of the geometry, so that an existing mesh is up to
     /// date.
-    pub(super) fn new(
+    pub(crate) fn new(
         geometry: &Path,
         numbers: Vec<(String, f64)>,
         folder: &Path,
@@ -51,7 +51,7 @@ impl MeshPlan {
 /// # Errors
 ///
 /// If all meshes are affected: no geometry, no program, or a number that the geometry does not have.
-pub(super) fn make<'a>(
+pub(crate) fn make<'a>(
     plans: impl Iterator<Item = &'a MeshPlan>,
     gmsh: &Path,
     print: &mut dyn FnMut(&str),

@@ -9,7 +9,7 @@ mod curves;
 mod error;
 mod estimate;
 mod launch;
-mod meshes;
+pub(crate) mod meshes;
 pub mod plan;
 mod progress;
 mod record;
@@ -33,6 +33,7 @@ use serde_json::json;
 pub use error::StudyError;
 pub use launch::bind_to_parent;
 
+use crate::quantities::Quantities;
 use crate::run_table::folder::{Shard, StudyFolder};
 use estimate::Estimates;
 use launch::Resources;
@@ -82,7 +83,7 @@ pub struct Settings {
     pub gmsh: PathBuf,
     /// Display of progress.
     pub progress: ProgressMode,
-    /// Command that calls this program, for starting each run.
+    /// Command that calls this program, for starting each run; without one the runs are executed in this process.
     pub program: Vec<OsString>,
 }
 
@@ -115,18 +116,31 @@ pub fn sweep(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
 ///
 /// If the path is something else, or cannot be written.
 pub fn open_folder(path: &Path, study: &Study) -> anyhow::Result<StudyFolder> {
+    create_folder(path, &study.source.path, &study.title)
+}
+
+/// Creates or opens the folder of a sweep whose study file may not exist yet.
+pub(crate) fn create_folder(path: &Path, study: &Path, title: &str) -> anyhow::Result<StudyFolder> {
     refuse_link(&path.join(MESHES))?;
     let marker = json!({
-        "study": study.source.path.to_string_lossy(),
-        "title": study.title,
+        "study": study.to_string_lossy(),
+        "title": title,
         "version": env!("CARGO_PKG_VERSION"),
     });
     let folder = StudyFolder::with_marker(MARKER, path);
-    folder.create_or_open(&format!("{marker:#}\n"), &["runs", "records", "logs"])
+    folder.create_or_open(
+        &format!("{marker:#}\n"),
+        &["runs", "records", "logs", MESHES],
+    )
 }
 
 /// Executes the runs without results.
-fn run(study: &Study, path: &Path, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<()> {
+pub(crate) fn run(
+    study: &Study,
+    path: &Path,
+    settings: &Settings,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
     let runs = plan::runs(study, path)?;
     // Nothing is written before the cases of all runs are checked.
     let folder = open_folder(path, study)?;
@@ -239,6 +253,17 @@ fn make_report(
     to: &StudyFolder,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
+    let rows = rows(runs, folders);
+    let problems = report::write(study, &rows, to, out)?;
+    let mut stderr = io::stderr().lock();
+    for problem in &problems {
+        writeln!(stderr, "warning: {}", plain(problem))?;
+    }
+    Ok(problems)
+}
+
+/// The runs with their best status in some folders.
+fn rows<'a>(runs: &'a [Run], folders: &[StudyFolder]) -> Vec<Row<'a>> {
     let row = |run| {
         let found = folders.iter().map(|folder| {
             let recorded = RecordedRun::in_folder(run, folder);
@@ -258,13 +283,44 @@ fn make_report(
             folder: folder.to_string_lossy().into_owned(),
         }
     };
-    let rows: Vec<Row<'_>> = runs.iter().map(row).collect();
-    let problems = report::write(study, &rows, to, out)?;
-    let mut stderr = io::stderr().lock();
-    for problem in &problems {
-        writeln!(stderr, "warning: {}", plain(problem))?;
-    }
-    Ok(problems)
+    runs.iter().map(row).collect()
+}
+
+/// A run with its results.
+pub(crate) struct DoneRun {
+    /// The run.
+    pub(crate) run: Run,
+    /// Its results.
+    pub(crate) results: Quantities,
+    /// Folder of its results.
+    pub(crate) folder: String,
+}
+
+/// The runs of a study with their results in its folder, or in the folders `from`.
+///
+/// # Errors
+///
+/// If a run has no results.
+pub(crate) fn done_runs(
+    study: &Study,
+    path: &Path,
+    from: &[PathBuf],
+) -> anyhow::Result<Vec<DoneRun>> {
+    let folders = StudyFolder::folders_to_collect(MARKER, path, from)?;
+    let runs = plan::runs(study, path)?;
+    let rows = rows(&runs, &folders);
+    let done = rows.into_iter().map(|row| match row.status {
+        Status::Done(results) => Ok(DoneRun {
+            run: row.run.clone(),
+            results,
+            folder: row.folder,
+        }),
+        Status::Failed(reason) => anyhow::bail!("the run {} failed: {reason}", row.run.name),
+        Status::Missing | Status::Changed(_) => {
+            anyhow::bail!("the run {} has no results yet", row.run.name)
+        }
+    });
+    done.collect()
 }
 
 /// Lists the runs with their status and estimated memory.

@@ -13,7 +13,7 @@ use ligament_case::input_file;
 use ligament_run::inputs::{FileIdentities, Inputs};
 
 /// Subfolder of the meshes that are made for a study.
-pub(super) const MESHES: &str = "meshes";
+pub(crate) const MESHES: &str = "meshes";
 
 /// Largest number of runs of a study.
 const MOST_RUNS: usize = 100_000;

@@ -1,0 +1,192 @@
+//! Calls of `ligament converge`.
+
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+use crate::support::{SMALL_BAR, assert_success, stderr, stdout};
+
+/// A folder with a case.
+struct Place {
+    folder: tempfile::TempDir,
+}
+
+impl Place {
+    fn with(case: &str) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("bar.toml"), case).unwrap();
+        Self { folder }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn converge(&self, arguments: &[&str]) -> Output {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ligament"));
+        command.current_dir(self.folder.path());
+        command.args(["converge", "bar.toml", "--quiet", "--out", "out"]);
+        command.args(arguments).output().unwrap()
+    }
+
+    /// A result of `convergence.json`.
+    fn result(&self, name: &str) -> Value {
+        let text = fs::read_to_string(self.path("out/convergence.json")).unwrap();
+        let document: Value = serde_json::from_str(&text).unwrap();
+        let results = document["results"].as_array().unwrap();
+        let mut found = results.iter().filter(|it| it["name"] == name);
+        found
+            .next()
+            .unwrap_or_else(|| panic!("no {name} in {text}"))
+            .clone()
+    }
+}
+
+/// An elastic bar on 24 x 12 cells that is pulled without a restraint across it: its stiffness is E A/L.
+fn elastic_bar() -> String {
+    let bar = SMALL_BAR.replace("cells = [12, 6]", "cells = [24, 12]");
+    let bar = bar.replace("spacing = 0.01", "spacing = 0.005");
+    let bar = bar.replace(
+        "displacement = { x = 0.0, y = 0.0 }",
+        "displacement = { x = 0.0 }",
+    );
+    let (until, _) = bar.split_once("[fracture]").unwrap();
+    until.to_owned() + "[correction]\nsurface = \"patch\"\n"
+}
+
+/// The stiffness of a bar whose ends are rows of points, half a spacing inside: E A/(L - h), which goes to E A/L = 1e9 * .06 * .01/.12 N/m. The
+/// limit is in the interval, which has no scatter to hide behind: each lattice gives its own closed form.
+#[test]
+fn the_limit_of_a_bar_is_in_its_interval() {
+    let place = Place::with(&elastic_bar());
+    let output = place.converge(&[]);
+    assert_success(&output);
+    let stiffness = place.result("elastic_stiffness");
+    let limit = 1e9 * 0.06 * 0.01 / 0.12;
+    let bound = |name: &str| stiffness["interval"][name].as_f64().unwrap();
+    let fine = stiffness["samples"]["fine"].as_array().unwrap();
+    for (value, cells) in fine.iter().zip([24.0, 26.0]) {
+        // 1 %: the rows at the ends are held across no line, and the patch correction is exact for uniform strains alone.
+        let exact = limit / (1.0 - 1.0 / cells);
+        assert!(
+            (value.as_f64().unwrap() / exact - 1.0).abs() < 0.01,
+            "{fine:?}, {exact}"
+        );
+    }
+    assert!(
+        bound("lower") < limit && limit < bound("upper"),
+        "{stiffness}"
+    );
+    assert!(
+        bound("fine") > bound("upper").min(limit),
+        "the runs lie above the limit"
+    );
+    assert!(stdout(&output).contains("intervals of convergence, 95 %"));
+    for file in [
+        "convergence.csv",
+        "elastic_stiffness-over-h.svg",
+        "study.toml",
+        "case.toml",
+    ] {
+        assert!(place.path("out").join(file).is_file(), "{file}");
+    }
+    // The same command again has nothing to compute.
+    let written = fs::metadata(place.path("out/runs"))
+        .unwrap()
+        .modified()
+        .unwrap();
+    assert_success(&place.converge(&[]));
+    let again = fs::metadata(place.path("out/runs"))
+        .unwrap()
+        .modified()
+        .unwrap();
+    assert_eq!(written, again);
+}
+
+/// Splitting the cells of a mesh needs no Gmsh, and keeps its groups.
+#[test]
+fn a_mesh_alone_is_split() {
+    let case = elastic_bar();
+    let (from, to) = (
+        case.find("[lattice]").unwrap(),
+        case.find("[material]").unwrap(),
+    );
+    let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/plate-coarse.msh");
+    let section = format!(
+        "[mesh]\nfile = {:?}\nthickness = 0.01\n",
+        mesh.to_string_lossy()
+    );
+    let place = Place::with(&(case[..from].to_owned() + &section + &case[to..]));
+    let output = place.converge(&["--split"]);
+    assert_success(&output);
+    let stiffness = place.result("elastic_stiffness");
+    // The plate is .2 x .1 m.
+    let limit = 1e9 * 0.1 * 0.01 / 0.2;
+    let bound = |name: &str| stiffness["interval"][name].as_f64().unwrap();
+    assert!(
+        bound("lower") < limit && limit < bound("upper"),
+        "{stiffness}"
+    );
+    assert!(
+        stdout(&output).contains("split in four"),
+        "{}",
+        stdout(&output)
+    );
+}
+
+/// What has no limit is refused with the reason and a remedy.
+#[test]
+fn what_has_no_limit_is_refused() {
+    let cracked = SMALL_BAR
+        .replace("cells = [12, 6]", "cells = [24, 12]")
+        .replace("spacing = 0.01", "spacing = 0.005")
+        + "[[precrack]]\npoints = [[0.06, -0.01], [0.06, 0.03]]\n";
+    let place = Place::with(&cracked);
+    let output = place.converge(&["--of", "peak.reaction", "--of", "elastic_stiffness"]);
+    assert_success(&output);
+    let refused = place.result("peak.reaction")["refused"]
+        .as_str()
+        .unwrap()
+        .to_owned();
+    assert!(
+        refused.contains("`strength`") && refused.contains("tip of a pre-crack"),
+        "{refused}"
+    );
+    assert!(place.result("elastic_stiffness")["interval"].is_object());
+
+    let point = elastic_bar().replace("group = \"right\"", "at = [0.12, 0.03]");
+    let place = Place::with(&point);
+    assert_success(&place.converge(&[]));
+    let refused = place.result("elastic_stiffness")["refused"]
+        .as_str()
+        .unwrap()
+        .to_owned();
+    assert!(refused.contains("one point"), "{refused}");
+}
+
+/// Cases of other kinds are refused before anything is written.
+#[test]
+fn motions_ensembles_and_odd_lattices_are_refused() {
+    let error = |case: &str| {
+        let place = Place::with(case);
+        let output = place.converge(&[]);
+        assert_eq!(output.status.code(), Some(1));
+        stderr(&output)
+    };
+    let odd = error(&SMALL_BAR.replace("cells = [12, 6]", "cells = [12, 5]"));
+    assert!(odd.contains("even numbers, not 5"), "{odd}");
+    let scattered = error(&format!(
+        "{SMALL_BAR}[fracture.scatter]\nof = \"strength\"\nmodulus = 8.0\n"
+    ));
+    assert!(scattered.contains("ligament ensemble"), "{scattered}");
+    let unknown = Place::with(&elastic_bar()).converge(&["--of", "elastic_stifness"]);
+    assert!(
+        stderr(&unknown).contains("`elastic_stiffness`"),
+        "{}",
+        stderr(&unknown)
+    );
+}

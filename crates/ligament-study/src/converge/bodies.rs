@@ -1,0 +1,319 @@
+//! Bodies of a case at the sizes h and 2h of their points, two of each size where a mesh can be made anew.
+
+use std::path::{Path, PathBuf};
+
+use ligament_case::case::CaseFile;
+use ligament_case::input_file;
+use ligament_case::mesh_file::read_any_mesh;
+use ligament_mesh::{AnyMesh, Mesh, gmsh};
+use ligament_output::replace_file;
+
+use super::displaced_nodes::with_displaced_nodes;
+use super::interval::{FLOOR, FLOOR_OF_SPLIT};
+use crate::sweep::meshes::{MeshPlan, make};
+use crate::sweep::plan::MESHES;
+use crate::sweep::toml_text::quoted;
+
+/// Largest difference of the spacing of a mesh by Gmsh from that of the mesh of the case, with which both are taken for the same size.
+const SAME_SIZE: f64 = 0.1;
+
+/// Ratios of the spacings of both sizes with which the geometry follows the size that Gmsh is asked for.
+const RATIOS: [f64; 2] = [1.6, 2.5];
+
+/// Meshers of Gmsh by the numbers of `Mesh.Algorithm`.
+const MESHERS: [(&str, u32); 2] = [("Delaunay", 5), ("frontal", 6)];
+
+/// Source of the meshes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct MeshSource {
+    /// Geometry of Gmsh; by default the one beside the mesh of the case with the beginning of its name.
+    pub geometry: Option<PathBuf>,
+    /// Numbers of the geometry by name. With any, h is their size and not that of the mesh of the case.
+    pub numbers: Vec<(String, f64)>,
+    /// Number of the geometry that is the size h, where the geometry does not follow Gmsh's factor of all sizes.
+    pub size: Option<(String, f64)>,
+    /// Whether cells of the mesh are split although there may be a geometry.
+    pub split: bool,
+    /// The program gmsh.
+    pub gmsh: PathBuf,
+}
+
+/// A body at one of the sizes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SizedBody {
+    /// Name of the body, such as "h Delaunay".
+    pub(super) label: String,
+    /// Name of the way in which it was meshed.
+    pub(super) mesher: &'static str,
+    /// Whether the size is h, not 2h.
+    pub(super) is_fine: bool,
+    /// Settings on the case: keys and values in TOML.
+    pub(super) settings: Vec<(String, String)>,
+}
+
+/// Bodies of a case at both sizes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SizedBodies {
+    /// The bodies, those of the size h first.
+    pub(super) bodies: Vec<SizedBody>,
+    /// Relative error that no refinement of such bodies removes.
+    pub(super) floor: f64,
+    /// Origin of the bodies, in words.
+    pub(super) origin: String,
+    /// Remarks for the user.
+    pub(super) notes: Vec<String>,
+}
+
+/// Makes the meshes of a case at both sizes in the folder of a study; `print` shows each mesh that is made.
+///
+/// # Errors
+///
+/// If no coarser or finer mesh can be made, with the remedy.
+pub(super) fn meshes(
+    case: &CaseFile,
+    source: &MeshSource,
+    folder: &Path,
+    print: &mut dyn FnMut(&str),
+) -> anyhow::Result<SizedBodies> {
+    let Some(section) = &case.case.mesh else {
+        return Err(case.error("mesh", "the case has no mesh").into());
+    };
+    if section.file.extension().is_some_and(|it| it == "csv") {
+        let reason =
+            "points of a table have no cells that could be made finer: give a mesh or a lattice";
+        return Err(case.error("mesh.file", reason).into());
+    }
+    let mesh = read_any_mesh(&section.file);
+    let geometry = source.geometry.clone().filter(|_| !source.split);
+    let geometry = geometry.or_else(|| found_geometry(&section.file).filter(|_| !source.split));
+    match (geometry, mesh) {
+        (Some(geometry), mesh) => {
+            let mut meshing = Meshing {
+                geometry,
+                source,
+                folder: folder.join(MESHES),
+                print,
+            };
+            meshing.bodies(case, mesh.ok().as_ref())
+        }
+        (None, Ok(AnyMesh::Plane(mesh))) => split(&section.file, &mesh, folder),
+        (None, Ok(AnyMesh::Solid(_))) => {
+            let reason = "cells of a solid are not split: name the geometry of the mesh by `--geometry FILE.geo`";
+            Err(case.error("mesh.file", reason).into())
+        }
+        (None, Err(error)) => Err(error.into()),
+    }
+}
+
+/// The geometry beside a mesh whose name begins that of the mesh, `disk.geo` of `disk-4mm.msh`; the one with the longest name.
+fn found_geometry(mesh: &Path) -> Option<PathBuf> {
+    let folder = mesh.parent().filter(|it| !it.as_os_str().is_empty());
+    let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let name = mesh.file_stem()?.to_string_lossy().into_owned();
+    let begins = |path: &PathBuf| {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let rest = name.strip_prefix(&*stem);
+        path.extension().is_some_and(|it| it == "geo")
+            && rest.is_some_and(|it| it.is_empty() || it.starts_with(['-', '_', '.']))
+    };
+    let paths = entries.flatten().map(|entry| entry.path()).filter(begins);
+    paths.max_by_key(|path| (path.as_os_str().len(), path.clone()))
+}
+
+/// Meshes of a geometry by Gmsh.
+struct Meshing<'a> {
+    geometry: PathBuf,
+    source: &'a MeshSource,
+    folder: PathBuf,
+    print: &'a mut dyn FnMut(&str),
+}
+
+impl Meshing<'_> {
+    /// The bodies by two meshers at both sizes; `own` is the mesh of the case, whose size is h.
+    fn bodies(&mut self, case: &CaseFile, own: Option<&AnyMesh>) -> anyhow::Result<SizedBodies> {
+        let dimensions = if case.case.is_solid() { 3.0 } else { 2.0 };
+        let spacing = |mesh: &AnyMesh| (mesh.n_nodes() as f64).powf(-1.0 / dimensions);
+        let (_, first) = self.mesh("h", MESHERS[0], 1.0)?;
+        // Groups of a geometry that the user names are left to the runs, which need some of them alone.
+        if let Some(own) = own.filter(|_| self.source.geometry.is_none()) {
+            self.require_same_groups(own, &first)?;
+        }
+        let wanted = own.map(|own| spacing(own) / spacing(&first));
+        let is_given = !self.source.numbers.is_empty() || self.source.size.is_some();
+        let factor = wanted.filter(|it| !is_given && (it - 1.0).abs() > SAME_SIZE);
+        let factor = factor.unwrap_or(1.0);
+        let mut made = Vec::new();
+        for (size, factor, is_fine) in [("h", factor, true), ("2h", 2.0 * factor, false)] {
+            for mesher in MESHERS {
+                let (file, mesh) = self.mesh(size, mesher, factor)?;
+                made.push((size, mesher.0, is_fine, file, mesh));
+            }
+        }
+        for mesher in 0..MESHERS.len() {
+            let ratio = spacing(&made[mesher + MESHERS.len()].4) / spacing(&made[mesher].4);
+            if !(RATIOS[0]..=RATIOS[1]).contains(&ratio) {
+                anyhow::bail!(
+                    "{}: a factor of 2 on all sizes made the spacing of the points {ratio:.2} times as large: lines or surfaces have fixed \
+                     numbers of cells. Name the number of the geometry that is the size: `--size NAME=VALUE`",
+                    self.geometry.display()
+                );
+            }
+        }
+        let mut notes = Vec::new();
+        let mut bodies = Vec::new();
+        for (index, (size, mesher, is_fine, file, mesh)) in made.iter().enumerate() {
+            let twin = index.checked_sub(1).map(|before| &made[before].4);
+            let (file, mesher) = match (twin, mesh) {
+                (Some(AnyMesh::Plane(twin)), AnyMesh::Plane(mesh))
+                    if index % 2 == 1 && twin == mesh =>
+                {
+                    notes.push(format!("both meshers make the same mesh at {size}: the inner nodes of the second are displaced"));
+                    (
+                        written(
+                            &self.folder,
+                            &format!("{size}-displaced"),
+                            &with_displaced_nodes(mesh, 1),
+                        )?,
+                        "displaced",
+                    )
+                }
+                _ => (file.clone(), *mesher),
+            };
+            bodies.push(body(size, mesher, *is_fine, &file));
+        }
+        Ok(SizedBodies {
+            bodies,
+            floor: FLOOR,
+            origin: format!(
+                "meshes by Gmsh from {}",
+                self.geometry
+                    .file_name()
+                    .unwrap_or_default()
+                    .to_string_lossy()
+            ),
+            notes,
+        })
+    }
+
+    /// Makes the mesh of a size and a mesher, unless it is up to date.
+    fn mesh(
+        &mut self,
+        size: &str,
+        (mesher, algorithm): (&str, u32),
+        factor: f64,
+    ) -> anyhow::Result<(PathBuf, AnyMesh)> {
+        let geometry = std::path::absolute(&self.geometry)?;
+        let mut numbers = self.source.numbers.clone();
+        let mut options = format!(
+            "Merge {};\nMesh.Algorithm = {algorithm};\n",
+            quoted_in_gmsh(&geometry)
+        );
+        match &self.source.size {
+            Some((name, value)) => numbers.push((name.clone(), factor * value)),
+            None => options += &format!("Mesh.MeshSizeFactor *= {factor:?};\n"),
+        }
+        let text = input_file::read(&geometry)?;
+        let content = format!("{options}{:016x}", twox_hash::XxHash64::oneshot(0, &text));
+        let name = format!("{size}-{}", mesher.to_lowercase());
+        let file = self.folder.join(format!("{name}.geo"));
+        replace_file(&file, options.as_bytes())?;
+        let plan = MeshPlan::new(&file, numbers, &self.folder, &name, &content);
+        let failed = make(std::iter::once(&plan), &self.source.gmsh, self.print)?;
+        if let Some(reason) = failed.into_values().next() {
+            anyhow::bail!("{}: {reason}", self.geometry.display());
+        }
+        let out = plan.request.out;
+        let mesh = read_any_mesh(&out)?;
+        Ok((out, mesh))
+    }
+
+    /// Refuses a geometry without the groups of the mesh of the case.
+    fn require_same_groups(&self, own: &AnyMesh, made: &AnyMesh) -> anyhow::Result<()> {
+        let [own, made] = [own, made].map(|mesh| match mesh {
+            AnyMesh::Plane(mesh) => &mesh.groups,
+            AnyMesh::Solid(mesh) => &mesh.groups,
+        });
+        let is_made = |name: &str| made.iter().any(|group| group.name == name);
+        match own.iter().find(|group| !is_made(&group.name)) {
+            None => Ok(()),
+            Some(group) => anyhow::bail!(
+                "the mesh of {} has no group `{}`, which the mesh of the case has: name its geometry by `--geometry FILE.geo`, or have its cells \
+                 split by `--split`",
+                self.geometry.display(),
+                group.name
+            ),
+        }
+    }
+}
+
+/// A path as a text in a script of Gmsh.
+fn quoted_in_gmsh(path: &Path) -> String {
+    format!("\"{}\"", path.to_string_lossy().replace('"', "\\\""))
+}
+
+/// The mesh of a case as the size 2h, and its cells split in four as h, each also with displaced inner nodes.
+fn split(file: &Path, coarse: &Mesh, folder: &Path) -> anyhow::Result<SizedBodies> {
+    let folder = folder.join(MESHES);
+    let fine = coarse.split_in_four();
+    let file_of = |name: &str, mesh: &Mesh| written(&folder, name, mesh);
+    let bodies = vec![
+        body("h", "split", true, &file_of("h-split", &fine)?),
+        body(
+            "h",
+            "displaced",
+            true,
+            &file_of("h-displaced", &with_displaced_nodes(&fine, 1))?,
+        ),
+        body("2h", "split", false, &std::path::absolute(file)?),
+        body(
+            "2h",
+            "displaced",
+            false,
+            &file_of("2h-displaced", &with_displaced_nodes(coarse, 1))?,
+        ),
+    ];
+    let mut notes = Vec::new();
+    if has_curved_outline(coarse) {
+        notes.push(
+            "the outline seems to be curved, and its corners stay where they are: do not split this mesh again, but name its geometry by \
+             `--geometry FILE.geo`"
+                .to_owned(),
+        );
+    }
+    Ok(SizedBodies {
+        bodies,
+        floor: FLOOR_OF_SPLIT,
+        origin: "the mesh of the case is 2h, and its cells split in four are h".to_owned(),
+        notes,
+    })
+}
+
+/// Whether the outline has at least eight nodes at which it turns by 1 to 40 degrees, as the polygon in place of a curve does.
+fn has_curved_outline(mesh: &Mesh) -> bool {
+    let angles = mesh.angles_at_nodes();
+    let mut nodes: Vec<u32> = mesh.outline().into_iter().flatten().collect();
+    nodes.sort_unstable();
+    nodes.dedup();
+    let turn = |node: &u32| (angles[*node as usize].to_degrees() - 180.0).abs();
+    nodes
+        .iter()
+        .filter(|node| (1.0..40.0).contains(&turn(node)))
+        .count()
+        >= 8
+}
+
+/// Writes a mesh into a folder, and returns its path.
+fn written(folder: &Path, name: &str, mesh: &Mesh) -> anyhow::Result<PathBuf> {
+    let path = std::path::absolute(folder.join(format!("{name}.msh")))?;
+    replace_file(&path, gmsh::write(mesh).as_bytes())?;
+    Ok(path)
+}
+
+fn body(size: &str, mesher: &'static str, is_fine: bool, file: &Path) -> SizedBody {
+    SizedBody {
+        label: format!("{size} {mesher}"),
+        mesher,
+        is_fine,
+        settings: vec![("mesh.file".to_owned(), quoted(&file.to_string_lossy()))],
+    }
+}

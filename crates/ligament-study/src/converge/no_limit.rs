@@ -1,0 +1,96 @@
+//! Results of a case that have no limit as the points become finer, seen before any run.
+
+use ligament::setup::{Place, Setup};
+use ligament_case::case::CaseFile;
+use ligament_mesh::AnyMesh;
+use ligament_model::failure::Choice;
+use ligament_model::scatter::Scattered;
+
+/// Angle of the cells at a node of the outline beyond which it is a re-entrant corner, degrees: that of an L is 270, those of a round hole of
+/// eight edges are 225.
+const RE_ENTRANT: f64 = 230.0;
+
+/// Reasons why results of a case have no limit.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct NoLimit {
+    /// Stiffness and work, because a load acts on one point.
+    pub(super) of_stiffness: Option<String>,
+    /// Loads of breakage, because bonds break at once by their strength where the stress is singular.
+    pub(super) of_breakage: Option<String>,
+    /// Groups of supports on one point, on which stiffness and work depend if they carry a force.
+    pub(super) supports_on_a_point: Vec<String>,
+}
+
+/// The results without a limit of a case with its setup.
+pub(super) fn no_limit(case: &CaseFile, setup: &Setup) -> NoLimit {
+    let is_point = |place: &Place| match place {
+        Place::At(_) => true,
+        Place::Group(group) => setup.body.points_of(group).is_some_and(|it| it.len() == 1),
+        Place::Everywhere | Place::Box(_) => false,
+    };
+    let load = setup.loads.iter().find(|load| is_point(&load.place));
+    let supports = setup
+        .supports
+        .iter()
+        .filter(|support| is_point(&support.place));
+    let named = supports.filter_map(|support| match &support.place {
+        Place::Group(group) => Some(group.clone()),
+        _ => None,
+    });
+    NoLimit {
+        of_stiffness: load.map(|load| {
+            format!("`{}` loads one point, under which the displacement grows with the logarithm of 1/h: load a length, or read a probe", load.name)
+        }),
+        of_breakage: by_strength(setup).and_then(|word| {
+            let place = singularity(case, setup)?;
+            Some(format!(
+                "bonds break at once by their strength (`{word}`) at {place}, where the load of breakage falls with sqrt(h): use a criterion of \
+                 energy, or let them soften"
+            ))
+        }),
+        supports_on_a_point: named.collect(),
+    }
+}
+
+/// Word of a criterion by which bonds break at once and whose limit comes from a strength.
+fn by_strength(setup: &Setup) -> Option<&'static str> {
+    let is_brittle = |it: &&Choice| !it.after.softens && it.limits_from() == Scattered::Strength;
+    let all_brittle = setup.criteria.iter().all(|it| !it.after.softens);
+    let first = setup
+        .criteria
+        .iter()
+        .find(is_brittle)
+        .filter(|_| all_brittle);
+    first.map(|it| it.kind.word)
+}
+
+/// Place where the stress of the elastic body is singular: a crack or a re-entrant corner of a body in the plane.
+fn singularity(case: &CaseFile, setup: &Setup) -> Option<String> {
+    if !setup.precracks.is_empty() {
+        return Some("the tip of a pre-crack".to_owned());
+    }
+    if let Some(lattice) = &case.case.lattice {
+        let has_corners =
+            |hole: &ligament_case::case::Hole| hole.rectangle.is_some() || hole.polygon.is_some();
+        return lattice
+            .remove
+            .iter()
+            .any(has_corners)
+            .then(|| "a corner of a hole".to_owned());
+    }
+    let file = &case.case.mesh.as_ref()?.file;
+    let AnyMesh::Plane(mesh) = ligament_case::mesh_file::read_any_mesh(file).ok()? else {
+        return None;
+    };
+    let angles = mesh.angles_at_nodes();
+    let mut outline: Vec<u32> = mesh.outline().into_iter().flatten().collect();
+    outline.sort_unstable();
+    let corner = outline
+        .into_iter()
+        .find(|&node| angles[node as usize].to_degrees() > RE_ENTRANT)?;
+    let position = mesh.positions[corner as usize];
+    Some(format!(
+        "the re-entrant corner at {}",
+        ligament_output::quantity::place(&position)
+    ))
+}

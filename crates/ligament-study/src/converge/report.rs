@@ -1,0 +1,294 @@
+//! Report of intervals of convergence: sentences, a table, JSON and plots.
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use ligament_case::case::CaseFile;
+use ligament_output::columns::aligned;
+use ligament_output::csv::Value;
+use ligament_output::quantity::{PrefixedUnit, between};
+use ligament_output::replace_file;
+use ligament_plot::plots::{Colour, Plot, Series};
+use serde::Serialize;
+
+use super::evaluation::{Evaluated, Runs};
+use super::interval::{AGAINST_TREND, DEVIATIONS, LARGEST_CHANGE, LARGEST_SCATTER};
+use crate::run_table::{WIDTH, number, table, write_plot};
+
+/// Columns of `convergence.csv`.
+const COLUMNS: &str =
+    "result,unit,lower,upper,at_h,at_2h,standard_deviation,mesher,families,refused";
+
+/// `convergence.json`.
+#[derive(Serialize)]
+struct Document<'a> {
+    title: &'a str,
+    /// Ratio of the spacings of the points.
+    ratio: f64,
+    /// Constants of the rule.
+    rule: Rule,
+    runs: Vec<RunInFile<'a>>,
+    results: &'a [Evaluated],
+    notes: &'a [String],
+}
+
+#[derive(Serialize)]
+struct Rule {
+    deviations: f64,
+    against_trend: f64,
+    floor: f64,
+    largest_change: f64,
+    largest_scatter: f64,
+}
+
+#[derive(Serialize)]
+struct RunInFile<'a> {
+    label: &'a str,
+    mesher: &'a str,
+    size: &'a str,
+    points: Option<f64>,
+    /// Mean spacing of the points, m.
+    spacing: Option<f64>,
+    /// Mean horizon, m.
+    horizon: Option<f64>,
+    folder: &'a str,
+}
+
+/// Writes the intervals of a case into its folder and prints them.
+pub(super) fn write(
+    case: &CaseFile,
+    runs: &Runs<'_>,
+    results: &[Evaluated],
+    folder: &Path,
+    out: &mut dyn Write,
+) -> anyhow::Result<()> {
+    let document = document(case, runs, results);
+    replace_file(
+        &folder.join("convergence.json"),
+        (serde_json::to_string_pretty(&document)? + "\n").as_bytes(),
+    )?;
+    replace_file(
+        &folder.join("convergence.csv"),
+        table(COLUMNS, results.iter().map(row)).as_bytes(),
+    )?;
+    for result in results {
+        if let Ok(drawing) = plot(runs, result).for_paper(WIDTH) {
+            write_plot(folder, &format!("{}-over-h", result.name), &drawing)?;
+        }
+    }
+    print(case, runs, results, out)?;
+    Ok(writeln!(out, "  results in {}", folder.display())?)
+}
+
+fn document<'a>(case: &'a CaseFile, runs: &'a Runs<'_>, results: &'a [Evaluated]) -> Document<'a> {
+    let in_file = runs.runs.iter().map(|run| RunInFile {
+        label: &run.body.label,
+        mesher: run.body.mesher,
+        size: if run.body.is_fine { "h" } else { "2h" },
+        points: run.results.number("points").ok(),
+        spacing: spacing(
+            runs,
+            run.results.number("volume").ok(),
+            run.results.number("points").ok(),
+        ),
+        horizon: run.results.number("horizon.mean").ok(),
+        folder: &run.folder,
+    });
+    Document {
+        title: &case.case.title,
+        ratio: runs.ratio(),
+        rule: Rule {
+            deviations: DEVIATIONS,
+            against_trend: AGAINST_TREND,
+            floor: runs.bodies.floor,
+            largest_change: LARGEST_CHANGE,
+            largest_scatter: LARGEST_SCATTER,
+        },
+        runs: in_file.collect(),
+        results,
+        notes: &runs.bodies.notes,
+    }
+}
+
+/// Spacing of the points of a body with the same points in a square or a cube of size one: relative where the thickness is not known.
+fn spacing(runs: &Runs<'_>, volume: Option<f64>, points: Option<f64>) -> Option<f64> {
+    let exponent = 1.0 / f64::from(runs.dimensions);
+    let size = if runs.dimensions == 3 {
+        volume?
+    } else {
+        volume? / runs.thickness
+    };
+    Some((size / points?).powf(exponent))
+}
+
+fn row(result: &Evaluated) -> Vec<Value<'_>> {
+    let of = |get: fn(&super::interval::Interval) -> f64| number(result.interval.as_ref().map(get));
+    vec![
+        Value::Text(&result.name),
+        Value::Text(&result.unit),
+        of(|it| it.lower),
+        of(|it| it.upper),
+        of(|it| it.fine),
+        of(|it| it.coarse),
+        number(result.interval.and_then(|it| it.deviation)),
+        number(result.mesher),
+        number(result.families),
+        result
+            .refused
+            .as_deref()
+            .map_or(Value::Missing, Value::Text),
+    ]
+}
+
+fn print(
+    case: &CaseFile,
+    runs: &Runs<'_>,
+    results: &[Evaluated],
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    writeln!(out, "{}", case.case.title)?;
+    writeln!(
+        out,
+        "intervals of convergence, 95 %: the limit of each result as its points become finer"
+    )?;
+    let points = |is_fine: bool| {
+        let of_size = runs
+            .runs
+            .iter()
+            .filter(move |run| run.body.is_fine == is_fine);
+        let counts = of_size.filter_map(|run| run.results.number("points").ok());
+        let words: Vec<String> = counts.map(|it| it.to_string()).collect();
+        words.join(" and ")
+    };
+    writeln!(
+        out,
+        "  sizes        {} points at h, {} at 2h; {}",
+        points(true),
+        points(false),
+        runs.bodies.origin
+    )?;
+    for line in aligned(&results.iter().map(words).collect::<Vec<_>>(), 2) {
+        writeln!(out, "  {line}")?;
+    }
+    let shares = |get: fn(&Evaluated) -> Option<f64>| -> String {
+        let known = results
+            .iter()
+            .filter_map(|it| Some(format!("{} {:+.1} %", it.label, 100.0 * get(it)?)));
+        known.collect::<Vec<_>>().join(", ")
+    };
+    let (mesher, families) = (shares(|it| it.mesher), shares(|it| it.families));
+    if !mesher.is_empty() {
+        let names: Vec<&str> = runs
+            .runs
+            .iter()
+            .filter(|run| run.body.is_fine)
+            .map(|run| run.body.mesher)
+            .collect();
+        writeln!(
+            out,
+            "  mesher       {} less {} at h: {mesher}",
+            names[1], names[0]
+        )?;
+    }
+    if !families.is_empty() {
+        writeln!(
+            out,
+            "  families     4/3 of the horizon factor at the same horizon: {families}; no refinement changes this, and it is not in the intervals"
+        )?;
+    }
+    for note in &runs.bodies.notes {
+        writeln!(out, "  note: {note}")?;
+    }
+    if results.iter().any(|it| it.interval.is_some()) {
+        writeln!(out, "  halve h to halve an interval")?;
+    }
+    Ok(())
+}
+
+/// Words of a result for the terminal.
+fn words(result: &Evaluated) -> Vec<String> {
+    let Some(interval) = &result.interval else {
+        let reason = result.refused.as_deref().unwrap_or_default();
+        return vec![result.label.clone(), format!("refused: {reason}")];
+    };
+    let unit = PrefixedUnit::new(&result.unit, interval.fine.abs());
+    let share = |deviation: f64| 100.0 * deviation / interval.fine.abs();
+    let deviation = interval.deviation.map_or_else(
+        || "scatter unknown: one run a size".to_owned(),
+        |it| format!("scatter {:.1} %", share(it)),
+    );
+    vec![
+        result.label.clone(),
+        between([interval.lower, interval.upper], &result.unit),
+        format!("at h {}", unit.value(interval.fine)),
+        format!("at 2h {}", unit.value(interval.coarse)),
+        deviation,
+    ]
+}
+
+/// A result over the spacing of the points: its runs, the line through the means, and the wedge of orders that ends in the interval at h = 0.
+fn plot(runs: &Runs<'_>, result: &Evaluated) -> Plot {
+    let at = |run: &super::evaluation::SizedRun<'_>| {
+        let spacing = spacing(
+            runs,
+            run.results.number("volume").ok(),
+            run.results.number("points").ok(),
+        );
+        Some([spacing?, run.results.number(&result.name).ok()?])
+    };
+    let mut meshers: Vec<&str> = runs.runs.iter().map(|run| run.body.mesher).collect();
+    meshers.sort_unstable();
+    meshers.dedup();
+    let mut series = Vec::new();
+    for (mesher, colour) in meshers.iter().zip([Colour::Blue, Colour::Vermilion]) {
+        let of_mesher = runs.runs.iter().filter(|run| run.body.mesher == *mesher);
+        series.push(Series::circles(
+            *mesher,
+            colour,
+            of_mesher.filter_map(at).collect(),
+        ));
+    }
+    let mean = |is_fine: bool| {
+        let points: Vec<[f64; 2]> = runs
+            .runs
+            .iter()
+            .filter(|run| run.body.is_fine == is_fine)
+            .filter_map(at)
+            .collect();
+        let n = points.len() as f64;
+        [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / n)
+    };
+    if let Some(interval) = result.interval {
+        let (fine, coarse) = (mean(true), mean(false));
+        series.push(Series::curve("means", Colour::Black, vec![coarse, fine]));
+        let ends = [interval.lower, interval.upper];
+        for (end, name) in ends.into_iter().zip(["", ""]) {
+            series.push(Series::dashes(name, Colour::Green, vec![fine, [0.0, end]]));
+        }
+        series.push(Series::curve(
+            "interval",
+            Colour::Green,
+            ends.map(|end| [0.0, end]).to_vec(),
+        ));
+    }
+    let unit = if result.unit == "-" {
+        String::new()
+    } else {
+        format!(", {}", result.unit)
+    };
+    let y = format!("{}{unit}", result.label);
+    let title = match result.interval {
+        Some(interval) => format!(
+            "{}: {}",
+            result.label,
+            between([interval.lower, interval.upper], &result.unit)
+        ),
+        None => format!("{}: no interval", result.label),
+    };
+    Plot::new(
+        format!("{}-over-h", result.name),
+        title,
+        ["spacing of the points, m", &y],
+        series,
+    )
+}
