@@ -157,7 +157,8 @@ experiments!(
     motion_schemes,
     contact_sliding,
     contact_hertz,
-    contact_flaw
+    contact_flaw,
+    converge
 );
 
 /// Measured tests: those with a fast run are run, and every value lies in the band that was written down before, or is missed for the reason

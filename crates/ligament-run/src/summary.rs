@@ -89,9 +89,6 @@ pub fn summary(
         let point = point.filter(|_| !without_equilibrium);
         point.map(PathPoint::from)
     };
-    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
-    let put_in = largest(&mut outcome.at_rest().map(StepRecord::energy_put_in));
-    let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
     let last_state_not_at_rest = history.last().is_some_and(|last| !last.at_rest);
     let end = (outcome.termination.row().verdict).end(without_equilibrium, last_state_not_at_rest);
     let of_end =
@@ -123,7 +120,7 @@ pub fn summary(
         termination_message: end_text(outcome, model),
         without_equilibrium,
         last_state_not_at_rest,
-        energy_balance_error: if put_in > 0.0 { missing / put_in } else { 0.0 },
+        energy_balance_error: energy_balance_error(outcome),
         certificate: data.certificate,
         overlap: outcome.overlap.map(|it| OverlapSummary {
             depth: it.depth,
@@ -292,6 +289,14 @@ fn bond_event(model: &Model, first: &FirstBond) -> BondEvent {
         criterion: labels.swap_remove(first.criterion as usize),
         tagged: model.names.tagged(),
     }
+}
+
+/// Largest energy that the ledger misses over the largest energy put in.
+fn energy_balance_error(outcome: &Outcome) -> f64 {
+    let largest = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+    let put_in = largest(&mut outcome.at_rest().map(StepRecord::energy_put_in));
+    let missing = largest(&mut outcome.at_rest().map(|step| step.missing_energy().abs()));
+    if put_in > 0.0 { missing / put_in } else { 0.0 }
 }
 
 /// Values of the probes in the last state.

@@ -115,7 +115,10 @@ impl Problem {
         let case = CaseFile::load(&repository().join(&self.case), &settings)?;
         let place = tempfile::tempdir().context("no folder for temporary results")?;
         let geometry = self.geometry.as_ref();
-        let sizes = self.sizes.iter().map(|(name, it)| (name.clone(), size * it));
+        let sizes = self
+            .sizes
+            .iter()
+            .map(|(name, it)| (name.clone(), size * it));
         let others = self.numbers.iter().map(|(name, it)| (name.clone(), *it));
         let request = Request {
             case: &case,

@@ -29,6 +29,7 @@ use ligament_output::folder::{Kind, ResultFolder};
 mod anisotropy;
 mod case_run;
 mod contact_pressure;
+mod convergence;
 mod crack_path;
 mod directions;
 pub mod entry;
@@ -77,7 +78,7 @@ enum ExperimentSource {
 }
 
 /// Experiments of published values, in the order of the report; the measured tests follow them ([`experiments`]).
-static PUBLISHED: [ExperimentSource; 47] = [
+static PUBLISHED: [ExperimentSource; 48] = [
     File("frequencies"),
     File("statics"),
     Code(&readings::EXPERIMENT),
@@ -125,6 +126,7 @@ static PUBLISHED: [ExperimentSource; 47] = [
     File("contact_sliding"),
     File("contact_hertz"),
     File("contact_flaw"),
+    Code(&convergence::EXPERIMENT),
 ];
 
 const EXAMPLES: &str = "\

@@ -92,9 +92,10 @@ pub(super) fn meshes(
                 geometry,
                 source,
                 folder: folder.join(MESHES),
+                dimensions: if case.case.is_solid() { 3.0 } else { 2.0 },
                 print,
             };
-            meshing.bodies(case, mesh.ok().as_ref())
+            meshing.bodies(mesh.ok().as_ref())
         }
         (None, Ok(AnyMesh::Plane(mesh))) => split(&section.file, &mesh, folder),
         (None, Ok(AnyMesh::Solid(_))) => {
@@ -125,32 +126,29 @@ struct Meshing<'a> {
     geometry: PathBuf,
     source: &'a MeshSource,
     folder: PathBuf,
+    /// Number of dimensions of space.
+    dimensions: f64,
     print: &'a mut dyn FnMut(&str),
+}
+
+/// A mesh that Gmsh made.
+struct GmshMesh {
+    size: &'static str,
+    mesher: &'static str,
+    file: PathBuf,
+    mesh: AnyMesh,
 }
 
 impl Meshing<'_> {
     /// The bodies by two meshers at both sizes; `own` is the mesh of the case, whose size is h.
-    fn bodies(&mut self, case: &CaseFile, own: Option<&AnyMesh>) -> anyhow::Result<SizedBodies> {
-        let dimensions = if case.case.is_solid() { 3.0 } else { 2.0 };
-        let spacing = |mesh: &AnyMesh| (mesh.n_nodes() as f64).powf(-1.0 / dimensions);
-        let (_, first) = self.mesh("h", MESHERS[0], 1.0)?;
-        // Groups of a geometry that the user names are left to the runs, which need some of them alone.
-        if let Some(own) = own.filter(|_| self.source.geometry.is_none()) {
-            self.require_same_groups(own, &first)?;
-        }
-        let wanted = own.map(|own| spacing(own) / spacing(&first));
-        let is_given = !self.source.numbers.is_empty() || self.source.size.is_some();
-        let factor = wanted.filter(|it| !is_given && (it - 1.0).abs() > SAME_SIZE);
-        let factor = factor.unwrap_or(1.0);
-        let mut made = Vec::new();
-        for (size, factor, is_fine) in [("h", factor, true), ("2h", 2.0 * factor, false)] {
-            for mesher in MESHERS {
-                let (file, mesh) = self.mesh(size, mesher, factor)?;
-                made.push((size, mesher.0, is_fine, file, mesh));
-            }
-        }
-        for mesher in 0..MESHERS.len() {
-            let ratio = spacing(&made[mesher + MESHERS.len()].4) / spacing(&made[mesher].4);
+    fn bodies(&mut self, own: Option<&AnyMesh>) -> anyhow::Result<SizedBodies> {
+        let factor = self.factor(own)?;
+        let [one, two] = MESHERS;
+        let fine = [self.mesh("h", one, factor)?, self.mesh("h", two, factor)?];
+        let factor = 2.0 * factor;
+        let coarse = [self.mesh("2h", one, factor)?, self.mesh("2h", two, factor)?];
+        for (fine, coarse) in fine.iter().zip(&coarse) {
+            let ratio = self.spacing(&coarse.mesh) / self.spacing(&fine.mesh);
             if !(RATIOS[0]..=RATIOS[1]).contains(&ratio) {
                 anyhow::bail!(
                     "{}: a factor of 2 on all sizes made the spacing of the points {ratio:.2} times as large: lines or surfaces have fixed \
@@ -161,47 +159,71 @@ impl Meshing<'_> {
         }
         let mut notes = Vec::new();
         let mut bodies = Vec::new();
-        for (index, (size, mesher, is_fine, file, mesh)) in made.iter().enumerate() {
-            let twin = index.checked_sub(1).map(|before| &made[before].4);
-            let (file, mesher) = match (twin, mesh) {
-                (Some(AnyMesh::Plane(twin)), AnyMesh::Plane(mesh))
-                    if index % 2 == 1 && twin == mesh =>
-                {
-                    notes.push(format!("both meshers make the same mesh at {size}: the inner nodes of the second are displaced"));
-                    (
-                        written(
-                            &self.folder,
-                            &format!("{size}-displaced"),
-                            &with_displaced_nodes(mesh, 1),
-                        )?,
-                        "displaced",
-                    )
-                }
-                _ => (file.clone(), *mesher),
-            };
-            bodies.push(body(size, mesher, *is_fine, &file));
+        for pair in [fine, coarse] {
+            bodies.extend(self.unlike_bodies(pair, &mut notes)?);
         }
+        let name = self.geometry.file_name().unwrap_or_default();
         Ok(SizedBodies {
             bodies,
             floor: FLOOR,
-            origin: format!(
-                "meshes by Gmsh from {}",
-                self.geometry
-                    .file_name()
-                    .unwrap_or_default()
-                    .to_string_lossy()
-            ),
+            origin: format!("meshes by Gmsh from {}", name.to_string_lossy()),
             notes,
         })
+    }
+
+    /// Spacing of the points of a mesh, up to a factor that all meshes of the geometry have.
+    fn spacing(&self, mesh: &AnyMesh) -> f64 {
+        (mesh.n_nodes() as f64).powf(-1.0 / self.dimensions)
+    }
+
+    /// Factor on the sizes of the geometry with which h is the spacing of the mesh of the case, or 1 where the user gives numbers.
+    fn factor(&mut self, own: Option<&AnyMesh>) -> anyhow::Result<f64> {
+        let Some(own) = own else {
+            return Ok(1.0);
+        };
+        let first = self.mesh("h", MESHERS[0], 1.0)?.mesh;
+        // Groups of a geometry that the user names are left to the runs, which need some of them alone.
+        if self.source.geometry.is_none() {
+            self.require_same_groups(own, &first)?;
+        }
+        let factor = self.spacing(own) / self.spacing(&first);
+        let is_given = !self.source.numbers.is_empty() || self.source.size.is_some();
+        Ok(if is_given || (factor - 1.0).abs() <= SAME_SIZE {
+            1.0
+        } else {
+            factor
+        })
+    }
+
+    /// The bodies of two meshes of one size. Where both meshers make the same mesh the nodes of the second are displaced.
+    fn unlike_bodies(
+        &self,
+        [one, other]: [GmshMesh; 2],
+        notes: &mut Vec<String>,
+    ) -> anyhow::Result<[SizedBody; 2]> {
+        let size = one.size;
+        let first = body(size, one.mesher, &one.file);
+        let second = match (&one.mesh, &other.mesh) {
+            (AnyMesh::Plane(mesh), AnyMesh::Plane(twin)) if mesh == twin => {
+                notes.push(format!(
+                    "both meshers make the same mesh at {size}: the inner nodes of the second are displaced"
+                ));
+                let name = format!("{size}-displaced");
+                let file = written(&self.folder, &name, &with_displaced_nodes(mesh, 1))?;
+                body(size, "displaced", &file)
+            }
+            _ => body(size, other.mesher, &other.file),
+        };
+        Ok([first, second])
     }
 
     /// Makes the mesh of a size and a mesher, unless it is up to date.
     fn mesh(
         &mut self,
-        size: &str,
-        (mesher, algorithm): (&str, u32),
+        size: &'static str,
+        (mesher, algorithm): (&'static str, u32),
         factor: f64,
-    ) -> anyhow::Result<(PathBuf, AnyMesh)> {
+    ) -> anyhow::Result<GmshMesh> {
         let geometry = std::path::absolute(&self.geometry)?;
         let mut numbers = self.source.numbers.clone();
         let mut options = format!(
@@ -222,9 +244,13 @@ impl Meshing<'_> {
         if let Some(reason) = failed.into_values().next() {
             anyhow::bail!("{}: {reason}", self.geometry.display());
         }
-        let out = plan.request.out;
-        let mesh = read_any_mesh(&out)?;
-        Ok((out, mesh))
+        let file = plan.request.out;
+        Ok(GmshMesh {
+            size,
+            mesher,
+            mesh: read_any_mesh(&file)?,
+            file,
+        })
     }
 
     /// Refuses a geometry without the groups of the mesh of the case.
@@ -256,21 +282,12 @@ fn split(file: &Path, coarse: &Mesh, folder: &Path) -> anyhow::Result<SizedBodie
     let folder = folder.join(MESHES);
     let fine = coarse.split_in_four();
     let file_of = |name: &str, mesh: &Mesh| written(&folder, name, mesh);
+    let moved = |name: &str, mesh: &Mesh| file_of(name, &with_displaced_nodes(mesh, 1));
     let bodies = vec![
-        body("h", "split", true, &file_of("h-split", &fine)?),
-        body(
-            "h",
-            "displaced",
-            true,
-            &file_of("h-displaced", &with_displaced_nodes(&fine, 1))?,
-        ),
-        body("2h", "split", false, &std::path::absolute(file)?),
-        body(
-            "2h",
-            "displaced",
-            false,
-            &file_of("2h-displaced", &with_displaced_nodes(coarse, 1))?,
-        ),
+        body("h", "split", &file_of("h-split", &fine)?),
+        body("h", "displaced", &moved("h-displaced", &fine)?),
+        body("2h", "split", &std::path::absolute(file)?),
+        body("2h", "displaced", &moved("2h-displaced", coarse)?),
     ];
     let mut notes = Vec::new();
     if has_curved_outline(coarse) {
@@ -309,11 +326,12 @@ fn written(folder: &Path, name: &str, mesh: &Mesh) -> anyhow::Result<PathBuf> {
     Ok(path)
 }
 
-fn body(size: &str, mesher: &'static str, is_fine: bool, file: &Path) -> SizedBody {
+/// The body with a mesh.
+fn body(size: &str, mesher: &'static str, file: &Path) -> SizedBody {
     SizedBody {
         label: format!("{size} {mesher}"),
         mesher,
-        is_fine,
+        is_fine: size == "h",
         settings: vec![("mesh.file".to_owned(), quoted(&file.to_string_lossy()))],
     }
 }

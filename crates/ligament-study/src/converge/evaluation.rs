@@ -89,13 +89,31 @@ impl Runs<'_> {
         (fine / coarse).powf(1.0 / f64::from(self.dimensions))
     }
 
+    /// The runs of one size.
+    pub(super) fn of_size(&self, is_fine: bool) -> impl Iterator<Item = &SizedRun<'_>> {
+        let runs = self.runs.iter();
+        runs.filter(move |run| run.body.is_fine == is_fine)
+    }
+
+    /// Mean spacing of the points of a run, m; none without the number of points and the volume.
+    pub(super) fn spacing(&self, run: &SizedRun<'_>) -> Option<f64> {
+        let [volume, points] = ["volume", "points"].map(|name| run.results.number(name).ok());
+        let size = if self.dimensions == 3 {
+            volume?
+        } else {
+            volume? / self.thickness
+        };
+        Some((size / points?).powf(1.0 / f64::from(self.dimensions)))
+    }
+
     /// Values of a result in the runs at h and at 2h; runs without it are left out.
     fn samples(&self, name: &str) -> [Vec<f64>; 2] {
-        [true, false].map(|is_fine| {
-            let runs = self.runs.iter().filter(|run| run.body.is_fine == is_fine);
+        let values = |is_fine| {
+            let runs = self.of_size(is_fine);
             runs.filter_map(|run| run.results.number(name).ok())
                 .collect()
-        })
+        };
+        [true, false].map(values)
     }
 
     /// The named results with their intervals, without names those that the runs have.
@@ -123,10 +141,11 @@ impl Runs<'_> {
             return Vec::new();
         };
         let mut names = vec!["elastic_stiffness".to_owned()];
-        let breaks = self
-            .runs
-            .iter()
-            .any(|run| run.results.number("first_break.reaction").is_ok());
+        let has_failed = |run: &SizedRun<'_>| {
+            let counts = ["broken_bonds", "softened_bonds"].map(|name| run.results.number(name));
+            counts.into_iter().flatten().any(|count| count > 0.0)
+        };
+        let breaks = self.runs.iter().any(has_failed);
         if breaks {
             let of_breakage = ["first_break.reaction", "peak.reaction"];
             names.extend(of_breakage.map(str::to_owned));

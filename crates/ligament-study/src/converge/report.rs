@@ -11,13 +11,16 @@ use ligament_output::replace_file;
 use ligament_plot::plots::{Colour, Plot, Series};
 use serde::Serialize;
 
-use super::evaluation::{Evaluated, Runs};
-use super::interval::{AGAINST_TREND, DEVIATIONS, LARGEST_CHANGE, LARGEST_SCATTER};
+use super::evaluation::{Evaluated, Runs, SizedRun};
+use super::interval::{AGAINST_TREND, DEVIATIONS, Interval, LARGEST_CHANGE, LARGEST_SCATTER};
 use crate::run_table::{WIDTH, number, table, write_plot};
 
 /// Columns of `convergence.csv`.
 const COLUMNS: &str =
     "result,unit,lower,upper,at_h,at_2h,standard_deviation,mesher,families,refused";
+
+/// Width of the words before the lines that are no results.
+const HEADING: usize = 11;
 
 /// `convergence.json`.
 #[derive(Serialize)]
@@ -86,11 +89,7 @@ fn document<'a>(case: &'a CaseFile, runs: &'a Runs<'_>, results: &'a [Evaluated]
         mesher: run.body.mesher,
         size: if run.body.is_fine { "h" } else { "2h" },
         points: run.results.number("points").ok(),
-        spacing: spacing(
-            runs,
-            run.results.number("volume").ok(),
-            run.results.number("points").ok(),
-        ),
+        spacing: runs.spacing(run),
         horizon: run.results.number("horizon.mean").ok(),
         folder: &run.folder,
     });
@@ -110,19 +109,8 @@ fn document<'a>(case: &'a CaseFile, runs: &'a Runs<'_>, results: &'a [Evaluated]
     }
 }
 
-/// Spacing of the points of a body with the same points in a square or a cube of size one: relative where the thickness is not known.
-fn spacing(runs: &Runs<'_>, volume: Option<f64>, points: Option<f64>) -> Option<f64> {
-    let exponent = 1.0 / f64::from(runs.dimensions);
-    let size = if runs.dimensions == 3 {
-        volume?
-    } else {
-        volume? / runs.thickness
-    };
-    Some((size / points?).powf(exponent))
-}
-
 fn row(result: &Evaluated) -> Vec<Value<'_>> {
-    let of = |get: fn(&super::interval::Interval) -> f64| number(result.interval.as_ref().map(get));
+    let of = |get: fn(&Interval) -> f64| number(result.interval.as_ref().map(get));
     vec![
         Value::Text(&result.name),
         Value::Text(&result.unit),
@@ -152,50 +140,25 @@ fn print(
         "intervals of convergence, 95 %: the limit of each result as its points become finer"
     )?;
     let points = |is_fine: bool| {
-        let of_size = runs
-            .runs
-            .iter()
-            .filter(move |run| run.body.is_fine == is_fine);
-        let counts = of_size.filter_map(|run| run.results.number("points").ok());
+        let counts = runs
+            .of_size(is_fine)
+            .filter_map(|run| run.results.number("points").ok());
         let words: Vec<String> = counts.map(|it| it.to_string()).collect();
         words.join(" and ")
     };
+    let (fine, coarse, origin) = (points(true), points(false), &runs.bodies.origin);
     writeln!(
         out,
-        "  sizes        {} points at h, {} at 2h; {}",
-        points(true),
-        points(false),
-        runs.bodies.origin
+        "  sizes        {fine} points at h, {coarse} at 2h; {origin}"
     )?;
-    for line in aligned(&results.iter().map(words).collect::<Vec<_>>(), 2) {
+    // Rows with a reason do not widen their first column.
+    let width = results.iter().map(|it| it.label.chars().count());
+    let width = width.max().unwrap_or(0).max(HEADING);
+    let rows = results.iter().map(|result| words(result, width));
+    for line in aligned(&rows.collect::<Vec<_>>(), 2) {
         writeln!(out, "  {line}")?;
     }
-    let shares = |get: fn(&Evaluated) -> Option<f64>| -> String {
-        let known = results
-            .iter()
-            .filter_map(|it| Some(format!("{} {:+.1} %", it.label, 100.0 * get(it)?)));
-        known.collect::<Vec<_>>().join(", ")
-    };
-    let (mesher, families) = (shares(|it| it.mesher), shares(|it| it.families));
-    if !mesher.is_empty() {
-        let names: Vec<&str> = runs
-            .runs
-            .iter()
-            .filter(|run| run.body.is_fine)
-            .map(|run| run.body.mesher)
-            .collect();
-        writeln!(
-            out,
-            "  mesher       {} less {} at h: {mesher}",
-            names[1], names[0]
-        )?;
-    }
-    if !families.is_empty() {
-        writeln!(
-            out,
-            "  families     4/3 of the horizon factor at the same horizon: {families}; no refinement changes this, and it is not in the intervals"
-        )?;
-    }
+    print_apart(runs, results, out)?;
     for note in &runs.bodies.notes {
         writeln!(out, "  note: {note}")?;
     }
@@ -205,11 +168,35 @@ fn print(
     Ok(())
 }
 
-/// Words of a result for the terminal.
-fn words(result: &Evaluated) -> Vec<String> {
+/// Prints what is not in the intervals: the difference of the meshers, and the change with the number of bonds.
+fn print_apart(runs: &Runs<'_>, results: &[Evaluated], out: &mut dyn Write) -> io::Result<()> {
+    let shares = |get: fn(&Evaluated) -> Option<f64>| -> String {
+        let known = results
+            .iter()
+            .filter_map(|it| Some(format!("{} {:+.1} %", it.label, 100.0 * get(it)?)));
+        known.collect::<Vec<_>>().join(", ")
+    };
+    let (mesher, families) = (shares(|it| it.mesher), shares(|it| it.families));
+    if !mesher.is_empty() {
+        let names: Vec<&str> = runs.of_size(true).map(|run| run.body.mesher).collect();
+        let names = format!("{} less {}", names[1], names[0]);
+        writeln!(out, "  mesher       {names} at h: {mesher}")?;
+    }
+    if !families.is_empty() {
+        writeln!(
+            out,
+            "  families     4/3 of the horizon factor at the same horizon: {families}; no refinement changes this, and it is not in the intervals"
+        )?;
+    }
+    Ok(())
+}
+
+/// Words of a result for the terminal, the first of a width.
+fn words(result: &Evaluated, width: usize) -> Vec<String> {
+    let label = format!("{:<width$}", result.label);
     let Some(interval) = &result.interval else {
         let reason = result.refused.as_deref().unwrap_or_default();
-        return vec![result.label.clone(), format!("refused: {reason}")];
+        return vec![label, format!("refused: {reason}")];
     };
     let unit = PrefixedUnit::new(&result.unit, interval.fine.abs());
     let share = |deviation: f64| 100.0 * deviation / interval.fine.abs();
@@ -218,7 +205,7 @@ fn words(result: &Evaluated) -> Vec<String> {
         |it| format!("scatter {:.1} %", share(it)),
     );
     vec![
-        result.label.clone(),
+        label,
         between([interval.lower, interval.upper], &result.unit),
         format!("at h {}", unit.value(interval.fine)),
         format!("at 2h {}", unit.value(interval.coarse)),
@@ -228,13 +215,9 @@ fn words(result: &Evaluated) -> Vec<String> {
 
 /// A result over the spacing of the points: its runs, the line through the means, and the wedge of orders that ends in the interval at h = 0.
 fn plot(runs: &Runs<'_>, result: &Evaluated) -> Plot {
-    let at = |run: &super::evaluation::SizedRun<'_>| {
-        let spacing = spacing(
-            runs,
-            run.results.number("volume").ok(),
-            run.results.number("points").ok(),
-        );
-        Some([spacing?, run.results.number(&result.name).ok()?])
+    let at = |run: &SizedRun<'_>| {
+        let value = run.results.number(&result.name).ok();
+        Some([runs.spacing(run)?, value?])
     };
     let mut meshers: Vec<&str> = runs.runs.iter().map(|run| run.body.mesher).collect();
     meshers.sort_unstable();
@@ -242,53 +225,39 @@ fn plot(runs: &Runs<'_>, result: &Evaluated) -> Plot {
     let mut series = Vec::new();
     for (mesher, colour) in meshers.iter().zip([Colour::Blue, Colour::Vermilion]) {
         let of_mesher = runs.runs.iter().filter(|run| run.body.mesher == *mesher);
-        series.push(Series::circles(
-            *mesher,
-            colour,
-            of_mesher.filter_map(at).collect(),
-        ));
+        let points = of_mesher.filter_map(at).collect();
+        series.push(Series::circles(*mesher, colour, points));
     }
     let mean = |is_fine: bool| {
-        let points: Vec<[f64; 2]> = runs
-            .runs
-            .iter()
-            .filter(|run| run.body.is_fine == is_fine)
-            .filter_map(at)
-            .collect();
+        let points: Vec<[f64; 2]> = runs.of_size(is_fine).filter_map(at).collect();
         let n = points.len() as f64;
         [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / n)
     };
-    if let Some(interval) = result.interval {
-        let (fine, coarse) = (mean(true), mean(false));
-        series.push(Series::curve("means", Colour::Black, vec![coarse, fine]));
-        let ends = [interval.lower, interval.upper];
-        for (end, name) in ends.into_iter().zip(["", ""]) {
-            series.push(Series::dashes(name, Colour::Green, vec![fine, [0.0, end]]));
+    let words = match result.interval {
+        Some(Interval { lower, upper, .. }) => {
+            series.extend(wedge([mean(true), mean(false)], [lower, upper]));
+            between([lower, upper], &result.unit)
         }
-        series.push(Series::curve(
-            "interval",
-            Colour::Green,
-            ends.map(|end| [0.0, end]).to_vec(),
-        ));
-    }
-    let unit = if result.unit == "-" {
-        String::new()
-    } else {
-        format!(", {}", result.unit)
+        None => "no interval".to_owned(),
     };
-    let y = format!("{}{unit}", result.label);
-    let title = match result.interval {
-        Some(interval) => format!(
-            "{}: {}",
-            result.label,
-            between([interval.lower, interval.upper], &result.unit)
-        ),
-        None => format!("{}: no interval", result.label),
+    let y = match result.unit.as_str() {
+        "-" => result.label.clone(),
+        unit => format!("{}, {unit}", result.label),
     };
     Plot::new(
         format!("{}-over-h", result.name),
-        title,
+        format!("{}: {words}", result.label),
         ["spacing of the points, m", &y],
         series,
     )
+}
+
+/// The line through the means at h and 2h, and from h to the ends of the interval at h = 0.
+fn wedge([fine, coarse]: [[f64; 2]; 2], ends: [f64; 2]) -> Vec<Series> {
+    let at_zero = ends.map(|end| [0.0, end]);
+    let to_end = |end| Series::dashes("", Colour::Green, vec![fine, end]);
+    let mut series = vec![Series::curve("means", Colour::Black, vec![coarse, fine])];
+    series.extend(at_zero.map(to_end));
+    series.push(Series::curve("interval", Colour::Green, at_zero.to_vec()));
+    series
 }
