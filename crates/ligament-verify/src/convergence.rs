@@ -99,7 +99,7 @@ impl Intervals {
         })?;
         let half = 0.5 * (interval.upper - interval.lower);
         let place = (target - 0.5 * (interval.upper + interval.lower)) / half;
-        if of == "width, %" {
+        if of == "half-width, %" {
             return Ok(100.0 * half / target.abs());
         }
         self.places.push(place);
