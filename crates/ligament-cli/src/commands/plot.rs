@@ -168,6 +168,17 @@ impl PlotArgs {
         })
     }
 
+    /// Size and file of the picture.
+    fn target(&self) -> Target {
+        Target {
+            out: self.out.clone(),
+            force: self.force,
+            format: self.format,
+            width: self.width,
+            dpi: self.dpi,
+        }
+    }
+
     /// The first given option that draws a body with a field or its bonds.
     fn option_of_bodies(&self) -> Option<&'static str> {
         let given = [
@@ -189,13 +200,7 @@ impl PlotArgs {
 
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
-        let target = Target {
-            out: self.out.clone(),
-            force: self.force,
-            format: self.format,
-            width: self.width,
-            dpi: self.dpi,
-        };
+        let target = self.target();
         let is_series = self.step == [StepChoice::All];
         if !is_series && self.step.contains(&StepChoice::All) {
             anyhow::bail!("--step all draws every stored step; leave out the others");

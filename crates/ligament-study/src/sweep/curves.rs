@@ -67,11 +67,8 @@ impl<'a> Curves<'a> {
     ) -> Result<Self, UnknownColumn> {
         let (of_x, of_y) = (table.numbers(x)?, table.numbers(y)?);
         let point = |run: usize| Some([of_x[run]?, of_y[run]?]);
-        let coincide = |one: usize, other: usize| {
-            let places = point(one).zip(point(other));
-            places.is_some_and(|(one, other)| one[0] == other[0])
-        };
-        let grouping = Grouping::new(study, plot, rows, &coincide);
+        let place = |run: usize| Some(point(run)?[0]);
+        let grouping = Grouping::new(study, plot, rows, &place);
         let curve = |CurveRuns { label, runs }: CurveRuns| {
             let points = runs.into_iter().filter_map(point);
             let mut points: Vec<[f64; 2]> = points.collect();

@@ -278,13 +278,12 @@ fn only_number(
         all.all(|(it, point)| it.axis.is_value(point, it.key, &it.texts[*row]))
     };
     let reason = |what: String| {
-        let parts = chosen();
-        let parts = parts.map(|(it, point)| {
+        let values = chosen().map(|(it, point)| {
             let words = it.axis.value_words(point, it.key);
             format!("{} = {words}", it.key)
         });
-        let parts: Vec<String> = parts.collect();
-        format!("has {what} for the runs with {}", parts.join(", "))
+        let values: Vec<String> = values.collect();
+        format!("has {what} for the runs with {}", values.join(", "))
     };
     let rows: Vec<usize> = (0..numbers.len()).filter(is_row).collect();
     let [row] = rows[..] else {

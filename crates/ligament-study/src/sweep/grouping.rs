@@ -3,7 +3,7 @@
 //! No run is averaged unless the plot says so: an axis that a plot neither draws by, filters to one value nor averages, and whose runs would
 //! fall upon one another, gets a curve for each of its values.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::axis::{Axis, axis_of_key};
 use super::derived::combinations;
@@ -39,7 +39,7 @@ pub(super) struct Grouping {
 }
 
 /// An axis that tells runs of a plot apart, with the indices of its values that are drawn.
-struct Part<'a> {
+struct DrawnAxis<'a> {
     axis: &'a Axis,
     index: usize,
     values: Vec<usize>,
@@ -47,7 +47,7 @@ struct Part<'a> {
     name: Option<String>,
 }
 
-impl<'a> Part<'a> {
+impl<'a> DrawnAxis<'a> {
     /// An axis with the values that the filters of a plot leave.
     fn new(study: &'a Study, plot: &StudyPlot, index: usize, name: Option<String>) -> Self {
         let axis = &study.axes[index];
@@ -73,12 +73,12 @@ impl<'a> Part<'a> {
 }
 
 impl Grouping {
-    /// The runs of a plot; `coincide` says of two runs whether one curve would have both at one place.
+    /// The runs of a plot; `place` is where a curve has a run, None where it has none.
     pub(super) fn new(
         study: &Study,
         plot: &StudyPlot,
         rows: &[Row<'_>],
-        coincide: &dyn Fn(usize, usize) -> bool,
+        place: &dyn Fn(usize) -> Option<f64>,
     ) -> Self {
         let is_drawn = |run: &usize| {
             let mut filters = plot.filters.iter();
@@ -90,26 +90,26 @@ impl Grouping {
             axes.flatten().collect()
         };
         let (by, mean) = (named(&plot.by), named(&plot.mean));
-        let is_unnamed = |axis: &usize| {
-            let is_named = by.contains(axis) || mean.contains(axis);
-            !is_named && would_coincide(*axis, &drawn, rows, coincide)
-        };
-        let unnamed: Vec<usize> = (0..study.axes.len()).filter(is_unnamed).collect();
-        let (last, first) = by
-            .split_last()
-            .map_or((None, &[][..]), |(last, first)| (Some(*last), first));
+        let mut unnamed = coinciding_axes(&drawn, rows, &by, place);
+        unnamed.retain(|axis| !mean.contains(axis));
         let keys = short_keys(&study.axes);
-        let part = |axis: usize, has_name: bool| {
-            let name = has_name.then(|| keys[axis][0].clone());
-            Part::new(study, plot, axis, name)
+        let with_name = |axis: &usize| {
+            let name = Some(keys[*axis][0].clone());
+            DrawnAxis::new(study, plot, *axis, name)
         };
-        let panels: Vec<Part<'_>> = first.iter().map(|axis| part(*axis, true)).collect();
-        let curves: Vec<Part<'_>> = (last.iter().map(|axis| part(*axis, !unnamed.is_empty())))
-            .chain(unnamed.iter().map(|axis| part(*axis, true)))
-            .collect();
-        let has = |run: &usize, parts: &[Part<'_>], values: &[usize]| {
-            let mut pairs = parts.iter().zip(values);
-            pairs.all(|(part, value)| rows[*run].run.place[part.index] == *value)
+        let (last, first) = match by.split_last() {
+            Some((last, first)) => (Some(last), first),
+            None => (None, &[][..]),
+        };
+        let panels: Vec<DrawnAxis<'_>> = first.iter().map(with_name).collect();
+        let mut curves: Vec<DrawnAxis<'_>> =
+            last.into_iter().chain(&unnamed).map(with_name).collect();
+        if let ([only], true) = (&mut curves[..], unnamed.is_empty()) {
+            only.name = None;
+        }
+        let has = |run: &usize, axes: &[DrawnAxis<'_>], values: &[usize]| {
+            let mut pairs = axes.iter().zip(values);
+            pairs.all(|(it, value)| rows[*run].run.place[it.index] == *value)
         };
         let panel = |(label, of_panel): (String, Vec<usize>)| {
             let runs = drawn.iter().filter(|run| has(run, &panels, &of_panel));
@@ -122,48 +122,47 @@ impl Grouping {
             let curves = labelled(&curves).into_iter().map(curve).collect();
             PanelRuns { label, curves }
         };
-        let n_values = |axis: usize| Part::new(study, plot, axis, None).values.len();
+        let of_unnamed = curves.iter().filter(|it| unnamed.contains(&it.index));
         Self {
             panels: labelled(&panels).into_iter().map(panel).collect(),
-            unnamed: unnamed.iter().map(|&axis| (axis, n_values(axis))).collect(),
+            unnamed: of_unnamed.map(|it| (it.index, it.values.len())).collect(),
         }
     }
 }
 
 /// All combinations of the values of some axes, with their labels.
-fn labelled(parts: &[Part<'_>]) -> Vec<(String, Vec<usize>)> {
-    let sizes: Vec<usize> = parts.iter().map(|part| part.values.len()).collect();
+fn labelled(axes: &[DrawnAxis<'_>]) -> Vec<(String, Vec<usize>)> {
+    let sizes: Vec<usize> = axes.iter().map(|it| it.values.len()).collect();
     let combined = combinations(&sizes).into_iter().map(|places| {
-        let values = parts
-            .iter()
-            .zip(places)
-            .map(|(part, place)| part.values[place]);
+        let values = axes.iter().zip(places).map(|(it, place)| it.values[place]);
         let values: Vec<usize> = values.collect();
-        let labels = parts
-            .iter()
-            .zip(&values)
-            .map(|(part, value)| part.label(*value));
+        let labels = axes.iter().zip(&values).map(|(it, value)| it.label(*value));
         (labels.collect::<Vec<_>>().join(", "), values)
     });
     combined.collect()
 }
 
-/// Whether two runs that differ along one axis alone would be at one place of one curve.
-fn would_coincide(
-    axis: usize,
+/// The axes whose values differ among runs that have the same values of the axes `by` and the same place.
+fn coinciding_axes(
     drawn: &[usize],
     rows: &[Row<'_>],
-    coincide: &dyn Fn(usize, usize) -> bool,
-) -> bool {
-    let mut groups = BTreeMap::<Vec<usize>, Vec<usize>>::new();
+    by: &[usize],
+    place: &dyn Fn(usize) -> Option<f64>,
+) -> Vec<usize> {
+    let mut first = BTreeMap::<(Vec<usize>, u64), &[usize]>::new();
+    let mut found = BTreeSet::new();
     for &run in drawn {
-        let mut key = rows[run].run.place.clone();
-        key[axis] = 0;
-        groups.entry(key).or_default().push(run);
+        let Some(x) = place(run) else { continue };
+        let values = &rows[run].run.place;
+        let of_by = by.iter().map(|axis| values[*axis]).collect();
+        // The sum makes both zeros equal.
+        let other = first.entry((of_by, (x + 0.0).to_bits())).or_insert(values);
+        let pairs = values.iter().zip(other.iter()).enumerate();
+        found.extend(
+            pairs
+                .filter(|(_, (one, other))| one != other)
+                .map(|(axis, _)| axis),
+        );
     }
-    groups.values().any(|runs| {
-        let others = |place: usize| runs[place + 1..].iter();
-        let mut numbered = runs.iter().enumerate();
-        numbered.any(|(place, run)| others(place).any(|other| coincide(*run, *other)))
-    })
+    found.into_iter().collect()
 }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use ligament_plot::drawing::Drawing;
 use ligament_plot::picture::curve::{CurveRequest, panels_of_curves};
 use ligament_plot::picture::{PathPanel, PictureError, Target, drawing_of_crack_paths};
+use ligament_plot::plots::PlotError;
 
 use super::grouping::Grouping;
 use super::study::{PlotContent, Study, StudyPlot};
@@ -30,6 +31,10 @@ pub(super) fn drawing(
     width: f64,
 ) -> Result<Drawing, PictureError> {
     let panels = panels(study, plot, rows);
+    if panels.is_empty() {
+        let name = name(plot).to_owned();
+        return Err(PlotError::Empty { name }.into());
+    }
     let title = plot.title.clone().unwrap_or_else(|| study.heading());
     let PlotContent::Curves { x, y } = &plot.content else {
         return drawing_of_crack_paths(&title, &panels, width);
@@ -53,7 +58,8 @@ pub(super) fn drawing(
 
 /// The completed runs in panels with a label for each run; panels without one are left out.
 fn panels(study: &Study, plot: &StudyPlot, rows: &[Row<'_>]) -> Vec<PathPanel> {
-    let grouping = Grouping::new(study, plot, rows, &|_, _| true);
+    // All runs are at one place, so that each has a curve.
+    let grouping = Grouping::new(study, plot, rows, &|_| Some(0.0));
     let panels = grouping.panels.into_iter().map(|panel| {
         let curves = panel.curves.into_iter();
         let runs = curves.flat_map(|curve| {

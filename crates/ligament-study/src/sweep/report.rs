@@ -347,8 +347,8 @@ fn with_panels<'a>(curves: &'a Curves<'_>) -> impl Iterator<Item = (&'a str, &'a
 
 /// The label of a panel, if it has one, and that of a curve.
 fn joined(panel: &str, curve: &str) -> String {
-    let parts = [panel, curve].into_iter().filter(|it| !it.is_empty());
-    parts.collect::<Vec<_>>().join(", ")
+    let labels = [panel, curve].into_iter().filter(|it| !it.is_empty());
+    labels.collect::<Vec<_>>().join(", ")
 }
 
 fn write_aligned(lines: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {

@@ -212,12 +212,10 @@ pub(super) fn completed_runs(folder: &Path) -> anyhow::Result<Vec<(String, PathB
         })
         .collect();
     anyhow::ensure!(!done.is_empty(), "no run of {} is done", path.display());
-    let parts: Vec<Vec<&str>> = done
-        .iter()
-        .map(|(run, _)| run.split(',').collect())
-        .collect();
-    let differs = |part: &&&str| done.len() == 1 || !parts.iter().all(|all| all.contains(*part));
-    let labels = parts.iter().map(|all| {
+    let settings = done.iter().map(|(run, _)| run.split(',').collect());
+    let settings: Vec<Vec<&str>> = settings.collect();
+    let differs = |it: &&&str| done.len() == 1 || !settings.iter().all(|all| all.contains(*it));
+    let labels = settings.iter().map(|all| {
         let shown: Vec<&str> = all.iter().filter(differs).copied().collect();
         shown.join(", ").replace('=', " = ")
     });

@@ -62,8 +62,9 @@ pub fn few_bonds<'a>(
 ) -> Option<Message> {
     let mut kinds = criteria.into_iter().map(|it| it.kind);
     let kind = kinds.find(is_by_stress).filter(|_| factor <= FEW_BONDS)?;
+    let factor = (1e3 * factor).round() / 1e3;
     let text = format!(
-        "criterion \"{}\" with a horizon of {factor:.4} times the distance of points: the family of a point has so few bonds that single ones fail \
+        "criterion \"{}\" with a horizon of {factor} times the distance of points: the family of a point has so few bonds that single ones fail \
          early, and the strength depends on the mesh (`bond-rankine` on six meshes of the Brazilian disk: first breakage at .15 to 1.11 of the \
          exact load, peak at .90 to 1.10; with 3, 1.01 to 1.02 and 1.00 to 1.01)",
         kind.word
