@@ -92,12 +92,6 @@ fn several_keys_make_panels_and_filters_leave_runs() {
         "{}",
         stderr(&output)
     );
-    let text = stdout(&output);
-    let peaks = place.table().numbers("first_peak.reaction");
-    // The last four runs are those of the fine lattice.
-    for peak in &peaks[4..] {
-        assert!(text.contains(&format!("{peak:.1}")), "{peak}: {text}");
-    }
     assert_eq!(place.plotted().matches("<circle").count(), 6);
 }
 
@@ -270,7 +264,7 @@ kind = "curves"
     for words in [
         "fracture_energy = 50",
         ">2.5<",
-        ">3<",
+        ">3.0<",
         "Slits: crack paths at the end",
         "pre-crack",
     ] {
@@ -278,8 +272,8 @@ kind = "curves"
     }
     let curves = fs::read_to_string(place.path("out/curves.svg")).unwrap();
     for words in [
-        "fracture_energy = 50, horizon_factor = 2.5",
-        "fracture_energy = 60, horizon_factor = 3",
+        "fracture_energy = 50.0, horizon_factor = 2.5",
+        "fracture_energy = 60.0, horizon_factor = 3.0",
     ] {
         assert!(curves.contains(words), "{words}: {curves}");
     }

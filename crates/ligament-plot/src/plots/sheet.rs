@@ -77,11 +77,10 @@ impl PageLayout {
     /// A sheet of paper of a width in mm with a line above several plots of equal size, and the rooms of these in rows.
     pub(super) fn paper_of(width: f64, series: &[Series], count: usize) -> (Self, Vec<Room>) {
         let sheet = Self::paper(width, series);
-        // Four plots are a square.
-        let columns = if count == 4 {
-            2
-        } else {
-            count.clamp(1, MOST_COLUMNS)
+        // Up to four plots are in pairs, so that they are not small.
+        let columns = match count {
+            0..=4 => count.clamp(1, 2),
+            _ => MOST_COLUMNS,
         };
         let rows = count.div_ceil(columns) as f64;
         let side = sheet.plane / columns as f64;
