@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     fn plot(title: &str, points: Vec<[f64; 2]>) -> Plot {
-        let series = Series::line("3.0", Colour::Blue, points);
+        let series = Series::line("coarse", Colour::Blue, points);
         Plot::new("p", title, ["x", "y"], vec![series])
     }
 
@@ -90,7 +90,7 @@ mod tests {
         for words in [">4 mm<", ">2 mm<", ">Peaks<"] {
             assert_eq!(svg.matches(words).count(), 1, "{words}");
         }
-        assert_eq!(svg.matches(">3.0<").count(), 1, "{svg}");
+        assert_eq!(svg.matches(">coarse<").count(), 1, "{svg}");
         let circles = svg.lines().filter(|it| it.contains("<circle"));
         let height = |it: &str| {
             it.split("cy=\"")
