@@ -98,6 +98,9 @@ values = [2.2, 2.7]
 name = "relative"
 of = "peak.reaction"
 over = 2.0
+[[result]]
+name = "cracked"
+of = "crack.length"
 [[plot]]
 x = "model.horizon_factor"
 y = "relative"
@@ -393,6 +396,7 @@ fn of_studies(place: &Place, names: &mut Names, wrong: &mut Vec<String>) {
         "LABEL",
         set(&[
             "relative",
+            "cracked",
             "tensile_strength.label",
             "material.tensile_strength.label",
         ]),

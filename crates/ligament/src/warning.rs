@@ -20,6 +20,7 @@ use crate::described::Described;
 use crate::plausibility::corners;
 use crate::setup::{Horizon, MaterialRegion, Setup};
 
+pub use criteria::few_bonds;
 pub(crate) use volumetric::without_edges;
 
 /// Horizon factor below which the domain correction is not known to have a fixed point.
@@ -60,6 +61,8 @@ pub(crate) fn of_model(
     if let Some(CorrectionReport::Domain(_)) = correction {
         warnings.extend(small_horizon(setup, points, fixed));
     }
+    let (factor, _) = smallest_factor(setup, points, fixed);
+    warnings.extend(few_bonds(&setup.criteria, factor));
     match correction {
         Some(CorrectionReport::Domain(report)) if !report.converged => {
             warnings.push(not_converged((body, subdomain), report, fixed));

@@ -11,8 +11,9 @@ use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
 use ligament_plot::picture::{
     CrackDrawing, FieldRequest, Format, Magnification, Section, SolidRequest, Target, View,
-    animate, draw_each, draw_fields,
+    animate, draw_crack_paths, draw_each, draw_fields,
 };
+use ligament_study::sweep::completed_runs;
 
 use super::argument_parsers::{self, numbers, output_file};
 use crate::terminal;
@@ -30,6 +31,8 @@ Examples:
   ligament plot results/wave --step t=2e-5 t=4e-5           the outputs nearest to these times
   ligament plot results/disk --animate crack.gif --field damage --fps 12
   ligament plot results/plate-modes                         the first six modes
+  ligament plot results/horizon-study                       the curves of all runs of a study
+  ligament plot results/horizon-study --crack=lines         their crack paths over one another
   ligament plot results/beam --view -40,20 --crack          a solid, opened along its crack
   ligament plot results/beam --crack=lines --out crack.png  the crack of a solid as a surface, by its opening
   ligament plot results/beam --section z=0.05 --field stress_virial.xx
@@ -40,7 +43,7 @@ of a stress. An unknown name lists the known ones. Values are in SI units.";
 /// `ligament plot`.
 #[derive(Debug, Args)]
 pub struct PlotArgs {
-    /// Folders with the results of runs
+    /// Folders with the results of runs, or the folder of a study, whose runs are drawn over one another
     #[arg(value_name = "RESULT", required = true)]
     pub results: Vec<PathBuf>,
     /// Field to draw, or none [default: damage where bonds broke, of softening bonds by their way of failing, else displacement]
@@ -129,20 +132,83 @@ pub struct PlotArgs {
 }
 
 impl PlotArgs {
-    /// Executes the command.
-    pub(super) fn execute(self) -> anyhow::Result<()> {
-        let target = Target {
-            out: self.out,
+    /// Draws the curves of all runs of a study, or their crack paths.
+    fn draw_study(
+        mut self,
+        runs: Vec<(String, PathBuf)>,
+        mut target: Target,
+    ) -> anyhow::Result<PathBuf> {
+        if let Some(option) = self.option_of_bodies() {
+            anyhow::bail!(
+                "--{option} draws the body of one run; the folder of a study has curves of all its runs, and with --crack=lines their crack \
+                 paths: name the folder of a run in {}",
+                self.results[0].join("runs").display()
+            );
+        }
+        let (labels, folders): (Vec<String>, Vec<PathBuf>) = runs.into_iter().unzip();
+        if self.labels.is_empty() {
+            self.labels = labels;
+        }
+        let has_paths = self.crack.is_some();
+        if target.out.is_none() {
+            let name = if has_paths { "crack-paths" } else { "curves" };
+            let ending = target.format.unwrap_or(Format::Png).word();
+            let file = self.results[0].join(format!("picture-{name}.{ending}"));
+            (target.out, target.force) = (Some(file), true);
+        }
+        Ok(match has_paths {
+            true => draw_crack_paths(&folders, &self.labels, &target)?,
+            false => draw_curves(&CurveRequest {
+                folders,
+                labels: self.labels,
+                x: self.x,
+                y: self.y,
+                target,
+            })?,
+        })
+    }
+
+    /// Size and file of the picture.
+    fn target(&self) -> Target {
+        Target {
+            out: self.out.clone(),
             force: self.force,
             format: self.format,
             width: self.width,
             dpi: self.dpi,
-        };
+        }
+    }
+
+    /// The first given option that draws a body with a field or its bonds.
+    fn option_of_bodies(&self) -> Option<&'static str> {
+        let given = [
+            ("field", self.field.is_some()),
+            ("step", !self.step.is_empty()),
+            ("strip", self.strip.is_some()),
+            ("displacement", !self.displacements.is_empty()),
+            ("crack=bonds", self.crack == Some(CrackDrawing::Bonds)),
+            ("with-lines", !self.lines.is_empty()),
+            ("box", self.window.is_some()),
+            ("view", self.view.is_some()),
+            ("section", self.section.is_some()),
+            ("iso", self.iso.is_some()),
+            ("animate", self.animate.is_some()),
+        ];
+        let first = given.into_iter().find(|(_, is_given)| *is_given);
+        first.map(|(option, _)| option)
+    }
+
+    /// Executes the command.
+    pub(super) fn execute(self) -> anyhow::Result<()> {
+        let target = self.target();
         let is_series = self.step == [StepChoice::All];
         if !is_series && self.step.contains(&StepChoice::All) {
             anyhow::bail!("--step all draws every stored step; leave out the others");
         }
-        let paths = if self.curve {
+        let study = completed_study(&self.results)?;
+        let paths = if let Some(runs) = study {
+            vec![self.draw_study(runs, target)?]
+        } else if self.curve {
             vec![draw_curves(&CurveRequest {
                 folders: self.results,
                 labels: self.labels,
@@ -188,6 +254,22 @@ impl PlotArgs {
         }
         Ok(())
     }
+}
+
+/// The completed runs of the study whose folder is the only result; None for results of runs.
+fn completed_study(results: &[PathBuf]) -> anyhow::Result<Option<Vec<(String, PathBuf)>>> {
+    for folder in results {
+        let runs = completed_runs(folder)?;
+        anyhow::ensure!(
+            runs.is_none() || results.len() == 1,
+            "{} is the folder of a study: name it alone, or folders of runs",
+            folder.display()
+        );
+        if runs.is_some() {
+            return Ok(runs);
+        }
+    }
+    Ok(None)
 }
 
 fn number(text: &str) -> Result<f64, String> {

@@ -202,3 +202,104 @@ fn a_run_that_does_not_fit_is_refused() {
         stdout(&list)
     );
 }
+
+/// Sections of plots and results name the place of a fault and the nearest valid name.
+#[test]
+fn faults_of_plots_and_references_have_their_place() {
+    let line = GRID.lines().count();
+    let told = |keys: &str, at: usize, words: &str| {
+        let place = format!("study.toml:{}", line + at);
+        assert_told(&format!("{GRID}{keys}"), &[&place, words]);
+    };
+    let plot = "[[plot]]\nx = \"model.horizon_factor\"\ny = \"peak.reaction\"\n";
+    for (keys, words) in [
+        (
+            "by = [\"material.tensile_strength\", \"model.horizon_facto\"]",
+            "plot.0.by: no key of an axis is called `model.horizon_facto`; did you mean `model.horizon_factor`?",
+        ),
+        (
+            "by = \"material.tensile_strength\"\nmean = \"material.tensile_strength\"",
+            "`material.tensile_strength` is in `by` too",
+        ),
+        (
+            "where = { \"model.horizon_facto\" = 2.2 }",
+            "no key of an axis is called `model.horizon_facto`; did you mean `model.horizon_factor`?",
+        ),
+        (
+            "where = { model.horizon_factor = 2.8 }",
+            "no value of the axis is called `2.8`; did you mean `2.",
+        ),
+        ("kind = \"curve\"", "plot.0.kind"),
+        (
+            "kind = \"crack-paths\"",
+            "`x` does not apply with this `kind`",
+        ),
+    ] {
+        let at = 3 + keys.lines().count();
+        let at = if words.starts_with("`x`") { 2 } else { at };
+        told(&format!("{plot}{keys}\n"), at, words);
+    }
+    told("[[plot]]\nx = \"peak.reaction\"\n", 1, "missing key `y`");
+    let result = "[[result]]\nname = \"a\"\nof = \"peak.reaction\"\n";
+    for (keys, words) in [
+        ("reference = 0", "a number other than 0"),
+        ("reference = \"finest\"", "name it, `along = \"mesh.file\"`"),
+        (
+            "reference = true",
+            "expected a number, the name of a column",
+        ),
+        (
+            "reference = { file = \"bar/none.csv\", column = \"a\", key = \"model.horizon_factor\" }",
+            "none.csv",
+        ),
+        (
+            "at = 0.1",
+            "`at` is a place along x of `of = \"crack.height\"`",
+        ),
+        ("along = \"model.horizon_factor\"", "`along` is the axis of"),
+    ] {
+        told(&format!("{result}{keys}\n"), 4, words);
+    }
+    told(
+        "[[result]]\nname = \"a\"\nof = \"crack.height\"\n",
+        3,
+        "give `at`, or `from` and `to`",
+    );
+}
+
+/// A table of references needs a row for every run: told before anything is run.
+#[test]
+fn a_reference_without_a_row_for_a_run_is_refused() {
+    let place = Place::with(&format!(
+        "{GRID}[[result]]\nname = \"a\"\nof = \"peak.reaction\"\n\
+         reference = {{ file = \"known.csv\", column = \"peak\", key = \"model.horizon_factor\" }}\n"
+    ));
+    for (table, words) in [
+        (
+            "model.horizon_factor,peak\n2.2,1\n2.7,2\n",
+            "known.csv has no row for the runs with model.horizon_factor = 3.2",
+        ),
+        (
+            "model.horizon_factor,peak\n2.2,1\n2.7,2\n3.2,3\n3.2,4\n",
+            "known.csv has 2 rows for the runs with model.horizon_factor = 3.2",
+        ),
+        (
+            "model.horizon_factor,peek\n2.2,1\n",
+            "known.csv has no column `peak`; did you mean `peek`?",
+        ),
+        (
+            "model.horizon_factor,peak\n2.2,1\n2.7,-\n3.2,3\n",
+            "has `-`, no number other than 0, for the runs with model.horizon_factor = 2.7",
+        ),
+    ] {
+        fs::write(place.path("known.csv"), table).unwrap();
+        let output = place.sweep(&[]);
+        assert_eq!(output.status.code(), Some(1));
+        assert!(
+            stderr(&output).contains(words),
+            "{words}: {}",
+            stderr(&output)
+        );
+        assert!(!place.path("out").exists());
+    }
+}

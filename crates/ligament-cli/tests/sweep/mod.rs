@@ -13,6 +13,7 @@ use crate::support::{SMALL_BAR, assert_success, ligament, stderr, stdout};
 mod faults;
 #[cfg(unix)]
 mod geometry;
+mod judging;
 mod resuming;
 mod shards;
 mod tables;

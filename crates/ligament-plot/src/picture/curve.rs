@@ -1,5 +1,6 @@
 //! Force-displacement curves, and other columns of histories over each other.
 
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use ligament_output::remedy::Remedy;
@@ -9,7 +10,7 @@ use ligament_output::summary::{self, Summary};
 use super::columns::{Curve, Tables, common_name, name_in_words};
 use super::units::AxisUnit;
 use super::{PictureError, Target, labels_of};
-use crate::plots::{Colour, Mark, Plot, Series};
+use crate::plots::{Colour, Mark, Panels, Plot, Series};
 
 /// Number of rows up to which each of them is marked by a dot.
 const DOTTED: usize = 100;
@@ -32,8 +33,11 @@ pub struct CurveRequest {
     pub target: Target,
 }
 
-/// A kind of points that stand out, by the number of their curve.
-type Landmark<'a> = (Mark, &'a dyn Fn(usize) -> Vec<(&'static str, [f64; 2])>);
+/// A kind of points that stand out on a curve.
+type Landmark<'a> = (
+    Mark,
+    &'a dyn Fn(&LabelledCurve) -> Vec<(&'static str, [f64; 2])>,
+);
 
 /// Draws the picture and returns where it is.
 ///
@@ -54,27 +58,63 @@ pub fn draw_curves(request: &CurveRequest) -> Result<PathBuf, PictureError> {
     target.check(&file)?;
     let axes = Axes::read(request, &labels)?;
     let drawing = axes
-        .plot()
+        .plot(0..axes.curves.len())
         .for_paper((request.target.width).unwrap_or(WIDTHS[usize::from(axes.curves.len() > 1)]))?;
     let [x, y] = &axes.names;
     let title = format!("{y} over {x} of {}", labels.join(", "));
     target.write(file, &drawing, &title)
 }
 
+/// The curves in panels of some of the folders each, in their order, with the title of each panel and its number of folders. Curves with the
+/// same label have the same colour.
+///
+/// # Errors
+///
+/// If there are no such results or columns, or the units do not fit.
+pub fn panels_of_curves(
+    request: &CurveRequest,
+    panels: &[(String, usize)],
+) -> Result<Panels, PictureError> {
+    let labels = labels_of(&request.folders, &request.labels)?;
+    let axes = Axes::read(request, &labels)?;
+    let per_folder = axes.curves.len() / request.folders.len().max(1);
+    let mut first = 0;
+    let plot = |(title, n_folders): &(String, usize)| {
+        let range = first..first + n_folders * per_folder;
+        first = range.end;
+        Plot {
+            title: title.clone(),
+            ..axes.plot(range)
+        }
+    };
+    Ok(Panels {
+        name: "curves".to_owned(),
+        title: String::new(),
+        plots: panels.iter().map(plot).collect(),
+    })
+}
+
+/// A curve of a picture.
+struct LabelledCurve {
+    label: String,
+    curve: Curve,
+    /// Number of the label among all different ones, which determines the colour.
+    number: usize,
+    /// First peak of the load, on a curve of force over displacement.
+    first_peak: Option<[f64; 2]>,
+}
+
 /// The curves between their axes.
 struct Axes {
-    /// The curves with their labels.
-    curves: Vec<(String, Curve)>,
+    curves: Vec<LabelledCurve>,
     /// Names of the quantities along x and y, with their units.
     names: [String; 2],
     shown: [AxisUnit; 2],
-    /// First peak of the load of each result, on curves of force over displacement.
-    first_peaks: Vec<Option<[f64; 2]>>,
 }
 
 impl Axes {
     fn read(request: &CurveRequest, labels: &[String]) -> Result<Self, PictureError> {
-        let (mut curves, mut first_peaks) = (Vec::new(), Vec::new());
+        let mut curves: Vec<LabelledCurve> = Vec::new();
         let (mut x, mut columns) = (request.x.clone(), Vec::new());
         for (folder, label) in request.folders.iter().zip(labels) {
             require_history(folder)?;
@@ -91,15 +131,20 @@ impl Axes {
                     (_, 1) => curve.name.clone(),
                     _ => format!("{label}, {}", curve.name),
                 };
-                curves.push((label, curve));
-                let first_peak = || is_of_load.then(|| first_peak(folder)).flatten();
-                first_peaks.push(first_peak());
+                let same = curves.iter().find(|it| it.label == label);
+                let next = curves.iter().map(|it| it.number + 1).max();
+                curves.push(LabelledCurve {
+                    number: same.map_or(next.unwrap_or(0), |it| it.number),
+                    label,
+                    curve,
+                    first_peak: is_of_load.then(|| first_peak(folder)).flatten(),
+                });
             }
         }
         let x = x.unwrap_or_default();
         let y = match columns.as_slice() {
             [only] => name_in_words(only),
-            _ => common_name(&curves[0].1.units[1]).to_owned(),
+            _ => common_name(&curves[0].curve.units[1]).to_owned(),
         };
         let names = [name_in_words(&x), y];
         let shown = [
@@ -110,7 +155,6 @@ impl Axes {
             curves,
             names,
             shown,
-            first_peaks,
         })
     }
 
@@ -119,10 +163,17 @@ impl Axes {
         [0, 1].map(|axis| point[axis] * self.shown[axis].factor)
     }
 
-    fn plot(&self) -> Plot {
+    /// The plot of some of the curves.
+    fn plot(&self, range: Range<usize>) -> Plot {
         let is_single = self.curves.len() == 1;
         let mut series = Vec::new();
-        for (number, (label, curve)) in self.curves.iter().enumerate() {
+        for LabelledCurve {
+            label,
+            curve,
+            number,
+            ..
+        } in &self.curves[range.clone()]
+        {
             let mark = match (number / N_COLOURS, curve.points.len()) {
                 _ if curve.is_scattered => Mark::Circles,
                 (0, 0..=DOTTED) => Mark::Line,
@@ -133,10 +184,10 @@ impl Axes {
             let answers = curve.points.iter().zip(&curve.at_rest);
             let answers = answers.filter(|it| *it.1 && it.0[1].is_finite());
             let answers = answers.map(|it| self.place(*it.0));
-            series.push(Series::new(label, mark, colour(number), answers.collect()));
+            series.push(Series::new(label, mark, colour(*number), answers.collect()));
         }
-        series.extend(self.landmarks());
-        let title = match self.first_peaks[0].filter(|_| is_single) {
+        series.extend(self.landmarks(range));
+        let title = match self.curves[0].first_peak.filter(|_| is_single) {
             Some(peak) => {
                 let [x, y] = [0, 1].map(|axis| self.shown[axis].value(peak[axis]));
                 format!("first peak {y} at {x}")
@@ -146,19 +197,17 @@ impl Axes {
         let [x, y] = [0, 1].map(|axis| self.shown[axis].label(&self.names[axis]));
         Plot::new("curves", title, [&x, &y], series)
     }
-    /// The points that stand out on the curves, each kind with an entry of the legend.
-    fn landmarks(&self) -> Vec<Series> {
+
+    /// The points that stand out on some of the curves, each kind with an entry of the legend.
+    fn landmarks(&self, range: Range<usize>) -> Vec<Series> {
         let kinds: [Landmark<'_>; 3] = [
-            (Mark::Triangles, &|it| {
-                self.curves[it].1.first.into_iter().collect()
-            }),
+            (Mark::Triangles, &|it| it.curve.first.into_iter().collect()),
             (Mark::Circles, &|it| {
-                let peak = self.first_peaks[it].into_iter();
+                let peak = it.first_peak.into_iter();
                 peak.map(|it| ("first peak", it)).collect()
             }),
             (Mark::Crosses, &|it| {
-                let curve = &self.curves[it].1;
-                let all = curve.points.iter().zip(&curve.at_rest);
+                let all = it.curve.points.iter().zip(&it.curve.at_rest);
                 let unsettled = all.filter(|it| !it.1);
                 unsettled.map(|it| ("not converged", *it.0)).collect()
             }),
@@ -166,15 +215,15 @@ impl Axes {
         let mut series: Vec<Series> = Vec::new();
         let mut named: Vec<&str> = Vec::new();
         for (mark, of) in kinds {
-            for number in 0..self.curves.len() {
-                let marked = of(number);
+            for curve in &self.curves[range.clone()] {
+                let marked = of(curve);
                 let Some(&(words, _)) = marked.first() else {
                     continue;
                 };
                 let label = if named.contains(&words) { "" } else { words };
                 named.push(words);
                 let points = marked.iter().map(|it| self.place(it.1)).collect();
-                series.push(Series::new(label, mark, colour(number), points));
+                series.push(Series::new(label, mark, colour(curve.number), points));
             }
         }
         series
@@ -209,13 +258,9 @@ fn first_peak(folder: &Path) -> Option<[f64; 2]> {
 }
 
 /// The unit in which an axis is shown.
-fn axis_unit(
-    curves: &[(String, Curve)],
-    axis: usize,
-    name: &str,
-) -> Result<AxisUnit, PictureError> {
-    let unit = &curves[0].1.units[axis];
-    let mut units = curves.iter().map(|it| &it.1.units[axis]);
+fn axis_unit(curves: &[LabelledCurve], axis: usize, name: &str) -> Result<AxisUnit, PictureError> {
+    let unit = &curves[0].curve.units[axis];
+    let mut units = curves.iter().map(|it| &it.curve.units[axis]);
     if let Some(other) = units.find(|it| *it != unit) {
         return Err(PictureError::Units {
             axis: name.to_owned(),
@@ -223,7 +268,7 @@ fn axis_unit(
             other: other.clone(),
         });
     }
-    let points = curves.iter().flat_map(|it| &it.1.points);
+    let points = curves.iter().flat_map(|it| &it.curve.points);
     let values = points.map(|point| point[axis].abs());
     let largest = values.filter(|it| it.is_finite()).fold(0.0, f64::max);
     Ok(AxisUnit::new(unit, largest))

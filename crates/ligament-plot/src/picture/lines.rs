@@ -52,6 +52,17 @@ impl Lines {
         }
     }
 
+    /// The cracks of a run at its end, with the name and the colour of the run.
+    pub(super) fn from_run(cracks: &StoredCracks, name: &str, colour: Rgb) -> Self {
+        Self {
+            name: name.to_owned(),
+            detail: String::new(),
+            colour,
+            width: WIDTH,
+            ..Self::from_cracks(cracks, usize::MAX)
+        }
+    }
+
     /// The pre-cracks of the case of a run.
     pub(super) fn from_precracks(folder: &Path) -> Result<Self, PictureError> {
         Ok(Self {

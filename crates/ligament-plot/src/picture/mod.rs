@@ -2,7 +2,8 @@
 //!
 //! Outputs are chosen ([`select`]), read (`body`, `field`, `crack`), moved by the displacement, cut into bands of colour
 //! (`levels`, `contour`, `merged_corners`) and arranged (`strip`) in one [`drawing`](crate::drawing), several of them over the steps (`series`).
-//! Force-displacement curves are plots ([`curve`]). [`maps`] draws bodies that are in memory.
+//! Force-displacement curves are plots ([`curve`]), crack paths of several runs lie over one another (`crack_paths`). [`maps`] draws bodies
+//! that are in memory.
 
 mod body;
 mod colour_bar;
@@ -10,6 +11,7 @@ pub mod colour_map;
 mod columns;
 mod contour;
 mod crack;
+mod crack_paths;
 pub mod curve;
 mod field;
 mod fields;
@@ -37,6 +39,7 @@ use ligament_output::remedy::Remedy;
 use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
+pub use crack_paths::{PathPanel, draw_crack_paths, drawing_of_crack_paths};
 pub use fields::{draw_fields, picture_of_fields};
 pub use isosurface::{Isosurface, IsosurfaceRequest, write_isosurfaces};
 pub use lines::stored_precracks;

@@ -25,7 +25,7 @@ impl EqualScales {
             return Err(self.plot.empty_error());
         }
         let sheet = PageLayout::screen(600.0, &self.plot.series);
-        let frame = self.plot.frame(sheet, self.window);
+        let frame = self.plot.frame(sheet, sheet.whole(), self.window);
         // The window is enlarged along one axis until it fills the room at the common scale.
         let (size, scale) = (frame.size(), frame.scale[0].min(frame.scale[1]));
         let corner = |side: f64| {

@@ -1,9 +1,10 @@
 //! Plots of numbers.
 //!
-//! A [`Plot`] has scales of its own along x and y; [`equal_scales`] draws one with the same scale along both, [`polar`] draws
-//! curves around a centre.
+//! A [`Plot`] has scales of its own along x and y; [`Panels`] are several with the same scales; [`equal_scales`] draws one with the same scale
+//! along both, [`polar`] draws curves around a centre.
 
 pub mod equal_scales;
+mod panels;
 pub mod polar;
 mod series;
 mod sheet;
@@ -12,9 +13,10 @@ use crate::drawing::axes::{self, Axes};
 use crate::drawing::ticks::range;
 use crate::drawing::{Anchor, Drawing, Frame};
 
+pub use panels::Panels;
 use series::LETTERS;
 pub use series::{Colour, Mark, Series};
-use sheet::PageLayout;
+use sheet::{PageLayout, Room};
 
 /// Size of the title, and room around the plot, pixels of a screen.
 const TITLE: f64 = 19.0;
@@ -82,11 +84,8 @@ impl Plot {
     }
 
     fn on_page(&self, sheet: PageLayout) -> Result<Drawing, PlotError> {
-        let points = || self.series.iter().flat_map(|series| series.points());
-        let range = |axis: usize| range(points().map(|point| point[axis]));
-        let ([left, right], [low, high]) =
-            range(0).zip(range(1)).ok_or_else(|| self.empty_error())?;
-        let frame = self.frame(sheet, [[left, low], [right, high]]);
+        let corners = corners(&self.series).ok_or_else(|| self.empty_error())?;
+        let frame = self.frame(sheet, sheet.whole(), corners);
         Ok(self.draw(sheet, frame))
     }
 
@@ -95,17 +94,18 @@ impl Plot {
         PlotError::Empty { name }
     }
 
-    /// The room for the curves between two corners, in their quantities.
-    fn frame(&self, sheet: PageLayout, corners: [[f64; 2]; 2]) -> Frame {
+    /// The part of a room of the sheet for the curves between two corners, in their quantities.
+    fn frame(&self, sheet: PageLayout, room: Room, corners: [[f64; 2]; 2]) -> Frame {
         let [_, _, below] = axes::room(LETTERS);
         let title = if self.title.is_empty() { 0.0 } else { TITLE };
-        let top = sheet.pen * (MARGIN + title);
-        let height = sheet.height() - sheet.pen * (MARGIN + below) - top;
+        let above = sheet.pen * (MARGIN + title);
+        let height = room.size[1] - sheet.pen * (MARGIN + below) - above;
         // The room for numbers along y follows from their range and the height.
         let all = Frame::new(corners, [[0.0; 2], [1.0, height]]);
         let left = sheet.pen * MARGIN + self.axes(sheet).room_at_left(all);
-        let right = sheet.plane - sheet.pen * (MARGIN + 0.5 * LETTERS);
-        Frame::new(corners, [[left, top], [right - left, height]])
+        let right = room.size[0] - sheet.pen * (MARGIN + 0.5 * LETTERS);
+        let at = [room.at[0] + left, room.at[1] + above];
+        Frame::new(corners, [at, [right - left, height]])
     }
 
     fn axes(&self, sheet: PageLayout) -> Axes<'_> {
@@ -119,17 +119,35 @@ impl Plot {
 
     fn draw(&self, sheet: PageLayout, frame: Frame) -> Drawing {
         let mut drawing = sheet.drawing();
+        self.draw_into(&mut drawing, sheet, frame);
+        sheet.draw_legend(&mut drawing, &self.series);
+        drawing
+    }
+
+    /// Draws title, axes and curves.
+    fn draw_into(&self, drawing: &mut Drawing, sheet: PageLayout, frame: Frame) {
         let size = sheet.pen * TITLE;
         let middle = frame.at[0] + 0.5 * frame.size()[0];
         let at = [middle, frame.at[1] - 0.5 * size];
         drawing.text(at, Anchor::Middle, size, &self.title);
-        self.axes(sheet).draw(&mut drawing, frame);
+        self.axes(sheet).draw(drawing, frame);
         for series in &self.series {
-            series.draw(&mut drawing, frame, sheet.pen);
+            series.draw(drawing, frame, sheet.pen);
         }
-        sheet.draw_legend(&mut drawing, &self.series);
-        drawing
     }
+}
+
+/// Lower left and upper right corner of the room for curves; None without finite points.
+fn corners<'a>(series: impl IntoIterator<Item = &'a Series> + Clone) -> Option<[[f64; 2]; 2]> {
+    let points = || {
+        series
+            .clone()
+            .into_iter()
+            .flat_map(|series| series.points())
+    };
+    let range = |axis: usize| range(points().map(|point| point[axis]));
+    let ([left, right], [low, high]) = range(0).zip(range(1))?;
+    Some([[left, low], [right, high]])
 }
 
 #[cfg(test)]

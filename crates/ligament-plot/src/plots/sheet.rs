@@ -9,6 +9,9 @@ const SCREEN_PIXELS_PER_MM: f64 = 6.0;
 /// Height over the width of the room for the curves on paper.
 const HEIGHT: f64 = 0.68;
 
+/// Height over width of one of several plots.
+const HEIGHT_OF_PANEL: f64 = 0.85;
+
 /// Width of the room for the curves on a screen, and least width of the legend beside it, pixels.
 const PLANE: f64 = 570.0;
 const LEGEND: f64 = 190.0;
@@ -34,6 +37,18 @@ pub(super) struct PageLayout {
     pub(super) plane: f64,
 }
 
+/// A part of the sheet for one plot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Room {
+    /// Upper left corner, pixels.
+    pub(super) at: [f64; 2],
+    /// Width and height, pixels.
+    pub(super) size: [f64; 2],
+}
+
+/// Largest number of plots beside each other.
+const MOST_COLUMNS: usize = 3;
+
 impl PageLayout {
     /// A screen of a height in pixels, whose legend is at the right of a room of 570 pixels.
     pub(super) fn screen(height: f64, series: &[Series]) -> Self {
@@ -50,15 +65,50 @@ impl PageLayout {
         let width = width * PIXELS_PER_MM;
         let legend = (pen * legend(series)).min(LARGEST_LEGEND * width);
         let plane = width - legend;
-        Self {
+        let sheet = Self {
             pen,
             size: [width, HEIGHT * plane],
             plane,
+        };
+        let size = [width, sheet.with_legend(sheet.size[1], series)];
+        Self { size, ..sheet }
+    }
+
+    /// A sheet of paper of a width in mm with a line above several plots of equal size, and the rooms of these in rows.
+    pub(super) fn paper_of(width: f64, series: &[Series], count: usize) -> (Self, Vec<Room>) {
+        let sheet = Self::paper(width, series);
+        // Up to four plots are in pairs, so that they are not small.
+        let columns = match count {
+            0..=4 => count.clamp(1, 2),
+            _ => MOST_COLUMNS,
+        };
+        let rows = count.div_ceil(columns) as f64;
+        let side = sheet.plane / columns as f64;
+        let size = [side, HEIGHT_OF_PANEL * side];
+        let above = sheet.pen * ENTRY;
+        let room = |place: usize| {
+            let [column, row] = [place % columns, place / columns].map(|it| it as f64);
+            let at = [column * size[0], above + row * size[1]];
+            Room { at, size }
+        };
+        let rooms = (0..count).map(room).collect();
+        let height = sheet.with_legend(above + rows * size[1], series);
+        let size = [sheet.size[0], height];
+        (Self { size, ..sheet }, rooms)
+    }
+
+    /// The room of a single plot.
+    pub(super) fn whole(&self) -> Room {
+        Room {
+            at: [0.0; 2],
+            size: [self.plane, self.size[1]],
         }
     }
 
-    pub(super) fn height(&self) -> f64 {
-        self.size[1]
+    /// A height in which the legend of curves has room.
+    fn with_legend(&self, height: f64, series: &[Series]) -> f64 {
+        let entries = series.iter().filter(|it| it.is_named()).count();
+        height.max(self.pen * (FIRST_ENTRY + ENTRY * entries as f64))
     }
 
     /// An empty drawing of the size of the sheet.

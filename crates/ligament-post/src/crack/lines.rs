@@ -58,6 +58,41 @@ impl CrackLine {
         std::iter::once(0.0).chain(sums).collect()
     }
 
+    /// Heights y at which the line passes an abscissa x, from its first end to its last, m.
+    pub fn heights_at(&self, x: f64) -> impl Iterator<Item = f64> {
+        self.places.windows(2).filter_map(move |piece| {
+            let [[from, low], [to, high]] = [piece[0], piece[1]];
+            let share = (x - from) / (to - from);
+            (0.0..=1.0)
+                .contains(&share)
+                .then_some(low + share * (high - low))
+        })
+    }
+
+    /// Mean height y of the line over a range of x, m; None where it does not lead from one end of the range to the other. Where the line
+    /// turns back, every passage counts by its extent along x.
+    pub fn mean_height(&self, [from, to]: [f64; 2]) -> Option<f64> {
+        let reaches = |x: f64| self.heights_at(x).next().is_some();
+        if !(reaches(from) && reaches(to)) {
+            return None;
+        }
+        if from == to {
+            let heights: Vec<f64> = self.heights_at(from).collect();
+            return Some(heights.iter().sum::<f64>() / heights.len() as f64);
+        }
+        let (mut area, mut extent) = (0.0, 0.0);
+        for piece in self.places.windows(2) {
+            let [a, b] = [piece[0], piece[1]];
+            let [left, right] = [a[0].min(b[0]).max(from), a[0].max(b[0]).min(to)];
+            if left < right {
+                let slope = (b[1] - a[1]) / (b[0] - a[0]);
+                area += (right - left) * (a[1] + slope * (0.5 * (left + right) - a[0]));
+                extent += right - left;
+            }
+        }
+        Some(area / extent)
+    }
+
     /// Positions of the tips, m: none, one or two.
     pub fn tips(&self) -> impl Iterator<Item = [f64; 2]> {
         let places = [self.places.first(), self.places.last()];
@@ -227,4 +262,39 @@ fn farthest(corners: &[u32], value: impl Fn(u32) -> f64) -> u32 {
         }
     };
     corners.iter().copied().fold(corners[0], farther)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(places: &[[f64; 2]]) -> CrackLine {
+        CrackLine {
+            places: places.to_vec(),
+            ends: [CrackEnd::Outline, CrackEnd::Tip],
+        }
+    }
+
+    /// A path that rises by 0.2 over 2 and stays: means by hand; binary fractions, so that rounding is some units of the last place.
+    #[test]
+    fn the_height_of_a_path_is_its_mean_over_the_range() {
+        let path = line(&[[0.0, 1.0], [2.0, 1.5], [4.0, 1.5]]);
+        assert_eq!(path.mean_height([0.0, 2.0]), Some(1.25));
+        assert_eq!(path.mean_height([1.0, 3.0]), Some(0.5 * (1.375 + 1.5)));
+        assert_eq!(path.mean_height([1.0, 1.0]), Some(1.25));
+        assert_eq!(path.mean_height([3.0, 4.5]), None, "it ends before");
+        let backwards = line(&[[4.0, 1.5], [2.0, 1.5], [0.0, 1.0]]);
+        assert_eq!(
+            backwards.mean_height([0.0, 4.0]),
+            path.mean_height([0.0, 4.0])
+        );
+    }
+
+    /// A path that turns back at x = 3 passes the range from 2 to 3 twice, at 0 and at 1.
+    #[test]
+    fn a_path_that_turns_back_counts_every_passage() {
+        let path = line(&[[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [2.0, 1.0]]);
+        assert_eq!(path.mean_height([2.0, 3.0]), Some(0.5));
+        assert_eq!(path.heights_at(2.5).collect::<Vec<_>>(), [0.0, 1.0]);
+    }
 }

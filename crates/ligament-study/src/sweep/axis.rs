@@ -139,6 +139,30 @@ impl Axis {
         Ok(())
     }
 
+    /// Whether words are the label of a value of the axis, or its value of a key.
+    pub(super) fn is_value(&self, point: &AxisPoint, key: &str, words: &str) -> bool {
+        let number = |text: &str| text.parse::<f64>().ok();
+        let is_cell = |cell: &Cell| match (cell.as_f64(), number(words)) {
+            (Some(cell), Some(number)) => cell == number,
+            _ => toml_text::words(cell) == words,
+        };
+        point.label == words || self.cell(point, key).is_some_and(is_cell)
+    }
+
+    /// Words for a value of the axis in texts: its label, or its value of a key.
+    pub(super) fn value_words(&self, point: &AxisPoint, key: &str) -> String {
+        match self.cell(point, key).filter(|_| !self.is_labelled) {
+            Some(cell) => short_words(cell),
+            None => point.label.clone(),
+        }
+    }
+
+    /// The value of a key.
+    pub(super) fn cell<'a>(&self, point: &'a AxisPoint, key: &str) -> Option<&'a Cell> {
+        let place = self.keys.iter().position(|it| it == key)?;
+        point.cells.get(place)
+    }
+
     /// The settings of a value of the axis, `key=value` each.
     pub(super) fn settings<'a>(&'a self, point: &'a AxisPoint) -> impl Iterator<Item = Setting> {
         self.keys
@@ -149,6 +173,33 @@ impl Axis {
                 place: point.place.clone(),
             })
     }
+}
+
+/// One name or a list of names at a place of a study; none where nothing is given.
+pub(super) fn names(document: &Node, place: &KeyPath) -> Result<Vec<String>, KeyFault> {
+    match document.at(place) {
+        None => Ok(Vec::new()),
+        Some(node) if matches!(node.value, Value::List(_)) => decode(node, place),
+        Some(node) => Ok(vec![decode(node, place)?]),
+    }
+}
+
+/// Index of the axis with a key.
+pub(super) fn axis_of_key(axes: &[Axis], key: &str) -> Option<usize> {
+    axes.iter()
+        .position(|axis| axis.keys.iter().any(|it| it == key))
+}
+
+/// Index of the axis with a key, which must be one.
+pub(super) fn require_axis(
+    axes: &[Axis],
+    key: &str,
+    place: impl FnOnce() -> KeyPath,
+) -> Result<usize, KeyFault> {
+    axis_of_key(axes, key).ok_or_else(|| {
+        let keys = axes.iter().flat_map(|axis| axis.keys.iter().cloned());
+        KeyFault::new(place(), Fault::unknown_name("key of an axis", key, keys))
+    })
 }
 
 /// The canonical form of a key.

@@ -1,14 +1,15 @@
 //! The curves of a study's plots: points from its table, and fitted lines.
 
+use super::grouping::{CurveRuns, Grouping, PanelRuns};
 use super::plan::safe_file_name;
 use super::study::{Study, StudyPlot};
 use super::table::{Row, StudyTable, UnknownColumn};
 use crate::line_fit::{FitError, LineFit};
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::keys::unit_of;
-use ligament_plot::plots::{Colour, Plot, Series};
+use ligament_plot::plots::{Colour, Panels, Plot, Series};
 
-/// Colours of curves, used cyclically; black is for known lines.
+/// Colours of curves, used again with dashes; black is for known lines.
 const COLOURS: [Colour; 6] = [
     Colour::Blue,
     Colour::Vermilion,
@@ -23,13 +24,28 @@ const COLOURS: [Colour; 6] = [
 pub(super) struct Curves<'a> {
     /// Section of the study for the plot.
     pub(super) plot: &'a StudyPlot,
+    /// The column along x.
+    pub(super) x: &'a str,
+    /// The column along y.
+    pub(super) y: &'a str,
     /// Name of the plot's file, without the extension.
     pub(super) name: String,
-    /// The curves in the order of the axis.
+    /// The panels in the order of their axes.
+    pub(super) panels: Vec<Panel>,
+    /// Axes that the plot does not name, each value of which has a curve, by their index and number of values.
+    pub(super) unnamed: Vec<(usize, usize)>,
+}
+
+/// Curves of the runs with the same values of all axes of `by` but the last.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Panel {
+    /// Label of the values; empty where one panel has all runs.
+    pub(super) label: String,
+    /// The curves in the order of their axes.
     pub(super) curves: Vec<Curve>,
 }
 
-/// Curve of the runs with one value of the axis `by`.
+/// Curve of the runs with one value of the last axis of `by`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Curve {
     /// Label of the value; empty where one curve has all runs.
@@ -41,50 +57,39 @@ pub(super) struct Curve {
 }
 
 impl<'a> Curves<'a> {
-    /// The curves of a plot over the runs of a table.
+    /// The curves of columns of a table over its runs.
     pub(super) fn over_rows(
         study: &Study,
         plot: &'a StudyPlot,
+        [x, y]: [&'a str; 2],
         rows: &[Row<'_>],
         table: &StudyTable,
     ) -> Result<Self, UnknownColumn> {
-        let (x, y) = (table.numbers(&plot.x)?, table.numbers(&plot.y)?);
-        let by = plot.by.as_ref();
-        let axis = by.and_then(|by| study.axes.iter().position(|axis| axis.keys.contains(by)));
-        let points_of = |value: Option<usize>| {
-            let has_it = |row: &Row<'_>| axis.map(|axis| row.run.place[axis]) == value;
-            let rows = rows.iter().zip(x.iter().zip(&y));
-            let rows = rows.filter(|(row, _)| has_it(row));
-            let points = rows.filter_map(|(_, (x, y))| Some([(*x)?, (*y)?]));
+        let (of_x, of_y) = (table.numbers(x)?, table.numbers(y)?);
+        let point = |run: usize| Some([of_x[run]?, of_y[run]?]);
+        let place = |run: usize| Some(point(run)?[0]);
+        let grouping = Grouping::new(study, plot, rows, &place);
+        let curve = |CurveRuns { label, runs }: CurveRuns| {
+            let points = runs.into_iter().filter_map(point);
             let mut points: Vec<[f64; 2]> = points.collect();
             points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-            points
-        };
-        let curve = |label: &str, points: Vec<[f64; 2]>| {
             let fit = plot.fit.map(|range| {
                 let inside = points.iter().copied().filter(|[x, _]| range.contains(*x));
                 LineFit::through(&inside.collect::<Vec<_>>())
             });
-            Curve {
-                label: label.to_owned(),
-                points,
-                fit,
-            }
+            Curve { label, points, fit }
         };
-        let curves = match axis {
-            None => vec![curve("", points_of(None))],
-            Some(axis) => (study.axes[axis].points.iter().enumerate())
-                .map(|(index, point)| curve(&point.label, points_of(Some(index))))
-                .collect(),
+        let panel = |PanelRuns { label, curves }: PanelRuns| Panel {
+            label,
+            curves: curves.into_iter().map(curve).collect(),
         };
         Ok(Self {
             plot,
-            name: format!(
-                "{}-over-{}",
-                safe_file_name(&plot.y),
-                safe_file_name(&plot.x)
-            ),
-            curves,
+            x,
+            y,
+            name: format!("{}-over-{}", safe_file_name(y), safe_file_name(x)),
+            panels: grouping.panels.into_iter().map(panel).collect(),
+            unnamed: grouping.unnamed,
         })
     }
 
@@ -96,12 +101,41 @@ impl<'a> Curves<'a> {
         places
     }
 
+    /// The curves of all panels.
+    pub(super) fn curves(&self) -> impl Iterator<Item = &Curve> {
+        self.panels.iter().flat_map(|panel| &panel.curves)
+    }
+
     fn points(&self) -> impl Iterator<Item = &[f64; 2]> {
-        self.curves.iter().flat_map(|curve| &curve.points)
+        self.curves().flat_map(|curve| &curve.points)
+    }
+
+    /// Words for the mean of the runs that share a place of a curve.
+    pub(super) fn mean_words(&self) -> String {
+        match self.plot.mean.as_slice() {
+            [] => "mean at equal x".to_owned(),
+            keys => format!("mean over {}", keys.join(", ")),
+        }
     }
 
     /// The plot with the runs, the known line dashed, and fitted lines in the colours of their curves.
-    pub(super) fn drawn(&self, title: &str) -> Plot {
+    pub(super) fn drawn(&self, title: &str) -> Panels {
+        let plot = self.plot;
+        let label =
+            |given: &Option<String>, name: &str| given.clone().unwrap_or_else(|| with_unit(name));
+        let axes = [label(&plot.x_label, self.x), label(&plot.y_label, self.y)];
+        let panel = |panel: &Panel| {
+            let [x, y] = [&axes[0], &axes[1]];
+            Plot::new(&*self.name, &*panel.label, [x, y], self.series(panel))
+        };
+        Panels {
+            name: self.name.clone(),
+            title: plot.title.clone().unwrap_or_else(|| title.to_owned()),
+            plots: self.panels.iter().map(panel).collect(),
+        }
+    }
+
+    fn series(&self, panel: &Panel) -> Vec<Series> {
         let plot = self.plot;
         let places = self.places();
         let ends = places.first().zip(places.last());
@@ -110,7 +144,8 @@ impl<'a> Curves<'a> {
             let points = fitted_line([from, to], |x| line.at(x));
             series.push(Series::dashes(line.name(), Colour::Black, points));
         }
-        for (curve, &colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
+        for (place, curve) in panel.curves.iter().enumerate() {
+            let colour = COLOURS[place % COLOURS.len()];
             let (means, repeated) = curve.means();
             let label = curve.name("runs");
             let circles = || Series::circles(label, colour, curve.points.clone());
@@ -121,22 +156,22 @@ impl<'a> Curves<'a> {
                     let ends = [inside.clone().find(is_inside), inside.rfind(is_inside)];
                     let points = fitted_line(ends.map(Option::unwrap_or_default), |x| fit.at(x));
                     series.push(circles());
-                    series.push(Series::curve(equation(fit), colour, points));
+                    // The one legend of several panels has no room for all equations.
+                    let equation = match self.panels.len() {
+                        1 => equation(fit),
+                        _ => String::new(),
+                    };
+                    series.push(Series::curve(equation, colour, points));
                 }
                 _ if repeated => {
                     series.push(circles());
-                    series.push(Series::curve("mean", colour, means));
+                    series.push(Series::curve(self.mean_words(), colour, means));
                 }
+                _ if place >= COLOURS.len() => series.push(Series::dashes(label, colour, means)),
                 _ => series.push(Series::line(label, colour, means)),
             }
         }
-        Plot {
-            name: self.name.clone(),
-            title: plot.title.clone().unwrap_or_else(|| title.to_owned()),
-            x: plot.x_label.clone().unwrap_or_else(|| with_unit(&plot.x)),
-            y: plot.y_label.clone().unwrap_or_else(|| with_unit(&plot.y)),
-            series,
-        }
+        series
     }
 }
 

@@ -2,19 +2,26 @@
 //!
 //! A study file ([`study`]) names the case and axes (`axis`); [`plan`] lists the runs and checks the case of each. Runs are separate
 //! processes (`launch`), in a [folder](crate::run_table::folder) with a record of the inputs of each run (`record`), so that the same command
-//! continues an interrupted sweep. The final results are a `table` of all runs, with `curves` and fitted lines (`crate::line_fit`).
+//! continues an interrupted sweep. The final results are a `table` of all runs, with `derived` columns (`evaluation`), some of which need the
+//! `cracks` of a run; `curves` of the runs of a `grouping` with fitted lines (`crate::line_fit`); and `pictures` of the runs themselves.
 
 mod axis;
+mod cracks;
 mod curves;
+mod derived;
 mod error;
 mod estimate;
+mod evaluation;
+mod grouping;
 mod launch;
 pub(crate) mod meshes;
+mod pictures;
 pub mod plan;
 mod progress;
 mod record;
 mod report;
 pub mod study;
+mod study_plot;
 mod table;
 pub mod toml_text;
 
@@ -24,6 +31,8 @@ use std::path::{Path, PathBuf};
 use std::slice;
 use std::time::Duration;
 
+use ligament::Message;
+use ligament::warning::few_bonds;
 use ligament_output::folder::refuse_link;
 use ligament_output::terminal::plain;
 use ligament_run::memory;
@@ -35,7 +44,9 @@ pub use launch::bind_to_parent;
 
 use crate::quantities::Quantities;
 use crate::run_table::folder::{Shard, StudyFolder};
+use cracks::CrackResults;
 use estimate::Estimates;
+use evaluation::{needs_crack_lines, needs_cracks};
 use launch::Resources;
 use plan::{MESHES, Run};
 use progress::{StudyProgress, seconds};
@@ -134,6 +145,16 @@ pub(crate) fn create_folder(path: &Path, study: &Path, title: &str) -> anyhow::R
     )
 }
 
+/// The completed runs in a folder of a sweep with their labels; None for a folder that is no such one.
+///
+/// # Errors
+///
+/// If the folder has no table of its runs, or no run is done.
+pub fn completed_runs(folder: &Path) -> anyhow::Result<Option<Vec<(String, PathBuf)>>> {
+    let is_sweep = StudyFolder::with_marker(MARKER, folder).is_marked();
+    is_sweep.then(|| table::completed_runs(folder)).transpose()
+}
+
 /// Executes the runs without results.
 pub(crate) fn run(
     study: &Study,
@@ -142,6 +163,7 @@ pub(crate) fn run(
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
     let runs = plan::runs(study, path)?;
+    warn_of_few_bonds(&runs)?;
     // Nothing is written before the cases of all runs are checked.
     let folder = open_folder(path, study)?;
     let claim = folder.claim(settings.shard)?;
@@ -191,6 +213,22 @@ pub(crate) fn run(
         problems.is_empty(),
         "some tables or plots of the study could not be made; the runs are kept, so correct the study and run it again"
     );
+    Ok(())
+}
+
+/// Warns once for the study, on stderr, where runs have few bonds a family under a criterion of stress.
+fn warn_of_few_bonds(runs: &[Run]) -> io::Result<()> {
+    let message = |run: &Run| {
+        let case = &run.case.case;
+        let criteria = case.fracture.as_ref()?.criteria.as_ref()?;
+        few_bonds(criteria, case.model.horizon_factor?)
+    };
+    let all: Vec<Message> = runs.iter().filter_map(message).collect();
+    if let Some(first) = all.first() {
+        let [few, of] = [all.len(), runs.len()];
+        let text = format!("warning: {few} of {of} runs: {first}");
+        writeln!(io::stderr(), "{}", plain(&text))?;
+    }
     Ok(())
 }
 
@@ -245,7 +283,7 @@ fn make_meshes<'a>(
     Ok(meshed)
 }
 
-/// Writes the tables and plots of runs in one or several folders, and the problems with them on stderr; returns the problems.
+/// Writes the tables and plots of runs in one or several folders, and the problems with them and remarks on stderr; returns the problems.
 fn make_report(
     study: &Study,
     runs: &[Run],
@@ -253,37 +291,49 @@ fn make_report(
     to: &StudyFolder,
     out: &mut dyn Write,
 ) -> anyhow::Result<Vec<String>> {
-    let rows = rows(runs, folders);
-    let problems = report::write(study, &rows, to, out)?;
-    let mut stderr = io::stderr().lock();
-    for problem in &problems {
-        writeln!(stderr, "warning: {}", plain(problem))?;
-    }
-    Ok(problems)
-}
-
-/// The runs with their best status in some folders.
-fn rows<'a>(runs: &'a [Run], folders: &[StudyFolder]) -> Vec<Row<'a>> {
-    let row = |run| {
-        let found = folders.iter().map(|folder| {
-            let recorded = RecordedRun::in_folder(run, folder);
-            (recorded.status(), recorded.folder().to_owned())
-        });
-        let better = |best: (Status, PathBuf), it: (Status, PathBuf)| {
-            if it.0.rank() > best.0.rank() {
-                it
-            } else {
-                best
-            }
+    let mut unread = Vec::new();
+    let mut row = |run| {
+        let (status, folder) = best_status(run, folders);
+        let cracks = match &status {
+            Status::Done(_) if needs_cracks(study) => cracks(study, run, &folder, &mut unread),
+            _ => None,
         };
-        let (status, folder) = found.reduce(better).unwrap_or_default();
         Row {
             run,
             status,
             folder: folder.to_string_lossy().into_owned(),
+            cracks,
         }
     };
-    runs.iter().map(row).collect()
+    let rows: Vec<Row<'_>> = runs.iter().map(&mut row).collect();
+    let mut findings = report::write(study, &rows, to, out)?;
+    let further = unread.len().saturating_sub(1);
+    findings.problems.extend(unread.into_iter().take(1));
+    if further > 0 {
+        let all = format!("the same of {further} further runs");
+        findings.problems.push(all);
+    }
+    let mut stderr = io::stderr().lock();
+    for text in findings.problems.iter().chain(&findings.remarks) {
+        writeln!(stderr, "warning: {}", plain(text))?;
+    }
+    Ok(findings.problems)
+}
+
+/// The best status of a run in some folders, with the folder of its results.
+fn best_status(run: &Run, folders: &[StudyFolder]) -> (Status, PathBuf) {
+    let found = folders.iter().map(|folder| {
+        let recorded = RecordedRun::in_folder(run, folder);
+        (recorded.status(), recorded.folder().to_owned())
+    });
+    let better = |best: (Status, PathBuf), it: (Status, PathBuf)| {
+        if it.0.rank() > best.0.rank() {
+            it
+        } else {
+            best
+        }
+    };
+    found.reduce(better).unwrap_or_default()
 }
 
 /// A run with its results.
@@ -308,25 +358,53 @@ pub(crate) fn done_runs(
 ) -> anyhow::Result<Vec<DoneRun>> {
     let folders = StudyFolder::folders_to_collect(MARKER, path, from)?;
     let runs = plan::runs(study, path)?;
-    let rows = rows(&runs, &folders);
-    let done = rows.into_iter().map(|row| match row.status {
-        Status::Done(results) => Ok(DoneRun {
-            run: row.run.clone(),
-            results,
-            folder: row.folder,
-        }),
-        Status::Failed(reason) => anyhow::bail!("the run {} failed: {reason}", row.run.name),
-        Status::Missing | Status::Changed(_) => {
-            anyhow::bail!("the run {} has no results yet", row.run.name)
-        }
-    });
+    let done = runs
+        .into_iter()
+        .map(|run| match best_status(&run, &folders) {
+            (Status::Done(results), folder) => Ok(DoneRun {
+                run,
+                results,
+                folder: folder.to_string_lossy().into_owned(),
+            }),
+            (Status::Failed(reason), _) => anyhow::bail!("the run {} failed: {reason}", run.name),
+            (Status::Missing | Status::Changed(_), _) => {
+                anyhow::bail!("the run {} has no results yet", run.name)
+            }
+        });
     done.collect()
+}
+
+/// The cracks of a run; appends the reason why a result of them is missing to `unread`.
+fn cracks(
+    study: &Study,
+    run: &Run,
+    folder: &Path,
+    unread: &mut Vec<String>,
+) -> Option<CrackResults> {
+    let name = &run.name;
+    match CrackResults::read(folder) {
+        Ok(cracks) => {
+            if cracks.is_of_solid() && needs_crack_lines(study) {
+                unread.push(format!(
+                    "the run {name} is one of a solid, whose crack is a surface without length and height: take crack.area"
+                ));
+            }
+            Some(cracks)
+        }
+        Err(error) => {
+            unread.push(format!(
+                "the cracks of the run {name} cannot be read: {error}"
+            ));
+            None
+        }
+    }
 }
 
 /// Lists the runs with their status and estimated memory.
 fn list(study: &Study, path: &Path, out: &mut dyn Write) -> anyhow::Result<()> {
     let folder = StudyFolder::with_marker(MARKER, path);
     let runs = plan::runs(study, path)?;
+    warn_of_few_bonds(&runs)?;
     let width = runs.len().to_string().len();
     let mut estimates = Estimates::default();
     let mut todo = 0;

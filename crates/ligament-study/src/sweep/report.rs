@@ -5,10 +5,15 @@ use std::io::{self, Write};
 use ligament_output::columns::aligned;
 use ligament_output::csv::{self, Value};
 use ligament_output::replace_file;
+use ligament_plot::drawing::Drawing;
 
-use super::curves::{Curve, Curves, rounded};
+use super::axis::axis_of_key;
+use super::cracks;
+use super::curves::{Curve, Curves, Panel, rounded};
+use super::evaluation::DerivedValues;
+use super::pictures;
 use super::plan::{Run, short_keys};
-use super::study::Study;
+use super::study::{PlotContent, Reference, Study};
 use super::table;
 use super::table::{Row, StudyTable, UnknownColumn};
 use crate::quantities::{Quantities, QuantityError};
@@ -24,78 +29,132 @@ const LISTED: usize = 20;
 const FIT_COLUMNS: &str =
     "plot,x,y,by,curve,slope,slope_error,intercept,intercept_error,r_squared,points,remark";
 
-/// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and prints their main contents; returns the problems.
+/// What a user should know about the tables and plots of a study.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    /// Reasons why some of them could not be made.
+    pub(super) problems: Vec<String>,
+    /// Remarks about what they show.
+    pub(super) remarks: Vec<String>,
+}
+
+/// Writes `table.csv`, `fits.csv` and the plots into the study's folder, and prints their main contents.
 pub(super) fn write(
     study: &Study,
     rows: &[Row<'_>],
     folder: &StudyFolder,
     out: &mut dyn Write,
-) -> anyhow::Result<Vec<String>> {
-    let table = StudyTable::from_rows(study, rows);
-    table.write_csv(&folder.path().join("table.csv"))?;
+) -> anyhow::Result<Findings> {
+    let derived = DerivedValues::new(study, rows);
+    let table = StudyTable::from_rows(study, rows, &derived.values);
+    table.write_csv(&folder.path().join(table::TABLE))?;
 
-    let title = if study.title.is_empty() {
-        study.name()
-    } else {
-        study.title.clone()
-    };
+    let title = study.heading();
     writeln!(out, "{title}")?;
     write_counts(rows, out)?;
+    let mut findings = Findings {
+        problems: Vec::new(),
+        remarks: derived.remarks,
+    };
     let mut done = rows
         .iter()
         .filter_map(|row| Some((row.run, row.results()?)));
     let Some((run, results)) = done.next() else {
         writeln!(out, "  no run has results to plot")?;
-        return Ok(Vec::new());
+        return Ok(Findings::default());
     };
-    let mut problems: Vec<String> = (unknown_names(study, run, results).iter())
-        .map(ToString::to_string)
-        .collect();
-    let drawn = curves_of_plots(study, rows, &table, &mut problems);
-    for curves in &drawn {
-        write_pivot(study, curves, out)?;
-        write_fits(curves, out)?;
-        let plot = curves.drawn(&title);
-        match plot.for_paper(WIDTH) {
-            Ok(drawing) => write_plot(folder.path(), &curves.name, &drawing)?,
-            Err(error) => problems.push(error.to_string()),
-        }
+    let unknown = unknown_names(study, run, results);
+    findings.problems = unknown.iter().map(ToString::to_string).collect();
+    let mut names = FileNames::default();
+    let mut drawn = Vec::new();
+    for (index, plot) in study.plots.iter().enumerate() {
+        let problem = match &plot.content {
+            PlotContent::Columns { x, y } => {
+                match Curves::over_rows(study, plot, [x, y], rows, &table) {
+                    Ok(mut curves) => {
+                        curves.name = names.unique(curves.name, index);
+                        findings.remarks.extend(unnamed_axes(study, &curves, index));
+                        write_pivots(study, &curves, out)?;
+                        write_fits(&curves, out)?;
+                        let drawing = curves.drawn(&title).for_paper(WIDTH);
+                        let name = curves.name.clone();
+                        drawn.push(curves);
+                        written(folder, &name, drawing)?
+                    }
+                    Err(missing) => missing_column(study, index, &missing, &findings.problems),
+                }
+            }
+            PlotContent::Curves { .. } | PlotContent::CrackPaths => {
+                let name = names.unique(pictures::name(plot).to_owned(), index);
+                let drawing = pictures::drawing(study, plot, rows, WIDTH);
+                written(folder, &name, drawing)?
+            }
+        };
+        findings.problems.extend(problem);
     }
     if drawn.iter().any(|curves| curves.plot.fit.is_some()) {
         replace_file(&folder.path().join("fits.csv"), fits(&drawn).as_bytes())?;
     }
-    Ok(problems)
+    Ok(findings)
 }
 
-/// The curves of the possible plots, each with a unique name; appends the reasons for the others to `problems`.
-fn curves_of_plots<'a>(
-    study: &'a Study,
-    rows: &[Row<'_>],
-    table: &StudyTable,
-    problems: &mut Vec<String>,
-) -> Vec<Curves<'a>> {
-    let mut drawn: Vec<Curves<'_>> = Vec::new();
-    for (index, plot) in study.plots.iter().enumerate() {
-        match Curves::over_rows(study, plot, rows, table) {
-            Ok(mut curves) => {
-                let same = drawn
-                    .iter()
-                    .filter(|other| other.name == curves.name)
-                    .count();
-                if same > 0 {
-                    curves.name = format!("{}-{}", curves.name, index + 1);
-                }
-                drawn.push(curves);
-            }
-            Err(UnknownColumn { name, .. })
-                if problems.iter().any(|it| it.contains(&format!("`{name}`"))) => {}
-            Err(missing) => {
-                let place = KeyPath(vec!["plot".to_owned(), index.to_string()]);
-                problems.push(study.error(place, missing.to_string()).to_string());
-            }
-        }
+/// Names of the files of plots.
+#[derive(Debug, Default)]
+struct FileNames(Vec<String>);
+
+impl FileNames {
+    /// A name that no other plot has, with the number of the plot where it is needed.
+    fn unique(&mut self, name: String, index: usize) -> String {
+        let name = match self.0.contains(&name) {
+            true => format!("{name}-{}", index + 1),
+            false => name,
+        };
+        self.0.push(name.clone());
+        name
     }
-    drawn
+}
+
+/// Writes a drawing, or returns the reason why there is none.
+fn written<Reason: ToString>(
+    folder: &StudyFolder,
+    name: &str,
+    drawing: Result<Drawing, Reason>,
+) -> anyhow::Result<Option<String>> {
+    match drawing {
+        Ok(drawing) => write_plot(folder.path(), name, &drawing).map(|()| None),
+        Err(reason) => Ok(Some(reason.to_string())),
+    }
+}
+
+/// The error of a column that a plot does not find, unless it was told already.
+fn missing_column(
+    study: &Study,
+    index: usize,
+    missing: &UnknownColumn,
+    told: &[String],
+) -> Option<String> {
+    let quoted = format!("`{}`", missing.name);
+    let is_told = told.iter().any(|it| it.contains(&quoted));
+    (!is_told).then(|| {
+        let place = KeyPath(vec!["plot".to_owned(), index.to_string()]);
+        study.error(place, missing.to_string()).to_string()
+    })
+}
+
+/// The remark about axes that a plot does not name.
+fn unnamed_axes(study: &Study, curves: &Curves<'_>, index: usize) -> Option<String> {
+    let [(first, _), ..] = curves.unnamed[..] else {
+        return None;
+    };
+    let key = |axis: usize| &study.axes[axis].keys[0];
+    let axes = curves.unnamed.iter();
+    let axes = axes.map(|(axis, count)| format!("each of the {count} values of {}", key(*axis)));
+    let place = study.location(&KeyPath(vec!["plot".to_owned(), index.to_string()]));
+    Some(format!(
+        "{place}: the plot does not name all axes: {} has a curve; choose by `by`, pick values by `where`, or average by `mean = \"{}\"`",
+        axes.collect::<Vec<_>>().join(" and "),
+        key(first)
+    ))
 }
 
 /// Errors of results in the study that a run does not have, each at its position in the study.
@@ -115,9 +174,21 @@ pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> V
             &derived.of,
             Vec::new(),
         ));
+        if let Some(Reference::Column(name)) = &derived.reference
+            && !is_column(name)
+        {
+            named.push((
+                ["result", &index.to_string(), "reference"].map(str::to_owned),
+                name,
+                own.clone(),
+            ));
+        }
     }
     for (index, plot) in study.plots.iter().enumerate() {
-        for (key, name) in [("x", &plot.x), ("y", &plot.y)] {
+        let PlotContent::Columns { x, y } = &plot.content else {
+            continue;
+        };
+        for (key, name) in [("x", x), ("y", y)] {
             if !is_column(name) {
                 named.push((
                     ["plot", &index.to_string(), key].map(str::to_owned),
@@ -131,7 +202,11 @@ pub(super) fn unknown_names(study: &Study, run: &Run, results: &Quantities) -> V
         let Err(QuantityError::Unknown { known: results, .. }) = results.number(name) else {
             return None;
         };
+        if cracks::NAMES.contains(&name.as_str()) {
+            return None;
+        }
         let known = known.into_iter().chain(results);
+        let known = known.chain(cracks::NAMES.map(str::to_owned));
         let fault = Fault::unknown_name("result of the runs", name, known);
         Some(study.error(KeyPath(place.to_vec()), fault))
     };
@@ -173,42 +248,49 @@ fn write_counts(rows: &[Row<'_>], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Prints the plotted results: a row for each x, a column for each curve; means where several runs have the same x.
-fn write_pivot(study: &Study, curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
-    let plot = curves.plot;
+/// Prints the plotted results of each panel: a row for each x, a column for each curve; means where several runs have the same x.
+fn write_pivots(study: &Study, curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     let shown = |key: &str| {
-        let axis = study
-            .axes
-            .iter()
-            .position(|axis| axis.keys.first().is_some_and(|it| it == key));
+        let axis = axis_of_key(&study.axes, key);
+        let axis = axis.filter(|axis| study.axes[*axis].keys[0] == key);
         axis.map_or_else(
             || key.to_owned(),
             |axis| short_keys(&study.axes)[axis][0].clone(),
         )
     };
-    write!(out, "{} over {}", plot.y, plot.x)?;
-    match &plot.by {
-        Some(by) => writeln!(out, ", by {by}")?,
-        None => writeln!(out)?,
+    for panel in &curves.panels {
+        write!(out, "{} over {}", curves.y, curves.x)?;
+        match curves.plot.by.as_slice() {
+            [] => {}
+            [.., last] if !panel.label.is_empty() => write!(out, ", by {last}, {}", panel.label)?,
+            keys => write!(out, ", by {}", keys.join(", "))?,
+        }
+        writeln!(out)?;
+        write_pivot(&shown(curves.x), curves, panel, out)?;
     }
-    let all: Vec<(Vec<[f64; 2]>, bool)> = curves.curves.iter().map(Curve::means).collect();
-    let mut lines = vec![vec![shown(&plot.x)]];
-    for curve in &curves.curves {
-        lines[0].push(curve.name(&plot.y).to_owned());
+    Ok(())
+}
+
+fn write_pivot(x: &str, curves: &Curves<'_>, panel: &Panel, out: &mut dyn Write) -> io::Result<()> {
+    let line = &curves.plot.line;
+    let all: Vec<(Vec<[f64; 2]>, bool)> = panel.curves.iter().map(Curve::means).collect();
+    let mut lines = vec![vec![x.to_owned()]];
+    for curve in &panel.curves {
+        lines[0].push(curve.name(curves.y).to_owned());
     }
-    lines[0].extend(plot.line.iter().map(|known| known.name().to_owned()));
+    lines[0].extend(line.iter().map(|known| known.name().to_owned()));
     for x in curves.places() {
-        let mut line = vec![x.to_string()];
+        let mut row = vec![x.to_string()];
         for (means, _) in &all {
             let at = means.iter().find(|point| point[0] == x);
-            line.push(at.map_or_else(|| "-".to_owned(), |[_, y]| rounded(*y)));
+            row.push(at.map_or_else(|| "-".to_owned(), |[_, y]| rounded(*y)));
         }
-        line.extend(plot.line.iter().map(|known| rounded(known.at(x))));
-        lines.push(line);
+        row.extend(line.iter().map(|known| rounded(known.at(x))));
+        lines.push(row);
     }
     write_aligned(&lines, out)?;
     if all.iter().any(|(_, repeated)| *repeated) {
-        writeln!(out, "  (means of the runs that share a place)")?;
+        writeln!(out, "  ({})", curves.mean_words())?;
     }
     Ok(())
 }
@@ -226,8 +308,8 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "lines of least squares{words}")?;
     let heads = ["", "slope", "+-", "intercept", "+-", "R^2", "points"];
     let mut lines = vec![heads.map(str::to_owned).to_vec()];
-    for curve in &curves.curves {
-        let name = curve.name("runs").to_owned();
+    for (panel, curve) in with_panels(curves) {
+        let name = joined(panel, curve.name("runs"));
         match &curve.fit {
             Some(Ok(fit)) => {
                 let error = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), rounded);
@@ -257,6 +339,18 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     write_aligned(&lines, out)
 }
 
+/// The curves of all panels, with the labels of these.
+fn with_panels<'a>(curves: &'a Curves<'_>) -> impl Iterator<Item = (&'a str, &'a Curve)> {
+    let panels = curves.panels.iter();
+    panels.flat_map(|panel| panel.curves.iter().map(|curve| (&*panel.label, curve)))
+}
+
+/// The label of a panel, if it has one, and that of a curve.
+fn joined(panel: &str, curve: &str) -> String {
+    let labels = [panel, curve].into_iter().filter(|it| !it.is_empty());
+    labels.collect::<Vec<_>>().join(", ")
+}
+
 fn write_aligned(lines: &[Vec<String>], out: &mut dyn Write) -> io::Result<()> {
     let mut lines = aligned(lines, 1).into_iter();
     lines.try_for_each(|line| writeln!(out, "  {line}"))
@@ -267,15 +361,20 @@ fn fits(all: &[Curves<'_>]) -> String {
     let mut text = format!("{FIT_COLUMNS}\n");
     for curves in all.iter().filter(|curves| curves.plot.fit.is_some()) {
         let plot = curves.plot;
-        let by = plot.by.as_deref().map_or(Value::Missing, Value::Text);
-        let [name, x, y] = [curves.name.as_str(), &plot.x, &plot.y].map(Value::Text);
+        let by = plot.by.join(", ");
+        let by = match by.as_str() {
+            "" => Value::Missing,
+            by => Value::Text(by),
+        };
+        let [name, x, y] = [curves.name.as_str(), curves.x, curves.y].map(Value::Text);
         let mut push = |curve: &str, numbers: [Value<'_>; 6], remark: &str| {
             let curve = Some(curve).filter(|it| !it.is_empty());
             let curve = curve.map_or(Value::Missing, Value::Text);
             text +=
                 &csv::line(&[&[name, x, y, by, curve], &numbers[..], &[remark.into()]].concat());
         };
-        for Curve { label, fit, .. } in &curves.curves {
+        for (panel, Curve { label, fit, .. }) in with_panels(curves) {
+            let label = &joined(panel, label);
             match fit {
                 Some(Ok(fit)) => {
                     let numbers = [

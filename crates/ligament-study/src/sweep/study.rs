@@ -6,16 +6,21 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 
 use super::axis::{Axis, RawAxis, Setting};
+use super::derived::{self, RawDerived, Surroundings};
 use super::error::StudyError;
+use super::study_plot::RawPlot;
 use super::toml_text;
 use ligament_case::case::decode::decode;
 use ligament_case::case::document::{Node, Value};
 use ligament_case::case::fault::KeyFault;
 use ligament_case::case::key_path::KeyPath;
 use ligament_case::case::source::Source;
-use ligament_case::case::values::{require, require_column_name, require_unique};
+use ligament_case::case::values::{require, require_unique};
 use ligament_case::case::{CaseError, Fault, Location};
 use ligament_case::input_file;
+
+pub use super::derived::{DerivedColumn, Reference, ReferenceTable};
+pub use super::study_plot::{FitRange, KnownLine, PlotContent, StudyPlot};
 
 /// A study: its cases, derived results and plots.
 #[derive(Debug, Clone)]
@@ -38,90 +43,6 @@ pub struct Study {
     pub plots: Vec<StudyPlot>,
 }
 
-/// A column derived from a result.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DerivedColumn {
-    /// Name of the column.
-    pub name: String,
-    /// The result by its name (see `crate::quantities`).
-    pub of: String,
-    /// Divisor of the result.
-    #[serde(default = "one")]
-    pub over: f64,
-}
-
-fn one() -> f64 {
-    1.0
-}
-
-/// A plot over the runs of a study.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StudyPlot {
-    /// The column along x: a key of an axis, a derived column or a result.
-    pub x: String,
-    /// The column along y: a key of an axis, a derived column or a result.
-    pub y: String,
-    /// A key of an axis; each of its values has a curve.
-    pub by: Option<String>,
-    /// Title; by default the title of the study.
-    pub title: Option<String>,
-    /// Label along x, with the unit; by default the name of the column.
-    pub x_label: Option<String>,
-    /// Label along y, with the unit; by default the name of the column.
-    pub y_label: Option<String>,
-    /// A known line beside the curves.
-    pub line: Option<KnownLine>,
-    /// Range of x of a line fitted to each curve.
-    pub fit: Option<FitRange>,
-}
-
-/// A line that is known from elsewhere.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct KnownLine {
-    /// Slope of the line.
-    pub slope: f64,
-    /// Value of y at x = 0.
-    pub intercept: f64,
-    /// Label of the line.
-    #[serde(default)]
-    pub label: String,
-}
-
-impl KnownLine {
-    /// Name of the line: the label, or "known".
-    pub fn name(&self) -> &str {
-        match self.label.as_str() {
-            "" => "known",
-            label => label,
-        }
-    }
-
-    /// The line's y at x.
-    pub fn at(&self, x: f64) -> f64 {
-        self.slope * x + self.intercept
-    }
-}
-
-/// Range of x of a fit; unbounded where no end is given.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FitRange {
-    /// Smallest x.
-    pub from: Option<f64>,
-    /// Largest x.
-    pub to: Option<f64>,
-}
-
-impl FitRange {
-    /// Whether the range contains x; its ends belong to it.
-    pub fn contains(&self, x: f64) -> bool {
-        self.from.is_none_or(|from| x >= from) && self.to.is_none_or(|to| x <= to)
-    }
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawStudy {
@@ -134,9 +55,9 @@ struct RawStudy {
     #[serde(default)]
     axis: Vec<RawAxis>,
     #[serde(default)]
-    result: Vec<DerivedColumn>,
+    result: Vec<RawDerived>,
     #[serde(default)]
-    plot: Vec<StudyPlot>,
+    plot: Vec<RawPlot>,
 }
 
 impl Study {
@@ -169,26 +90,41 @@ impl Study {
         let axes = axes.map(|(index, axis)| axis.check(document, &root.child("axis").child(index)));
         let axes: Vec<Axis> = axes.collect::<Result<_, _>>()?;
         check_axes(&axes, raw.geometry.is_some(), &root.child("axis"))?;
-        check_derived(&raw.result, &root)?;
-        for (index, plot) in raw.plot.iter().enumerate() {
-            check_plot(plot, &axes, &root.child("plot").child(index))?;
-        }
         let folder = source.path.parent().unwrap_or(Path::new(""));
+        let surroundings = Surroundings {
+            document,
+            axes: &axes,
+            folder,
+        };
+        let derived = derived::checked(raw.result, surroundings, &root)?;
+        let plots = raw.plot.into_iter().enumerate();
+        let plot = |(index, plot): (usize, RawPlot)| {
+            plot.check(document, &axes, &root.child("plot").child(index))
+        };
+        let plots: Vec<StudyPlot> = plots.map(plot).collect::<Result<_, _>>()?;
         Ok(Self {
             source: source.clone(),
             title: raw.title,
             case: folder.join(raw.case),
             geometry: raw.geometry.map(|geometry| folder.join(geometry)),
             settings: settings(document)?,
+            derived,
+            plots,
             axes,
-            derived: raw.result,
-            plots: raw.plot,
         })
     }
 
     /// The study's name: the name of its folder if the file is called `study.toml`, else the name of the file without its extension.
     pub fn name(&self) -> String {
         self.source.name(&["study"])
+    }
+
+    /// The title, or the name of a study without one.
+    pub(crate) fn heading(&self) -> String {
+        match self.title.as_str() {
+            "" => self.name(),
+            title => title.to_owned(),
+        }
     }
 
     /// Location of a key in the study file, or of the table that would have it.
@@ -251,47 +187,6 @@ fn check_axes(axes: &[Axis], has_geometry: bool, place: &KeyPath) -> Result<(), 
         keys,
         ": a key belongs to one axis; keys that vary together are `keys` of one",
     )
-}
-
-fn check_derived(derived: &[DerivedColumn], root: &KeyPath) -> Result<(), KeyFault> {
-    let place = |index: usize| root.child("result").child(index);
-    for (index, DerivedColumn { name, over, .. }) in derived.iter().enumerate() {
-        require_column_name(|| place(index).child("name"), name)?;
-        require(
-            *over != 0.0,
-            || place(index).child("over"),
-            "other than 0",
-            *over,
-        )?;
-    }
-    let names = derived.iter().enumerate();
-    require_unique(
-        names.map(|(index, it)| (place(index).child("name"), it.name.as_str())),
-        "",
-    )
-}
-
-fn check_plot(plot: &StudyPlot, axes: &[Axis], place: &KeyPath) -> Result<(), KeyFault> {
-    let keys: Vec<&String> = axes.iter().flat_map(|axis| &axis.keys).collect();
-    if let Some(by) = &plot.by
-        && !keys.contains(&by)
-    {
-        let fault = Fault::unknown_name("key of an axis", by, keys.into_iter().cloned());
-        return Err(KeyFault::new(place.child("by"), fault));
-    }
-    if let Some(FitRange {
-        from: Some(from),
-        to: Some(to),
-    }) = plot.fit
-    {
-        require(
-            from < to,
-            || place.child("fit"),
-            "a range with from < to",
-            (from, to),
-        )?;
-    }
-    Ok(())
 }
 
 /// The settings of `[set]`, by quoted key paths or by nested tables.

@@ -1,17 +1,23 @@
 //! The table of a study: one row per run, a typed column for each axis, result and input.
 
 use std::collections::BTreeSet;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use anyhow::Context;
+use ligament_output::csv::read::CsvTable;
 use ligament_output::csv::{self, Value};
 use serde_json::{Map, Value as Cell};
 
+use super::cracks::{AREA, CrackResults, LENGTH};
 use super::plan::{Run, short_keys};
 use super::record::Status;
 use super::study::Study;
 use super::toml_text::words;
 use crate::quantities::{Quantities, flatten};
 use ligament::suggestion::hint;
+
+/// File of the table in the folder of a sweep.
+pub(super) const TABLE: &str = "table.csv";
 
 /// Prefix of the keys of inputs, which distinguishes them from results.
 pub(super) const INPUT: &str = "case.";
@@ -51,6 +57,8 @@ pub(super) struct Row<'a> {
     pub(super) status: Status,
     /// Folder of the run's results.
     pub(super) folder: String,
+    /// Cracks of the run, if the study names a result of them and they can be read.
+    pub(super) cracks: Option<CrackResults>,
 }
 
 impl Row<'_> {
@@ -62,8 +70,20 @@ impl Row<'_> {
         }
     }
 
-    /// The cells of the row, by their columns.
-    fn cells(&self, study: &Study, short_keys: &[Vec<String>]) -> Map<String, Cell> {
+    /// The number of a result, if the run is done and has it.
+    pub(super) fn number(&self, name: &str) -> Option<f64> {
+        let of_cracks = || self.cracks.as_ref()?.number(name);
+        let results = self.results()?;
+        results.number(name).ok().or_else(of_cracks)
+    }
+
+    /// The cells of the row, by their columns, with the values of the derived columns.
+    fn cells(
+        &self,
+        study: &Study,
+        short_keys: &[Vec<String>],
+        derived: &[Option<f64>],
+    ) -> Map<String, Cell> {
         let mut cells = Map::new();
         let mut add = |name: &str, cell: Cell| {
             // A result with the name of an axis or a derived result gets a prefix.
@@ -88,9 +108,13 @@ impl Row<'_> {
             }
         }
         let results = self.results();
-        for derived in &study.derived {
-            let value = results.and_then(|it| it.number(&derived.of).ok());
-            add(&derived.name, Cell::from(value.map(|it| it / derived.over)));
+        for (column, value) in study.derived.iter().zip(derived) {
+            add(&column.name, Cell::from(*value));
+        }
+        if let Some(cracks) = &self.cracks {
+            for name in [LENGTH, AREA] {
+                add(name, Cell::from(cracks.number(name)));
+            }
         }
         for (name, value) in results.into_iter().flat_map(Quantities::iter) {
             add(name, value.clone());
@@ -108,10 +132,12 @@ impl Row<'_> {
 }
 
 impl StudyTable {
-    /// The table of some runs.
-    pub(super) fn from_rows(study: &Study, rows: &[Row<'_>]) -> Self {
+    /// The table of some runs with the values of their derived columns, shape (n_runs, n_columns).
+    pub(super) fn from_rows(study: &Study, rows: &[Row<'_>], derived: &[Vec<Option<f64>>]) -> Self {
         let keys = short_keys(&study.axes);
-        let rows: Vec<Map<String, Cell>> = rows.iter().map(|row| row.cells(study, &keys)).collect();
+        let rows = rows.iter().zip(derived);
+        let cells = rows.map(|(row, derived)| row.cells(study, &keys, derived));
+        let rows: Vec<Map<String, Cell>> = cells.collect();
         let mut names = in_order(rows.iter().map(Map::keys));
         // An axis has a column of its own.
         let keys = study.axes.iter().flat_map(|axis| &axis.keys);
@@ -158,6 +184,44 @@ impl StudyTable {
         }
         ligament_output::replace_file(path, text.as_bytes())
     }
+}
+
+/// The completed runs of the table in a folder of a sweep, with labels of what tells them apart. Results that a collection found in folders of
+/// other machines are where the table names them.
+///
+/// # Errors
+///
+/// If there is no such table, or no run of it is done.
+pub(super) fn completed_runs(folder: &Path) -> anyhow::Result<Vec<(String, PathBuf)>> {
+    let path = folder.join(TABLE);
+    let sheet = CsvTable::read(&path).with_context(|| {
+        let folder = folder.display();
+        format!("{folder} has no table of its runs yet: ligament sweep STUDY.toml --collect --out {folder} makes it")
+    })?;
+    let rows = sheet.rows(|row| {
+        let [run, status, results] =
+            ["run", "status", "folder"].map(|name| row.value::<String>(name));
+        Ok((run?, status?, results?))
+    })?;
+    let done: Vec<(String, PathBuf)> = (rows.into_iter())
+        .filter(|(_, status, _)| status == "done")
+        .map(|(run, _, results)| {
+            let own = folder.join("runs").join(&run);
+            let results = if own.is_dir() { own } else { results.into() };
+            (run, results)
+        })
+        .collect();
+    anyhow::ensure!(!done.is_empty(), "no run of {} is done", path.display());
+    let settings = done.iter().map(|(run, _)| run.split(',').collect());
+    let settings: Vec<Vec<&str>> = settings.collect();
+    let differs = |it: &&&str| done.len() == 1 || !settings.iter().all(|all| all.contains(*it));
+    let labels = settings.iter().map(|all| {
+        let shown: Vec<&str> = all.iter().filter(differs).copied().collect();
+        shown.join(", ").replace('=', " = ")
+    });
+    let labels: Vec<String> = labels.collect();
+    let folders = done.into_iter().map(|(_, folder)| folder);
+    Ok(labels.into_iter().zip(folders).collect())
 }
 
 fn value(cell: &Cell) -> Value<'_> {

@@ -97,14 +97,7 @@ impl Reading {
 
     /// Height y of the cracks where they pass an x nearest to a height that is expected, m; NaN where none does.
     pub(super) fn crack_height(&self, x: f64, expected: f64) -> f64 {
-        let pieces = self.cracks.iter().flat_map(|line| line.places.windows(2));
-        let heights = pieces.filter_map(|piece| {
-            let [[from, low], [to, high]] = [piece[0], piece[1]];
-            let share = (x - from) / (to - from);
-            (0.0..=1.0)
-                .contains(&share)
-                .then_some(low + share * (high - low))
-        });
+        let heights = self.cracks.iter().flat_map(|line| line.heights_at(x));
         let nearest = |one: f64, other: f64| {
             if (other - expected).abs() < (one - expected).abs() {
                 other
