@@ -22,6 +22,7 @@ mod interpolation;
 mod mesh;
 mod numbering;
 mod overlap;
+mod portion;
 mod remark;
 mod solid;
 
@@ -29,5 +30,6 @@ pub use cell::{Cell, MeshCell};
 pub use curve::along_hilbert_curve;
 pub use mesh::{AnyMesh, Group, Mesh, NodeField, SolidMesh};
 pub use numbering::Numbering;
+pub use portion::Portion;
 pub use remark::Remark;
 pub use solid::{Faces, NotOnOutline, Side, SolidCell};
