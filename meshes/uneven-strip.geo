@@ -1,6 +1,6 @@
 // Strip of 96 x 24 mm whose left end has 6 edges and whose right end has 7: what a mesher leaves of two equal sides. Lengths in metres.
-length = 0.096;
-height = 0.024;
+DefineConstant[ length = 0.096 ];
+DefineConstant[ height = 0.024 ];
 
 Point(1) = {0, -height / 2, 0, height / 6};
 Point(2) = {length, -height / 2, 0, height / 7};

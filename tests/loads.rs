@@ -104,7 +104,10 @@ fn a_linear_profile_has_its_force_and_moment() {
     let edge = (heights[heights.len() - 1] - heights[heights.len() - 2]) / 0.1;
     let top = varying.model.plane().cloud.nearest_point([0.2, 0.1]) as usize;
     let share = varying.boundary.force[3 * top] / 1e3;
-    assert!(relative_error(share, edge * (3.0 - edge) / 6.0) < 1e-12, "{share}");
+    assert!(
+        relative_error(share, edge * (3.0 - edge) / 6.0) < 1e-12,
+        "{share}"
+    );
     // Prescribed displacements in the same way, also where the factor is negative.
     let moved = "load = [{ group = \"right\", displacement = { x = 1e-5 }, profile = { along = \"y\", zero = 0.05, one = 0.1 } }]\n";
     let moved = bench(moved);
@@ -309,7 +312,8 @@ fn linear_tractions_on_ends_with_different_edges_balance() {
     let of_line = |group: &str, line: f64| {
         format!("[[load]]\ngroup = \"{group}\"\nforce_per_length = {{ x = {line:?} }}\n{profile}\n")
     };
-    let of_pressure = |group: &str| format!("[[load]]\ngroup = \"{group}\"\npressure = -1e6\n{profile}\n");
+    let of_pressure =
+        |group: &str| format!("[[load]]\ngroup = \"{group}\"\npressure = -1e6\n{profile}\n");
     let moment = 1e6 * 0.01 * 0.024_f64.powi(2) / 6.0;
     let beam = moment.powi(2) * 0.096 / (2.0 * 15e9 * 0.01 * 0.024_f64.powi(3) / 12.0);
     for (loads, size) in [
@@ -328,7 +332,10 @@ fn linear_tractions_on_ends_with_different_edges_balance() {
         let body = free_body(&bench, &run);
         assert!(body.is_balanced(), "{body:?}");
         let last = run.last();
-        println!("energy {:.4e} J, of a beam {beam:.4e} J", last.stored_energy);
+        println!(
+            "energy {:.4e} J, of a beam {beam:.4e} J",
+            last.stored_energy
+        );
         assert!(relative_error(last.stored_energy, beam) < 0.15);
         // Both ends do work: 2 W/F.
         assert!(relative_error(last.displacement, 2.0 * last.stored_energy / size) < 1e-9);
@@ -341,7 +348,9 @@ fn linear_tractions_on_ends_with_different_edges_balance() {
 /// holds one point chooses that point itself, so there the displacement is still the one of the first load.
 #[test]
 fn the_stiffness_of_a_free_bar_does_not_depend_on_gauges() {
-    let pull = |group: &str, force: f64| format!("[[load]]\ngroup = \"{group}\"\nforce = {{ x = {force:?} }}\n");
+    let pull = |group: &str, force: f64| {
+        format!("[[load]]\ngroup = \"{group}\"\nforce = {{ x = {force:?} }}\n")
+    };
     let (right, left) = (pull("right", 2e3), pull("left", -2e3));
     let mesh = meshes::read("meshes/uneven-strip.msh");
     let mut mirrored = mesh.clone();
@@ -372,7 +381,8 @@ fn the_stiffness_of_a_free_bar_does_not_depend_on_gauges() {
         assert!(relative_error(*stiffness, known) < 0.02, "{stiffness}");
         assert!(relative_error(*stiffness, stiffnesses[0]) < 1e-9);
     }
-    let held = "support = [{ at = [0.0, 0.0], displacement = { x = 0.0, y = 0.0, rotation = 0.0 } }]\n";
+    let held =
+        "support = [{ at = [0.0, 0.0], displacement = { x = 0.0, y = 0.0, rotation = 0.0 } }]\n";
     for (supports, loads) in [(held, &right), ("", &left)] {
         let text = format!("{supports}{UNEVEN}{loads}");
         assert!(!Bench::new(&text, &[]).boundary.is_displaced_by_all());
@@ -383,7 +393,11 @@ fn the_stiffness_of_a_free_bar_does_not_depend_on_gauges() {
 /// The right side of the bar, 1 m^2 at x = 4 m between -0.5 and 0.5 m, has z from -1 to 1 times the traction: no force, the moment of p A^2/6.
 #[test]
 fn a_linear_profile_on_a_surface_has_its_force_and_moment() {
-    for load in ["force_per_area = { x = 1e6 }", "force = { x = 1e6 }", "pressure = -1e6"] {
+    for load in [
+        "force_per_area = { x = 1e6 }",
+        "force = { x = 1e6 }",
+        "pressure = -1e6",
+    ] {
         let text = format!(
             "mesh = {{ file = \"../meshes/solids/bar.msh\" }}\nmaterial = {{ young = 30e9, poisson = 0.2 }}\n\
              model = {{ law = \"nhpd\", horizon_factor = 2.0 }}\nsupport = [{{ group = \"left\", displacement = {{ x = 0.0, y = 0.0, z = 0.0 }} }}]\n\
@@ -393,7 +407,13 @@ fn a_linear_profile_on_a_surface_has_its_force_and_moment() {
         let model = ligament::Model::build(setup, &mut ()).unwrap();
         let boundary = ligament::Loading::new(&model).unwrap().boundary;
         let [mut force, mut about_y, mut about_z] = [0.0; 3];
-        for (at, of_point) in model.solid().cloud.positions.iter().zip(boundary.force.chunks(6)) {
+        for (at, of_point) in model
+            .solid()
+            .cloud
+            .positions
+            .iter()
+            .zip(boundary.force.chunks(6))
+        {
             force += of_point[0];
             about_y += at[2] * of_point[0];
             about_z -= at[1] * of_point[0];

@@ -92,7 +92,10 @@ load = [{ group = "top", pressure = 8.0, profile = { along = "x", zero = 1.0, on
     ] {
         let force = &forces[3 * node..3 * node + 3];
         assert!(force[0] == 0.0 && force[2] == 0.0);
-        assert!((force[1] - expected).abs() < 1e-15, "node {node}: {force:?}");
+        assert!(
+            (force[1] - expected).abs() < 1e-15,
+            "node {node}: {force:?}"
+        );
     }
     assert_eq!(bench.boundary.control.magnitude, 8.0);
 }

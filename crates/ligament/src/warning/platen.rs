@@ -32,7 +32,7 @@ pub(super) fn early_at_platen(setup: &Setup, factor: f64) -> Option<Message> {
         let mut measures = it.kind.measures.iter();
         !it.after.softens && measures.any(|it| it.takes_stress())
     })?;
-    let body = setup.body.geometry::<2>();
+    let body = &**setup.body.geometry::<2>();
     let spared = spared_points(setup);
     let end = |(name, place): (String, &Place)| {
         let ends = ends_inside_sides(body, place).into_iter();
