@@ -626,3 +626,51 @@ fn bodies_of_springs_have_the_free_motions_that_cost_no_energy() {
         assert!(run.last().displacement > 1e-6);
     }
 }
+
+/// Brittle bonds that fail by stress at the edge of a platen: told from a horizon factor of 4 with `body` and of 5 with `families`, where a
+/// displacement is prescribed on a part of a side, and nowhere else (docs/fracture.md has the loads at the first breakage).
+#[test]
+fn the_edge_of_a_platen_is_told() {
+    let disk = |factor: f64, reference: &str, load: &str, criterion: &str| {
+        let text = format!(
+            "mesh = {{ file = \"../meshes/disk-4mm.msh\", thickness = 0.05 }}\n\
+             material = {{ young = 15e9, poisson = 0.21, tensile_strength = 3.81e6, fracture_energy = 20.0 }}\n\
+             model = {{ law = \"nhpd\", horizon_factor = {factor:?} }}\ncorrection = {{ surface = \"patch\", reference = \"{reference}\" }}\n\
+             [fracture]\ncontrol = \"stepped\"\nsteps = 1\n[[fracture.criterion]]\n{criterion}\n\
+             [[load]]\ngroup = \"platen-top\"\n{load}\n[[load]]\ngroup = \"platen-bottom\"\n{load}\n"
+        );
+        told_of_platen(&text)
+    };
+    let (moved, brittle) = ("displacement = { y = 1e-4 }", "kind = \"bond-rankine\"");
+    let advice = disk(4.0, "body", moved, brittle).unwrap();
+    assert!(advice.contains("families"), "{advice}");
+    let advice = disk(5.0, "families", moved, brittle).unwrap();
+    assert!(!advice.contains("families"), "{advice}");
+    for (factor, reference, load, criterion) in [
+        (3.0, "body", moved, brittle),
+        (4.0, "families", moved, brittle),
+        (4.0, "body", "force = { y = 1e4 }", brittle),
+        (4.0, "body", "pressure = 1e6", brittle),
+        (4.0, "body", moved, "kind = \"strength\""),
+        (4.0, "body", moved, "kind = \"rankine\"\nafter = \"linear\""),
+    ] {
+        let told = disk(factor, reference, load, criterion);
+        assert_eq!(told, None, "{factor} {reference} {load} {criterion}");
+    }
+    // The whole side of a plate ends at corners.
+    let plate = "mesh = { file = \"../meshes/plate-coarse.msh\", thickness = 0.02 }\n\
+        material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }\nmodel = { law = \"nhpd\", horizon_factor = 4.0 }\n\
+        correction = { surface = \"patch\", reference = \"body\" }\nload = [{ group = \"right\", displacement = { x = 1e-4 } }]\n\
+        support = [{ group = \"left\", displacement = { x = 0.0, y = 0.0 } }]\n\
+        [fracture]\ncontrol = \"stepped\"\nsteps = 1\n[[fracture.criterion]]\nkind = \"bond-rankine\"\n";
+    assert_eq!(told_of_platen(plate), None);
+}
+
+/// Advice of the message about the edge of a platen; None without the message.
+fn told_of_platen(text: &str) -> Option<String> {
+    let setup = bench::case(text, &[]).setup(&mut ()).unwrap();
+    let model = ligament::Model::build(setup, &mut ()).unwrap();
+    let mut warnings = model.warnings.into_iter();
+    let told = warnings.find(|it| it.kind == "early-at-platen")?;
+    told.advice
+}
