@@ -80,31 +80,34 @@ fn resultant(bench: &Bench, forces: &[f64]) -> [f64; 3] {
     })
 }
 
-/// A profile from 0 at y = 0 to 1 at y = 0.1 m gives half of a total, its resultant at two thirds of the side. The sum over
-/// the edges of a linear force is exact, that of its moment by halves of edges off by the trapezoidal rule: (n h^3/6)/L^3 of
-/// it for n edges of length h, here 2.6 % for edges of 2 cm.
+/// A profile from 0 at y = 0 to 1 at y = 0.1 m gives half of a total, its resultant at two thirds of the side, on five edges as well as on
+/// any number: the traction is linear along each edge and is integrated with the shape functions (halves of edges times the factors at the
+/// nodes had 2.0 % too much of its moment here). The end of the last edge, of length h, has (3 - h/L)/6 of h times the full traction.
 #[test]
-fn a_profile_multiplies_every_share() {
+fn a_linear_profile_has_its_force_and_moment() {
     let plain = "load = [{ group = \"right\", force = { x = 1e3, y = 200.0 } }]\n";
     let support = "support = [{ group = \"left\", displacement = { x = 0.0, y = 0.0 } }]\n";
     let profile = ", profile = { along = \"y\", zero = 0.0, one = 0.1 } }]";
     let settings = ["mesh.file=../meshes/plate-coarse.msh"];
     let bench = |load: &str| Bench::new(&format!("{PLATE}{support}{load}"), &settings);
     let linear = plain.replace(" }]", profile);
-    let (uniform, varying) = (bench(plain), bench(&linear));
-    let mut loaded = 0;
-    for (point, p) in uniform.positions().iter().enumerate() {
-        for axis in 0..2 {
-            let [full, share] = [&uniform, &varying].map(|it| it.boundary.force[3 * point + axis]);
-            assert!((share - full * p[1] / 0.1).abs() < 1e-12 * 1e3);
-            loaded += usize::from(full != 0.0);
-        }
-    }
-    assert_eq!(loaded, 2 * uniform.group("right").len());
+    let varying = bench(&linear);
     let [x, y, moment] = resultant(&varying, &varying.boundary.force);
     assert!(relative_error(x, 500.0) < 1e-12 && relative_error(y, 100.0) < 1e-12);
     let expected = 100.0 * 0.2 - 500.0 * 0.2 / 3.0;
-    assert!((moment - expected).abs() < 0.026 * 500.0 * 0.2 / 3.0);
+    println!("moment {moment}, {expected}");
+    assert!(relative_error(moment, expected) < 1e-12);
+    let mut heights: Vec<f64> = (varying.group("right").iter())
+        .map(|&it| varying.positions()[it as usize][1])
+        .collect();
+    heights.sort_by(f64::total_cmp);
+    let edge = (heights[heights.len() - 1] - heights[heights.len() - 2]) / 0.1;
+    let top = varying.model.plane().cloud.nearest_point([0.2, 0.1]) as usize;
+    let share = varying.boundary.force[3 * top] / 1e3;
+    assert!(
+        relative_error(share, edge * (3.0 - edge) / 6.0) < 1e-12,
+        "{share}"
+    );
     // Prescribed displacements in the same way, also where the factor is negative.
     let moved = "load = [{ group = \"right\", displacement = { x = 1e-5 }, profile = { along = \"y\", zero = 0.05, one = 0.1 } }]\n";
     let moved = bench(moved);
@@ -289,6 +292,136 @@ fn a_couple_is_balanced_by_forces() {
             largest(component(run.displacement(), 2)) > 1e-6,
             "the plate is bent"
         );
+    }
+}
+
+/// Strip of 96 x 24 mm, 1 cm thick, with 6 edges at its left end and 7 at its right end.
+const UNEVEN: &str = r#"
+mesh = { file = "../meshes/uneven-strip.msh", thickness = 0.01 }
+material = { young = 15e9, poisson = 0.21 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+correction = { surface = "patch" }
+"#;
+
+/// Linear tractions on both ends of a free strip balance although the ends have different edges, by a force per length as by a pressure: the
+/// moment of each is p t H^2/6 to rounding (values at the nodes had 2/36 and 2/49 more, which was no equilibrium). The strip takes the energy
+/// M^2 L/(2 E I) of a beam but for what few cells across leave of its stiffness: within 15 %, twice what is measured.
+#[test]
+fn linear_tractions_on_ends_with_different_edges_balance() {
+    let profile = "profile = { along = \"y\", zero = 0.0, one = 0.012 }";
+    let of_line = |group: &str, line: f64| {
+        format!("[[load]]\ngroup = \"{group}\"\nforce_per_length = {{ x = {line:?} }}\n{profile}\n")
+    };
+    let of_pressure =
+        |group: &str| format!("[[load]]\ngroup = \"{group}\"\npressure = -1e6\n{profile}\n");
+    let moment = 1e6 * 0.01 * 0.024_f64.powi(2) / 6.0;
+    let beam = moment.powi(2) * 0.096 / (2.0 * 15e9 * 0.01 * 0.024_f64.powi(3) / 12.0);
+    for (loads, size) in [
+        ([of_line("right", 1e4), of_line("left", -1e4)], 1e4 * 0.024),
+        (["right", "left"].map(of_pressure), 1e6),
+    ] {
+        let bench = Bench::new(&format!("{UNEVEN}{}", loads.concat()), &[]);
+        let right = bench.group("right");
+        let of_point = |&point: &u32| {
+            let dof = 3 * point as usize;
+            -bench.boundary.force[dof] * bench.positions()[point as usize][1]
+        };
+        let found: f64 = right.iter().map(of_point).sum();
+        assert!(relative_error(found, -moment) < 1e-12, "{found}");
+        let run = bench.solve();
+        let body = free_body(&bench, &run);
+        assert!(body.is_balanced(), "{body:?}");
+        let last = run.last();
+        println!(
+            "energy {:.4e} J, of a beam {beam:.4e} J",
+            last.stored_energy
+        );
+        assert!(relative_error(last.stored_energy, beam) < 0.15);
+        // Both ends do work: 2 W/F.
+        assert!(relative_error(last.displacement, 2.0 * last.stored_energy / size) < 1e-9);
+    }
+}
+
+/// The stiffness of a free bar in tension is E A/L = 37.5 MN/m whichever end comes first, whichever nodes are gauges, and whatever else is
+/// free: displacement and force do the work of both forces. 2 % as the ends of few cells are softer (measured .5 %); the choices agree to the
+/// 1e-9 to which equilibria are solved. With the first load alone the displacement was the one of an end against the gauges. A support that
+/// holds one point chooses that point itself, so there the displacement is still the one of the first load.
+#[test]
+fn the_stiffness_of_a_free_bar_does_not_depend_on_gauges() {
+    let pull = |group: &str, force: f64| {
+        format!("[[load]]\ngroup = \"{group}\"\nforce = {{ x = {force:?} }}\n")
+    };
+    let (right, left) = (pull("right", 2e3), pull("left", -2e3));
+    let mesh = meshes::read("meshes/uneven-strip.msh");
+    let mut mirrored = mesh.clone();
+    for place in &mut mirrored.positions {
+        *place = place.map(|it| -it);
+    }
+    let mut gauges = Vec::new();
+    let mut stiffnesses = Vec::new();
+    for (mesh, loads) in [
+        (&mesh, [&right, &left]),
+        (&mesh, [&left, &right]),
+        (&mirrored, [&pull("left", 2e3), &pull("right", -2e3)]),
+    ] {
+        let bench = Bench::on(mesh, &format!("{UNEVEN}{}{}", loads[0], loads[1]), &[]);
+        assert!(bench.boundary.is_displaced_by_all());
+        let run = bench.solve();
+        let places = free_body(&bench, &run).gauges.into_iter();
+        let at = |(point, _): (u32, Component)| bench.positions()[point as usize].map(f64::abs);
+        gauges.push(places.map(at).collect::<Vec<_>>());
+        let last = run.last();
+        assert!(relative_error(last.displacement, 2.0 * last.stored_energy / 2e3) < 1e-9);
+        assert!(relative_error(last.reaction, 2e3) < 1e-12);
+        stiffnesses.push(run.outcome.elastic_stiffness);
+    }
+    println!("{stiffnesses:?}, gauges {gauges:?}");
+    let known = 15e9 * 0.024 * 0.01 / 0.096;
+    for stiffness in &stiffnesses {
+        assert!(relative_error(*stiffness, known) < 0.02, "{stiffness}");
+        assert!(relative_error(*stiffness, stiffnesses[0]) < 1e-9);
+    }
+    let held =
+        "support = [{ at = [0.0, 0.0], displacement = { x = 0.0, y = 0.0, rotation = 0.0 } }]\n";
+    for (supports, loads) in [(held, &right), ("", &left)] {
+        let text = format!("{supports}{UNEVEN}{loads}");
+        assert!(!Bench::new(&text, &[]).boundary.is_displaced_by_all());
+    }
+}
+
+/// Linear tractions on a surface of a solid: a force per area, a total force and a pressure, on triangles, have force and moments to rounding.
+/// The right side of the bar, 1 m^2 at x = 4 m between -0.5 and 0.5 m, has z from -1 to 1 times the traction: no force, the moment of p A^2/6.
+#[test]
+fn a_linear_profile_on_a_surface_has_its_force_and_moment() {
+    for load in [
+        "force_per_area = { x = 1e6 }",
+        "force = { x = 1e6 }",
+        "pressure = -1e6",
+    ] {
+        let text = format!(
+            "mesh = {{ file = \"../meshes/solids/bar.msh\" }}\nmaterial = {{ young = 30e9, poisson = 0.2 }}\n\
+             model = {{ law = \"nhpd\", horizon_factor = 2.0 }}\nsupport = [{{ group = \"left\", displacement = {{ x = 0.0, y = 0.0, z = 0.0 }} }}]\n\
+             [[load]]\ngroup = \"right\"\n{load}\nprofile = {{ along = \"z\", zero = 0.0, one = 0.5 }}\n"
+        );
+        let setup = bench::case(&text, &[]).setup(&mut ()).unwrap();
+        let model = ligament::Model::build(setup, &mut ()).unwrap();
+        let boundary = ligament::Loading::new(&model).unwrap().boundary;
+        let [mut force, mut about_y, mut about_z] = [0.0; 3];
+        for (at, of_point) in model
+            .solid()
+            .cloud
+            .positions
+            .iter()
+            .zip(boundary.force.chunks(6))
+        {
+            force += of_point[0];
+            about_y += at[2] * of_point[0];
+            about_z -= at[1] * of_point[0];
+        }
+        println!("{load}: {force:e} N, {about_y} N m, {about_z:e} N m");
+        // Some hundred terms of 1e4 N with rounding.
+        assert!(force.abs() < 1e-6 && about_z.abs() < 1e-6);
+        assert!(relative_error(about_y, 1e6 / 6.0) < 1e-12);
     }
 }
 
@@ -492,4 +625,52 @@ fn bodies_of_springs_have_the_free_motions_that_cost_no_energy() {
         }
         assert!(run.last().displacement > 1e-6);
     }
+}
+
+/// Brittle bonds that fail by stress at the edge of a platen: told from a horizon factor of 4 with `body` and of 5 with `families`, where a
+/// displacement is prescribed on a part of a side, and nowhere else (docs/fracture.md has the loads at the first breakage).
+#[test]
+fn the_edge_of_a_platen_is_told() {
+    let disk = |factor: f64, reference: &str, load: &str, criterion: &str| {
+        let text = format!(
+            "mesh = {{ file = \"../meshes/disk-4mm.msh\", thickness = 0.05 }}\n\
+             material = {{ young = 15e9, poisson = 0.21, tensile_strength = 3.81e6, fracture_energy = 20.0 }}\n\
+             model = {{ law = \"nhpd\", horizon_factor = {factor:?} }}\ncorrection = {{ surface = \"patch\", reference = \"{reference}\" }}\n\
+             [fracture]\ncontrol = \"stepped\"\nsteps = 1\n[[fracture.criterion]]\n{criterion}\n\
+             [[load]]\ngroup = \"platen-top\"\n{load}\n[[load]]\ngroup = \"platen-bottom\"\n{load}\n"
+        );
+        told_of_platen(&text)
+    };
+    let (moved, brittle) = ("displacement = { y = 1e-4 }", "kind = \"bond-rankine\"");
+    let advice = disk(4.0, "body", moved, brittle).unwrap();
+    assert!(advice.contains("families"), "{advice}");
+    let advice = disk(5.0, "families", moved, brittle).unwrap();
+    assert!(!advice.contains("families"), "{advice}");
+    for (factor, reference, load, criterion) in [
+        (3.0, "body", moved, brittle),
+        (4.0, "families", moved, brittle),
+        (4.0, "body", "force = { y = 1e4 }", brittle),
+        (4.0, "body", "pressure = 1e6", brittle),
+        (4.0, "body", moved, "kind = \"strength\""),
+        (4.0, "body", moved, "kind = \"rankine\"\nafter = \"linear\""),
+    ] {
+        let told = disk(factor, reference, load, criterion);
+        assert_eq!(told, None, "{factor} {reference} {load} {criterion}");
+    }
+    // The whole side of a plate ends at corners.
+    let plate = "mesh = { file = \"../meshes/plate-coarse.msh\", thickness = 0.02 }\n\
+        material = { young = 15e9, poisson = 0.21, tensile_strength = 3.81e6 }\nmodel = { law = \"nhpd\", horizon_factor = 4.0 }\n\
+        correction = { surface = \"patch\", reference = \"body\" }\nload = [{ group = \"right\", displacement = { x = 1e-4 } }]\n\
+        support = [{ group = \"left\", displacement = { x = 0.0, y = 0.0 } }]\n\
+        [fracture]\ncontrol = \"stepped\"\nsteps = 1\n[[fracture.criterion]]\nkind = \"bond-rankine\"\n";
+    assert_eq!(told_of_platen(plate), None);
+}
+
+/// Advice of the message about the edge of a platen; None without the message.
+fn told_of_platen(text: &str) -> Option<String> {
+    let setup = bench::case(text, &[]).setup(&mut ()).unwrap();
+    let model = ligament::Model::build(setup, &mut ()).unwrap();
+    let mut warnings = model.warnings.into_iter();
+    let told = warnings.find(|it| it.kind == "early-at-platen")?;
+    told.advice
 }

@@ -8,7 +8,7 @@ use ligament_model::Bonds;
 pub use ligament_model::rigid_motions::FreeMotion;
 
 use crate::connectivity::{AddedSupport, Fragments};
-use crate::load_program::LoadProgram;
+use crate::load_program::{ControlKind, LoadProgram, ProportionalLoading};
 use crate::unknowns::{Component, Unknowns};
 use crate::user_message::Message;
 
@@ -113,6 +113,19 @@ pub fn of_intact_body(system: &dyn Bonds, loads: &dyn LoadProgram) -> Vec<FreeBo
         |dof| unknowns.number(dof).is_some(),
     );
     free_bodies(system, loads, &fragments, &holds)
+}
+
+/// Whether the displacement of a control load, as the one of this load alone, depends on the gauges: its forces do work on free motions of
+/// the intact body on which all forces together do none; collective.
+pub fn decide_displacement(system: &dyn Bonds, loads: &ProportionalLoading) -> bool {
+    let all_balance = |free: &[FreeBody]| free.iter().all(FreeBody::is_balanced);
+    if loads.control.kind != ControlKind::Force {
+        return false;
+    }
+    let free = of_intact_body(system, loads);
+    !free.is_empty()
+        && all_balance(&free)
+        && !all_balance(&of_intact_body(system, &loads.of_control_alone()))
 }
 
 /// Free parts of the intact body, given the added supports that they need; collective.

@@ -188,6 +188,9 @@ pub(crate) fn groups_of_reactions(groups: &[BoundaryGroup], layout: Layout) -> V
 /// - a temperature changes by lambda m at most, which is the displacement, K; the work-conjugate force is
 ///   -sum over the bonds of force . thermal deformation for m = 1 K, J/K.
 ///
+/// The forces on a free body balance: there the displacement of a given force is [the one of all
+/// forces](ProportionalLoading::displaced_by_all), since the sum of w_i . u_i alone depends on the gauges.
+///
 /// A uniform load thus has the sum of its forces and the mean of its displacements along it, a bending load the moments of both
 /// about its zero. A pressure all round has no resultant: its magnitude is the pressure and its shape the areas with their inward
 /// normals, so that the force is the pressure and the displacement the volume by which its surface receded.

@@ -1,11 +1,11 @@
 //! Meshes: nodes, cells, physical groups, and values at the nodes.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
 use crate::cell::{Cell, MeshCell};
+use crate::portion::Portion;
 use crate::remark::Remark;
 use crate::solid::SolidCell;
 
@@ -108,21 +108,20 @@ impl<const D: usize, C> Mesh<D, C> {
         edges
     }
 
-    /// Length of some edges assigned to each of their nodes, m, ascending by node: half of each edge.
-    pub fn lengths_at_nodes(&self, edges: &[[u32; 2]]) -> Vec<(u32, f64)> {
+    /// Some edges, each with half of its length (m) for each node. A repeated edge counts once.
+    pub fn edge_portions(&self, edges: &[[u32; 2]]) -> Vec<Portion<1>> {
         let mut edges: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
         edges.sort_unstable();
         edges.dedup();
-        let mut lengths: BTreeMap<u32, f64> = BTreeMap::new();
-        for edge in edges {
+        let portion = |edge: [u32; 2]| {
             let [p, q] = edge.map(|node| self.positions[node as usize]);
             let along = p.iter().zip(&q).map(|(from, to)| to - from);
-            let half = 0.5 * along.fold(0.0, f64::hypot);
-            for node in edge {
-                *lengths.entry(node).or_default() += half;
+            Portion {
+                corners: edge.to_vec(),
+                share: [0.5 * along.fold(0.0, f64::hypot)],
             }
-        }
-        lengths.into_iter().collect()
+        };
+        edges.into_iter().map(portion).collect()
     }
 
     /// First group of a given name: the one of lowest dimension, then of lowest number.

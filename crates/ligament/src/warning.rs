@@ -2,6 +2,7 @@
 
 mod correction;
 mod criteria;
+mod platen;
 mod volumetric;
 
 use ligament_analysis::Message;
@@ -94,6 +95,8 @@ pub(crate) fn of_model(
         ));
     }
     warnings.extend(of_constants(setup));
+    let (factor, _) = smallest_factor(setup, points, fixed);
+    warnings.extend(platen::early_at_platen(setup, factor));
     warnings.extend(curve_of_another_material(setup));
     warnings
 }

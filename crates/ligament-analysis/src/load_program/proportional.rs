@@ -33,6 +33,9 @@ pub struct ProportionalLoading {
     pub groups: Vec<BoundaryGroup>,
     /// Load that defines `displacement` and `reaction` of the history.
     pub control: Control,
+    /// Degrees of freedom with their shares in the displacement of the control load, where this is [the one of all
+    /// forces](ProportionalLoading::displaced_by_all); empty where it is the one of the control load alone.
+    pub displaced: Vec<(u32, f64)>,
 }
 
 /// Inconsistency of supports and loads.
@@ -66,7 +69,42 @@ impl ProportionalLoading {
             driving: Vec::new(),
             groups: Vec::new(),
             control,
+            displaced: Vec::new(),
         }
+    }
+
+    /// Loading whose control load has the displacement on which all given forces F_i do the work of the control load's force F: sum F_i . u_i/F.
+    ///
+    /// Forces in balance do no work on rigid motions, so that it does not depend on the gauges of a free body. While the body is elastic, it
+    /// is 2 W/F with the stored energy W.
+    pub fn displaced_by_all(self) -> Self {
+        let magnitude = self.control.magnitude;
+        let forces = (0..).zip(&self.force).filter(|(_, force)| **force != 0.0);
+        let displaced = forces
+            .map(|(dof, force)| (dof, force / magnitude))
+            .collect();
+        Self { displaced, ..self }
+    }
+
+    /// Whether all given forces define the displacement of the control load.
+    pub fn is_displaced_by_all(&self) -> bool {
+        !self.displaced.is_empty()
+    }
+
+    /// The loading without forces other than those of a control load that is a force.
+    pub(crate) fn of_control_alone(&self) -> Self {
+        let mut alone = Self {
+            force: vec![0.0; self.force.len()],
+            ..self.clone()
+        };
+        let n_components = self.layout.components.len();
+        let shapes = self.control.shape.chunks(n_components);
+        for (&point, shape) in self.control.points.iter().zip(shapes) {
+            for (dof, share) in self.layout.range(point).zip(shape) {
+                alone.force[dof] += self.control.magnitude * share;
+            }
+        }
+        alone
     }
 
     /// Loading restricted to the components of another layout; loads on other components are dropped.
@@ -245,7 +283,13 @@ impl LoadProgram for ProportionalLoading {
     }
 
     fn control_displacement(&self, time: f64, displacement: &[f64]) -> f64 {
-        self.control.displacement(self.layout, time, displacement)
+        if self.displaced.is_empty() {
+            return self.control.displacement(self.layout, time, displacement);
+        }
+        let displaced = self.displaced.iter();
+        displaced
+            .map(|&(dof, share)| share * displacement[dof as usize])
+            .sum()
     }
 
     fn control_force(&self, time: f64, internal: &InternalForces) -> f64 {

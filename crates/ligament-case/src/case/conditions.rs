@@ -209,7 +209,7 @@ pub struct Load {
     pub body_couple: Option<Couple>,
     /// A pressure on the outline of a group, Pa; positive pushes on the body.
     pub pressure: Option<f64>,
-    /// How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table.
+    /// How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table.
     pub profile: Option<Profile>,
     /// How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start.
     pub amplitude: Option<Amplitude>,

@@ -112,8 +112,8 @@ fn write_lattice(
     write_sets(report, body)?;
     for name in body.group_names() {
         let mut words = format!("{} points", body.points_of(&name).unwrap_or_default().len());
-        if let Some((_, length)) = body.lengths_of(&name).first() {
-            words += &format!(", {} of a side each", quantity(*length, "m"));
+        if let Some(each) = body.lengths_of(&name).first() {
+            words += &format!(", {} of a side each", quantity(each.share[0], "m"));
         }
         report.detail(&format!("set {name}"), words)?;
     }

@@ -130,6 +130,10 @@ pub(super) fn write_boundary(
             "mean rotation of the loaded points, rad, which is larger than that of the section";
         report.detail("displacement is", words)?;
     }
+    if loading.boundary.is_displaced_by_all() {
+        let words = "on which all forces do work, over the size of this load: the body is free";
+        report.detail("displacement is", words)?;
+    }
     for (probe, given) in loading.probes.iter().zip(&model.setup.probes) {
         let words = |(place, position): (&Shares, &Position)| place_words(model, place, *position);
         let reads = match (&probe.reading, &given.reading) {

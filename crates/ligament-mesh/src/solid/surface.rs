@@ -1,12 +1,11 @@
-//! Areas of surfaces of a solid mesh at its nodes.
-
-use std::collections::BTreeMap;
+//! Areas of surfaces of a solid mesh, in triangles.
 
 use thiserror::Error;
 
 use super::faces::Faces;
 use crate::cell::Cell;
 use crate::mesh::SolidMesh;
+use crate::portion::Portion;
 
 /// A face not on the outline of the body, on which a pressure cannot act.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -25,46 +24,49 @@ pub struct NotOnOutline {
 }
 
 impl SolidMesh {
-    /// Sums at the nodes of the outward normals of some outline faces times their areas, m², ascending by node. A repeated face counts once.
+    /// Triangles of some outline faces, with a third of their areas (m²) times the outward normal for each corner. A repeated face counts
+    /// once.
     ///
-    /// A triangle gives a third to each corner, a quadrangle the mean of the triangles of its two splits: force and moment of a uniform
-    /// pressure on a flat face are exact.
+    /// A quadrangle has the triangles of its two splits, each with half of its area: force and moment of a pressure that is uniform or
+    /// linear over a flat face are exact.
     ///
     /// # Errors
     ///
     /// Returns an error if a face is not on the outline.
-    pub fn outward_areas(&self, faces: &[Cell]) -> Result<Vec<(u32, [f64; 3])>, NotOnOutline> {
+    pub fn outward_portions(&self, faces: &[Cell]) -> Result<Vec<Portion<3>>, NotOnOutline> {
         let of_cells = Faces::new(&self.cells, self.positions.len());
-        let mut areas: BTreeMap<u32, [f64; 3]> = BTreeMap::new();
+        let mut portions = Vec::new();
         for face in distinct_faces(faces) {
             let sides = of_cells.sides_at(&face);
             let [side] = sides.as_slice() else {
                 return Err(self.off_surface(&face, sides.len()));
             };
-            for (corners, weight) in thirds(&side.face) {
+            portions.extend(thirds(&side.face).into_iter().map(|(corners, weight)| {
                 let area = Cell::Triangle(corners).area_vector(&self.positions);
-                for corner in corners {
-                    let sum = areas.entry(corner).or_default();
-                    *sum = [0, 1, 2].map(|axis| sum[axis] + weight * area[axis]);
+                Portion {
+                    corners: corners.to_vec(),
+                    share: area.map(|it| weight * it),
                 }
-            }
+            }));
         }
-        Ok(areas.into_iter().collect())
+        Ok(portions)
     }
 
-    /// Area of some faces assigned to each of their nodes, m², ascending by node; divided as by [`SolidMesh::outward_areas`], but the faces
-    /// may lie inside the body.
-    pub fn areas_at_nodes(&self, faces: &[Cell]) -> Vec<(u32, f64)> {
-        let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
-        for face in distinct_faces(faces) {
-            for (corners, weight) in thirds(&face) {
-                let [x, y, z] = Cell::Triangle(corners).area_vector(&self.positions);
-                for corner in corners {
-                    *areas.entry(corner).or_default() += weight * (x * x + y * y + z * z).sqrt();
-                }
+    /// Triangles of some faces, with a third of their areas (m²) for each corner; divided as by [`SolidMesh::outward_portions`], but the
+    /// faces may lie inside the body.
+    pub fn face_portions(&self, faces: &[Cell]) -> Vec<Portion<1>> {
+        let triangles = distinct_faces(faces).into_iter();
+        let portion = |(corners, weight): ([u32; 3], f64)| {
+            let [x, y, z] = Cell::Triangle(corners).area_vector(&self.positions);
+            Portion {
+                corners: corners.to_vec(),
+                share: [weight * (x * x + y * y + z * z).sqrt()],
             }
-        }
-        areas.into_iter().collect()
+        };
+        triangles
+            .flat_map(|face| thirds(&face))
+            .map(portion)
+            .collect()
     }
 
     fn off_surface(&self, face: &Cell, cells: usize) -> NotOnOutline {
@@ -141,7 +143,8 @@ mod tests {
             Cell::Quadrangle([5, 4, 0, 1]),
             Cell::Quadrangle([0, 1, 5, 4]),
         ];
-        let areas = mesh.outward_areas(&side).expect("faces of the outline");
+        let portions = mesh.outward_portions(&side).expect("faces of the outline");
+        let areas = Portion::at_points(&portions);
         let nodes: Vec<u32> = areas.iter().map(|(node, _)| *node).collect();
         assert_eq!(nodes, [0, 1, 4, 5]);
         let mut force = [0.0; 3];
@@ -157,11 +160,8 @@ mod tests {
             "{force:?}"
         );
         assert!((moment + 9.0 * 4.0 / 3.0).abs() < 1e-14, "{moment}");
-        let area: f64 = mesh
-            .areas_at_nodes(&side)
-            .iter()
-            .map(|(_, area)| area)
-            .sum();
+        let areas = Portion::at_points(&mesh.face_portions(&side));
+        let area: f64 = areas.iter().map(|(_, [area])| area).sum();
         assert!((area - 90.0_f64.sqrt()).abs() < 1e-14);
     }
 
@@ -169,7 +169,7 @@ mod tests {
     fn faces_inside_or_of_no_cell_are_named() {
         let mesh = frustum();
         let refusal = |face: Cell| {
-            mesh.outward_areas(&[face])
+            mesh.outward_portions(&[face])
                 .expect_err("no face of the outline")
         };
         let inside = refusal(Cell::Quadrangle([0, 1, 2, 3]));
@@ -183,15 +183,15 @@ mod tests {
             "{none}"
         );
         assert_eq!(
-            mesh.areas_at_nodes(&[Cell::Quadrangle([0, 1, 2, 3])]),
-            [(0, 4.0), (1, 4.0), (2, 4.0), (3, 4.0)]
+            Portion::at_points(&mesh.face_portions(&[Cell::Quadrangle([0, 1, 2, 3])])),
+            [0, 1, 2, 3].map(|node| (node, [4.0]))
         );
     }
 
     #[test]
     fn edges_give_half_of_their_length() {
         let mesh = frustum();
-        let lengths = mesh.lengths_at_nodes(&[[0, 1], [2, 1], [1, 0]]);
-        assert_eq!(lengths, [(0, 2.0), (1, 4.0), (2, 2.0)]);
+        let lengths = Portion::at_points(&mesh.edge_portions(&[[0, 1], [2, 1], [1, 0]]));
+        assert_eq!(lengths, [(0, [2.0]), (1, [4.0]), (2, [2.0])]);
     }
 }

@@ -452,7 +452,7 @@ class LoadBodyCouple(TypedDict, total=False):
 
 
 class LoadProfile(TypedDict, total=False):
-    """How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    """How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
 
     along: Literal["x", "y", "z"]
     """The coordinate.
@@ -533,7 +533,7 @@ class Load(TypedDict, total=False):
     pressure: float
     """A pressure on the outline of a group, Pa; positive pushes on the body."""
     profile: LoadProfile | Function
-    """How the load varies: what a point takes is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    """How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
     amplitude: LoadAmplitude
     """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
     stiffness: float

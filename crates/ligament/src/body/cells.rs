@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use ligament_mesh::Portion;
 use ligament_model::cloud::lattice::{Face, Lattice};
 use ligament_model::shape::{Region, Shape};
 use thiserror::Error;
@@ -172,11 +173,15 @@ impl<const D: usize> CellSets<D> {
 
     /// Points of a set at a side, each with the length (m) or area (m^2) of a cell's face divided by the number of layers; empty for other
     /// sets.
-    pub(super) fn parts_of_side(&self, group: &str) -> Vec<(u32, f64)> {
+    pub(super) fn parts_of_side(&self, group: &str) -> Vec<Portion<1>> {
         let set = self.0.get(group);
         set.and_then(|set| {
             let part = set.part_of_side?;
-            Some(set.points.iter().map(|&point| (point, part)).collect())
+            let portion = |&point: &u32| Portion {
+                corners: vec![point],
+                share: [part],
+            };
+            Some(set.points.iter().map(portion).collect())
         })
         .unwrap_or_default()
     }
@@ -187,7 +192,7 @@ impl<const D: usize> CellSets<D> {
         &self,
         group: &str,
         lattice: &Lattice<D, S>,
-    ) -> Vec<(u32, [f64; D])> {
+    ) -> Vec<Portion<D>> {
         let Some(set) = self.0.get(group) else {
             return Vec::new();
         };
@@ -204,7 +209,11 @@ impl<const D: usize> CellSets<D> {
                 sum[axis] += f64::from(cosine) * size;
             }
         }
-        normals.into_iter().collect()
+        let portion = |(point, share)| Portion {
+            corners: vec![point],
+            share,
+        };
+        normals.into_iter().map(portion).collect()
     }
 }
 

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use ligament_analysis::serial::{Damaged, Sink};
 use ligament_analysis::user_message::PointNames;
-use ligament_mesh::{Cell, Mesh, NodeField, Numbering, SolidMesh};
+use ligament_mesh::{Cell, Mesh, NodeField, Numbering, Portion, SolidMesh};
 use ligament_model::cloud::lattice::SolidLattice;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
@@ -105,11 +105,13 @@ pub trait Body: Debug + Send + Sync {
     /// Cells of the group of this name, empty where it has only points; `None` where there is no such group.
     fn cells_of(&self, group: &str) -> Option<Vec<u32>>;
 
-    /// Points of a group, each with the length that it represents, m; empty where the group has no length.
-    fn lengths_of(&self, group: &str) -> Vec<(u32, f64)>;
+    /// Portions of a group with the lengths (m) that their points represent: edges of a mesh, points of a lattice; empty where the group has no
+    /// length.
+    fn lengths_of(&self, group: &str) -> Vec<Portion<1>>;
 
-    /// Points of a group, each with the area of the solid's surface that it represents, m^2; empty where the group has no area.
-    fn areas_of(&self, _group: &str) -> Vec<(u32, f64)> {
+    /// Portions of a group with the areas (m^2) of the solid's surface that their points represent: triangles of faces of a mesh, points of a
+    /// lattice; empty where the group has no area.
+    fn areas_of(&self, _group: &str) -> Vec<Portion<1>> {
         Vec::new()
     }
 
@@ -250,13 +252,13 @@ pub trait Geometry<const D: usize>: Body {
         None
     }
 
-    /// Outward normals of the outline along a group times lengths (m), in space times areas (m^2), summed at the group's points: half of an
-    /// edge of a mesh at each of its nodes, a face of a lattice at its cell. Empty where no part of the group is an edge or a face.
+    /// Portions of the outline along a group with outward normals times lengths (m), in space times areas (m^2): half of an edge of a mesh for
+    /// each of its nodes, the faces of a lattice's cell for its point. Empty where no part of the group is an edge or a face.
     ///
     /// # Errors
     ///
     /// If an edge of the group is not on the outline.
-    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline>;
+    fn outline_of(&self, group: &str) -> Result<Vec<Portion<D>>, OffOutline>;
 
     /// Corners of the outline's sides of a meshed body, each side of only one cell, ordered so that the outside is known; empty for other
     /// bodies.

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use ligament_mesh::Portion;
 use ligament_model::bonds::hole::bonds_across;
 use ligament_model::bonds::parts::LatticeCells;
 use ligament_model::cloud::lattice::Lattice;
@@ -104,7 +105,7 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
     }
 
     /// Length of a cell's side divided by the number of rows or columns of the set, at each point; empty in space.
-    fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
+    fn lengths_of(&self, group: &str) -> Vec<Portion<1>> {
         match D {
             2 => self.sets.parts_of_side(group),
             _ => Vec::new(),
@@ -112,7 +113,7 @@ impl<const D: usize, S: LatticeShape<D>> Body for BodyOnLattice<D, S> {
     }
 
     /// Area of a cell's side divided by the number of layers of the set, at each point; empty in the plane.
-    fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
+    fn areas_of(&self, group: &str) -> Vec<Portion<1>> {
         match D {
             2 => Vec::new(),
             _ => self.sets.parts_of_side(group),
@@ -187,7 +188,7 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
         self.lattice.interpolation_weights(position)
     }
 
-    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
+    fn outline_of(&self, group: &str) -> Result<Vec<Portion<D>>, OffOutline> {
         Ok(self.sets.outline(group, &self.lattice))
     }
 

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::sync::Arc;
 
 use ligament_analysis::serial::{Damaged, Sink};
-use ligament_mesh::{Cell, Group, Mesh, MeshCell, NodeField, Numbering, SolidCell};
+use ligament_mesh::{Cell, Group, Mesh, MeshCell, NodeField, Numbering, Portion, SolidCell};
 use ligament_model::bonds::outline::{Outline, bonds_outside, spacing_inside};
 use ligament_model::correction::patch::CellForces;
 use ligament_model::far_field::Simplex;
@@ -173,15 +173,15 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
         self.union(group, |group| &group.cells)
     }
 
-    /// Half of the length of each edge of a curve group, at each of its nodes, m.
-    fn lengths_of(&self, group: &str) -> Vec<(u32, f64)> {
+    /// The edges of a curve group.
+    fn lengths_of(&self, group: &str) -> Vec<Portion<1>> {
         let edges = self.of_groups(group, |it| &it.edges);
-        self.mesh.lengths_at_nodes(&edges)
+        self.mesh.edge_portions(&edges)
     }
 
-    /// Parts of the areas of the faces of a surface group, at each of their nodes, m^2.
-    fn areas_of(&self, group: &str) -> Vec<(u32, f64)> {
-        C::areas_at_nodes(&self.mesh, &self.of_groups(group, |it| &it.faces))
+    /// The triangles of the faces of a surface group.
+    fn areas_of(&self, group: &str) -> Vec<Portion<1>> {
+        C::face_portions(&self.mesh, &self.of_groups(group, |it| &it.faces))
     }
 
     fn faces_of(&self, group: &str) -> Option<Vec<Cell>> {
@@ -406,8 +406,8 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
         C::interpolation_weights(&self.mesh, position)
     }
 
-    /// Parts of the outward normals of the outline's sides along a group, at each of their nodes.
-    fn outline_of(&self, group: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
+    /// The edges or triangles of the outline's sides along a group.
+    fn outline_of(&self, group: &str) -> Result<Vec<Portion<D>>, OffOutline> {
         C::outward(
             &self.mesh,
             &self.mesh.groups_named(group).collect::<Vec<_>>(),

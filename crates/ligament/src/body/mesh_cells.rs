@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Debug;
 
-use ligament_mesh::{Cell, Faces, Group, Mesh, MeshCell, SolidCell, SolidMesh};
+use ligament_mesh::{Cell, Faces, Group, Mesh, MeshCell, Portion, SolidCell, SolidMesh};
 use ligament_model::bonds::outline::{Outline, PlaneOutline, SolidOutline};
 use ligament_model::bonds::parts::{PlaneCells, Tetrahedra};
 use ligament_model::correction::patch::{self, CellForces};
@@ -58,16 +58,15 @@ pub trait BodyCell<const D: usize>: MeshCell<D> + Debug + Send + 'static {
     fn faces_between_corners(&self, at: &dyn Fn(u32) -> [f64; D])
     -> Vec<([u32; 2], [[f64; D]; D])>;
 
-    /// Outward normals of the sides of some groups times lengths (m), in space times areas (m^2), in parts at the sides' nodes.
+    /// Edges, or triangles of faces, of some groups with their outward normals times lengths (m), in space times areas (m^2).
     ///
     /// # Errors
     ///
     /// If a side of the groups is not on the outline.
-    fn outward(mesh: &Mesh<D, Self>, groups: &[&Group])
-    -> Result<Vec<(u32, [f64; D])>, OffOutline>;
+    fn outward(mesh: &Mesh<D, Self>, groups: &[&Group]) -> Result<Vec<Portion<D>>, OffOutline>;
 
-    /// Areas of some faces in parts at their nodes, m^2; empty in the plane.
-    fn areas_at_nodes(mesh: &Mesh<D, Self>, faces: &[Cell]) -> Vec<(u32, f64)>;
+    /// Triangles of some faces with their areas, m^2; empty in the plane.
+    fn face_portions(mesh: &Mesh<D, Self>, faces: &[Cell]) -> Vec<Portion<1>>;
 
     /// Nodes of the cell around a position (m) and their interpolation weights; `None` outside of all cells.
     fn interpolation_weights(mesh: &Mesh<D, Self>, position: [f64; D]) -> Option<Vec<(u32, f64)>>;
@@ -129,15 +128,15 @@ impl BodyCell<2> for Cell {
             .collect()
     }
 
-    /// Half of the normal of each edge, at each of its nodes, m.
-    fn outward(mesh: &Mesh, groups: &[&Group]) -> Result<Vec<(u32, [f64; 2])>, OffOutline> {
+    /// Each edge with half of its normal, m.
+    fn outward(mesh: &Mesh, groups: &[&Group]) -> Result<Vec<Portion<2>>, OffOutline> {
         let edges = groups.iter().flat_map(|group| &group.edges);
         let edges: BTreeSet<[u32; 2]> = edges.map(|&edge| ascending(edge)).collect();
         if edges.is_empty() {
             return Ok(Vec::new());
         }
         let of_cells = edges_of(&mesh.cells);
-        let mut normals = BTreeMap::new();
+        let mut portions = Vec::new();
         for edge in edges {
             let (cells, along) = of_cells.get(&edge).copied().unwrap_or((0, edge));
             let [p, q] = along.map(|node| mesh.positions[node as usize]);
@@ -150,16 +149,15 @@ impl BodyCell<2> for Cell {
                 });
             }
             // Corners are in counter-clockwise order: the outside is on the right.
-            let half = [0.5 * (q[1] - p[1]), 0.5 * (p[0] - q[0])];
-            for node in edge {
-                let sum = normals.entry(node).or_insert([0.0; 2]);
-                *sum = [0, 1].map(|axis| sum[axis] + half[axis]);
-            }
+            portions.push(Portion {
+                corners: edge.to_vec(),
+                share: [0.5 * (q[1] - p[1]), 0.5 * (p[0] - q[0])],
+            });
         }
-        Ok(normals.into_iter().collect())
+        Ok(portions)
     }
 
-    fn areas_at_nodes(_: &Mesh, _: &[Cell]) -> Vec<(u32, f64)> {
+    fn face_portions(_: &Mesh, _: &[Cell]) -> Vec<Portion<1>> {
         Vec::new()
     }
 
@@ -231,9 +229,9 @@ impl BodyCell<3> for SolidCell {
         parts
     }
 
-    fn outward(mesh: &SolidMesh, groups: &[&Group]) -> Result<Vec<(u32, [f64; 3])>, OffOutline> {
+    fn outward(mesh: &SolidMesh, groups: &[&Group]) -> Result<Vec<Portion<3>>, OffOutline> {
         let faces: Vec<Cell> = groups.iter().flat_map(|it| &it.faces).copied().collect();
-        mesh.outward_areas(&faces).map_err(|it| OffOutline {
+        mesh.outward_portions(&faces).map_err(|it| OffOutline {
             side: "face",
             nodes: it.nodes,
             middle: it.middle.to_vec(),
@@ -241,8 +239,8 @@ impl BodyCell<3> for SolidCell {
         })
     }
 
-    fn areas_at_nodes(mesh: &SolidMesh, faces: &[Cell]) -> Vec<(u32, f64)> {
-        mesh.areas_at_nodes(faces)
+    fn face_portions(mesh: &SolidMesh, faces: &[Cell]) -> Vec<Portion<1>> {
+        mesh.face_portions(faces)
     }
 
     fn interpolation_weights(mesh: &SolidMesh, position: [f64; 3]) -> Option<Vec<(u32, f64)>> {

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use ligament_mesh::Portion;
 use ligament_model::correction::patch::CellForces;
 use ligament_model::material::Stiffness;
 use ligament_model::{BodyGrid, Canvas, Numbering, PointCloud, PointTags, Tags, raised};
@@ -180,7 +181,7 @@ impl<const D: usize> Body for Points<D> {
         self.points_of(group)
     }
 
-    fn lengths_of(&self, _: &str) -> Vec<(u32, f64)> {
+    fn lengths_of(&self, _: &str) -> Vec<Portion<1>> {
         Vec::new()
     }
 
@@ -291,7 +292,7 @@ impl<const D: usize> Geometry<D> for Points<D> {
         CellForces::none(cloud.len(), stiffness)
     }
 
-    fn outline_of(&self, _: &str) -> Result<Vec<(u32, [f64; D])>, OffOutline> {
+    fn outline_of(&self, _: &str) -> Result<Vec<Portion<D>>, OffOutline> {
         Ok(Vec::new())
     }
 }

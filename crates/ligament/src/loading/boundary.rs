@@ -3,6 +3,7 @@
 use ligament_analysis::{
     BoundaryError, Component, Control, ControlKind, Layout, ProportionalLoading,
 };
+use ligament_mesh::Portion;
 use ligament_model::{Bonds, LumpedMass, PointCloud, tensor};
 
 use super::places::Places;
@@ -292,8 +293,8 @@ impl<const D: usize> Places<'_, D> {
         Ok(points.iter().filter_map(|&it| all[it as usize]).collect())
     }
 
-    /// Areas (m^2) or lengths (m) that the points of a group represent; empty for other places.
-    fn extents(&self, place: &Place) -> Vec<(u32, f64)> {
+    /// Portions of a group by area (m^2), or else by length (m); empty for other places.
+    fn extents(&self, place: &Place) -> Vec<Portion<1>> {
         let Place::Group(group) = place else {
             return Vec::new();
         };
@@ -308,55 +309,80 @@ impl<const D: usize> Places<'_, D> {
     /// Shares of points in a total, which sum to one: by the areas or lengths that they represent where the group has these, elsewhere by
     /// volume.
     pub(super) fn shares(&self, place: &Place, points: &[u32]) -> Vec<(u32, f64)> {
-        let mut weights = self.extents(place);
-        if weights.is_empty() {
-            let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
-            weights = points.iter().map(volume).collect();
-        }
-        let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        let extents = self.extents(place);
+        let weights = match extents.is_empty() {
+            true => self.volumes(points),
+            false => weights(&extents),
+        };
+        let total = size(&weights);
         let share = |(point, weight): (u32, f64)| (point, weight / total);
         weights.into_iter().map(share).collect()
     }
 
     /// Forces and couples of a load on its points; empty where the load prescribes a displacement.
     ///
-    /// A total force is distributed over a group with an area or a length by the points' areas or lengths, over other places by the points'
-    /// volumes; a force per length by lengths, a force per area by areas; body forces and all couples by volumes. Each point's share is
-    /// then multiplied by the profile.
+    /// A total force is distributed over a group with an area or a length by areas or lengths, over other places by the points' volumes; a
+    /// force per length by lengths, a force per area by areas; body forces and all couples by volumes. A profile multiplies the force along
+    /// lengths and areas, of which the points [take their parts](Self::along), and elsewhere the share of each point.
     fn forces(&self, field: Field, load: &Load, points: &[u32]) -> Result<Given, SetupError> {
-        let extents = self.extents(&load.place);
-        let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
-        let volumes: Vec<(u32, f64)> = points.iter().map(volume).collect();
-        let size = |weights: &[(u32, f64)]| weights.iter().map(|(_, weight)| weight).sum::<f64>();
-        let (weights, density) = match &load.action {
+        match &load.action {
             Action::Displacement(_) | Action::Velocity(_) | Action::BaseAcceleration(_) => {
-                return Ok(Given::default());
+                Ok(Given::default())
             }
-            Action::Pressure(pressure) => return self.pressures(field, load, *pressure),
-            Action::BodyForce(force) => (volumes, force_alone(force)),
+            Action::Pressure(pressure) => self.pressures(field, load, *pressure),
+            Action::BodyForce(force) => {
+                self.on_points(field, load, &self.volumes(points), force_alone(force))
+            }
             Action::Acceleration(acceleration) => {
                 let masses = self.masses(points)?;
-                (masses, force_alone(acceleration))
+                self.on_points(field, load, &masses, force_alone(acceleration))
             }
-            Action::BodyCouple(couple) => (volumes, couple_alone::<D>(couple)),
-            Action::ForcePerLength(force) => {
-                (self.lengths(field, &load.place)?, force_alone(force))
-            }
-            Action::ForcePerArea(force) => (self.areas(field, &load.place)?, force_alone(force)),
-            Action::Force(force) => {
-                let weights = if extents.is_empty() { volumes } else { extents };
-                let total = size(&weights);
-                (weights, force_alone(force).map(|value| value / total))
+            Action::BodyCouple(couple) => {
+                let couple = couple_alone::<D>(couple);
+                self.on_points(field, load, &self.volumes(points), couple)
             }
             Action::Moment(couple) => {
+                let volumes = self.volumes(points);
                 let total = size(&volumes);
-                (
-                    volumes,
-                    couple_alone::<D>(couple).map(|value| value / total),
-                )
+                let couple = couple_alone::<D>(couple).map(|value| value / total);
+                self.on_points(field, load, &volumes, couple)
             }
-        };
-        let total = size(&weights);
+            Action::ForcePerLength(force) => {
+                let lengths = self.lengths(field, &load.place)?;
+                self.on_portions(field, load, &lengths, force_alone(force))
+            }
+            Action::ForcePerArea(force) => {
+                let areas = self.areas(field, &load.place)?;
+                self.on_portions(field, load, &areas, force_alone(force))
+            }
+            Action::Force(force) => {
+                let (extents, volumes) = (self.extents(&load.place), self.volumes(points));
+                let over = |total: f64| force_alone(force).map(|value| value / total);
+                match extents.is_empty() {
+                    true => self.on_points(field, load, &volumes, over(size(&volumes))),
+                    false => {
+                        let density = over(size(&weights(&extents)));
+                        self.on_portions(field, load, &extents, density)
+                    }
+                }
+            }
+        }
+    }
+
+    /// Points with their volumes, m^3.
+    fn volumes(&self, points: &[u32]) -> Vec<(u32, f64)> {
+        let volume = |&point: &u32| (point, self.cloud.volumes[point as usize]);
+        points.iter().map(volume).collect()
+    }
+
+    /// A load by its density on points with weights, each times the profile at the point.
+    fn on_points(
+        &self,
+        field: Field,
+        load: &Load,
+        weights: &[(u32, f64)],
+        density: Wrench,
+    ) -> Result<Given, SetupError> {
         let loaded: Vec<u32> = weights.iter().map(|(point, _)| *point).collect();
         let factors = self.factors(field, load.profile.as_ref(), &loaded)?;
         let at_points = weights.iter().zip(factors);
@@ -365,12 +391,56 @@ impl<const D: usize> Places<'_, D> {
         };
         Ok(Given {
             at_points: at_points.map(share).collect(),
+            size: norm(density.map(|value| value * size(weights))),
+        })
+    }
+
+    /// A load by its density along portions.
+    fn on_portions(
+        &self,
+        field: Field,
+        load: &Load,
+        portions: &[Portion<1>],
+        density: Wrench,
+    ) -> Result<Given, SetupError> {
+        let total = size(&weights(portions));
+        let force = |[weight]: [f64; 1]| density.map(|value| value * weight);
+        Ok(Given {
+            at_points: self.along(field, load, portions, force)?,
             size: norm(density.map(|value| value * total)),
         })
     }
 
-    /// Lengths that the points of a group represent, m.
-    fn lengths(&self, field: Field, place: &Place) -> Result<Vec<(u32, f64)>, SetupError> {
+    /// Forces at the points of portions, from the force of a share: those that do the same work as the distributed load, whose profile is linear
+    /// between the corners, on displacements that are linear between them.
+    ///
+    /// The force and the moment of a linear profile are exact. On portions of a single point the profile is that at the point.
+    fn along<const N: usize>(
+        &self,
+        field: Field,
+        load: &Load,
+        portions: &[Portion<N>],
+        force: impl Fn([f64; N]) -> Wrench,
+    ) -> Result<Vec<(u32, Wrench)>, SetupError> {
+        let at_points = Portion::at_points(portions);
+        let Some(profile) = &load.profile else {
+            let forces = at_points.into_iter();
+            return Ok(forces.map(|(point, share)| (point, force(share))).collect());
+        };
+        let points: Vec<u32> = at_points.iter().map(|(point, _)| *point).collect();
+        let factors = self.factors(field, Some(profile), &points)?;
+        let factor = |point: u32| factors[points.partition_point(|it| *it < point)];
+        let forces = portions.iter().map(|it| Portion {
+            corners: it.corners.clone(),
+            share: force(it.share),
+        });
+        let forces: Vec<Portion<6>> = forces.collect();
+        let sums = Portion::sums(&forces, |portion, corner| portion.mean(corner, factor));
+        Ok(sums)
+    }
+
+    /// Portions of a group by length, m.
+    fn lengths(&self, field: Field, place: &Place) -> Result<Vec<Portion<1>>, SetupError> {
         let lengths = match place {
             Place::Group(group) => self.setup.body.lengths_of(group),
             _ => Vec::new(),
@@ -381,8 +451,8 @@ impl<const D: usize> Places<'_, D> {
         }
     }
 
-    /// Areas that the points of a group represent, m^2.
-    fn areas(&self, field: Field, place: &Place) -> Result<Vec<(u32, f64)>, SetupError> {
+    /// Portions of a group by area, m^2.
+    fn areas(&self, field: Field, place: &Place) -> Result<Vec<Portion<1>>, SetupError> {
         let areas = match place {
             Place::Group(group) => self.setup.body.areas_of(group),
             _ => Vec::new(),
@@ -414,7 +484,7 @@ impl<const D: usize> Places<'_, D> {
 
     /// Forces of a pressure p on the outline of a group: -p t n L, half at each node of an edge of a mesh of length L and outward normal n,
     /// or at the cell of a lattice whose face it is; in space -p n A with the area A of a face. Normals, lengths and areas refer to the
-    /// undeformed body (a dead load). Each point's share is then multiplied by the profile.
+    /// undeformed body (a dead load).
     fn pressures(&self, field: Field, load: &Load, pressure: f64) -> Result<Given, SetupError> {
         let place = field.part("place");
         let normals = match &load.place {
@@ -425,18 +495,24 @@ impl<const D: usize> Places<'_, D> {
         if normals.is_empty() {
             return Err(place.error(Fault::NoOutline));
         }
-        let loaded: Vec<u32> = normals.iter().map(|(point, _)| *point).collect();
-        let factors = self.factors(field, load.profile.as_ref(), &loaded)?;
         let per_length = -pressure * self.cloud.thickness;
-        let force = |((point, normal), factor): ((u32, [f64; D]), f64)| {
-            let share = factor * per_length;
-            (point, force_alone(&normal.map(|it| share * it)))
-        };
+        let force = |normal: [f64; D]| force_alone(&normal.map(|it| per_length * it));
         Ok(Given {
-            at_points: normals.into_iter().zip(factors).map(force).collect(),
+            at_points: self.along(field, load, &normals, force)?,
             size: pressure.abs(),
         })
     }
+}
+
+/// Points of portions with their lengths, m, or areas, m^2.
+fn weights(portions: &[Portion<1>]) -> Vec<(u32, f64)> {
+    let at_points = Portion::at_points(portions).into_iter();
+    at_points.map(|(point, [weight])| (point, weight)).collect()
+}
+
+/// Sum of the weights of points.
+fn size(weights: &[(u32, f64)]) -> f64 {
+    weights.iter().map(|(_, weight)| weight).sum()
 }
 
 /// A force without a couple.

@@ -19,7 +19,7 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::motion::MotionProblem;
 use ligament_analysis::probe::{Probe, Reading};
 use ligament_analysis::solver::SolverSettings;
-use ligament_analysis::{LoadProgram, LoadsInTime, ProportionalLoading, StagedLoading};
+use ligament_analysis::{LoadProgram, LoadsInTime, ProportionalLoading, StagedLoading, gauges};
 use ligament_model::System;
 
 pub use contact::contact_problem;
@@ -92,6 +92,12 @@ impl Loading {
         };
         let contact = contact::contacts(setup, system)?;
         let boundary = restrained(setup, system, boundary, ActiveLoads::All)?;
+        // A body in motion moves by its inertia, and contact may hold a free one; the loads of stages do not balance one another at all times.
+        let is_proportional = staged.is_none() && in_time.is_none() && !setup.has_contact();
+        let boundary = match is_proportional && gauges::decide_displacement(system, &boundary) {
+            true => boundary.displaced_by_all(),
+            false => boundary,
+        };
         Ok(Self {
             staged: staged.map(Arc::new),
             in_time: in_time.map(Arc::new),

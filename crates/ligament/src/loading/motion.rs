@@ -6,6 +6,7 @@ use ligament_analysis::motion::Dashpot;
 use ligament_analysis::{
     Amplitude, Component, Layout, LoadInTime, LoadsInTime, ProportionalLoading, Timed,
 };
+use ligament_mesh::Portion;
 use ligament_model::material::PlaneWaves;
 use ligament_model::{LumpedMass, PointCloud, System};
 
@@ -126,7 +127,10 @@ impl<const D: usize> Places<'_, D> {
             let entry = |row: usize, column: usize| impedance.get(row)?.get(column).copied();
             Dashpot::new(point, |row, column| entry(row, column).unwrap_or(0.0))
         };
-        Ok(normals.into_iter().map(dashpot).collect())
+        Ok(Portion::at_points(&normals)
+            .into_iter()
+            .map(dashpot)
+            .collect())
     }
 
     /// Impedance of the materials at a point, in the mean over their shares, for waves along a normal times a length (m), in space an area
