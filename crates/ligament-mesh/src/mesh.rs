@@ -1,5 +1,6 @@
 //! Meshes: nodes, cells, physical groups, and values at the nodes.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
