@@ -1,10 +1,11 @@
 //! `ligament converge`: between which values the results of a case lie as its points become finer.
 //!
 //! The case is run on [bodies](self) at the sizes h and 2h (`bodies`, `lattices`, `displaced_nodes`), as a sweep over them whose study file is
-//! written into the folder. Its results have [intervals](interval) of convergence (`evaluation`) but where they have no limit (`no_limit`), which a
+//! written into the folder. Its results have [intervals](interval) of convergence (`evaluation`, `crack_paths`) but where they have no limit (`no_limit`), which a
 //! `report` tells.
 
 mod bodies;
+mod crack_paths;
 mod displaced_nodes;
 mod evaluation;
 pub mod interval;
@@ -98,7 +99,7 @@ pub fn converge(
     let planned = planned_runs(case, &bodies, request)?;
     for (name, text) in [
         (CASE, case.resolved_toml()?),
-        (STUDY, study_text(&title, &planned)),
+        (STUDY, study_text(&title, breaks_in_plane(case), &planned)),
     ] {
         replace_file(&path.join(name), text.as_bytes())?;
     }
@@ -220,8 +221,13 @@ fn planned_runs<'a>(
     Ok(planned)
 }
 
-/// Text of the study over the planned runs.
-fn study_text(title: &str, planned: &[PlannedRun<'_>]) -> String {
+/// Whether bonds of a body in the plane break in the case.
+fn breaks_in_plane(case: &CaseFile) -> bool {
+    case.case.fracture.is_some() && !case.case.is_solid()
+}
+
+/// Text of the study over the planned runs; `has_lines` says whether cracks are lines that can be drawn.
+fn study_text(title: &str, has_lines: bool, planned: &[PlannedRun<'_>]) -> String {
     let list = |items: &mut dyn Iterator<Item = String>| {
         format!("[{}]", items.collect::<Vec<_>>().join(", "))
     };
@@ -240,7 +246,11 @@ fn study_text(title: &str, planned: &[PlannedRun<'_>]) -> String {
         );
     }
     let labels = list(&mut planned.iter().map(|run| quoted(&run.label)));
-    text + &format!("]\nlabels = {labels}\n")
+    text += &format!("]\nlabels = {labels}\n");
+    if has_lines {
+        text += "\n[[plot]]\nkind = \"crack-paths\"\n\n[[plot]]\nkind = \"curves\"\n";
+    }
+    text
 }
 
 /// The runs with what decides about their intervals.

@@ -11,6 +11,7 @@ use ligament_output::replace_file;
 use ligament_plot::plots::{Colour, Plot, Series};
 use serde::Serialize;
 
+use super::crack_paths::PathDistances;
 use super::evaluation::{Evaluated, Runs, SizedRun};
 use super::interval::{AGAINST_TREND, DEVIATIONS, Interval, LARGEST_CHANGE, LARGEST_SCATTER};
 use crate::run_table::{WIDTH, number, table, write_plot};
@@ -32,6 +33,7 @@ struct Document<'a> {
     rule: Rule,
     runs: Vec<RunInFile<'a>>,
     results: &'a [Evaluated],
+    crack_paths: Option<PathDistances>,
     notes: &'a [String],
 }
 
@@ -105,6 +107,7 @@ fn document<'a>(case: &'a CaseFile, runs: &'a Runs<'_>, results: &'a [Evaluated]
         },
         runs: in_file.collect(),
         results,
+        crack_paths: PathDistances::of_runs(runs),
         notes: &runs.bodies.notes,
     }
 }
@@ -157,6 +160,9 @@ fn print(
     let rows = results.iter().map(|result| words(result, width));
     for line in aligned(&rows.collect::<Vec<_>>(), 2) {
         writeln!(out, "  {line}")?;
+    }
+    if let Some(paths) = PathDistances::of_runs(runs) {
+        writeln!(out, "  crack paths  {}", paths.words())?;
     }
     print_apart(runs, results, out)?;
     for note in &runs.bodies.notes {
