@@ -65,3 +65,18 @@ def test_a_sample_of_an_ensemble_is_the_run_of_its_seed(plate: dict[str, Any]) -
     alone = ligament.run(plate, progress=False, fracture__scatter__0__seed=int(found.seeds[2]))
     # Of the summary `first_break` is foretold from the elastic solution; the history has the event itself.
     assert found.first[2] == alone.history["reaction"].iloc[1], "the same bits"
+
+
+def test_results_have_intervals_of_convergence(plate: dict[str, Any]) -> None:
+    found = ligament.converge(plate, of=["elastic_stiffness", "peak.reaction"])
+    stiffness, peak = found["elastic_stiffness"], found["peak.reaction"]
+    assert stiffness.lower is not None and stiffness.upper is not None and stiffness.at_h is not None
+    assert stiffness.lower < stiffness.at_h < stiffness.upper and stiffness.at_h in stiffness
+    assert stiffness.unit == "N/m" and stiffness.refused is None
+    # Bonds that break at once by a strength at the tip of the crack.
+    assert peak.lower is None and "pre-crack" in (peak.refused or "")
+    assert list(found.table["name"]) == ["elastic_stiffness", "peak.reaction"]
+    at_h = found.results["h lattice"].number("elastic_stiffness")
+    assert at_h == pytest.approx(stiffness.at_h, rel=0.1)
+    with pytest.raises(ligament.LigamentError, match="even numbers"):
+        ligament.converge(plate, lattice__cells=[25, 36])
