@@ -94,6 +94,14 @@ fn the_limit_of_a_bar_is_in_its_interval() {
     ] {
         assert!(place.path("out").join(file).is_file(), "{file}");
     }
+    // The page of the study has the intervals above the runs.
+    let mut report = Command::new(env!("CARGO_BIN_EXE_ligament"));
+    let report = report
+        .current_dir(place.folder.path())
+        .args(["report", "out"]);
+    assert_success(&report.output().unwrap());
+    let page = fs::read_to_string(place.path("out/report.html")).unwrap();
+    assert!(page.contains("Intervals of convergence, 95 %") && page.contains("data:image/svg+xml"));
     // The same command again has nothing to compute.
     let written = fs::metadata(place.path("out/runs"))
         .unwrap()

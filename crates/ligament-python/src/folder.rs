@@ -282,6 +282,7 @@ pub(crate) fn report(
         false => path,
     };
     let request = ligament_report::Request {
+        study: None,
         folders,
         labels,
         output: Some(path),

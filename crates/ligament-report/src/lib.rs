@@ -13,6 +13,7 @@
 //! | `history` | the table of the steps |
 //! | `inputs` | mesh, material and loads as text |
 //! | `sketch` | supports and loads as symbols on the body |
+//! | `study` | intervals of convergence and pictures of a study |
 //! | `summary` | title, warnings and results as text |
 //! | `columns` | encoding of numbers as compressed text |
 //! | `viewer/` | the program of the page: HTML, CSS and JavaScript, joined without changes |
@@ -33,6 +34,7 @@ pub mod page;
 mod parts;
 mod run;
 mod sketch;
+mod study;
 mod summary;
 
 pub use error::ReportError;

@@ -11,6 +11,7 @@ use serde_json::{Value, json};
 use crate::error::ReportError;
 use crate::parts::{Choice, ColumnTexts, UnitOf};
 use crate::run::PageRun;
+use crate::study::head;
 use crate::summary::escaped;
 
 /// Template of the page, and the parts of its program in the order in which they are joined.
@@ -44,6 +45,8 @@ const OTHER_LETTERS: usize = 400_000;
 /// Request for a page.
 #[derive(Debug, Clone)]
 pub struct Request {
+    /// Folder of the study of which the results are runs, if they are.
+    pub study: Option<PathBuf>,
     /// Folders with results.
     pub folders: Vec<PathBuf>,
     /// Labels of the results; where empty, the names of their folders.
@@ -52,7 +55,7 @@ pub struct Request {
     pub measured: Vec<PathBuf>,
     /// Units of the keys of cases.
     pub unit_of: UnitOf,
-    /// Path of the page; by default `report.html` in the first folder.
+    /// Path of the page; by default `report.html` in the folder of the study, or else in the first folder.
     pub output: Option<PathBuf>,
     /// Whether an existing file may be replaced; the default page in the first folder always is.
     pub force: bool,
@@ -107,7 +110,8 @@ pub struct PageContents {
 /// If there are no results, or they cannot be used, or the page cannot be written.
 pub fn write_report(request: &Request) -> Result<WrittenPage, ReportError> {
     let labels = labels(request)?;
-    let first = || request.folders.first().cloned().unwrap_or_default();
+    let first =
+        || (request.study.as_ref().or(request.folders.first()).cloned()).unwrap_or_default();
     let own = || (first().join(REPORT), true);
     let (path, replace) = (request.output.clone()).map_or_else(own, |it| (it, request.force));
     check_file(&path, replace)?;
@@ -125,7 +129,13 @@ pub fn write_report(request: &Request) -> Result<WrittenPage, ReportError> {
     for (folder, label) in request.folders.iter().zip(&labels) {
         runs.push(PageRun::read(folder, label, choice, &mut texts)?);
     }
-    let page = page(&runs, &texts, &measured, request);
+    let study = request.study.as_deref().map(head).transpose()?;
+    let page = page(
+        &runs,
+        &texts,
+        &measured,
+        (&study.unwrap_or_default(), request),
+    );
     if request.output.is_none() {
         remove_unfinished_pages(&first())?;
     }
@@ -165,7 +175,13 @@ fn labels(request: &Request) -> Result<Vec<String>, ReportError> {
     Ok(request.folders.iter().map(name).collect())
 }
 
-fn page(runs: &[PageRun], texts: &ColumnTexts, measured: &[Value], request: &Request) -> String {
+/// The page of runs below the head of their study.
+fn page(
+    runs: &[PageRun],
+    texts: &ColumnTexts,
+    measured: &[Value],
+    (study, request): (&str, &Request),
+) -> String {
     let titles: Vec<&str> = runs.iter().map(|it| it.title.as_str()).collect();
     let mut title = titles.first().copied().unwrap_or_default().to_owned();
     if titles.iter().any(|it| *it != title) {
@@ -205,6 +221,7 @@ fn page(runs: &[PageRun], texts: &ColumnTexts, measured: &[Value], request: &Req
     filled_template(&[
         ("title", &escaped(&title)),
         ("style", STYLE),
+        ("study", study),
         ("summaries", &summaries),
         ("description", &script_safe(&description.to_string())),
         ("columns", &columns),
@@ -274,6 +291,7 @@ mod tests {
         for part in [
             "title",
             "style",
+            "study",
             "summaries",
             "description",
             "columns",

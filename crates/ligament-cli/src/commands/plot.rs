@@ -257,7 +257,9 @@ impl PlotArgs {
 }
 
 /// The completed runs of the study whose folder is the only result; None for results of runs.
-fn completed_study(results: &[PathBuf]) -> anyhow::Result<Option<Vec<(String, PathBuf)>>> {
+pub(super) fn completed_study(
+    results: &[PathBuf],
+) -> anyhow::Result<Option<Vec<(String, PathBuf)>>> {
     for folder in results {
         let runs = completed_runs(folder)?;
         anyhow::ensure!(

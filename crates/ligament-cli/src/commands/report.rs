@@ -9,6 +9,7 @@ use ligament_case::case::keys::unit_of;
 use ligament_report::{DIGITS, MEGABYTE, Request, SIZE, STEPS, write_report};
 
 use super::argument_parsers::{number, output_file};
+use super::plot::completed_study;
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -16,6 +17,7 @@ Examples:
   ligament report results/disk                       writes results/disk/report.html
   ligament report results/coarse results/fine --labels '4 mm' '2 mm' --out both.html
   ligament report results/disk --digits 3 --steps 20 a smaller page
+  ligament report results/disk-converge              a study: its intervals and pictures above all of its runs
 
 The page is one file without anything from a network: open it in a browser, send it, print it. It has
 summary and warnings, force over displacement, energies and convergence, and the body with any field,
@@ -25,7 +27,7 @@ planes and opens along its crack.";
 /// `ligament report`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
-    /// Folders with results of runs
+    /// Folders with results of runs, or the folder of a study
     #[arg(value_name = "RESULT", required = true)]
     pub results: Vec<PathBuf>,
     /// The page [default: report.html in the first folder, which takes the place of an earlier one]
@@ -55,9 +57,20 @@ pub struct ReportArgs {
 impl ReportArgs {
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
+        let runs = completed_study(&self.results)?;
+        let study = runs.as_ref().and_then(|_| self.results.first().cloned());
+        let (labels, folders) = match runs {
+            Some(runs) if self.labels.is_empty() => runs.into_iter().unzip(),
+            Some(runs) => (
+                self.labels,
+                runs.into_iter().map(|(_, folder)| folder).collect(),
+            ),
+            None => (self.labels, self.results),
+        };
         let written = write_report(&Request {
-            folders: self.results,
-            labels: self.labels,
+            study,
+            folders,
+            labels,
             measured: self.measured,
             unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
             output: self.out,

@@ -31,6 +31,7 @@ class Page {
   async start() {
     options(element("run"), this.runs.map((run, number) => [number, run.label]));
     element("run").closest("label").hidden = this.runs.length < 2;
+    element("runs").max = this.runs.length - 1;
     this.hadGraphics = Boolean(this.scene.drawing);
     this.tellGraphics();
     await this.showRun(this.run);
@@ -53,7 +54,7 @@ class Page {
     if (isOther) this.step = Math.min(this.step, run.steps.length - 1);
     Object.assign(element("step"), { max: run.steps.length - 1, value: this.step });
     element("step").closest(".steps").hidden = run.steps.length < 2;
-    element("run").value = this.runs.indexOf(run);
+    element("run").value = element("runs").value = this.runs.indexOf(run);
     for (const summary of document.querySelectorAll(".summary")) summary.hidden = Number(summary.dataset.run) !== this.runs.indexOf(run);
     this.charts.showRun(run);
     document.body.classList.toggle("solid", run.isSolid);
@@ -116,6 +117,12 @@ class Page {
     element("step").value = step;
     if (run === this.run) await this.showStep();
     else await this.showRun(run);
+  }
+
+  // Goes to another result, to the step at the same share of its largest force.
+  async goToRun(number) {
+    const run = this.runs[number];
+    if (run && run !== this.run) await this.go(this.run.stepAlike(this.step, run), run);
   }
 
   // Reads and draws the step. Of several asked for in a row only the last is drawn.
@@ -288,7 +295,8 @@ class Page {
   }
 
   listen() {
-    element("run").addEventListener("change", (event) => this.go(Math.min(this.step, this.runs[event.target.value].steps.length - 1), this.runs[event.target.value]));
+    element("run").addEventListener("change", (event) => this.goToRun(Number(event.target.value)));
+    element("runs").addEventListener("input", (event) => this.goToRun(Number(event.target.value)));
     element("field").addEventListener("change", () => {
       this.run.keepOnly(this.choice.field);
       this.showStep();
@@ -353,6 +361,8 @@ class Page {
     else if (this.run.isSolid && isOnBody && VIEWS[event.key]) this.look(event.key);
     else if (event.key === "ArrowLeft") this.go(this.step - 1);
     else if (event.key === "ArrowRight") this.go(this.step + 1);
+    else if (event.key === "PageUp" && this.runs.length > 1) this.goToRun(this.runs.indexOf(this.run) - 1);
+    else if (event.key === "PageDown" && this.runs.length > 1) this.goToRun(this.runs.indexOf(this.run) + 1);
     else if (event.key === "Home" && isOnBody) this.go(0);
     else if (event.key === "End" && isOnBody) this.go(this.run.steps.length - 1);
     else if (event.key === "+" || event.key === "=") this.zoom(1.25);

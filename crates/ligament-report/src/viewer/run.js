@@ -34,6 +34,27 @@ class Run {
     return { x, ofSteps: this.time ? this.rows.map((row) => x[row]) : this.steps, label };
   }
 
+  // Force of each step of the page over the largest, and its step; null where no force grows and falls.
+  get loads() {
+    const column = this.history.get("reaction");
+    if (!column || this.time || this.isModes) return null;
+    const forces = this.rows.map((row) => column.values[row] ?? 0);
+    const largest = Math.max(...forces);
+    return largest > 0 ? { shares: forces.map((it) => it / largest), peak: forces.indexOf(largest) } : null;
+  }
+
+  // The step of another result with the same share of its largest force, before or behind it; without forces the same step.
+  stepAlike(step, other) {
+    const [own, others] = [this.loads, other.loads];
+    if (!own || !others) return Math.min(step, other.steps.length - 1);
+    const isBehind = step > own.peak;
+    const distances = others.shares.map((share, place) => {
+      const isThere = isBehind ? place >= others.peak : place <= others.peak;
+      return isThere ? Math.abs(share - own.shares[step]) : Infinity;
+    });
+    return distances.indexOf(Math.min(...distances));
+  }
+
   // The number of a step, or the time of a motion, in words.
   when(number) {
     const row = this.time ? this.history.get("step").values.indexOf(number) : -1;
