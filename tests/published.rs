@@ -136,6 +136,7 @@ experiments!(
     incompressible,
     ring,
     hole,
+    horizons,
     disk_modes,
     strength_squares,
     strength_hole,

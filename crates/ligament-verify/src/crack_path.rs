@@ -1,6 +1,6 @@
 //! Start, extent and path of a crack, from the broken bonds and the resulting damage.
 //!
-//! Independent of the lines of [`ligament_post::crack`]: published tables and the page of the papers were measured by points of large
+//! Apart from the height of its line independent of the lines of [`ligament_post::crack`]: published tables and the page of the papers were measured by points of large
 //! damage, which also show cracks that branch, crush or are shorter than a horizon, while lines omit such parts.
 
 use std::collections::BTreeMap;
@@ -10,6 +10,7 @@ use ligament::run::Solution;
 use ligament_analysis::Observer;
 use ligament_analysis::fields::{damage, point_damage};
 use ligament_analysis::history::{BreakRecord, ObserverError, StepRecord, View};
+use ligament_post::crack::{CrackLine, FaceState, Faces, crack_lines};
 
 /// Damage (NHPD eq. 17) above which a point belongs to a crack: a straight cut beside a point gives up to one half.
 pub(super) const CRACKED_DAMAGE: f64 = 0.3;
@@ -233,6 +234,35 @@ fn radius([x, y]: [f64; 2]) -> f64 {
     x.hypot(y)
 }
 
+/// The lines of the cracks after these breakages, which begin where a pre-crack ends.
+pub(super) fn lines(model: &Model, records: &[BreakRecord]) -> Vec<CrackLine> {
+    let (bonds, n_points) = (&model.plane().bonds, model.plane().cloud.len());
+    let positions: Vec<[f64; 2]> = (0..n_points).map(|point| place(model, point)).collect();
+    let faces = Faces::new(&positions, &model.body().grid().canvas);
+    let mut states = vec![FaceState::Whole; faces.len()];
+    let broken = records.iter().map(|it| bonds.ends[it.bond as usize]);
+    for face in broken.filter_map(|pair| faces.between(pair)) {
+        states[face] = FaceState::Open;
+    }
+    crack_lines(&faces, &states, &model.fixed.horizon)
+}
+
+/// Mean height y of lines between two places along x, m; `None` where no line passes.
+pub(super) fn mean_height(lines: &[CrackLine], [from, to]: [f64; 2]) -> Option<f64> {
+    let pieces = lines.iter().flat_map(|line| line.places.windows(2));
+    let (mut area, mut width) = (0.0, 0.0);
+    for piece in pieces {
+        let [[a, low], [b, high]] = [piece[0], piece[1]];
+        let ends = [a.min(b).clamp(from, to), a.max(b).clamp(from, to)];
+        let middle = 0.5 * (ends[0] + ends[1]);
+        if ends[1] > ends[0] {
+            area += (ends[1] - ends[0]) * (low + (high - low) * (middle - a) / (b - a));
+            width += ends[1] - ends[0];
+        }
+    }
+    (width > 0.0).then(|| area / width)
+}
+
 /// Share of the broken bonds that cross none of the horizontal lines at some heights, m.
 pub(super) fn beside(solution: &Solution, lines: [f64; 2]) -> f64 {
     let (system, intact) = (solution.model.plane(), &solution.outcome.state.intact);
@@ -271,6 +301,8 @@ pub(super) fn asymmetry(solution: &Solution) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use ligament_post::crack::CrackEnd;
+
     use super::*;
 
     fn crack(places: &[[f64; 2]]) -> Crack {
@@ -296,6 +328,18 @@ mod tests {
             distance([3.0, 4.0], [[-1.0, 0.0], [1.0, 0.0]]),
             20f64.sqrt()
         );
+    }
+
+    #[test]
+    fn the_mean_height_of_a_line_is_taken_over_its_width() {
+        let line = CrackLine {
+            places: vec![[0.0, 0.0], [2.0, 2.0], [6.0, 2.0]],
+            ends: [CrackEnd::Tip; 2],
+        };
+        let mean = |from: f64, to: f64| mean_height(std::slice::from_ref(&line), [from, to]);
+        assert_eq!(mean(1.0, 5.0), Some((1.5 + 3.0 * 2.0) / 4.0));
+        assert_eq!(mean(-9.0, 2.0), Some(1.0));
+        assert_eq!(mean(7.0, 8.0), None);
     }
 
     #[test]

@@ -37,6 +37,7 @@ mod experiment;
 pub mod experiment_file;
 mod fast_crack;
 pub mod finite_elements;
+mod ghost_forces;
 mod griffith;
 mod hole;
 mod lamina_elements;
@@ -78,7 +79,7 @@ enum ExperimentSource {
 }
 
 /// Experiments of published values, in the order of the report; the measured tests follow them ([`experiments`]).
-static PUBLISHED: [ExperimentSource; 48] = [
+static PUBLISHED: [ExperimentSource; 49] = [
     File("frequencies"),
     File("statics"),
     Code(&readings::EXPERIMENT),
@@ -104,6 +105,7 @@ static PUBLISHED: [ExperimentSource; 48] = [
     File("incompressible"),
     File("ring"),
     File("hole"),
+    File("horizons"),
     File("disk_modes"),
     File("strength_squares"),
     File("strength_hole"),

@@ -9,9 +9,16 @@ use super::case_run::CaseRun;
 
 /// Ratio of the Young's moduli of the body and of the material, along the axis where it differs more.
 pub(super) fn young(test: &PatchTest) -> anyhow::Result<f64> {
-    let constants = constants(test)?;
-    let ratio = |axis: usize| constants.body.young[axis] / constants.material.young[axis];
-    Ok(further_from_one(ratio(0), ratio(1)))
+    let [x, y, _] = ratios_of_constants(test)?;
+    Ok(further_from_one(x, y))
+}
+
+/// Ratios of the constants of the body and of the material: Young's modulus along x and along y, shear modulus.
+pub(super) fn ratios_of_constants(test: &PatchTest) -> anyhow::Result<[f64; 3]> {
+    let Constants { body, material, .. } = constants(test)?;
+    let [x, y] = [0, 1].map(|axis| body.young[axis] / material.young[axis]);
+    let shear = body.shear_modulus.at(0, 1) / material.shear_modulus.at(0, 1);
+    Ok([x, y, shear])
 }
 
 /// Poisson's ratio of the body.

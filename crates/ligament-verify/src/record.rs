@@ -7,6 +7,9 @@ use anyhow::Context;
 /// Share of the duration after which a record fades out before its Fourier transform.
 const FADE: f64 = 0.8;
 
+/// Share of the duration in which a part of a record fades in.
+const FADE_IN: f64 = 0.1;
+
 /// Values at equal times.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Record {
@@ -93,6 +96,22 @@ impl Record {
         })
     }
 
+    /// Real and imaginary part of the [transform](Self::transform) of the part of the record that begins at a time and fades in.
+    pub(crate) fn transform_from(&self, from: f64, omega: f64) -> [f64; 2] {
+        let duration = FADE_IN * self.times.last().copied().unwrap_or_default();
+        let weight = |time: &f64| match (time - from) / duration {
+            share if share < 0.0 => 0.0,
+            share if share < 1.0 => 0.5 - 0.5 * (PI * share).cos(),
+            _ => 1.0,
+        };
+        let values = self.times.iter().map(weight).zip(&self.values);
+        let part = Self {
+            times: self.times.clone(),
+            values: values.map(|(weight, value)| weight * value).collect(),
+        };
+        part.transform(omega)
+    }
+
     /// Phases, rad, by which another record is behind this one at multiples of a small angular frequency.
     fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
         let mut last = 0.0;
@@ -163,6 +182,22 @@ mod tests {
         let [time, size] = second.peak([0.0, 10.0]).unwrap();
         assert!((time - 5.004).abs() < 1e-4 && (size - 1.0).abs() < 1e-4);
         assert!(second.peak([11.0, 12.0]).is_err());
+    }
+
+    /// Two pulses of one shape: the transform of the second alone has their ratio, and the phase of its delay.
+    #[test]
+    fn a_part_of_a_record_has_a_transform_of_its_own() {
+        let pulse = |time: f64| (-20.0 * (time - 2.0).powi(2)).exp();
+        let first = record(pulse);
+        let both = record(|time| pulse(time) - 0.03 * pulse(time - 4.0));
+        let omega = 5.0;
+        let [cosine, sine] = first.transform_from(0.0, omega);
+        let [late_cosine, late_sine] = both.transform_from(4.0, omega);
+        let ratio = late_cosine.hypot(late_sine) / cosine.hypot(sine);
+        assert!((ratio - 0.03).abs() < 1e-6, "{ratio}");
+        let turn = (omega * 4.0).sin_cos();
+        let turned = -0.03 * (cosine * turn.1 + sine * turn.0);
+        assert!((late_cosine - turned).abs() < 1e-6 * cosine.hypot(sine));
     }
 
     #[test]

@@ -62,7 +62,7 @@ const fn function(name: &'static str, n_values: usize, of: Evaluation) -> Functi
     Function { name, n_values, of }
 }
 
-static FUNCTIONS: [Function; 30] = [
+static FUNCTIONS: [Function; 32] = [
     function("sqrt", 1, Numbers(|x| x[0].sqrt())),
     function("cbrt", 1, Numbers(|x| x[0].cbrt())),
     function("abs", 1, Numbers(|x| x[0].abs())),
@@ -160,6 +160,17 @@ static FUNCTIONS: [Function; 30] = [
     ),
     // First time after another at which the values fall through zero, and the frequency at which they do.
     function("fall", 2, Rows(|record, time| record.fall(time[0]))),
+    // Real and imaginary part of the Fourier transform of what follows a time, at an angular frequency.
+    function(
+        "cosine",
+        3,
+        Rows(|record, at| Ok(record.transform_from(at[0], at[1])[0])),
+    ),
+    function(
+        "sine",
+        3,
+        Rows(|record, at| Ok(record.transform_from(at[0], at[1])[1])),
+    ),
     function("falls", 2, Rows(|record, time| record.frequency(time[0]))),
     function(
         "largest",

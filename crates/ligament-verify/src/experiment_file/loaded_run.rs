@@ -12,7 +12,7 @@ use ligament_run::summary::LOAD_DROP;
 use super::history;
 use crate::case_run::{Number, displacement_at, largest_displacements};
 use crate::contact_pressure::{ContactPressure, contact_pressure};
-use crate::crack_path::{Crack, CrackPoint, Segment, distance, ends, middle};
+use crate::crack_path::{Crack, CrackPoint, Segment, distance, ends, lines, mean_height, middle};
 use crate::fast_crack::{Branches, Break, CracksOfNotches, breaks};
 use crate::hole::concentrations;
 use crate::places::repository;
@@ -221,6 +221,16 @@ impl LoadedRun<'_> {
             }
         }
         Ok((difference / size).sqrt())
+    }
+
+    /// The quantity `height.FROM.TO` of the crack: the mean height of its line between two numbers along x, m.
+    pub(super) fn crack_quantity(&self, name: &str) -> anyhow::Result<f64> {
+        let ["height", from, to] = name.split('.').collect::<Vec<_>>()[..] else {
+            bail!("no quantity of the crack is called `{name}`");
+        };
+        let between = [self.number(from)?, self.number(to)?];
+        let lines = lines(&self.solution.model, self.breaks);
+        mean_height(&lines, between).context("no line of the crack passes there")
     }
 
     pub(super) fn splits(&self, crack: &Crack) -> anyhow::Result<f64> {

@@ -16,6 +16,8 @@
 //! | `elements.PROBLEM.u_x` | difference of a plate from finite elements: L2 norm over all points, over the norm by the elements |
 //! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
 //! | `common_breaks.N` | bonds that break up to N us with explicit and implicit steps alike, over those that one of them breaks more of |
+//! | `ghost.largest.MARGIN`, `ghost.rms.MARGIN` | [ghost forces](crate::ghost_forces) of the points farther than a number, m, from the outline |
+//! | `crack.height.FROM.TO` | mean height y of the crack's line between two numbers along x, m |
 //! | `grown.N` | load factor at which the cracks from a flaw are N `half_length` long |
 //! | any other name | the row of [`QUANTITIES`] |
 
@@ -40,8 +42,9 @@ use crate::anisotropy::Anisotropy;
 use crate::case_run::{CaseRun, Number};
 use crate::crack_path::{asymmetry, beside, ends};
 use crate::directions::stiffness;
+use crate::ghost_forces::GhostForces;
 use crate::named_modes::Frequencies;
-use crate::patch_test::{change_by_turn, poisson, scatter, young};
+use crate::patch_test::{change_by_turn, poisson, ratios_of_constants, scatter, young};
 use crate::square_elements::SquareLoad;
 use crate::{griffith, lamina_elements, square_elements};
 
@@ -59,6 +62,7 @@ enum Source {
     Equations(fn(&Equations) -> f64),
     Family(fn(&EngineeringConstants) -> f64),
     Patch(fn(&PatchTest) -> anyhow::Result<f64>),
+    Ghost,
     CommonBreaks,
     FirstYield,
     Modes(Cantilever),
@@ -339,6 +343,20 @@ static QUANTITIES: &[(&str, Source)] = &[
     ("patch.young", Source::Patch(young)),
     ("patch.poisson", Source::Patch(poisson)),
     ("patch.scatter", Source::Patch(|it| Ok(scatter(it)))),
+    // Ratios of the body's constants and of the material's along x, along y and in shear; the largest deviation of a bond.
+    (
+        "patch.young_x",
+        Source::Patch(|it| Ok(ratios_of_constants(it)?[0])),
+    ),
+    (
+        "patch.young_y",
+        Source::Patch(|it| Ok(ratios_of_constants(it)?[1])),
+    ),
+    (
+        "patch.shear_modulus",
+        Source::Patch(|it| Ok(ratios_of_constants(it)?[2])),
+    ),
+    ("patch.largest", Source::Patch(|it| Ok(it.largest))),
     ("equations.unknowns", Source::Equations(|it| it.unknowns)),
     ("equations.bonds", Source::Equations(|it| it.bonds)),
     ("equations.matrix", Source::Equations(|it| it.matrix)),
@@ -376,6 +394,8 @@ fn source(name: &str) -> anyhow::Result<Source> {
         (_, "modes") => Source::Modes(Cantilever::Case),
         (_, "square_elements") => Source::Modes(Cantilever::SquareOfElements),
         (_, "lamina_elements") => Source::Modes(Cantilever::LaminaOfElements),
+        (_, "ghost") => Source::Ghost,
+        (_, "crack") => Source::Named(|it, name| it.crack_quantity(name)),
         (_, "grown") => Source::Named(|it, length| it.grown(length.parse()?)),
         (_, CURVE) => Source::Curve,
         _ if history::NAMES.contains(&first) => Source::Row,
@@ -399,7 +419,10 @@ struct ComputedResults {
     equations: Option<Equations>,
     /// Constants of the family of the point nearest to the origin.
     family: Option<EngineeringConstants>,
+    /// Model of the patch test and the ghost forces.
+    model: Option<Model>,
     patch: Option<PatchTest>,
+    ghosts: Option<GhostForces>,
     run: Option<(Solution, HistoryCollector)>,
     to_the_end: Option<Solution>,
     cantilevers: BTreeMap<Cantilever, Frequencies>,
@@ -443,7 +466,10 @@ impl ComputedResults {
                     found.family = Some(family_in_the_middle(case_run)?);
                 }
                 Source::Patch(_) if found.patch.is_none() => {
-                    found.patch = Some(patch_test(&case_run.model()?)?);
+                    found.patch = Some(patch_test(found.model(case_run)?)?);
+                }
+                Source::Ghost if found.ghosts.is_none() => {
+                    found.ghosts = Some(GhostForces::from_model(found.model(case_run)?)?);
                 }
                 Source::Modes(of) if !found.cantilevers.contains_key(of) => {
                     let frequencies = of.frequencies(case_run, numbers)?;
@@ -462,6 +488,13 @@ impl ComputedResults {
             }
         }
         Ok(found)
+    }
+
+    fn model(&mut self, case_run: &CaseRun) -> anyhow::Result<&Model> {
+        Ok(match self.model.take() {
+            Some(model) => self.model.insert(model),
+            None => self.model.insert(case_run.model()?),
+        })
     }
 
     /// The value of a quantity, or its values in all rows.
@@ -498,6 +531,10 @@ impl ComputedResults {
             Source::Equations(of) => of(self.equations.as_ref().context("there is no model")?),
             Source::Family(of) => of(self.family.as_ref().context("there is no family")?),
             Source::Patch(of) => of(self.patch.as_ref().context("there is no patch test")?)?,
+            Source::Ghost => {
+                let ghosts = self.ghosts.as_ref().context("there are no ghost forces")?;
+                ghosts.named(rest, numbers)?
+            }
             Source::Curve => anyhow::bail!("a curve is no number"),
             Source::Run(of) => of(&loaded()?)?,
             Source::Row => {
