@@ -9,27 +9,27 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 102_913),
-    ("ligament-analysis", 200_601),
-    ("ligament-case", 59_637),
-    ("ligament-cli", 55_455),
+    ("ligament", 104_830),
+    ("ligament-analysis", 201_008),
+    ("ligament-case", 59_638),
+    ("ligament-cli", 57_351),
     ("ligament-linalg", 22_578),
-    ("ligament-mesh", 35_967),
-    ("ligament-model", 223_288),
-    ("ligament-output", 74_048),
+    ("ligament-mesh", 37_662),
+    ("ligament-model", 223_291),
+    ("ligament-output", 74_067),
     ("ligament-petsc", 2_978),
-    ("ligament-plot", 54_122),
-    ("ligament-post", 26_668),
-    ("ligament-python", 13_826),
-    ("ligament-report", 18_423),
-    ("ligament-run", 30_130),
-    ("ligament-study", 60_615),
-    ("ligament-verify", 75_193),
+    ("ligament-plot", 56_506),
+    ("ligament-post", 27_060),
+    ("ligament-python", 14_221),
+    ("ligament-report", 20_200),
+    ("ligament-run", 30_265),
+    ("ligament-study", 85_949),
+    ("ligament-verify", 78_793),
 ];
 
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
-    ("ligament", 21),
+    ("ligament", 20),
     ("ligament-analysis", 14),
     ("ligament-case", 2),
     ("ligament-cli", 9),

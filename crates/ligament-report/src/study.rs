@@ -7,7 +7,7 @@ use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use ligament_output::quantity::{PrefixedUnit, between};
 use ligament_output::{Error, read_json};
-use serde::Deserialize;
+use serde_json::Value;
 
 use crate::summary::escaped;
 
@@ -17,32 +17,54 @@ const INTERVALS: &str = "convergence.json";
 /// Width of the bar of an interval, pixels.
 const BAR: f64 = 160.0;
 
-/// Intervals of convergence of a study.
-#[derive(Deserialize)]
-struct Convergence {
-    results: Vec<ResultOfStudy>,
-}
-
 /// A result with its interval, or the reason why it has none.
-#[derive(Deserialize)]
 struct ResultOfStudy {
     name: String,
     label: String,
     unit: String,
     interval: Option<Interval>,
-    refused: Option<String>,
+    refused: String,
     mesher: Option<f64>,
     families: Option<f64>,
 }
 
 /// Ends of an interval, means at h and 2h, and half-width by scatter alone.
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy)]
 struct Interval {
     lower: f64,
     upper: f64,
     fine: f64,
     coarse: f64,
     by_scatter: f64,
+}
+
+impl ResultOfStudy {
+    /// The result as the file of the intervals has it.
+    fn read(value: &Value) -> Self {
+        let text = |key: &str| value[key].as_str().unwrap_or_default().to_owned();
+        Self {
+            name: text("name"),
+            label: text("label"),
+            unit: text("unit"),
+            interval: Interval::read(&value["interval"]),
+            refused: text("refused"),
+            mesher: value["mesher"].as_f64(),
+            families: value["families"].as_f64(),
+        }
+    }
+}
+
+impl Interval {
+    fn read(value: &Value) -> Option<Self> {
+        let number = |key: &str| value[key].as_f64();
+        Some(Self {
+            lower: number("lower")?,
+            upper: number("upper")?,
+            fine: number("fine")?,
+            coarse: number("coarse")?,
+            by_scatter: number("by_scatter")?,
+        })
+    }
 }
 
 /// Head of the page of the study in a folder, as HTML.
@@ -53,10 +75,12 @@ struct Interval {
 pub(crate) fn head(folder: &Path) -> Result<String, Error> {
     let mut html = String::new();
     let intervals = folder.join(INTERVALS);
-    let results = match intervals.is_file() {
-        true => read_json::<Convergence>(&intervals)?.results,
-        false => Vec::new(),
+    let document: Value = match intervals.is_file() {
+        true => read_json(&intervals)?,
+        false => Value::Null,
     };
+    let results = document["results"].as_array().into_iter().flatten();
+    let results: Vec<ResultOfStudy> = results.map(ResultOfStudy::read).collect();
     if !results.is_empty() {
         html += &table(&results);
     }
@@ -142,7 +166,7 @@ fn table(results: &[ResultOfStudy]) -> String {
 fn row(result: &ResultOfStudy) -> String {
     let label = escaped(&result.label);
     let Some(interval) = result.interval else {
-        let reason = escaped(result.refused.as_deref().unwrap_or_default());
+        let reason = escaped(&result.refused);
         return format!("<tr><th>{label}</th><td colspan=\"6\">{reason}</td></tr>");
     };
     let unit = PrefixedUnit::new(&result.unit, interval.fine.abs());

@@ -41,7 +41,7 @@ struct Problem {
     /// Numbers of the geometry that are sizes, m, at the size 1.
     #[serde(default)]
     sizes: BTreeMap<String, f64>,
-    /// Its other numbers.
+    /// Other numbers of the geometry.
     #[serde(default)]
     numbers: BTreeMap<String, f64>,
     /// Settings on the case.

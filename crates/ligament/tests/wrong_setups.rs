@@ -410,3 +410,18 @@ fn a_long_list_of_names_is_left_out() {
     let few = ["a", "b"].map(str::to_owned);
     assert_eq!(hint("quux", &few, "groups", '`'), "; groups: `a`, `b`");
 }
+
+/// Few bonds matter to limits that are a strength: a new kind changes the list.
+#[test]
+fn few_bonds_matter_to_limits_of_a_strength() {
+    let warned = |kind: &&ligament_model::failure::Kind| {
+        let choices = [ligament_model::failure::Choice::from(**kind)];
+        let [two, more] = [2.0, 2.5].map(|factor| ligament::warning::few_bonds(&choices, factor));
+        assert!(more.is_none(), "{}", kind.word);
+        two.is_some()
+    };
+    let kinds = ligament_model::failure::KINDS.into_iter().filter(warned);
+    let words: Vec<&str> = kinds.map(|kind| kind.word).collect();
+    let expected = "bond-rankine rankine mohr-coulomb tension compression fibre sliding frictional";
+    assert_eq!(words.join(" "), expected);
+}

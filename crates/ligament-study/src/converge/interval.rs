@@ -20,7 +20,7 @@ pub const AGAINST_TREND: f64 = 0.25;
 /// Error of the program that no refinement removes, relative to the value.
 pub const FLOOR: f64 = 0.002;
 
-/// The same for meshes made by splitting cells, whose families of bonds repeat each other.
+/// Error that no refinement removes for meshes made by splitting cells, whose families of bonds repeat each other, relative to the value.
 pub const FLOOR_OF_SPLIT: f64 = 0.005;
 
 /// Largest change from the coarse to the fine size, relative to the fine value, with which both are taken for the same problem.

@@ -340,9 +340,9 @@ fn best_status(run: &Run, folders: &[StudyFolder]) -> (Status, PathBuf) {
 pub(crate) struct DoneRun {
     /// The run.
     pub(crate) run: Run,
-    /// Its results.
+    /// Results of the run.
     pub(crate) results: Quantities,
-    /// Folder of its results.
+    /// Folder of the results.
     pub(crate) folder: String,
 }
 

@@ -78,36 +78,3 @@ fn is_by_stress(kind: &Kind) -> bool {
     let of_strength = |it: &Property| it.key.ends_with("_strength");
     kind.word != strength::STRENGTH.word && kind.takes.iter().any(of_strength)
 }
-
-#[cfg(test)]
-mod tests {
-    use ligament_model::failure::{KINDS, stretch};
-
-    use super::*;
-
-    /// Criteria of stress are those that the guide to fracture names so: by their words, which a new kind changes.
-    #[test]
-    fn few_bonds_matter_to_limits_of_a_strength() {
-        let words = |of: fn(&Kind) -> bool| -> Vec<&str> {
-            let kinds = KINDS.into_iter().filter(|kind| of(kind));
-            kinds.map(|kind| kind.word).collect()
-        };
-        assert_eq!(
-            words(is_by_stress),
-            [
-                "bond-rankine",
-                "rankine",
-                "mohr-coulomb",
-                "tension",
-                "compression",
-                "fibre",
-                "sliding",
-                "frictional"
-            ]
-        );
-        let warned = |kind, factor| few_bonds(&[Choice::from(kind)], factor).is_some();
-        assert!(warned(stretch::TENSION, 2.0));
-        assert!(!warned(stretch::TENSION, 2.5));
-        assert!(!warned(strength::STRENGTH, 2.0));
-    }
-}
