@@ -154,6 +154,16 @@ fn what_has_no_limit_is_refused() {
         .replace("spacing = 0.01", "spacing = 0.005")
         + "[[precrack]]\npoints = [[0.06, -0.01], [0.06, 0.03]]\n";
     let place = Place::with(&cracked);
+    // Before any run, if nothing else is asked for.
+    let output = place.converge(&["--of", "peak.reaction"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        stderr(&output).contains("peak.reaction has no limit"),
+        "{}",
+        stderr(&output)
+    );
+    let runs = fs::read_dir(place.path("out/runs")).unwrap().count();
+    assert_eq!(runs, 0);
     let output = place.converge(&["--of", "peak.reaction", "--of", "elastic_stiffness"]);
     assert_success(&output);
     let refused = place.result("peak.reaction")["refused"]

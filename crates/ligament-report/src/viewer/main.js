@@ -77,6 +77,7 @@ class Page {
     this.family = [];
     this.panel.clear();
     this.body = await run.body();
+    this.horizons = (await run.vector("horizon", 0))?.[0];
     this.scene.show(this.body);
     this.lines.show(run, this.body);
     this.symbols.show(run);
@@ -229,13 +230,18 @@ class Page {
 
   mark() {
     const point = this.pinned ?? this.hovered;
-    const marker = element("marker");
+    const [marker, horizon] = ["marker", "horizon"].map(element);
     marker.hidden = point === undefined || point === null;
+    horizon.hidden = marker.hidden || !this.horizons;
     if (marker.hidden) return;
     const { camera } = this.scene;
     const [px, py] = this.scene.pixelOf(point);
     marker.hidden = px < 0 || py < 0 || px > camera.width || py > camera.height;
     marker.style.transform = `translate(${px}px, ${py}px)`;
+    if (!this.horizons) return;
+    // A circle as large as the horizon of the point in the body before its displacement.
+    const radius = this.horizons[point] * camera.scale;
+    Object.assign(horizon.style, { width: `${2 * radius}px`, height: `${2 * radius}px`, transform: `translate(${px - radius}px, ${py - radius}px)` });
   }
 
   hover(px, py) {

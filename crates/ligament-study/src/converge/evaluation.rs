@@ -53,7 +53,7 @@ pub struct Evaluated {
 
 /// Kind of a result, which decides what refuses it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     /// Depends on displacements under the loads.
     Stiffness,
     /// A load at which bonds break.
@@ -232,15 +232,11 @@ impl Runs<'_> {
                 run.body.label
             ));
         }
-        if kind == Kind::Breakage {
-            return self.no_limit.of_breakage.clone();
+        if let Some(reason) = self.no_limit.reason(kind) {
+            return Some(reason.to_owned());
         }
         if matches!(kind, Kind::Stiffness | Kind::Work)
-            && let Some(reason) = self
-                .no_limit
-                .of_stiffness
-                .clone()
-                .or_else(|| self.loaded_support())
+            && let Some(reason) = self.loaded_support()
         {
             return Some(reason);
         }
@@ -319,7 +315,8 @@ impl Runs<'_> {
     }
 }
 
-fn kind(name: &str) -> Kind {
+/// Kind of a result by its name.
+pub(super) fn kind(name: &str) -> Kind {
     match name {
         "elastic_stiffness" => Kind::Stiffness,
         "certificate.work" | "certificate.stored" => Kind::Work,

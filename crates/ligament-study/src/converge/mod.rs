@@ -23,13 +23,13 @@ use ligament_run::progress::ProgressMode;
 pub use bodies::MeshSource;
 pub use evaluation::Evaluated;
 
-use crate::sweep::plan::Run;
+use crate::sweep::plan;
 use crate::sweep::study::Study;
 use crate::sweep::toml_text::quoted;
 use crate::sweep::{self, Task};
 use bodies::{SizedBodies, SizedBody};
 use evaluation::{Runs, SizedRun};
-use no_limit::no_limit;
+use no_limit::{NoLimit, no_limit};
 
 /// Names of the study file and its case in the folder.
 const STUDY: &str = "study.toml";
@@ -104,6 +104,7 @@ pub fn converge(
         replace_file(&path.join(name), text.as_bytes())?;
     }
     let study = Study::load(&source)?;
+    let no_limit = no_limit_of(&study, &path, request)?;
     let from = match &request.task {
         Task::Run(settings) => {
             sweep::run(&study, &path, settings, &mut io::sink())?;
@@ -125,7 +126,7 @@ pub fn converge(
         Task::Collect(from) => from,
     };
     let done = sweep::done_runs(&study, &path, from)?;
-    let runs = evaluation_of(case, &bodies, &planned, done)?;
+    let runs = evaluation_of(case, &bodies, &planned, (done, no_limit));
     let results = runs.evaluated(&request.results)?;
     report::write(case, &runs, &results, folder.path(), out)?;
     Ok(Some(results))
@@ -143,6 +144,15 @@ impl Request<'_> {
             }
         }
     }
+}
+
+/// What has no limit in the first of the bodies; tells it before any run.
+fn no_limit_of(study: &Study, path: &Path, request: &Request<'_>) -> anyhow::Result<NoLimit> {
+    let first = plan::runs(study, path)?.into_iter().next();
+    let case = first.map_or_else(|| request.case.clone(), |run| run.case);
+    let found = no_limit(&case, &case.setup(&mut ())?);
+    found.tell(&request.results, &mut request.print())?;
+    Ok(found)
 }
 
 /// Refuses cases whose results have no interval of this kind.
@@ -258,11 +268,8 @@ fn evaluation_of<'a>(
     case: &CaseFile,
     bodies: &'a SizedBodies,
     planned: &[PlannedRun<'a>],
-    done: Vec<sweep::DoneRun>,
-) -> anyhow::Result<Runs<'a>> {
-    let first: Option<&Run> = done.first().map(|it| &it.run);
-    let fine = first.map_or(case, |run| &run.case);
-    let no_limit = no_limit(fine, &fine.setup(&mut ())?);
+    (done, no_limit): (Vec<sweep::DoneRun>, NoLimit),
+) -> Runs<'a> {
     let mut runs = Vec::new();
     let mut more_bonds = Vec::new();
     for (plan, done) in planned.iter().zip(done) {
@@ -275,12 +282,12 @@ fn evaluation_of<'a>(
             }),
         }
     }
-    Ok(Runs {
+    Runs {
         bodies,
         runs,
         more_bonds,
         no_limit,
         dimensions: if case.case.is_solid() { 3 } else { 2 },
         thickness: case.case.thickness().unwrap_or(1.0),
-    })
+    }
 }

@@ -6,6 +6,8 @@ use ligament_mesh::AnyMesh;
 use ligament_model::failure::Choice;
 use ligament_model::scatter::Scattered;
 
+use super::evaluation::{Kind, kind};
+
 /// Angle of the cells at a node of the outline beyond which it is a re-entrant corner, degrees: that of an L is 270, those of a round hole of
 /// eight edges are 225.
 const RE_ENTRANT: f64 = 230.0;
@@ -19,6 +21,37 @@ pub(super) struct NoLimit {
     pub(super) of_breakage: Option<String>,
     /// Groups of supports on one point, on which stiffness and work depend if they carry a force.
     pub(super) supports_on_a_point: Vec<String>,
+}
+
+impl NoLimit {
+    /// Reason why results of a kind have no limit.
+    pub(super) fn reason(&self, kind: Kind) -> Option<&str> {
+        match kind {
+            Kind::Breakage => self.of_breakage.as_deref(),
+            Kind::Stiffness | Kind::Work => self.of_stiffness.as_deref(),
+            Kind::AtEnd | Kind::Other => None,
+        }
+    }
+
+    /// Tells what will have no interval, before any run.
+    ///
+    /// # Errors
+    ///
+    /// If none of the named results can have one.
+    pub(super) fn tell(&self, names: &[String], print: &mut dyn FnMut(&str)) -> anyhow::Result<()> {
+        let reasons = names.iter().map(|name| self.reason(kind(name)));
+        let refused: Option<Vec<&str>> = reasons.collect();
+        if let Some(reason) = refused.as_ref().and_then(|all| all.first()) {
+            anyhow::bail!("{} has no limit: {reason}", names.join(", "));
+        }
+        let words = ["stiffness and work", "loads of breakage"];
+        for (words, reason) in words.iter().zip([&self.of_stiffness, &self.of_breakage]) {
+            if let Some(reason) = reason {
+                print(&format!("no interval of {words}: {reason}"));
+            }
+        }
+        Ok(())
+    }
 }
 
 /// The results without a limit of a case with its setup.

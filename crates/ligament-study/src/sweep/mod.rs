@@ -336,10 +336,8 @@ fn best_status(run: &Run, folders: &[StudyFolder]) -> (Status, PathBuf) {
     found.reduce(better).unwrap_or_default()
 }
 
-/// A run with its results.
+/// Results of a run, and their folder.
 pub(crate) struct DoneRun {
-    /// The run.
-    pub(crate) run: Run,
     /// Results of the run.
     pub(crate) results: Quantities,
     /// Folder of the results.
@@ -362,7 +360,6 @@ pub(crate) fn done_runs(
         .into_iter()
         .map(|run| match best_status(&run, &folders) {
             (Status::Done(results), folder) => Ok(DoneRun {
-                run,
                 results,
                 folder: folder.to_string_lossy().into_owned(),
             }),
