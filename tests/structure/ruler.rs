@@ -23,7 +23,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-python", 14_221),
     ("ligament-report", 20_200),
     ("ligament-run", 30_265),
-    ("ligament-study", 85_949),
+    ("ligament-study", 86_281),
     ("ligament-verify", 78_793),
 ];
 

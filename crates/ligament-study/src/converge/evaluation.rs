@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::bodies::{SizedBodies, SizedBody};
 use super::interval::{Interval, Samples};
-use super::no_limit::NoLimit;
+use super::no_limit::{Kind, NoLimit, kind};
 use crate::quantities::{Quantities, QuantityError};
 
 /// Reasons of an end after which runs of all sizes are at the same load or displacement.
@@ -49,21 +49,6 @@ pub struct Evaluated {
     pub mesher: Option<f64>,
     /// Change with 4/3 of the horizon factor at the same horizon, relative to the mean.
     pub families: Option<f64>,
-}
-
-/// Kind of a result, which decides what refuses it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Depends on displacements under the loads.
-    Stiffness,
-    /// A load at which bonds break.
-    Breakage,
-    /// A value at the end of the run.
-    AtEnd,
-    /// Work up to the end of the run.
-    Work,
-    /// Anything else.
-    Other,
 }
 
 /// Runs of a case at both sizes, with what decides about their intervals.
@@ -312,25 +297,5 @@ impl Runs<'_> {
             },
         };
         (label.to_owned(), unit.to_owned())
-    }
-}
-
-/// Kind of a result by its name.
-pub(super) fn kind(name: &str) -> Kind {
-    match name {
-        "elastic_stiffness" => Kind::Stiffness,
-        "certificate.work" | "certificate.stored" => Kind::Work,
-        "certificate.crack_area" | "certificate.dissipated" => Kind::AtEnd,
-        _ if name.starts_with("probes_at_end.") => Kind::AtEnd,
-        _ if ["first_break.", "first_peak.", "peak."]
-            .iter()
-            .any(|it| name.starts_with(it)) =>
-        {
-            match name.ends_with(".displacement") {
-                true => Kind::Work,
-                false => Kind::Breakage,
-            }
-        }
-        _ => Kind::Other,
     }
 }

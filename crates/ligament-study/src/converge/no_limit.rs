@@ -6,11 +6,24 @@ use ligament_mesh::AnyMesh;
 use ligament_model::failure::Choice;
 use ligament_model::scatter::Scattered;
 
-use super::evaluation::{Kind, kind};
-
 /// Angle of the cells at a node of the outline beyond which it is a re-entrant corner, degrees: that of an L is 270, those of a round hole of
 /// eight edges are 225.
 const RE_ENTRANT: f64 = 230.0;
+
+/// Kind of a result, which decides what refuses it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Depends on displacements under the loads.
+    Stiffness,
+    /// A load at which bonds break.
+    Breakage,
+    /// A value at the end of the run.
+    AtEnd,
+    /// Work up to the end of the run.
+    Work,
+    /// Anything else.
+    Other,
+}
 
 /// Reasons why results of a case have no limit.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -51,6 +64,26 @@ impl NoLimit {
             }
         }
         Ok(())
+    }
+}
+
+/// Kind of a result by its name.
+pub(super) fn kind(name: &str) -> Kind {
+    match name {
+        "elastic_stiffness" => Kind::Stiffness,
+        "certificate.work" | "certificate.stored" => Kind::Work,
+        "certificate.crack_area" | "certificate.dissipated" => Kind::AtEnd,
+        _ if name.starts_with("probes_at_end.") => Kind::AtEnd,
+        _ if ["first_break.", "first_peak.", "peak."]
+            .iter()
+            .any(|it| name.starts_with(it)) =>
+        {
+            match name.ends_with(".displacement") {
+                true => Kind::Work,
+                false => Kind::Breakage,
+            }
+        }
+        _ => Kind::Other,
     }
 }
 
