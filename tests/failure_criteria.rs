@@ -783,7 +783,9 @@ fn the_check_lists_criteria_and_limits() {
     ] {
         assert!(text.contains(&line), "no `{line}` in\n{text}");
     }
-    assert!(!text.contains("warning"));
+    // Of the bonds to the nearest points alone.
+    assert!(text.contains("with a horizon of 1 times the distance of points"));
+    assert_eq!(text.matches("warning").count(), 1, "{text}");
     let turning = told(&["model.law=pds", "fracture.criterion.0.kind=sliding"]);
     assert!(
         turning.contains(
