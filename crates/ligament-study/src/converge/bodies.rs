@@ -10,6 +10,7 @@ use ligament_output::replace_file;
 
 use super::displaced_nodes::with_displaced_nodes;
 use super::interval::{FLOOR, FLOOR_OF_SPLIT};
+use crate::meshing::MeshingError;
 use crate::sweep::meshes::{MeshPlan, make};
 use crate::sweep::plan::MESHES;
 use crate::sweep::toml_text::quoted;
@@ -62,6 +63,17 @@ pub(super) struct SizedBodies {
     pub(super) origin: String,
     /// Remarks for the user.
     pub(super) notes: Vec<String>,
+}
+
+impl SizedBodies {
+    /// The bodies with a note of a horizon that both sizes share.
+    pub(super) fn noted(mut self, has_fixed_horizon: bool) -> Self {
+        if has_fixed_horizon {
+            let note = "2h has the horizon of h: the limit is one of more and more bonds a family";
+            self.notes.push(note.to_owned());
+        }
+        self
+    }
 }
 
 /// Makes the meshes of a case at both sizes in the folder of a study; `print` shows each mesh that is made.
@@ -240,7 +252,13 @@ impl Meshing<'_> {
         let file = self.folder.join(format!("{name}.geo"));
         replace_file(&file, options.as_bytes())?;
         let plan = MeshPlan::new(&file, numbers, &self.folder, &name, &content);
-        let failed = make(std::iter::once(&plan), &self.source.gmsh, self.print)?;
+        let failed = make(std::iter::once(&plan), &self.source.gmsh, self.print);
+        let failed = failed.map_err(|error| match error {
+            MeshingError::NoProgram { .. } if self.dimensions < 3.0 => {
+                anyhow::anyhow!("{error}, or have the cells of the mesh split by `--split`")
+            }
+            other => other.into(),
+        })?;
         if let Some(reason) = failed.into_values().next() {
             anyhow::bail!("{}: {reason}", self.geometry.display());
         }

@@ -96,6 +96,7 @@ pub fn converge(
         Some(bodies) => bodies,
         None => bodies::meshes(case, &request.source, &path, &mut request.print())?,
     };
+    let bodies = bodies.noted(request.fixed_horizon);
     let planned = planned_runs(case, &bodies, request)?;
     for (name, text) in [
         (CASE, case.resolved_toml()?),
