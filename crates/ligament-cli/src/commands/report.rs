@@ -24,6 +24,9 @@ summary and warnings, force over displacement, energies and convergence, and the
 step by step; point at it for values, click for bonds and what became of them. A solid turns, is cut by
 planes and opens along its crack.";
 
+/// Usual digits and size (MB) of the page of a study, whose runs are looked at together.
+const OF_STUDY: (u32, f64) = (3, 3.0);
+
 /// `ligament report`.
 #[derive(Debug, Args)]
 pub struct ReportArgs {
@@ -43,15 +46,15 @@ pub struct ReportArgs {
     /// `opening (mm),force (kN)`
     #[arg(long, value_name = "CSV", num_args = 1..)]
     pub measured: Vec<PathBuf>,
-    /// Digits that the largest value of a field in a step keeps
-    #[arg(long, value_name = "N", default_value_t = DIGITS, value_parser = clap::value_parser!(u32).range(2..=8))]
-    pub digits: u32,
+    /// Digits that the largest value of a field in a step keeps [default: 4, in the page of a study 3]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=8))]
+    pub digits: Option<u32>,
     /// Steps of a result at most; of more an even choice, with the largest load
     #[arg(long, value_name = "N", default_value_t = STEPS, value_parser = clap::value_parser!(u32).range(2..))]
     pub steps: u32,
-    /// Megabytes of the page at most: what a reader wants least is left out, and named
-    #[arg(long, value_name = "MB", default_value_t = SIZE, value_parser = megabytes)]
-    pub size: f64,
+    /// Megabytes of the page at most: what a reader wants least is left out, and named [default: 15, of a study 3]
+    #[arg(long, value_name = "MB", value_parser = megabytes)]
+    pub size: Option<f64>,
 }
 
 impl ReportArgs {
@@ -67,6 +70,10 @@ impl ReportArgs {
             ),
             None => (self.labels, self.results),
         };
+        let (usual_digits, usual_size) = match study {
+            Some(_) => OF_STUDY,
+            None => (DIGITS, SIZE),
+        };
         let written = write_report(&Request {
             study,
             folders,
@@ -75,9 +82,9 @@ impl ReportArgs {
             unit_of: |key| KeyPath::parse(key).and_then(|key| unit_of(&key)),
             output: self.out,
             force: self.force,
-            digits: self.digits,
+            digits: self.digits.unwrap_or(usual_digits),
             steps: self.steps as usize,
-            size: (self.size * MEGABYTE) as usize,
+            size: (self.size.unwrap_or(usual_size) * MEGABYTE) as usize,
         })?;
         let mut out = terminal::for_messages(&written.path);
         for it in &written.contents {
