@@ -12,7 +12,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament", 104_830),
     ("ligament-analysis", 201_008),
     ("ligament-case", 59_638),
-    ("ligament-cli", 57_351),
+    ("ligament-cli", 57_401),
     ("ligament-linalg", 22_578),
     ("ligament-mesh", 37_662),
     ("ligament-model", 223_291),
@@ -23,7 +23,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-python", 14_221),
     ("ligament-report", 20_200),
     ("ligament-run", 30_265),
-    ("ligament-study", 86_281),
+    ("ligament-study", 86_386),
     ("ligament-verify", 78_793),
 ];
 
