@@ -345,8 +345,7 @@ fn linear_tractions_on_ends_with_different_edges_balance() {
 /// The stiffness of a free bar in tension is E A/L = 37.5 MN/m whichever end comes first, whichever nodes are gauges, and whatever else is
 /// free: displacement and force do the work of both forces. Within .1 %, of which .002 % are measured. Loads in another order agree to the
 /// 1e-9 to which equilibria are solved; the mirrored body, whose patch correction is another iteration, to 1e-4, of which 4e-5 are
-/// measured. With the first load alone the displacement was the one of an end against the gauges, and the stiffness
-/// 216 MN/m. A support that
+/// measured. With the first load alone the displacement was the one of an end against the gauges, and the stiffness 216 MN/m. A support that
 /// holds one point chooses that point itself, so there the displacement is still the one of the first load.
 #[test]
 fn the_stiffness_of_a_free_bar_does_not_depend_on_gauges() {

@@ -1,5 +1,7 @@
 //! Interface of all cells, planar cells, and faces of solid cells.
 
+use std::collections::BTreeMap;
+
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -102,6 +104,29 @@ impl Cell {
         };
         std::iter::once(first).chain(second)
     }
+}
+
+/// Edges of planar cells, keyed by their nodes in ascending order: the number of cells, and the nodes in the order with the last of these cells
+/// on the left.
+pub fn cells_at_edges(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
+    let mut edges = BTreeMap::new();
+    for cell in cells {
+        let corners = cell.corners();
+        let next = corners.iter().cycle().skip(1);
+        for (&from, &to) in corners.iter().zip(next) {
+            let key = [from.min(to), from.max(to)];
+            let edge = edges.entry(key).or_insert((0, [0; 2]));
+            *edge = (edge.0 + 1, [from, to]);
+        }
+    }
+    edges
+}
+
+/// Edges that belong to one of the planar cells alone, with the cell on their left, ascending by their nodes.
+pub fn outer_edges(cells: &[Cell]) -> Vec<[u32; 2]> {
+    let edges = cells_at_edges(cells).into_values();
+    let outer = edges.filter(|(n_cells, _)| *n_cells == 1);
+    outer.map(|(_, edge)| edge).collect()
 }
 
 impl MeshCell<2> for Cell {

@@ -31,7 +31,7 @@ mod remark;
 mod solid;
 mod subdivision;
 
-pub use cell::{Cell, MeshCell};
+pub use cell::{Cell, MeshCell, cells_at_edges, outer_edges};
 pub use curve::along_hilbert_curve;
 pub use mesh::{AnyMesh, Group, Mesh, NodeField, SolidMesh};
 pub use numbering::Numbering;

@@ -1,11 +1,10 @@
 //! Meshes: nodes, cells, physical groups, and values at the nodes.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cell::{Cell, MeshCell};
+use crate::cell::{Cell, MeshCell, outer_edges};
 use crate::portion::Portion;
 use crate::remark::Remark;
 use crate::solid::SolidCell;
@@ -51,14 +50,9 @@ impl Mesh {
         self.size()
     }
 
-    /// Edges that belong to one cell alone, ascending.
+    /// Edges that belong to one cell alone, with the cell on their left, ascending by their nodes.
     pub fn outline(&self) -> Vec<[u32; 2]> {
-        let mut uses: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-        for edge in self.cells.iter().flat_map(Cell::edges) {
-            *uses.entry(edge).or_default() += 1;
-        }
-        uses.retain(|_, count| *count == 1);
-        uses.into_keys().collect()
+        outer_edges(&self.cells)
     }
 
     /// Angle of the cells at each node, rad, shape (n_nodes): 2 pi inside, pi on a straight outline, more at re-entrant corners.

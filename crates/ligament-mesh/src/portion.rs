@@ -15,7 +15,7 @@ impl<const N: usize> Portion<N> {
     /// Mean of a factor over the share of one corner, for a factor that is linear between the corners.
     ///
     /// The integral of a product of shape functions over a simplex of n corners and size S is S (1 + delta_ab)/(n (n + 1)), and the share is
-    /// S/n: the mean is the corner's own factor plus those of all corners, over n + 1 (Zienkiewicz 2013). It is exact, and
+    /// S/n. The mean is the factor of the corner plus the sum of the factors of all corners, over n + 1 (Zienkiewicz 2013). It is exact, and
     /// one if all factors are one.
     pub fn mean(&self, corner: u32, factor: impl Fn(u32) -> f64) -> f64 {
         let all: f64 = self.corners.iter().map(|&it| factor(it)).sum();

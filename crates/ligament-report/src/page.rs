@@ -45,7 +45,7 @@ const OTHER_LETTERS: usize = 400_000;
 /// Request for a page.
 #[derive(Debug, Clone)]
 pub struct Request {
-    /// Folder of the study of which the results are runs, if they are.
+    /// Folder of a study, if the results are its runs.
     pub study: Option<PathBuf>,
     /// Folders with results.
     pub folders: Vec<PathBuf>,

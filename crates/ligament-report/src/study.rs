@@ -108,7 +108,7 @@ pub(crate) fn head(folder: &Path) -> Result<String, Error> {
     })
 }
 
-/// The pictures of a study in the order of their names, without those of results that have no interval.
+/// Paths of the pictures of a study, ascending by name; results without an interval have none.
 fn pictures(folder: &Path, results: &[ResultOfStudy]) -> Result<Vec<PathBuf>, Error> {
     let entries = std::fs::read_dir(folder).map_err(Error::system("list", folder))?;
     let mut paths: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();

@@ -3,12 +3,10 @@
 //! In a continuum the stress is uniform and no force acts inside. Two neighbours of different horizons share all their bonds, so that
 //! momentum is never lost; but the bonds of one point need not balance.
 
-use std::collections::BTreeMap;
-
 use anyhow::{Context, bail};
 use ligament::Model;
 use ligament_model::tensor::{SymTensor, norm};
-use ligament_model::{Canvas, System, UnbrokenBonds};
+use ligament_model::{System, UnbrokenBonds};
 
 use super::case_run::Number;
 
@@ -27,29 +25,14 @@ struct InnerPoint {
 }
 
 impl GhostForces {
-    /// The ghost forces of a model of one material on a mesh.
+    /// Ghost forces of a model of one material in the plane.
     ///
     /// # Errors
     ///
-    /// If the body has no cells or several materials.
+    /// If the body has several materials.
     pub(super) fn from_model(model: &Model) -> anyhow::Result<Self> {
-        let Canvas::Between(cells) = model.body().grid().canvas else {
-            bail!("ghost forces are those of a mesh in the plane");
-        };
-        let mut cells_at_edge: BTreeMap<[u32; 2], usize> = BTreeMap::new();
-        for cell in &cells {
-            let corners = cell.corners();
-            let next = corners.iter().cycle().skip(1);
-            for (&a, &b) in corners.iter().zip(next) {
-                *cells_at_edge.entry([a.min(b), a.max(b)]).or_default() += 1;
-            }
-        }
         let system = &**model.plane();
-        let mut is_outer = vec![false; system.cloud.len()];
-        let edges = cells_at_edge.iter().filter(|(_, n_cells)| **n_cells == 1);
-        for &end in edges.flat_map(|(ends, _)| ends) {
-            is_outer[end as usize] = true;
-        }
+        let is_outer = model.body().rim();
         let positions = &system.cloud.positions;
         let outline = positions.iter().zip(&is_outer).filter(|it| *it.1);
         let outline: Vec<[f64; 2]> = outline.map(|it| *it.0).collect();

@@ -91,7 +91,7 @@ impl ProportionalLoading {
         !self.displaced.is_empty()
     }
 
-    /// The loading without forces other than those of a control load that is a force.
+    /// Loading with the force of the control load alone, where that load is a force.
     pub(crate) fn of_control_alone(&self) -> Self {
         let mut alone = Self {
             force: vec![0.0; self.force.len()],

@@ -4,15 +4,12 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 
 use clap::Args;
-use ligament_run::progress::ProgressMode;
 use ligament_study::converge::{MeshSource, Request, converge};
-use ligament_study::run_table::folder::Shard;
-use ligament_study::sweep::{Settings, Task};
 
 use super::argument_parsers::output_folder;
 use super::case_args::CaseArgs;
 use super::mesh::number_setting;
-use super::sweep::{gigabytes, shard};
+use super::sweep::StudyRunsArgs;
 use crate::terminal;
 
 pub(super) const EXAMPLES: &str = "\
@@ -62,59 +59,15 @@ pub struct ConvergeArgs {
     /// case.toml]
     #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Runs at once [default: one per processor]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub jobs: Option<u32>,
-    /// Memory for the runs in GB [default: what is available]
-    #[arg(long, value_name = "GB", value_parser = gigabytes)]
-    pub memory: Option<f64>,
-    /// Do only every N-th run, from the K-th on: a part for one of several machines
-    #[arg(long, value_name = "K/N", value_parser = shard)]
-    pub shard: Option<Shard>,
-    /// Repeat completed runs as well
-    #[arg(long)]
-    pub force: bool,
-    /// List the runs with the memory they take, and run none
-    #[arg(long, conflicts_with_all = ["collect", "shard", "force"], visible_alias = "dry-run")]
-    pub list: bool,
-    /// Evaluate the completed runs, and run none
-    #[arg(long, conflicts_with_all = ["shard", "force"])]
-    pub collect: bool,
-    /// With --collect: a folder of the runs, such as another machine's (may be repeated) [default: --out]
-    #[arg(long, value_name = "DIR", requires = "collect")]
-    pub from: Vec<PathBuf>,
-    /// The gmsh program, if it is not on the PATH
-    #[arg(
-        long,
-        value_name = "PATH",
-        default_value = "gmsh",
-        hide_default_value = true
-    )]
-    pub gmsh: PathBuf,
-    /// Show no progress, only the final result and errors
-    #[arg(long, short)]
-    pub quiet: bool,
+    /// Execution of the runs.
+    #[command(flatten)]
+    pub runs: StudyRunsArgs,
 }
 
 impl ConvergeArgs {
     /// Executes the command.
     pub(super) fn execute(self, program: &[OsString]) -> anyhow::Result<()> {
         let case = self.case.load()?;
-        let task = if self.list {
-            Task::List
-        } else if self.collect {
-            Task::Collect(self.from)
-        } else {
-            Task::Run(Settings {
-                shard: self.shard,
-                jobs: self.jobs.map(|jobs| jobs as usize),
-                memory: self.memory,
-                force: self.force,
-                gmsh: self.gmsh.clone(),
-                progress: ProgressMode::detect(self.quiet),
-                program: program.to_vec(),
-            })
-        };
         let request = Request {
             case: &case,
             out: self.out,
@@ -123,12 +76,12 @@ impl ConvergeArgs {
                 numbers: self.numbers,
                 size: self.size,
                 split: self.split,
-                gmsh: self.gmsh,
+                gmsh: self.runs.gmsh.clone(),
             },
             results: self.of,
             families: self.families,
             fixed_horizon: self.fixed_horizon,
-            task,
+            task: self.runs.task(program),
         };
         converge(&request, &mut terminal::stdout()).map(|_| ())
     }

@@ -50,7 +50,7 @@ pub use resume::ResumeArgs;
 pub use run::RunArgs;
 pub use schema::SchemaArgs;
 pub use stiffness::StiffnessArgs;
-pub use sweep::SweepArgs;
+pub use sweep::{StudyRunsArgs, SweepArgs};
 pub use yielding::YieldArgs;
 
 /// Peridynamics of bodies in the plane and in space: mesh in, cracks out.

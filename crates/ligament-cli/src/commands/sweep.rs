@@ -41,6 +41,14 @@ pub struct SweepArgs {
     /// with that of the file]
     #[arg(short, long, alias = "output", value_parser = output_folder(), value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Execution of the runs.
+    #[command(flatten)]
+    pub runs: StudyRunsArgs,
+}
+
+/// Options of the runs of a study.
+#[derive(Debug, Args)]
+pub struct StudyRunsArgs {
     /// Runs at once [default: one per processor]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub jobs: Option<u32>,
@@ -56,13 +64,13 @@ pub struct SweepArgs {
     /// List the runs with the memory they take, and run none
     #[arg(long, conflicts_with_all = ["collect", "shard", "force"], visible_alias = "dry-run")]
     pub list: bool,
-    /// Make the table and the plots of the completed runs, and run none
+    /// Evaluate the completed runs, and run none
     #[arg(long, conflicts_with_all = ["shard", "force"])]
     pub collect: bool,
     /// With --collect: a folder of the study, such as another machine's (may be repeated) [default: --out]
     #[arg(long, value_name = "DIR", requires = "collect")]
     pub from: Vec<PathBuf>,
-    /// The gmsh program, for axes of a geometry's numbers, if it is not on the PATH
+    /// The gmsh program, for meshes of a geometry, if it is not on the PATH
     #[arg(
         long,
         value_name = "PATH",
@@ -78,7 +86,19 @@ pub struct SweepArgs {
 impl SweepArgs {
     /// Executes the command.
     pub(super) fn execute(self, program: &[OsString]) -> anyhow::Result<()> {
-        let task = if self.list {
+        let request = Request {
+            study: self.study,
+            out: self.out,
+            task: self.runs.task(program),
+        };
+        sweep(&request, &mut terminal::stdout())
+    }
+}
+
+impl StudyRunsArgs {
+    /// Task for the runs; `program` is the command that calls this program.
+    pub(super) fn task(self, program: &[OsString]) -> Task {
+        if self.list {
             Task::List
         } else if self.collect {
             Task::Collect(self.from)
@@ -92,17 +112,11 @@ impl SweepArgs {
                 progress: ProgressMode::detect(self.quiet),
                 program: program.to_vec(),
             })
-        };
-        let request = Request {
-            study: self.study,
-            out: self.out,
-            task,
-        };
-        sweep(&request, &mut terminal::stdout())
+        }
     }
 }
 
-pub(super) fn gigabytes(text: &str) -> Result<f64, String> {
+fn gigabytes(text: &str) -> Result<f64, String> {
     positive_number(text).ok_or_else(|| "expected GB greater than 0, such as 16".to_owned())
 }
 

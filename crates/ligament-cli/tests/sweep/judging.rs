@@ -198,7 +198,7 @@ reference = {{ file = "measured.csv", column = "peak", key = ["lattice.cells", "
     expect("of_table", &|run| peaks[run] / 2.0 / measured[run] - 1.0);
 }
 
-/// Length, area and height of cracks are those of `ligament crack`, and both pictures of all runs show every run.
+/// Length, area and height of cracks equal the values of `ligament crack`, and both pictures of all runs show every run.
 #[test]
 fn cracks_are_results_and_all_runs_are_drawn() {
     let place = Place::with(

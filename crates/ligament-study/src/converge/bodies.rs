@@ -55,7 +55,7 @@ pub(super) struct SizedBody {
 /// Bodies of a case at both sizes.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SizedBodies {
-    /// The bodies, those of the size h first.
+    /// Bodies of the size h, followed by the bodies of 2h.
     pub(super) bodies: Vec<SizedBody>,
     /// Relative error that no refinement of such bodies removes.
     pub(super) floor: f64,

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::bodies::{SizedBodies, SizedBody};
-use super::interval::{Interval, Samples};
+use super::interval::{Interval, Refusal, Samples};
 use super::no_limit::{Kind, NoLimit, kind};
 use crate::quantities::{Quantities, QuantityError};
 
@@ -165,7 +165,7 @@ impl Runs<'_> {
         let is_complete = samples.fine.len() + samples.coarse.len() == self.runs.len();
         let refused = match is_complete {
             true => self.refusal(kind(name)),
-            false => Some("not every run has it".to_owned()),
+            false => Some(Refusal::Missing.to_string()),
         };
         let interval = match &refused {
             Some(reason) => Err(reason.clone()),

@@ -67,7 +67,8 @@ pub(super) fn write(
     folder: &Path,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let document = document(case, runs, results);
+    let paths = PathDistances::of_runs(runs);
+    let document = document(case, runs, results, paths);
     replace_file(
         &folder.join("convergence.json"),
         (serde_json::to_string_pretty(&document)? + "\n").as_bytes(),
@@ -81,11 +82,16 @@ pub(super) fn write(
             write_plot(folder, &format!("{}-over-h", result.name), &drawing)?;
         }
     }
-    print(case, runs, results, out)?;
+    print(case, runs, (results, paths), out)?;
     Ok(writeln!(out, "  results in {}", folder.display())?)
 }
 
-fn document<'a>(case: &'a CaseFile, runs: &'a Runs<'_>, results: &'a [Evaluated]) -> Document<'a> {
+fn document<'a>(
+    case: &'a CaseFile,
+    runs: &'a Runs<'_>,
+    results: &'a [Evaluated],
+    crack_paths: Option<PathDistances>,
+) -> Document<'a> {
     let in_file = runs.runs.iter().map(|run| RunInFile {
         label: &run.body.label,
         mesher: run.body.mesher,
@@ -107,7 +113,7 @@ fn document<'a>(case: &'a CaseFile, runs: &'a Runs<'_>, results: &'a [Evaluated]
         },
         runs: in_file.collect(),
         results,
-        crack_paths: PathDistances::of_runs(runs),
+        crack_paths,
         notes: &runs.bodies.notes,
     }
 }
@@ -134,7 +140,7 @@ fn row(result: &Evaluated) -> Vec<Value<'_>> {
 fn print(
     case: &CaseFile,
     runs: &Runs<'_>,
-    results: &[Evaluated],
+    (results, paths): (&[Evaluated], Option<PathDistances>),
     out: &mut dyn Write,
 ) -> io::Result<()> {
     writeln!(out, "{}", case.case.title)?;
@@ -161,7 +167,7 @@ fn print(
     for line in aligned(&rows.collect::<Vec<_>>(), 2) {
         writeln!(out, "  {line}")?;
     }
-    if let Some(paths) = PathDistances::of_runs(runs) {
+    if let Some(paths) = paths {
         writeln!(out, "  crack paths  {}", paths.words())?;
     }
     print_apart(runs, results, out)?;

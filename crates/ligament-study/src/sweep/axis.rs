@@ -357,7 +357,7 @@ fn numbers(range: &RawRange, place: &KeyPath) -> Result<Vec<f64>, KeyFault> {
             Err(KeyFault::new(place.child("log"), fault))
         }
         Spacing::Step(step) => values_by_step(range, step, || place.child("step")),
-        Spacing::Count(count) => merged_messages(range, count, || place.child("count")),
+        Spacing::Count(count) => values_by_count(range, count, || place.child("count")),
     }
 }
 
@@ -393,7 +393,7 @@ fn values_by_step(
 }
 
 /// The values of a range with a given count, at equal steps or, with `log`, equal ratios.
-fn merged_messages(
+fn values_by_count(
     range: &RawRange,
     count: usize,
     place: impl Fn() -> KeyPath,

@@ -27,7 +27,7 @@ pub(super) enum Operator {
     Plus,
     Minus,
     Times,
-    LabelExpansion,
+    Over,
     Power,
 }
 
@@ -263,7 +263,7 @@ impl Expression {
                     Operator::Plus => one + other,
                     Operator::Minus => one - other,
                     Operator::Times => one * other,
-                    Operator::LabelExpansion => one / other,
+                    Operator::Over => one / other,
                     Operator::Power if other.fract() == 0.0 => one.powi(other as i32),
                     Operator::Power => one.powf(other),
                 }
@@ -366,7 +366,7 @@ impl<'a> Reader<'a> {
         loop {
             let operator = match self.next() {
                 Some('*') => Operator::Times,
-                Some('/') => Operator::LabelExpansion,
+                Some('/') => Operator::Over,
                 _ => return Ok(found),
             };
             self.left = &self.left[1..];

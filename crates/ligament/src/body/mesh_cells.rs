@@ -1,9 +1,11 @@
 //! Parts of the geometry of mesh cells that differ between the plane and space.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Debug;
 
-use ligament_mesh::{Cell, Faces, Group, Mesh, MeshCell, Portion, SolidCell, SolidMesh};
+use ligament_mesh::{
+    Cell, Faces, Group, Mesh, MeshCell, Portion, SolidCell, SolidMesh, cells_at_edges, outer_edges,
+};
 use ligament_model::bonds::outline::{Outline, PlaneOutline, SolidOutline};
 use ligament_model::bonds::parts::{PlaneCells, Tetrahedra};
 use ligament_model::correction::patch::{self, CellForces};
@@ -109,11 +111,7 @@ impl BodyCell<2> for Cell {
     }
 
     fn outer_sides(cells: &[Self], _: usize) -> Vec<[u32; 2]> {
-        let edges = edges_of(cells).into_values();
-        edges
-            .filter(|(n_cells, _)| *n_cells == 1)
-            .map(|(_, edge)| edge)
-            .collect()
+        outer_edges(cells)
     }
 
     /// Faces from the middle of the cell to the middles of its edges.
@@ -135,7 +133,7 @@ impl BodyCell<2> for Cell {
         if edges.is_empty() {
             return Ok(Vec::new());
         }
-        let of_cells = edges_of(&mesh.cells);
+        let of_cells = cells_at_edges(&mesh.cells);
         let mut portions = Vec::new();
         for edge in edges {
             let (cells, along) = of_cells.get(&edge).copied().unwrap_or((0, edge));
@@ -250,21 +248,6 @@ impl BodyCell<3> for SolidCell {
     fn canvas(cells: &[Self]) -> Canvas {
         Canvas::Solid(cells.to_vec())
     }
-}
-
-/// Edges, keyed by their nodes in ascending order: the number of cells, and the nodes in the order with the last of these cells on the
-/// left.
-fn edges_of(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
-    let mut edges = BTreeMap::new();
-    for cell in cells {
-        let corners = cell.corners();
-        let next = corners.iter().cycle().skip(1);
-        for (&from, &to) in corners.iter().zip(next) {
-            let edge = edges.entry(ascending([from, to])).or_insert((0, [0; 2]));
-            *edge = (edge.0 + 1, [from, to]);
-        }
-    }
-    edges
 }
 
 /// Edges between corners in their order.
