@@ -9,12 +9,12 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 104_830),
+    ("ligament", 104_648),
     ("ligament-analysis", 201_008),
     ("ligament-case", 59_638),
-    ("ligament-cli", 57_401),
+    ("ligament-cli", 57_151),
     ("ligament-linalg", 22_578),
-    ("ligament-mesh", 37_662),
+    ("ligament-mesh", 37_824),
     ("ligament-model", 223_291),
     ("ligament-output", 74_067),
     ("ligament-petsc", 2_978),
@@ -23,8 +23,8 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-python", 14_221),
     ("ligament-report", 20_200),
     ("ligament-run", 30_265),
-    ("ligament-study", 86_386),
-    ("ligament-verify", 78_793),
+    ("ligament-study", 86_413),
+    ("ligament-verify", 78_593),
 ];
 
 /// Short files of the crates. The numbers may fall.
