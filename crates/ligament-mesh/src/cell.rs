@@ -106,6 +106,11 @@ impl Cell {
     }
 }
 
+/// The nodes of an edge, the lower one first.
+pub(crate) fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
 /// Edges of planar cells, keyed by their nodes in ascending order: the number of cells, and the nodes in the order with the last of these cells
 /// on the left.
 pub fn cells_at_edges(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
@@ -114,8 +119,7 @@ pub fn cells_at_edges(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
         let corners = cell.corners();
         let next = corners.iter().cycle().skip(1);
         for (&from, &to) in corners.iter().zip(next) {
-            let key = [from.min(to), from.max(to)];
-            let edge = edges.entry(key).or_insert((0, [0; 2]));
+            let edge = edges.entry(ascending([from, to])).or_insert((0, [0; 2]));
             *edge = (edge.0 + 1, [from, to]);
         }
     }
@@ -150,8 +154,7 @@ impl MeshCell<2> for Cell {
         let cell = *self;
         let n = self.corners().len();
         (0..n).map(move |place| {
-            let [a, b] = [place, (place + 1) % n].map(|place| cell.corners()[place]);
-            [a.min(b), a.max(b)]
+            ascending([place, (place + 1) % n].map(|place| cell.corners()[place]))
         })
     }
 

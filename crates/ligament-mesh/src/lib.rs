@@ -19,6 +19,7 @@
     allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")
 )]
 
+mod bisection;
 mod cell;
 mod curve;
 pub mod gmsh;
@@ -31,6 +32,7 @@ mod remark;
 mod solid;
 mod subdivision;
 
+pub use bisection::{Bisectable, Bisection, MarkedCell, Unbisectable};
 pub use cell::{Cell, MeshCell, cells_at_edges, outer_edges};
 pub use curve::along_hilbert_curve;
 pub use mesh::{AnyMesh, Group, Mesh, NodeField, SolidMesh};

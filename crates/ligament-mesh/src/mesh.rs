@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cell::{Cell, MeshCell, outer_edges};
+use crate::cell::{Cell, MeshCell, ascending, outer_edges};
 use crate::portion::Portion;
 use crate::remark::Remark;
 use crate::solid::SolidCell;
@@ -105,7 +105,7 @@ impl<const D: usize, C> Mesh<D, C> {
 
     /// Some edges, each with half of its length (m) for each node. A repeated edge counts once.
     pub fn edge_portions(&self, edges: &[[u32; 2]]) -> Vec<Portion<1>> {
-        let mut edges: Vec<[u32; 2]> = edges.iter().map(|&[a, b]| [a.min(b), a.max(b)]).collect();
+        let mut edges: Vec<[u32; 2]> = edges.iter().copied().map(ascending).collect();
         edges.sort_unstable();
         edges.dedup();
         let portion = |edge: [u32; 2]| {

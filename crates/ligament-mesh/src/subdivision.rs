@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::cell::Cell;
+use crate::cell::{Cell, ascending};
 use crate::mesh::{Group, Mesh};
 
 impl Mesh {
@@ -82,13 +82,13 @@ impl NewNodes {
         self.positions.len() as u32 - 1
     }
 
-    fn middle(&self, [a, b]: [u32; 2]) -> u32 {
-        self.middles[&[a.min(b), a.max(b)]]
+    fn middle(&self, edge: [u32; 2]) -> u32 {
+        self.middles[&ascending(edge)]
     }
 
     /// Halves of an edge. The edge of a group that no cell has stays as it is.
     fn halves(&self, [a, b]: [u32; 2]) -> Vec<[u32; 2]> {
-        match self.middles.get(&[a.min(b), a.max(b)]) {
+        match self.middles.get(&ascending([a, b])) {
             Some(&middle) => vec![
                 [a.min(middle), a.max(middle)],
                 [b.min(middle), b.max(middle)],

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::cell::{Cell, MeshCell};
+use crate::cell::{Cell, MeshCell, ascending};
 
 /// A solid cell given by its corner nodes (indices into the mesh's nodes), in the order of Gmsh.
 ///
@@ -202,10 +202,9 @@ impl MeshCell<3> for SolidCell {
             SolidCell::Prism(_) => EDGES_OF_PRISM,
             SolidCell::Pyramid(_) => EDGES_OF_PYRAMID,
         };
-        edges.iter().map(move |places| {
-            let [a, b] = places.map(|place| cell.corners()[place]);
-            [a.min(b), a.max(b)]
-        })
+        edges
+            .iter()
+            .map(move |places| ascending(places.map(|place| cell.corners()[place])))
     }
 
     fn size(&self, positions: &[[f64; 3]]) -> f64 {
