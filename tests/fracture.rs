@@ -21,6 +21,7 @@ mod missed_contact;
 mod properties;
 mod published;
 mod random_strength;
+mod refinement;
 mod result_files;
 mod resume;
 mod softening;

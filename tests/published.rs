@@ -159,7 +159,8 @@ experiments!(
     contact_sliding,
     contact_hertz,
     contact_flaw,
-    converge
+    converge,
+    refine
 );
 
 /// Measured tests: those with a fast run are run, and every value lies in the band that was written down before, or is missed for the reason

@@ -14,7 +14,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-case", 59_638),
     ("ligament-cli", 57_151),
     ("ligament-linalg", 22_578),
-    ("ligament-mesh", 37_824),
+    ("ligament-mesh", 43_025),
     ("ligament-model", 223_291),
     ("ligament-output", 74_067),
     ("ligament-petsc", 2_978),

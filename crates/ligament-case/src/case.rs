@@ -24,6 +24,7 @@ mod overrides;
 mod places;
 mod precrack;
 mod probe;
+mod refine;
 mod resolved;
 mod schema;
 mod sections;

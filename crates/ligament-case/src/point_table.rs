@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ligament::body::{AnyBody, Points};
-use ligament::setup::Sample;
+use ligament::setup::{FinePlace, Sample};
 use ligament_analysis::Amplitude;
 
 use crate::input_file;
@@ -73,6 +73,34 @@ impl Tables {
             Ok(Sample { position, value })
         };
         table.rows.iter().map(sample).collect()
+    }
+
+    /// Reads the places of a refinement, with the pass that found each and whether it is that of an open bond, where the table has these columns; as the
+    /// error a description of the fault.
+    pub(crate) fn fine_places(self, path: &Path) -> Result<Vec<FinePlace>, String> {
+        let Self::Read { dimensions } = self else {
+            return Ok(Vec::new());
+        };
+        let expected = "the first row must name the columns `x` and `y` (m), in a solid also `z`";
+        let table = Table::read(path, expected)?;
+        let axes = AXES[..dimensions].iter().map(|it| table.place(it));
+        let axes: Vec<usize> = axes.collect::<Result<_, _>>()?;
+        let [pass, open] = ["pass", "open"].map(|name| table.place(name).ok());
+        let optional = |row: &Row, place: Option<usize>| {
+            place.map_or(Ok(0.0), |place| table.number(row, place))
+        };
+        let place = |row: &Row| {
+            let mut position = [0.0; 3];
+            for (coordinate, &place) in position.iter_mut().zip(&axes) {
+                *coordinate = table.number(row, place)?;
+            }
+            Ok(FinePlace {
+                position,
+                pass: optional(row, pass)? as u32,
+                is_open: optional(row, open)? != 0.0,
+            })
+        };
+        table.rows.iter().map(place).collect()
     }
 
     /// Reads an amplitude, whose times must grow from row to row; as the error a description of the fault.
@@ -187,6 +215,18 @@ pub fn text_of_samples<const D: usize>(
     let rows = positions.iter().zip(values).map(|(position, value)| {
         let numbers = position.iter().chain([value]);
         numbers.map(|it| format!("{it:?}")).collect()
+    });
+    text_of_rows(&header, rows)
+}
+
+/// The text of the places of a refinement in some dimensions, from which a case reads them.
+pub fn text_of_fine_places(places: &[FinePlace], dimensions: usize) -> String {
+    let axes = AXES[..dimensions].iter().copied();
+    let header: Vec<&str> = axes.chain(["pass", "open"]).collect();
+    let rows = places.iter().map(|it| {
+        let numbers = it.position[..dimensions].iter().map(|it| format!("{it:?}"));
+        let found = [it.pass, u32::from(it.is_open)].map(|it| it.to_string());
+        numbers.chain(found).collect()
     });
     text_of_rows(&header, rows)
 }

@@ -142,6 +142,14 @@ pub enum AnyMesh {
 }
 
 impl AnyMesh {
+    /// Number of cells.
+    pub fn n_cells(&self) -> usize {
+        match self {
+            AnyMesh::Plane(mesh) => mesh.cells.len(),
+            AnyMesh::Solid(mesh) => mesh.cells.len(),
+        }
+    }
+
     /// Number of nodes.
     pub fn n_nodes(&self) -> usize {
         match self {

@@ -5,6 +5,7 @@ mod modal;
 mod model;
 mod motion;
 mod provenance;
+mod refinement;
 mod solver;
 mod values;
 
@@ -30,6 +31,7 @@ pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 pub use motion::{EnergiesSummary, MotionSummary};
 pub use provenance::{Build, Identity, Input, Provenance, Stage};
+pub use refinement::RefinementSummary;
 
 pub use solver::{FactorSummary, IterationSummary, SolverSummary};
 pub use values::Text;
@@ -97,6 +99,9 @@ pub struct Summary {
     /// Energies, crack area, residual and ties of a run in statics.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub certificate: Option<CertificateSummary>,
+    /// Passes of a refinement.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refinement: Option<RefinementSummary>,
     /// Deepest overlap of crack faces, where it exceeds a tolerance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub overlap: Option<OverlapSummary>,

@@ -200,7 +200,19 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         Some(entry("Ended because", &*summary.termination_message)),
     ];
     let motion = summary.motion.iter().flat_map(motion_entries);
-    rows.into_iter().flatten().chain(motion).collect()
+    let refinement = summary.refinement.iter();
+    let passes = refinement.flat_map(|it| it.rows(&summary.units));
+    let passes = passes.map(|(name, words)| entry(&capitalised(&name), words));
+    (rows.into_iter().flatten().chain(motion))
+        .chain(passes)
+        .collect()
+}
+
+/// A name that begins with a capital letter.
+fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    let first = letters.next().map(|it| it.to_ascii_uppercase());
+    first.into_iter().chain(letters).collect()
 }
 
 /// The number of steps with its noun.

@@ -38,14 +38,9 @@ fn write_case(
     keeps_inputs: bool,
     folder: &ResultFolder,
 ) -> anyhow::Result<CaseFile> {
-    let case = match keeps_inputs {
-        true => {
-            // First the file by which the folder is recognised.
-            folder.write(RESOLVED_CASE, &case.resolved_toml()?)?;
-            copy_files(case, folder)?
-        }
-        false => case.clone(),
-    };
+    // First the file by which the folder is recognised.
+    folder.write(RESOLVED_CASE, &case.resolved_toml()?)?;
+    let case = copy_files(case, folder, keeps_inputs)?;
     folder.write(RESOLVED_CASE, &recorded_text(&case, folder.path())?)?;
     Ok(case)
 }

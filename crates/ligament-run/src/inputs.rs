@@ -32,6 +32,9 @@ pub const CHANGEABLE_KEYS: [&str; 11] = [
     "output.picture",
 ];
 
+/// Key of the places of a refinement, which a result folder has in a copy.
+const PLACES: &str = "refine.places";
+
 /// Identities of the contents of files by path, each read once.
 #[derive(Debug, Default)]
 pub struct FileIdentities(HashMap<PathBuf, Identity>);
@@ -137,6 +140,8 @@ fn paths(case: &mut CaseFile) -> Vec<(String, &mut PathBuf)> {
     let mut found: Vec<(String, &mut PathBuf)> = mesh
         .map(|section| ("mesh.file".to_owned(), &mut section.file))
         .collect();
+    let places = (case.refine.iter_mut()).filter_map(|it| it.places.as_mut());
+    found.extend(places.map(|file| (PLACES.to_owned(), file)));
     for (number, temperature) in case.temperatures.iter_mut().enumerate() {
         let file = temperature.file.iter_mut();
         found.extend(file.map(|file| (format!("temperature.{number}.file"), file)));
@@ -194,14 +199,20 @@ pub(crate) fn find_moved_files(
     }
 }
 
-/// Copies the files of a case into a result folder; returns the case with the copies.
+/// Copies the files of a case into a result folder, all of them or the places of a refinement alone, which the next results replace; returns the case
+/// with the copies.
 ///
 /// # Errors
 ///
 /// If a file cannot be read or written.
-pub(crate) fn copy_files(case: &CaseFile, folder: &ResultFolder) -> anyhow::Result<CaseFile> {
+pub(crate) fn copy_files(
+    case: &CaseFile,
+    folder: &ResultFolder,
+    all: bool,
+) -> anyhow::Result<CaseFile> {
     let mut kept = case.clone();
-    for (key, file) in paths(&mut kept) {
+    let copied = |it: &(String, &mut PathBuf)| all || it.0 == PLACES;
+    for (key, file) in paths(&mut kept).into_iter().filter(copied) {
         let name = folder::input_name(&key, file);
         let bytes =
             input_file::read(file).map_err(|error| unreadable_file((file.clone(), error)))?;
@@ -228,10 +239,11 @@ pub(crate) fn recorded_case(case: &CaseFile, folder: &Path) -> CaseFile {
     recorded
 }
 
-/// Whether a result folder has copies of files that its case reads.
+/// Whether a result folder has copies of the files that its case reads, beside the places of a refinement.
 pub(crate) fn are_kept(case: &CaseFile, folder: &Path) -> bool {
     let files = files(&recorded_case(case, folder));
-    files.iter().any(|(_, file)| file.is_relative())
+    let mut files = files.iter().filter(|(key, _)| key != PLACES);
+    files.any(|(_, file)| file.is_relative())
 }
 
 /// The error of a file that cannot be read, with its path for the user.

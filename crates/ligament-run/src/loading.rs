@@ -1,8 +1,10 @@
 //! Runs a body under loads, from its first state or from a checkpoint, and writes the results into a folder.
 
 use ligament::run::{Posed, Restored, follow};
+use ligament::setup::Refine;
 use ligament::{Loading, Message, Model};
 use ligament_analysis::driver::Outcome;
+use ligament_analysis::refinement_pass::PassRecord;
 use ligament_case::case::{CaseFile, StressField};
 use ligament_model::BodyGrid;
 use ligament_output::folder::ResultFolder;
@@ -15,6 +17,7 @@ use crate::inputs::{FileIdentities, Inputs, unreadable_file};
 use crate::processes::broadcast_path;
 use crate::progress::Progress;
 use crate::provenance::provenance;
+use crate::refinement;
 use crate::run_observer::{PieceObserver, RunObserver};
 use crate::stages::Stages;
 use crate::summary::{PointStatistics, SummaryData, certificate, summary};
@@ -26,6 +29,8 @@ pub(crate) struct LoadedBody<'a> {
     pub(crate) loading: &'a Loading,
     pub(crate) build: Build,
     pub(crate) requests: StopRequests<'a>,
+    /// Records of the passes of a refinement before this run.
+    pub(crate) earlier: &'a [PassRecord],
 }
 
 /// State of a checkpoint from which a run continues.
@@ -43,13 +48,14 @@ impl LoadedBody<'_> {
         restored_run: Option<RestoredRun>,
         stages: &mut Stages,
         progress: &mut Progress,
-    ) -> anyhow::Result<Summary> {
+    ) -> anyhow::Result<(Summary, Option<Refine>)> {
         let Self {
             case,
             model,
             loading,
             ref build,
             requests,
+            earlier,
         } = *self;
         let problem = loading.problem(model);
         let motion = loading.motion(&problem);
@@ -60,6 +66,7 @@ impl LoadedBody<'_> {
         let (fixed, rule) = (&model.fixed, write_rule(case));
         let mut contents = FileIdentities::default();
         let inputs = Inputs::determining_inputs(case, &mut contents).map_err(unreadable_file)?;
+        refinement::write_start(folder, model, earlier)?;
         let provenance = provenance(build.clone(), case, folder.path(), &mut contents);
         let mut provenance = provenance.map_err(unreadable_file)?;
         provenance.resumed = restored_run.is_some();
@@ -80,7 +87,9 @@ impl LoadedBody<'_> {
         let mut observer = RunObserver::new(writers, requests, progress, model, messages);
         let outcome = stages.time("solution", || self.outcome(posed, restored, &mut observer))?;
 
-        let (messages, first, checkpoints) = observer.into_parts();
+        let (messages, first, checkpoints, largest) = observer.into_parts();
+        let ended = refinement::end_pass(folder, (case, model), &outcome, largest, earlier)?;
+        let (refinement, next) = ended.unzip();
         let data = SummaryData {
             of_points,
             provenance,
@@ -88,11 +97,12 @@ impl LoadedBody<'_> {
             first,
             certificate: certificate(folder.path(), model, &outcome)?,
             stages: stages.done().to_vec(),
+            refinement,
         };
         let summary = summary(case, model, &loading.boundary, &outcome, data);
         summary::write(folder, &summary)?;
         checkpoints.end(&outcome.termination)?;
-        Ok(summary)
+        Ok((summary, next.flatten()))
     }
 }
 
@@ -165,6 +175,7 @@ pub fn write_rule(case: &CaseFile) -> WriteRule {
         fields_every: output.fields_every.unwrap_or_default() as usize,
         bonds: output.bonds,
         model: output.model,
+        utilisations: case.case.refine.is_some(),
         material_stress: output.stress.contains(&StressField::Material),
         effective_stress: output.stress.contains(&StressField::Effective),
         virial: output.stress.contains(&StressField::Virial),

@@ -10,6 +10,7 @@ use ligament_analysis::Termination;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::results::outputs::require_results;
+use ligament_output::results::passes::read_passes;
 use ligament_output::summary::{self, Build, Input, Provenance, SUMMARY_FILE, Summary};
 
 use crate::checkpoints::{IsStopped, VERSION};
@@ -17,6 +18,7 @@ use crate::comparison::{Comparison, FirstRunEnd};
 use crate::inputs::{FileIdentities, are_kept, files, find_moved_files, set_mesh, unreadable_file};
 use crate::progress::ProgressMode;
 use crate::provenance::provenance;
+use crate::refinement::pass;
 use crate::run;
 
 /// Suffix of the result folder's name for the folder of a repetition.
@@ -159,6 +161,8 @@ impl Request<'_> {
         let request = run::Request {
             is_stopped: &|| (self.is_stopped)() || is_at_its_end(),
             keeps_inputs: are_kept(case, folder),
+            earlier: read_passes(folder, pass(case))?,
+            is_one_pass: true,
             ..run::Request::new(case, out, self.build.clone())
         };
         let report = request

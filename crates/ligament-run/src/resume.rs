@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use anyhow::{Context, bail, ensure};
 use ligament::run::{Posed, Restored, on_pool, on_threads, restore};
+use ligament::setup::Refine;
 use ligament::{Loading, Model};
 use ligament_analysis::distributed_matrix::MatrixCommunicator;
 use ligament_analysis::driver::Problem;
@@ -16,6 +17,7 @@ use ligament_output::folder::{RESOLVED_CASE, ResultFolder};
 use ligament_output::quantity::quantity;
 use ligament_output::results::OutputState;
 use ligament_output::results::outputs::{clear, require_results};
+use ligament_output::results::passes::read_passes;
 use ligament_output::summary::{self, Build, Identity, SUMMARY_FILE, Summary};
 
 use crate::checkpoints::{IsStopped, StopRequests, VERSION};
@@ -29,6 +31,7 @@ use crate::model::build_model_on;
 use crate::origin;
 use crate::processes::{any_stopped, broadcast_path, broadcast_solution, loading};
 use crate::progress::{Progress, ProgressMode};
+use crate::refinement::pass;
 use crate::run::{self, Report};
 use crate::stages::Stages;
 
@@ -102,17 +105,14 @@ impl Request<'_> {
             progress.stage("the run has no checkpoint yet, so it starts from the beginning");
         }
         let go_on = || self.continue_run((case, path), folder, found, progress);
-        match on_pool(&*self.communicator, go_on) {
-            Ok(report) => Ok(report),
-            Err(error) => {
-                let request = run::Request {
-                    is_stopped: self.is_stopped,
-                    communicator: self.communicator.clone(),
-                    ..run::Request::new(case, self.folder, self.build.clone())
-                };
-                request.begin_anew(&error.downcast()?, mode)
-            }
-        }
+        let solved = on_pool(&*self.communicator, go_on);
+        let request = run::Request {
+            is_stopped: self.is_stopped,
+            communicator: self.communicator.clone(),
+            earlier: read_passes(path, pass(case))?,
+            ..run::Request::new(case, self.folder, self.build.clone())
+        };
+        request.go_on(solved, mode)
     }
 
     /// Builds the model of a case and continues from the checkpoint that was found, if any.
@@ -122,7 +122,7 @@ impl Request<'_> {
         folder: Option<ResultFolder>,
         found: Option<(Checkpoint, OutputState, StoredSolution)>,
         mut progress: Progress,
-    ) -> anyhow::Result<Report> {
+    ) -> anyhow::Result<(Report, Option<Refine>)> {
         let mut stages = Stages::default();
         let model = build_model_on(case, self.communicator.clone(), &mut stages, &progress)?;
         let loading = loading(case, &model)?;
@@ -141,10 +141,11 @@ impl Request<'_> {
             loading: &loading,
             build: self.build.clone(),
             requests: StopRequests::at_next_state(&is_stopped),
+            earlier: &read_passes(path, pass(case))?,
         };
         let Some(folder) = folder else {
             body.follow_beside(restored)?;
-            return Ok(Report::OfRankZero);
+            return Ok((Report::OfRankZero, None));
         };
         let restored_run = found
             .zip(restored)
@@ -160,17 +161,18 @@ impl Request<'_> {
         if restored_run.is_none() {
             clear(&folder)?;
         }
-        let summary = make_results(
+        let (summary, next) = make_results(
             (case, false),
             || Ok(folder),
             |folder, _| {
-                let summary = body.follow(folder, restored_run, &mut stages, &mut progress)?;
+                let (summary, next) =
+                    body.follow(folder, restored_run, &mut stages, &mut progress)?;
                 progress.finish(&summary.termination_message);
                 let is_complete = summary.end() != End::Stopped;
-                Ok((summary, is_complete))
+                Ok(((summary, next), is_complete))
             },
         )?;
-        Ok(Report::Loading(Box::new(summary)))
+        Ok((Report::Loading(Box::new(summary)), next))
     }
 }
 

@@ -6,13 +6,14 @@ use std::sync::Arc;
 use std::sync::mpsc::Sender;
 
 use ligament::Vibration;
-use ligament::near_growth::Growth;
 use ligament::run::{on_pool, on_threads};
-use ligament::setup::Analysis;
+use ligament::setup::{Analysis, Refine};
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
+use ligament_analysis::refinement_pass::PassRecord;
 use ligament_case::case::CaseFile;
 use ligament_output::folder::ResultFolder;
+use ligament_output::results::passes::PLACES_FILE;
 use ligament_output::results::write_modes;
 use ligament_output::summary::{self, Build, ModalSummary, Provenance, Summary};
 
@@ -27,6 +28,7 @@ use crate::model::{Model, build_model_on};
 use crate::processes::{any_stopped, loading};
 use crate::progress::{Progress, ProgressMode, StepLine};
 use crate::provenance::provenance;
+use crate::refinement::Anew;
 use crate::stages::Stages;
 use crate::summary::{modal_summary, write, write_modal};
 
@@ -98,6 +100,10 @@ pub struct Request<'a> {
     pub steps: Option<Sender<StepLine>>,
     /// Processes of the run; rank 0 writes all results except the pieces of grids, which each process writes.
     pub communicator: Arc<dyn MatrixCommunicator>,
+    /// Records of the passes of a refinement before the first one.
+    pub earlier: Vec<PassRecord>,
+    /// Whether the run ends with the first pass of a refinement.
+    pub is_one_pass: bool,
 }
 
 /// Runs a case and writes its results into a new folder, without a record of the build.
@@ -122,6 +128,8 @@ impl<'a> Request<'a> {
             keeps_inputs: false,
             steps: None,
             communicator: Arc::new(Solo),
+            earlier: Vec::new(),
+            is_one_pass: false,
         }
     }
 
@@ -146,26 +154,43 @@ impl<'a> Request<'a> {
         let solve = || self.solve(&model, stages, progress);
         let solved = on_pool(&**communicator, solve);
         drop(model);
-        match solved {
-            Ok(report) => Ok(report),
-            Err(error) => self.begin_anew(&error.downcast()?, mode),
-        }
+        self.go_on(solved, mode)
     }
 
-    /// Runs the case from its start with a larger near field, on the caller's threads. The files of the run before are replaced.
-    pub(crate) fn begin_anew(&self, growth: &Growth, mode: ProgressMode) -> anyhow::Result<Report> {
-        Progress::on(&*self.communicator, mode).stage(&format!(
-            "the stress at {} points of elements reached its share of the strength: bonds take their place, and the run begins anew",
-            growth.points
-        ));
-        let mut case = self.case.clone();
-        case.case.grow(growth);
+    /// The report of a run that was solved, or of the last one of those that begin anew after it, on the caller's threads. The files of the run before
+    /// are replaced.
+    pub(crate) fn go_on(
+        &self,
+        solved: anyhow::Result<(Report, Option<Refine>)>,
+        mode: ProgressMode,
+    ) -> anyhow::Result<Report> {
+        let anew = match solved {
+            Ok((report, next)) => match (next.filter(|_| !self.is_one_pass), &report) {
+                (Some(refine), Report::Loading(summary)) => {
+                    let passes = summary.refinement.as_ref().map(|it| it.passes.clone());
+                    Anew::Pass {
+                        refine,
+                        places: std::path::absolute(self.out)?.join(PLACES_FILE),
+                        earlier: passes.unwrap_or_default(),
+                    }
+                }
+                _ => return Ok(report),
+            },
+            Err(error) => Anew::Growth(error.downcast()?),
+        };
+        Progress::on(&*self.communicator, mode).stage(&anew.words());
+        let case = anew.case(self.case);
+        let earlier = match anew {
+            Anew::Growth(_) => self.earlier.clone(),
+            Anew::Pass { earlier, .. } => earlier,
+        };
         let request = Request {
             case: &case,
             force: true,
             build: self.build.clone(),
             steps: self.steps.clone(),
             communicator: self.communicator.clone(),
+            earlier,
             ..*self
         };
         request.run_here(mode)
@@ -177,14 +202,14 @@ impl<'a> Request<'a> {
         model: &Model,
         stages: Stages,
         mut progress: Progress,
-    ) -> anyhow::Result<Report> {
+    ) -> anyhow::Result<(Report, Option<Refine>)> {
         for warning in merged_messages(model.warnings.iter().cloned()) {
             progress.stage(&format!("warning: {warning}"));
         }
         if let Analysis::Modal(settings) = model.setup.analysis {
             // The modal analysis runs on one process with the whole body.
             if !self.communicator.is_root() {
-                return Ok(Report::OfRankZero);
+                return Ok((Report::OfRankZero, None));
             }
             let create = || ResultFolder::create(self.out, self.force);
             let (build, mut contents) = (self.build.clone(), FileIdentities::default());
@@ -198,7 +223,7 @@ impl<'a> Request<'a> {
                 stages,
             )?;
             progress.finish(&format!("{} modes found", summary.modes.len()));
-            Ok(Report::Modes(Box::new(summary)))
+            Ok((Report::Modes(Box::new(summary)), None))
         } else {
             follow_loads(self, model, stages, progress)
         }
@@ -211,7 +236,7 @@ fn follow_loads(
     model: &Model,
     mut stages: Stages,
     mut progress: Progress,
-) -> anyhow::Result<Report> {
+) -> anyhow::Result<(Report, Option<Refine>)> {
     let (case, communicator) = (request.case, &*request.communicator);
     let loading = loading(case, model)?;
     if !communicator.has_matrices() && !model.setup.analysis.is_motion() {
@@ -229,24 +254,25 @@ fn follow_loads(
             is_stopped: &is_stopped,
             is_aborted: request.is_aborted,
         },
+        earlier: &request.earlier,
     };
     if !communicator.is_root() {
         body.follow_beside(None)?;
-        return Ok(Report::OfRankZero);
+        return Ok((Report::OfRankZero, None));
     }
     // Nothing is written or replaced before all input is checked.
     let create = || ResultFolder::create(request.out, request.force);
-    let summary = make_results((case, request.keeps_inputs), create, |folder, case| {
+    let (summary, next) = make_results((case, request.keeps_inputs), create, |folder, case| {
         if let Some(words) = destination::replacement_message(folder) {
             progress.stage(&words);
         }
         let body = LoadedBody { case, ..body };
-        let summary = body.follow(folder, None, &mut stages, &mut progress)?;
+        let (summary, next) = body.follow(folder, None, &mut stages, &mut progress)?;
         progress.finish(&summary.termination_message);
         let is_complete = summary.end() != End::Stopped;
-        Ok((summary, is_complete))
+        Ok(((summary, next), is_complete))
     })?;
-    Ok(Report::Loading(Box::new(summary)))
+    Ok((Report::Loading(Box::new(summary)), next))
 }
 
 /// Finds the modes of a model and writes them into a new folder; `inputs` are the case, and whether the folder gets copies of its files.

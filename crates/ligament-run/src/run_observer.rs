@@ -10,6 +10,7 @@ use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{
     Ahead, BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, View,
 };
+use ligament_analysis::largest_utilisation::LargestUtilisations;
 use ligament_output::results::{PieceWriter, ResultWriter};
 
 use crate::checkpoints::{Checkpoints, IsStopped, StopRequests};
@@ -74,9 +75,18 @@ impl<'a> RunObserver<'a> {
         }
     }
 
-    /// Messages, first broken and softened bonds, and checkpoints of the run.
-    pub(crate) fn into_parts(self) -> (Vec<Message>, FirstBonds, Checkpoints<'a>) {
-        (self.messages, self.writer.first_bonds(), self.checkpoints)
+    /// Messages, first broken and softened bonds, checkpoints, and largest utilisations of the bonds of the run.
+    pub(crate) fn into_parts(
+        self,
+    ) -> (
+        Vec<Message>,
+        FirstBonds,
+        Checkpoints<'a>,
+        Option<LargestUtilisations>,
+    ) {
+        let first = self.writer.first_bonds();
+        let largest = self.writer.into_largest();
+        (self.messages, first, self.checkpoints, largest)
     }
 
     fn require_not_aborted(&self) -> Result<(), ObserverError> {

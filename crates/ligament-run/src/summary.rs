@@ -20,13 +20,14 @@ use ligament_output::quantity::{between, quantity, zero_if_rounding};
 use ligament_output::results::criterion_labels;
 use ligament_output::summary::{
     BondEvent, CertificateSummary, INCOMPLETE_RUN_NOTE, OverlapSummary, PathPoint, Provenance,
-    Resultant, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
+    RefinementSummary, Resultant, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
 };
 use motion::{motion_summary, write_motion};
 use solver::solver_summary;
 
 use crate::end::End;
 use crate::messages::merged_messages;
+use crate::refinement::{unsettled, write_refinement};
 use crate::stability;
 
 pub(crate) use certificate::certificate;
@@ -73,6 +74,8 @@ pub struct SummaryData {
     pub certificate: Option<CertificateSummary>,
     /// Stages of the run with their times.
     pub stages: Vec<Stage>,
+    /// Passes of a refinement.
+    pub refinement: Option<RefinementSummary>,
 }
 
 /// Summary of a run.
@@ -94,6 +97,7 @@ pub fn summary(
     let of_end =
         (end == End::NoEquilibrium).then(|| Message::new("no-equilibrium", INCOMPLETE_RUN_NOTE));
     let warnings = model.warnings.iter().cloned();
+    let unsettled = data.refinement.as_ref().and_then(unsettled);
     Summary {
         model: model::model_summary(case, model, data.of_points),
         temperature_change: temperature_change(boundary),
@@ -122,6 +126,7 @@ pub fn summary(
         last_state_not_at_rest,
         energy_balance_error: energy_balance_error(outcome),
         certificate: data.certificate,
+        refinement: data.refinement,
         overlap: outcome.overlap.map(|it| OverlapSummary {
             depth: it.depth,
             step: it.step,
@@ -131,7 +136,7 @@ pub fn summary(
         solver: solver_summary(&outcome.costs, &outcome.solver),
         provenance: Some(data.provenance),
         stages: data.stages,
-        warnings: merged_messages(warnings.chain(data.messages).chain(of_end)),
+        warnings: merged_messages(warnings.chain(data.messages).chain(of_end).chain(unsettled)),
     }
 }
 
@@ -174,6 +179,9 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
     }
     if let Some(certificate) = &summary.certificate {
         write_certificate(certificate, out)?;
+    }
+    if let Some(refinement) = &summary.refinement {
+        write_refinement(refinement, &summary.units, out)?;
     }
     writeln!(out, "  ended because      {}", summary.termination_message)?;
     if let Some([head, words]) = summary.warning_of_end() {

@@ -51,6 +51,7 @@ mod printed;
 mod published;
 mod readings;
 mod record;
+mod refinement;
 mod report;
 mod ring;
 mod square_elements;
@@ -129,6 +130,7 @@ static PUBLISHED: [ExperimentSource; 49] = [
     File("contact_hertz"),
     File("contact_flaw"),
     Code(&convergence::EXPERIMENT),
+    Code(&refinement::EXPERIMENT),
 ];
 
 const EXAMPLES: &str = "\

@@ -85,6 +85,11 @@ impl Ensemble {
             let field = Field::whole("far_field").part("strength_share");
             return Err(field.error(fault).into());
         }
+        if model.setup.refine.is_some() {
+            let advice = "all samples of an ensemble share one mesh: remove this, and take the `mesh.msh` of a refined run";
+            let fault = Fault::Contradiction(advice.into());
+            return Err(Field::whole("refine").error(fault).into());
+        }
         let (breaking, energy_tolerance, stop) = match &model.setup.analysis {
             Analysis::Event(it) => (Breaking::Exact(it.clone()), it.energy_tolerance, it.stop),
             Analysis::Stepped(it) => (Breaking::Steps(it.clone()), it.energy_tolerance, it.stop),

@@ -29,7 +29,8 @@ use crate::notches::notches;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
 use crate::processes::partition_communicator;
-use crate::setup::{CorrectionDomain, Position, Setup};
+use crate::refinement::RefinedBody;
+use crate::setup::{CorrectionDomain, Position, Refine, Setup};
 use crate::soundness::{require_connected, require_factors, require_finite_rigidities};
 use crate::stage::{Finding, StageWatcher, stage};
 use crate::system::{AnySystem, over_dimension};
@@ -58,6 +59,8 @@ pub struct Model {
     pub criteria: Arc<Criteria>,
     /// Warnings for the user.
     pub warnings: Vec<Message>,
+    /// The body before all refinement, and its refined mesh; none where nothing is refined.
+    pub refined: Option<RefinedBody>,
 }
 
 impl Model {
@@ -80,6 +83,37 @@ impl Model {
         watcher: &mut dyn StageWatcher,
     ) -> Result<Self, SetupError> {
         setup.check()?;
+        if let Some(refine) = &setup.refine {
+            return Self::of_pass::<D>(refine.clone(), setup, watcher);
+        }
+        Self::of_checked::<D>(setup, watcher)
+    }
+
+    /// Builds the model of the present pass of a refinement.
+    fn of_pass<const D: usize>(
+        refine: Refine,
+        setup: Setup,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
+        let refined = stage(watcher, "refinement", || RefinedBody::new(&setup, &refine))?;
+        let body = refined.body().unwrap_or_else(|| setup.body.clone());
+        let model = Self::of_checked::<D>(Setup { body, ..setup }, watcher)?;
+        Ok(Self {
+            warnings: [
+                warning::of_refinement(&model, &refine, &refined),
+                model.warnings,
+            ]
+            .concat(),
+            refined: Some(refined),
+            ..model
+        })
+    }
+
+    /// Builds the model of a checked setup on its body in D dimensions.
+    fn of_checked<const D: usize>(
+        setup: Setup,
+        watcher: &mut dyn StageWatcher,
+    ) -> Result<Self, SetupError> {
         let communicator = partition_communicator(&setup);
         if communicator.size() > 1 {
             let divided = || divided(setup, &communicator);
@@ -159,6 +193,7 @@ impl Model {
             system: AnySystem::new(system.with_elements()),
             fixed,
             criteria: Arc::new(criteria),
+            refined: None,
         })
     }
 

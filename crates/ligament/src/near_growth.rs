@@ -3,6 +3,7 @@
 use ligament_analysis::history::{
     Ahead, BreakRecord, Moment, ObserverError, Onward, StepRecord, View,
 };
+use ligament_analysis::largest_utilisation::LargestUtilisations;
 use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::{Message, Observer, Termination};
 use ligament_model::scatter::Scattered;
@@ -67,6 +68,7 @@ impl Model {
         Guarded {
             observer,
             limits: self.stress_limits(),
+            utilisations: None,
         }
     }
 
@@ -193,6 +195,8 @@ impl StressLimits {
 pub struct Guarded<'a> {
     observer: &'a mut dyn Observer,
     limits: Option<StressLimits>,
+    /// Largest utilisations of the bonds, where a refinement asks for them.
+    pub utilisations: Option<LargestUtilisations>,
 }
 
 impl Observer for Guarded<'_> {
@@ -245,6 +249,9 @@ impl Observer for Guarded<'_> {
             if !points.is_empty() {
                 return Err(ObserverError(Box::new(Overstressed { points })));
             }
+        }
+        if let Some(utilisations) = self.utilisations.as_mut().filter(|_| view.is_whole) {
+            utilisations.update(record.step, view);
         }
         self.observer.step(record, view)
     }

@@ -9,9 +9,11 @@ use ligament_analysis::distributed_matrix::Communicator;
 pub use ligament_analysis::driver::Restored;
 use ligament_analysis::driver::{self, Outcome, Problem, Way, motion};
 use ligament_analysis::history::{ObserverError, StepRecord, View};
+use ligament_analysis::largest_utilisation::LargestUtilisations;
 use ligament_analysis::modal::{ModalAnalysis, ModalOutcome};
 use ligament_analysis::motion::MotionProblem;
 use ligament_analysis::probe::Probe;
+use ligament_analysis::refinement_pass::PassRecord;
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::error::{Error, Fault, Field};
@@ -26,8 +28,10 @@ pub struct Solution {
     pub model: Model,
     /// Probes, in the order of their values in the records of the outcome.
     pub probes: Arc<[Probe]>,
-    /// Outcome of the analysis: history, last state, and why it ended.
+    /// Outcome of the analysis: history, last state, and why it ended; of a refinement, in the last pass.
     pub outcome: Outcome,
+    /// Records of the passes of a refinement.
+    pub passes: Vec<PassRecord>,
 }
 
 impl Setup {
@@ -38,30 +42,42 @@ impl Setup {
     ///
     /// If a field of the setup is wrong, or the equations cannot be set up. The outcome has the end of the analysis.
     ///
-    /// Where the near field of the setup grows, the observer sees each run from its start.
+    /// Where the near field of the setup grows or its mesh is refined, the observer sees each run from its start.
     pub fn solve(self, observer: &mut (dyn Observer + Send)) -> Result<Solution, Error> {
         let (threads, communicator) = (self.threads(), self.solver.communicator.clone());
         let solve = || {
             let mut setup = self;
+            let mut passes = Vec::new();
             loop {
                 let model = Model::build(setup, &mut ())?;
                 let loading = Loading::new(&model)?;
                 let problem = loading.problem(&model);
                 let motion = loading.motion(&problem);
                 let posed = Posed::new(&problem, motion.as_ref());
-                let guarded = &mut model.guarded(observer);
-                match follow(posed, &model.setup.analysis, guarded) {
+                let mut guarded = model.guarded(observer);
+                let refines = model.setup.refine.is_some();
+                guarded.utilisations =
+                    refines.then(|| LargestUtilisations::new(problem.system.ends.len()));
+                match follow(posed, &model.setup.analysis, &mut guarded) {
                     Ok(outcome) => {
-                        return Ok(Solution {
-                            model,
-                            probes: loading.probes,
-                            outcome,
-                        });
+                        let utilisations = guarded.utilisations.unwrap_or_default();
+                        let pass = model.end_pass(&outcome, &utilisations, &passes)?;
+                        passes.extend(pass.as_ref().map(|it| it.record));
+                        let Some(Ok(refine)) = pass.map(|it| it.next) else {
+                            return Ok(Solution {
+                                model,
+                                probes: loading.probes,
+                                outcome,
+                                passes,
+                            });
+                        };
+                        setup = model.into_setup();
+                        setup.refine = Some(refine);
                     }
                     // Elements near their strength become bonds, and the run begins anew.
                     Err(error) => {
                         let growth = model.growth(error)?;
-                        setup = model.setup;
+                        setup = model.into_setup();
                         setup.grow(growth);
                     }
                 }

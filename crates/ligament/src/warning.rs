@@ -3,6 +3,7 @@
 mod correction;
 mod criteria;
 mod platen;
+mod refinement;
 mod volumetric;
 
 use ligament_analysis::Message;
@@ -22,6 +23,7 @@ use crate::plausibility::corners;
 use crate::setup::{Horizon, MaterialRegion, Setup};
 
 pub use criteria::few_bonds;
+pub(crate) use refinement::of_refinement;
 pub(crate) use volumetric::without_edges;
 
 /// Horizon factor below which the domain correction is not known to have a fixed point.

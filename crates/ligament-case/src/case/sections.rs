@@ -31,6 +31,7 @@ use super::model::{Correction, ModelSection};
 use super::places::{FarField, Region};
 use super::precrack::Precrack;
 use super::probe::Probe;
+use super::refine::Refine;
 use super::stage::Stage;
 use super::values::{each, exactly_one, metre, missing_key};
 use crate::point_table::Tables;
@@ -101,6 +102,8 @@ pub struct Case {
     pub rigid_bodies: Vec<Rigid>,
     /// Linear finite elements in place of bonds, away from parts of a meshed body.
     pub far_field: Option<FarField>,
+    /// Runs one after the other, each from the unloaded body, on meshes that are finer where bonds of the runs before broke.
+    pub refine: Option<Refine>,
     /// Parts of the body where bonds never break.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub no_fail: Vec<Region>,
@@ -158,6 +161,9 @@ impl Case {
             temperature.complete(&temperatures.child(index), folder)?;
         }
         case.model.complete(&at("model"))?;
+        if let Some(refine) = &mut case.refine {
+            refine.complete(&at("refine"), folder)?;
+        }
         let law = case.model.law;
         case.correction.complete(&at("correction"), &law)?;
         if let Some(fracture) = &mut case.fracture {
@@ -303,6 +309,9 @@ impl Case {
             closing_friction: self.model.closing_friction,
             far_field: (self.far_field.as_ref())
                 .map(|it| it.setup(&at("far_field")))
+                .transpose()?,
+            refine: (self.refine.as_ref())
+                .map(|it| it.setup(&at("refine"), tables))
                 .transpose()?,
             no_fail: each(&at("no_fail"), &self.no_fail, Region::place)?,
             supports: each(&at("support"), &self.supports, Support::setup)?,

@@ -2,7 +2,9 @@
 
 use std::io;
 
+use ligament::Model;
 use ligament::body::{Body, Origin};
+use ligament::setup::Fineness;
 use ligament_mesh::{Group, Mesh, SolidMesh};
 use ligament_model::Lattice;
 use ligament_model::cloud::lattice::SolidLattice;
@@ -116,6 +118,33 @@ fn write_lattice(
             words += &format!(", {} of a side each", quantity(each.share[0], "m"));
         }
         report.detail(&format!("set {name}"), words)?;
+    }
+    Ok(())
+}
+
+/// Writes what a refinement does with the mesh.
+pub(super) fn write_refinement(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
+    let (Some(refine), Some(refined)) = (&model.setup.refine, &model.refined) else {
+        return Ok(());
+    };
+    let at_crack = match refine.fineness {
+        Fineness::Size(size) => format!("cells of {}", quantity(size, "m")),
+        Fineness::Levels(1) => "edges halved once".to_owned(),
+        Fineness::Levels(levels) => format!("edges halved {levels} times"),
+    };
+    let words = format!(
+        "{at_crack} where bonds break; at most {} passes, each on a mesh that is finer around what broke before",
+        refine.passes
+    );
+    report.entry("refinement", words)?;
+    if refined.fine_horizon() > 0.0 {
+        let horizon = quantity(refined.fine_horizon(), "m");
+        let words = format!(
+            "{} around {} places, with horizons of at most {horizon}",
+            refine.pass,
+            refine.places.len()
+        );
+        report.entry("this is pass", words)?;
     }
     Ok(())
 }

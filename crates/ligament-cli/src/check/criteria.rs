@@ -14,7 +14,6 @@ use ligament_output::summary::{ScatterSummary, Spread};
 use ligament_run::model::Model;
 use ligament_run::summary::scatter;
 
-use super::characteristic_length::{self, young};
 use super::crack_work;
 use super::report::Report;
 
@@ -37,7 +36,7 @@ pub(super) fn write(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
     write_curves(report, model)?;
     write_cracks(report, model)?;
     crack_work::write(report, model)?;
-    characteristic_length::write(report, model)?;
+    write_characteristic_lengths(report, model)?;
     write_scatters(report, model)
 }
 
@@ -251,7 +250,7 @@ fn write_energy(report: &mut Report<'_>, model: &Model, criterion: &Criterion) -
     let setup = &model.setup;
     // At interfaces the weaker material determines the limit, so that limits belong to a material only in a body of one material.
     if let [region] = setup.materials.as_slice()
-        && let Some(young) = young(setup, &region.material)
+        && let Some(young) = setup.young(&region.material)
         && let Some(limits) =
             Range::over(criterion.limit.iter().copied().filter(|it| it.is_finite()))
     {
@@ -262,6 +261,54 @@ fn write_energy(report: &mut Report<'_>, model: &Model, criterion: &Criterion) -
         report.entry("", words)?;
     }
     Ok(())
+}
+
+/// Writes for each material with a strength and a fracture energy its characteristic length
+///
+/// l_ch = E G_c/F_t^2,
+///
+/// and the horizon over it. With a horizon of at most l_ch a crack spends its energy over several bonds that soften, and neither strength nor
+/// toughness hang on the mesh. Bonds that break at once by a strength know no energy: K_Ic grows with the root of the horizon.
+fn write_characteristic_lengths(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
+    for material in model.setup.materials() {
+        if let Some(length) = model.setup.characteristic_length(&material) {
+            report.entry(
+                "characteristic length",
+                length_words(model, &material, length),
+            )?;
+        }
+    }
+    let list = &model.criteria.list;
+    let breaks_by_stress = |it: &&Criterion| it.follows_stress() && it.after.is_brittle();
+    let starts = list.iter().any(|it| it.starting().is_some());
+    if list.iter().any(|it| breaks_by_stress(&it)) && !starts {
+        let words = "brittle bonds with a limit of stress: the strength does not depend on the mesh, but the toughness does (K_Ic grows \
+            with sqrt(H)); `rankine` softens according to the fracture energy";
+        report.entry("cracks", words)?;
+    }
+    Ok(())
+}
+
+fn length_words(model: &Model, material: &Material, length: f64) -> String {
+    let of_points = || model.fixed.horizon.iter().copied();
+    let largest = of_points().fold(0.0, f64::max);
+    let smallest = of_points().fold(f64::INFINITY, f64::min);
+    let name = match material.name.as_str() {
+        "" => String::new(),
+        name => format!("{name}: "),
+    };
+    let shares = between([smallest / length, largest / length], "-");
+    let finer = match largest > length {
+        true => format!(
+            "; a horizon no larger than that takes a mesh {} times finer",
+            four_digits(largest / length)
+        ),
+        false => String::new(),
+    };
+    format!(
+        "{name}E G_c/F_t^2 = {}, the horizon is {shares} of it{finer}",
+        quantity(length, "m")
+    )
 }
 
 /// Smallest, median (the lower of two) and largest of some numbers.

@@ -2,7 +2,6 @@
 
 mod bending_test;
 mod body;
-mod characteristic_length;
 mod crack_work;
 mod criteria;
 mod equations;

@@ -20,6 +20,7 @@ pub(super) fn write(report: &mut Report<'_>, case: &CaseFile, model: &Model) -> 
     report.line(analysis_words(&model.setup))?;
     let volume = model.system.volumes.iter().sum();
     body::write(report, model.body(), volume)?;
+    body::write_refinement(report, model)?;
     write_section(report, model)?;
     write_materials(report, model)?;
     write_bonds(report, model)?;

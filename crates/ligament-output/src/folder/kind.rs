@@ -18,13 +18,16 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) const REPLACED: &str = ".replaced";
 
 /// Files of a run with fixed names.
-const OF_A_RUN: [&str; 12] = [
+const OF_A_RUN: [&str; 15] = [
     RESOLVED_CASE,
     "breaks.csv",
     "criteria.csv",
     "history.csv",
     "iterations.csv",
+    "mesh.msh",
     "modes.csv",
+    "passes.csv",
+    "places.csv",
     "softening.csv",
     "summary.json",
     "timings.csv",
@@ -37,7 +40,7 @@ const OF_A_RUN: [&str; 12] = [
 const OF_INPUTS: &str = "input-";
 
 /// Sections whose files are copied.
-const SECTIONS_WITH_FILES: [&str; 3] = ["mesh", "temperature", "load"];
+const SECTIONS_WITH_FILES: [&str; 4] = ["mesh", "temperature", "load", "refine"];
 
 /// Stem of the grid file of a run with a fixed name.
 const MODEL_STEM: &str = "model";

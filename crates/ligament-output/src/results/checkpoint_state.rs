@@ -2,9 +2,9 @@
 
 use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
+use ligament_analysis::largest_utilisation::LargestUtilisations;
 use serde::{Deserialize, Serialize};
 
-use super::largest::LargestUtilisations;
 use super::softening_table::{self, SofteningProgress};
 use super::tables::{FILES, TablesProgress};
 use crate::file_digest::FileDigest;

@@ -25,11 +25,11 @@ pub mod cracks;
 mod first_field;
 mod grid;
 mod isosurface_files;
-mod largest;
 mod model_file;
 mod modes;
 mod opened_files;
 pub mod outputs;
+pub mod passes;
 mod pieces;
 mod point_fields;
 mod rule;
@@ -44,6 +44,7 @@ mod tables;
 use ligament_analysis::driver::Problem;
 use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
+use ligament_analysis::largest_utilisation::LargestUtilisations;
 use ligament_analysis::result_fields::{DISPLACEMENT, displacements};
 use ligament_model::{BodyGrid, ConstantFields};
 
@@ -61,7 +62,6 @@ pub use first_field::{BondOutcome, first_field, first_field_of};
 use grid::BondLines;
 pub use grid::{point_grid, write_points};
 pub use isosurface_files::write_level_set;
-use largest::LargestUtilisations;
 pub use modes::write_modes;
 use outputs::remove_others;
 pub use pieces::PieceWriter;
@@ -91,7 +91,7 @@ pub struct ResultWriter<'a> {
     breaks: Vec<([u32; 2], u32)>,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
     step_of_breaking: Vec<i64>,
-    /// Largest utilisation of each bond so far, where the model is written.
+    /// Largest utilisation of each bond so far, where the model is written or the mesh is refined.
     largest: Option<LargestUtilisations>,
     /// Names of the completed files, with their contents' lengths and digests.
     whole: Vec<(String, FileDigest)>,
@@ -111,8 +111,9 @@ impl<'a> ResultWriter<'a> {
         }
         // Where the body is divided, each process would have the largest utilisations of its own bonds only.
         let can_fail = !problem.criteria.list.is_empty() && problem.system.subdomain.is_whole();
+        let follows = rule.model || rule.utilisations;
         let largest =
-            (rule.model && can_fail).then(|| LargestUtilisations::new(problem.system.ends.len()));
+            (follows && can_fail).then(|| LargestUtilisations::new(problem.system.ends.len()));
         let mut writer = Self {
             folder,
             grid,
@@ -211,6 +212,11 @@ impl<'a> ResultWriter<'a> {
     /// The first bonds that broke and softened so far.
     pub fn first_bonds(&self) -> FirstBonds {
         self.first
+    }
+
+    /// Largest utilisations of the bonds so far, where they are followed.
+    pub fn into_largest(self) -> Option<LargestUtilisations> {
+        self.largest
     }
 
     /// Records length and digest of a completed file, on which a resumed run relies.
@@ -321,7 +327,7 @@ impl Observer for ResultWriter<'_> {
         }
         if let Some(largest) = self.largest.as_mut().filter(|_| view.is_whole) {
             largest.update(record.step, view);
-            if view.is_last {
+            if view.is_last && self.rule.model {
                 let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);
                 observer_result(model_file::write(
                     folder.path(),

@@ -19,12 +19,12 @@
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::driver::Problem;
+use ligament_analysis::largest_utilisation::{LargestUtilisation, LargestUtilisations};
 use ligament_analysis::load_program::BoundaryGroup;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
 use ligament_model::{BodyGrid, ConstantFields};
 
 use super::grid::BondLines;
-use super::largest::LargestUtilisations;
 use super::tables::criterion_labels;
 use crate::Error;
 use crate::vtu::{self, Field};
@@ -88,7 +88,7 @@ pub(super) fn write(
         .chain(nothing)
         .collect();
     let limits = limits(problem, n_absent);
-    let largest = at_end.map(|(largest, _)| largest.columns(n_absent));
+    let largest = at_end.map(|(largest, _)| UtilisationColumns::new(largest, n_absent));
     let dissipated = at_end.map(|(_, dissipated)| with_nan_for_absent(dissipated, n_absent));
 
     let mut cell_fields = vec![
@@ -164,4 +164,40 @@ fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
         }
     }
     found
+}
+
+/// Largest utilisations of all bonds as the columns of a file.
+struct UtilisationColumns {
+    utilisation: Vec<f32>,
+    step: Vec<i64>,
+    criterion: Vec<i64>,
+}
+
+impl UtilisationColumns {
+    /// The largest utilisations as arrays, with `n_absent` entries at their end for absent bonds.
+    fn new(largest: &LargestUtilisations, n_absent: usize) -> Self {
+        let nothing = LargestUtilisation {
+            utilisation: f32::NAN,
+            ..Default::default()
+        };
+        let all = || {
+            largest
+                .of_bonds
+                .iter()
+                .chain(std::iter::repeat_n(&nothing, n_absent))
+        };
+        Self {
+            utilisation: all().map(|largest| largest.utilisation).collect(),
+            step: all().map(|largest| i64::from(largest.step)).collect(),
+            criterion: all().map(|largest| i64::from(largest.criterion)).collect(),
+        }
+    }
+
+    fn fields(&self) -> [Field<'_>; 3] {
+        [
+            Field::single("largest_utilisation", &self.utilisation),
+            Field::integer("step_of_largest", &self.step),
+            Field::integer("criterion_of_largest", &self.criterion),
+        ]
+    }
 }

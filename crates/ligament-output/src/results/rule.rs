@@ -16,6 +16,8 @@ pub struct WriteRule {
     pub bonds: bool,
     /// Whether to write the model, by which a bond can be explained later.
     pub model: bool,
+    /// Whether the largest utilisations of the bonds are followed in runs without a model too.
+    pub utilisations: bool,
     /// Whether the fields have the stress that the materials carry, with its principal values.
     pub material_stress: bool,
     /// Whether the fields have the effective stress, with its principal values.

@@ -11,6 +11,9 @@ use super::request::FieldRequest;
 use super::target::Target;
 use crate::stored_loading::resolved_case;
 
+/// Name of the picture of the horizons of a refined mesh.
+const HORIZONS: &str = "horizons.png";
+
 /// Whether the case of a run asks for pictures at its end, by `output.picture = true`.
 pub fn asks_for_pictures(folder: &Path) -> bool {
     let case = resolved_case(folder).ok();
@@ -18,7 +21,7 @@ pub fn asks_for_pictures(folder: &Path) -> bool {
     case.and_then(requested).unwrap_or(false)
 }
 
-/// Draws the last state of a run, or its first modes, as PNG into its folder; if the run breaks bonds, also the curve of force over
+/// Draws the last state of a run, or its first modes, as PNG into its folder; if the mesh was refined, also the horizons; if the run breaks bonds, also the curve of force over
 /// displacement, in a motion over time. Returns the paths of the pictures.
 ///
 /// # Errors
@@ -29,6 +32,17 @@ pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
         folder.to_path_buf(),
     ))?];
     let case = resolved_case(folder)?;
+    if case.contains_key("refine") {
+        drawn.push(draw_fields(&FieldRequest {
+            field: Some("horizon".to_owned()),
+            target: Target {
+                out: Some(folder.join(HORIZONS)),
+                force: true,
+                ..Target::default()
+            },
+            ..FieldRequest::default_for(folder.to_path_buf())
+        })?);
+    }
     let has_curve = case.contains_key("fracture") || case.contains_key("motion");
     if has_curve && kind_of(folder) == OutputKind::Steps {
         drawn.push(draw_curves(&CurveRequest {

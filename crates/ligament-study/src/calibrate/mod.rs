@@ -42,6 +42,11 @@ pub fn calibrate(
     let search = search_of(request)?;
     // Errors of the case and of the key are found before anything is written.
     let case = case_with(request, search.start)?;
+    if case.case.refine.is_some() {
+        let reason = "each run of a calibration would have meshes of its own, whose scatter the search would follow: remove it, and take the `mesh.msh` of \
+                      a refined run";
+        return Err(case.error("refine", reason).into());
+    }
     known_result::check(&request.of, case.case.analysis == Some(Analysis::Modal))
         .map_err(|source| CalibrationError::UnknownResult(request.of.clone(), source))?;
     let inputs =

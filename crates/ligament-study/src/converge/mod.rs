@@ -173,6 +173,11 @@ fn require_limits(case: &CaseFile) -> anyhow::Result<()> {
             "fracture.scatter",
             "the result of one sample has no limit: `ligament ensemble` gives the statistics of many, and `--unset fracture.scatter` the body without",
         )
+    } else if (sections.refine.as_ref()).is_some_and(|it| it.size.is_some()) {
+        (
+            "refine.size",
+            "the meshes of both sizes would be equally fine at the crack: give `levels`, the number of times that the edges of each are halved there",
+        )
     } else {
         return Ok(());
     };

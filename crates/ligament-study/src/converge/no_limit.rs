@@ -1,14 +1,10 @@
 //! Results of a case that have no limit as the points become finer, seen before any run.
 
 use ligament::setup::{Place, Setup};
+use ligament::singular_place::singular_place;
 use ligament_case::case::CaseFile;
-use ligament_mesh::AnyMesh;
 use ligament_model::failure::Choice;
 use ligament_model::scatter::Scattered;
-
-/// Angle of the cells at a node of the outline beyond which it is a re-entrant corner, degrees: that of an L is 270, those of a round hole of
-/// eight edges are 225.
-const RE_ENTRANT: f64 = 230.0;
 
 /// Kind of a result, which decides what refuses it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -130,33 +126,11 @@ fn by_strength(setup: &Setup) -> Option<&'static str> {
     first.map(|it| it.kind.word)
 }
 
-/// Place where the stress of the elastic body is singular: a crack or a re-entrant corner of a body in the plane.
+/// Place where the stress of the elastic body is singular: a crack, or a re-entrant corner of a body in the plane.
 fn singularity(case: &CaseFile, setup: &Setup) -> Option<String> {
-    if !setup.precracks.is_empty() {
-        return Some("the tip of a pre-crack".to_owned());
-    }
-    if let Some(lattice) = &case.case.lattice {
-        let has_corners =
-            |hole: &ligament_case::case::Hole| hole.rectangle.is_some() || hole.polygon.is_some();
-        return lattice
-            .remove
-            .iter()
-            .any(has_corners)
-            .then(|| "a corner of a hole".to_owned());
-    }
-    let file = &case.case.mesh.as_ref()?.file;
-    let AnyMesh::Plane(mesh) = ligament_case::mesh_file::read_any_mesh(file).ok()? else {
-        return None;
-    };
-    let angles = mesh.angles_at_nodes();
-    let mut outline: Vec<u32> = mesh.outline().into_iter().flatten().collect();
-    outline.sort_unstable();
-    let corner = outline
-        .into_iter()
-        .find(|&node| angles[node as usize].to_degrees() > RE_ENTRANT)?;
-    let position = mesh.positions[corner as usize];
-    Some(format!(
-        "the re-entrant corner at {}",
-        ligament_output::quantity::place(&position)
-    ))
+    let has_corners =
+        |hole: &ligament_case::case::Hole| hole.rectangle.is_some() || hole.polygon.is_some();
+    let lattice = case.case.lattice.as_ref();
+    let has_corners = lattice.is_some_and(|it| it.remove.iter().any(has_corners));
+    singular_place(setup).or_else(|| has_corners.then(|| "a corner of a hole".to_owned()))
 }

@@ -12,8 +12,8 @@ use ligament_model::{Advice, Anisotropic, Elasticity, Material, Orthotropic, Pla
 
 use super::setting::Setting;
 use super::{
-    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Horizon, Load, MaterialRegion,
-    Place, Profile, Reading, Setup, Surface,
+    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Fineness, Horizon, Load,
+    MaterialRegion, Place, Profile, Reading, Refine, Setup, Surface,
 };
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
@@ -51,6 +51,7 @@ impl Setup {
         self.check_correction()?;
         self.check_exclusions()?;
         self.check_far_field()?;
+        self.check_refinement()?;
         self.check_load_factors()?;
         self.check_motion()?;
         self.check_stages()?;
@@ -513,6 +514,26 @@ impl Setup {
             }
             None => Ok(()),
         }
+    }
+
+    /// Checks the numbers of a refinement.
+    fn check_refinement(&self) -> Checked {
+        let Some(refine) = &self.refine else {
+            return Ok(());
+        };
+        let field = Field::whole("refine");
+        match refine.fineness {
+            Fineness::Size(size) => within(Refine::SIZE, field.part("size"), size)?,
+            Fineness::Levels(levels) => within(Refine::LEVELS, field.part("levels"), levels)?,
+        }
+        within(
+            Refine::STRENGTH_SHARE,
+            field.part("strength_share"),
+            refine.strength_share,
+        )?;
+        within(Refine::TOLERANCE, field.part("tolerance"), refine.tolerance)?;
+        within(Refine::PASSES, field.part("passes"), refine.passes)?;
+        within(Refine::PASSES, field.part("pass"), refine.pass)
     }
 
     /// Checks a near field that grows.

@@ -11,6 +11,7 @@ mod curve;
 mod not_together;
 mod precrack;
 mod probe;
+mod refine;
 mod restraint;
 mod section;
 pub mod setting;
@@ -38,6 +39,7 @@ pub use ligament_model::material::PoissonForm;
 pub use not_together::{Exclusion, Feature, NOT_TOGETHER};
 pub use precrack::{CrackShape, PreCrack};
 pub use probe::{Probe, Reading};
+pub use refine::{FinePlace, Fineness, Indicator, Refine};
 pub use section::Section;
 pub use stage::{Control, Course, Quantity, Stage};
 
@@ -76,6 +78,8 @@ pub struct Setup {
     pub rigid_bodies: Vec<Rigid>,
     /// Linear finite elements in place of bonds, away from parts of a meshed body.
     pub far_field: Option<FarField>,
+    /// Runs one after the other on meshes that are finer where bonds broke.
+    pub refine: Option<Refine>,
     /// Parts of the body where bonds never fail.
     pub no_fail: Vec<Place>,
     /// Supports of the body, none or more.
@@ -151,6 +155,7 @@ impl Setup {
             contacts: Vec::new(),
             rigid_bodies: Vec::new(),
             far_field: None,
+            refine: None,
             no_fail: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
@@ -258,6 +263,21 @@ impl Setup {
     /// Thickness of the body, m; 1 for a solid.
     pub fn thickness(&self) -> f64 {
         self.section.thickness()
+    }
+
+    /// Characteristic length of a material, l_ch = E G_c/F_t^2 with Young's modulus E of a bar with the constants that the law makes of it, m; none
+    /// without a strength or a fracture energy, or for a material with axes.
+    pub fn characteristic_length(&self, material: &Material) -> Option<f64> {
+        Some(self.young(material)? * material.fracture_energy? / material.tensile_strength?.powi(2))
+    }
+
+    /// Young's modulus of a bar of a material with the constants that the law makes of it, Pa; none for one with axes.
+    pub fn young(&self, material: &Material) -> Option<f64> {
+        let constants = self.law.constants(material, self.space())?;
+        Some(match self.space() {
+            Space::Plane(plane) => constants.in_plane(plane).young,
+            Space::Solid => constants.young,
+        })
     }
 
     /// Number of threads; by default the caller's threads.

@@ -3,13 +3,16 @@
 use ligament_analysis::load_program::Amplitude;
 use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_model::ElementKind;
+use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::material::Space;
+use ligament_model::scatter::Scattered;
 
 use super::check::{Checked, contradiction};
-use super::{Action, Analysis, ContactLaw, Load, Quantity, Rigid, Setup, Support};
+use super::{Action, Analysis, ContactLaw, Horizon, Load, Quantity, Rigid, Setup, Support};
 use crate::body::Origin;
 use crate::error::Field;
+use crate::singular_place::singular_place;
 
 /// A feature that another one may exclude.
 #[derive(Debug)]
@@ -90,6 +93,12 @@ fn first_rigid(
 
 fn motion_with(setup: &Setup, holds: fn(&MotionSettings) -> bool) -> bool {
     matches!(&setup.analysis, Analysis::Motion(settings) if holds(settings))
+}
+
+/// Whether all bonds are brittle and break by an energy.
+fn breaks_by_energy(setup: &Setup) -> bool {
+    let is_energy = |it: &Choice| it.limits_from() == Scattered::FractureEnergy;
+    !setup.criteria.is_empty() && !softens(setup) && setup.criteria.iter().all(is_energy)
 }
 
 fn softens(setup: &Setup) -> bool {
@@ -222,6 +231,19 @@ features! {
     };
     POINTS_ALONE = "bodies of points without cells", |it| when(matches!(it.body.origin(), Origin::Points), "body");
     SEVERAL_PROCESSES = "several processes", |it| when(it.solver.communicator.0.size() > 1, "solver");
+    REFINEMENT = "refinement where bonds break", |it| when(it.refine.is_some(), "refine");
+    ONE_HORIZON = "one horizon for all points", |it| {
+        when(matches!(it.horizon, Horizon::Length(_)), "horizon")
+    };
+    BODIES_WITHOUT_MESH = "lattices and bodies of points", |it| {
+        when(!matches!(it.body.origin(), Origin::Mesh(_) | Origin::SolidMesh(_)), "body")
+    };
+    UNCORRELATED_STRENGTH = "a random strength or fracture energy without a correlation length", |it| {
+        first("scatter", &it.scatter, |it| it.correlation_length == 0.0)
+    };
+    ENERGY_WITHOUT_CRACK = "brittle bonds with a limit of energy in a body without a crack or a re-entrant corner", |it| {
+        when(breaks_by_energy(it) && it.body.n_cells() > 0 && singular_place(it).is_none(), "criteria")
+    };
     FAR_FIELD = "a far field", |it| when(it.far_field.is_some(), "far_field");
     GROWING_NEAR_FIELD = "a near field that grows", |it| {
         let grows = it.far_field.as_ref().is_some_and(|it| it.strength_share.is_some());
@@ -267,6 +289,17 @@ pub static NOT_TOGETHER: &[Exclusion] = pairs! {
     FAR_FIELD, CLOSING_FACES, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, CONTACT, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, TEMPERATURES, "far-field.md", BONDS_EVERYWHERE;
+    REFINEMENT, ONE_HORIZON, "refinement.md", "with one horizon for all points a finer mesh has more bonds a point and no shorter ones: give \
+        `horizon_factor` in the place of `horizon`";
+    REFINEMENT, BODIES_WITHOUT_MESH, "refinement.md", "only the cells of a mesh can be bisected: take a mesh";
+    REFINEMENT, MOTION, "refinement.md", "each pass begins anew from the unloaded body, and waves of a motion would not find the places again: take load steps \
+        or the exact path, or a mesh that is fine from the start";
+    REFINEMENT, NO_BREAKAGE, "refinement.md", "the mesh is refined where bonds break, and nothing breaks in this analysis: remove it";
+    REFINEMENT, SEVERAL_PROCESSES, "ranks.md", "the mesh is refined on one process: take one, and give the others its `mesh.msh`";
+    REFINEMENT, UNCORRELATED_STRENGTH, "refinement.md", "each mesh would have another sample, whose weakest point depends on the number of points: \
+        give a `correlation_length`";
+    REFINEMENT, ENERGY_WITHOUT_CRACK, "refinement.md", "without a crack the strength by an energy falls as 1/sqrt(H), so that cracks would begin \
+        wherever the mesh is coarse: give a pre-crack, or a criterion of stress";
     GROWING_NEAR_FIELD, NO_BREAKAGE, "far-field.md", "nothing breaks in this analysis, so that elements need not become bonds: remove it, and give places in \
         `near`";
     STAGES, MOTION, "motion.md", "a motion has no stages: let each load follow its `amplitude`";

@@ -1,10 +1,9 @@
-//! Largest utilisations of the bonds.
+//! Largest utilisations of the bonds over a run.
 
-use ligament_analysis::history::View;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::vtu::Field;
+use crate::history::View;
 
 /// Number of bonds of a parallel task.
 const TASK: usize = 4096;
@@ -12,42 +11,40 @@ const TASK: usize = 4096;
 /// Factor up to which two utilisations count as equal: they have seven digits, and the first of several is kept.
 const SAME: f64 = 1.0 + 2e-7;
 
-/// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(super) struct LargestUtilisations {
-    of_bonds: Vec<LargestUtilisation>,
+/// The largest utilisation of each bond over all load steps, or events of the exact path, in which it was intact and the whole body known.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct LargestUtilisations {
+    /// Largest utilisations, shape (n_bonds).
+    pub of_bonds: Vec<LargestUtilisation>,
 }
 
 /// The largest utilisation of a bond so far.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-struct LargestUtilisation {
-    utilisation: f32,
-    step: u32,
-    criterion: u32,
-}
-
-/// Largest utilisations of all bonds as the columns of a file.
-pub(super) struct UtilisationColumns {
-    utilisation: Vec<f32>,
-    step: Vec<i64>,
-    criterion: Vec<i64>,
+pub struct LargestUtilisation {
+    /// Measure of a criterion over its limit.
+    pub utilisation: f32,
+    /// Load step or event.
+    pub step: u32,
+    /// Number of the criterion.
+    pub criterion: u32,
 }
 
 impl LargestUtilisations {
     /// Whether the utilisations match a number of bonds and of criteria.
-    pub(super) fn fits(&self, n_bonds: usize, n_criteria: usize) -> bool {
+    pub fn fits(&self, n_bonds: usize, n_criteria: usize) -> bool {
         let mut largest = self.of_bonds.iter();
         self.of_bonds.len() == n_bonds && largest.all(|it| (it.criterion as usize) < n_criteria)
     }
 
-    pub(super) fn new(n_bonds: usize) -> Self {
+    /// Utilisations of zero.
+    pub fn new(n_bonds: usize) -> Self {
         Self {
             of_bonds: vec![LargestUtilisation::default(); n_bonds],
         }
     }
 
     /// Updates the utilisations of the bonds that are intact at the end of a step.
-    pub(super) fn update(&mut self, step: usize, view: &View<'_>) {
+    pub fn update(&mut self, step: usize, view: &View<'_>) {
         let (criteria, intact) = (view.criteria, &view.state.intact);
         let deformations = &view.balanced.deformations;
         let parts = self.of_bonds.par_chunks_mut(TASK).enumerate();
@@ -72,33 +69,5 @@ impl LargestUtilisations {
                 }
             }
         });
-    }
-
-    /// The largest utilisations as arrays, with `n_absent` entries at their end for absent bonds.
-    pub(super) fn columns(&self, n_absent: usize) -> UtilisationColumns {
-        let nothing = LargestUtilisation {
-            utilisation: f32::NAN,
-            ..Default::default()
-        };
-        let all = || {
-            self.of_bonds
-                .iter()
-                .chain(std::iter::repeat_n(&nothing, n_absent))
-        };
-        UtilisationColumns {
-            utilisation: all().map(|largest| largest.utilisation).collect(),
-            step: all().map(|largest| i64::from(largest.step)).collect(),
-            criterion: all().map(|largest| i64::from(largest.criterion)).collect(),
-        }
-    }
-}
-
-impl UtilisationColumns {
-    pub(super) fn fields(&self) -> [Field<'_>; 3] {
-        [
-            Field::single("largest_utilisation", &self.utilisation),
-            Field::integer("step_of_largest", &self.step),
-            Field::integer("criterion_of_largest", &self.criterion),
-        ]
     }
 }
