@@ -3,7 +3,8 @@
 
 The last of the folders in the plane must have broken bonds and several steps, and so must solids; one in the plane must be a mesh that breaks.
 Values under the pointer must be those of the VTU files to half of the last digit shown, bonds those of model.vtu and breaks.csv. Meshes open along
-their cracks. Solids turn and are cut. Nothing may be asked of a network or complained of in the console.
+their cracks. Solids turn and are cut. Of two studies, which it runs itself, two results are compared: their panes and their difference, against an
+interpolation of the VTU files. Nothing may be asked of a network or complained of in the console.
 """
 
 import base64
@@ -30,6 +31,25 @@ PICTURE = "document.getElementById('body').toDataURL()"
 STEP = "Number(document.getElementById('step').value)"
 # Colours of the symbols of supports, and of loads.
 SKETCHED = {"support": (89, 97, 107), "load": (122, 64, 181)}
+ROOT = Path(__file__).resolve().parents[1]
+# How far outside of a triangle a place still belongs to it, over its height, and the share of the differences within the ends of the colours.
+OUTSIDE, WITHIN = 0.1, 0.98
+# Studies whose results are compared: the case, its settings and the axis, a result of few points first. The tall plate has not all of the others.
+STUDIES = {
+    "meshes": (
+        "plate-tension",
+        "probe = []",
+        f"key = 'mesh.file'\nvalues = {[str(ROOT / 'meshes' / it) for it in ('plate-coarse.msh', 'plate.msh', 'plate-tall.msh')]}\n"
+        "labels = ['coarse', 'fine', 'tall']",
+    ),
+    "lattices": (
+        "lattice-plate",
+        "'fracture.stop.bonds' = 5",
+        "keys = ['lattice.cells', 'lattice.spacing']\nvalues = [[[16, 24], 5e-3], [[40, 60], 2e-3]]\nlabels = ['coarse', 'fine']",
+    ),
+}
+# Fields that are compared: of a value, of a vector, and of large values.
+COMPARED = ("damage", "displacement", "strain_energy_density")
 TITLE = "A title with <script>throw 1</script> & \"quotes\""
 
 
@@ -361,6 +381,7 @@ def check_solid(program, folder, plane, place):
         choose(page, "run", 1)
         drawn(page, Path(plane).name)
         assert page.value("document.getElementById('section').offsetHeight") == 0, "a body in the plane has no sections"
+        assert page.value("document.getElementById('compared').offsetHeight") == 0, "beside a solid alone it is compared with nothing"
         assert page.pdf().startswith(b"%PDF")
         assert not page.complaints(), page.complaints()
     return counts
@@ -383,6 +404,194 @@ def check_measured(page):
     for kind in ("svg", "png", "csv"):
         page.value(f"[...document.querySelectorAll('#curve .exports button')].find((it) => it.textContent === '{kind.upper()}').click()")
         page.until(f"document.documentElement.dataset.saved === 'force-over-displacement.{kind}'")
+
+
+def run_study(program, name, place):
+    """Runs a study; returns its page and the folders of its runs by label."""
+    case, settings, axis = STUDIES[name]
+    study = place / f"{name}.toml"
+    study.write_text(f"title = '{name}'\ncase = '{ROOT}/cases/{case}/case.toml'\n[set]\n{settings}\n[[axis]]\n{axis}\n")
+    folder, report = place / name, place / f"{name}.html"
+    for words in (["sweep", study, "--out", folder], ["report", folder, "--digits", "6", "--out", report]):
+        subprocess.run([program, *words], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return report, {it.name.partition("=")[2]: it for it in (folder / "runs").iterdir()}
+
+
+def triangles_of(folder):
+    """The triangles of the mesh of a run in the plane."""
+    return np.concatenate([it.data for it in meshio.read(min(folder.glob("fields_*.vtu"))).cells if it.type == "triangle"])
+
+
+def mesh_values(values, places, triangles, at):
+    """Values at a place inside of a mesh, linear in the triangle in which it is deepest; None outside."""
+    a, b, c = (places[triangles[:, it], :2] for it in range(3))
+    shares = np.linalg.solve(np.stack([b - a, c - a], axis=2), (at - a)[:, :, None])[:, :, 0]
+    shares = np.column_stack([1.0 - shares.sum(axis=1), shares])
+    deepest = shares.min(axis=1).argmax()
+    if shares[deepest].min() < -OUTSIDE:
+        return None
+    own = np.maximum(shares[deepest], 0.0)
+    return own / own.sum() @ values[triangles[deepest]]
+
+
+def lattice_values(values, places, spacing, at):
+    """Values at a place between centres of the cells of a lattice, linear along each axis; None where one of the four cells is not there."""
+    shares = np.maximum(1.0 - np.abs(places[:, :2] - at) / spacing, 0.0).prod(axis=1)
+    return shares @ values if shares.sum() > 1.0 - 1e-4 else None
+
+
+def differences(own, there):
+    """Values at the points of the coarser result, of the finer one there (NaN outside), and their difference; of vectors their lengths."""
+    size = (lambda it: np.linalg.norm(it, axis=1)) if own.shape[1] > 1 else (lambda it: it[:, 0])
+    return size(own), size(there), size(there) - size(own)
+
+
+def exact_comparison(runs, folders, labels, steps):
+    """Factors to the unit of each field, values and differences by field, and points by tag, of the files of two results, the coarser first."""
+    coarse, fine = (fields(folders[label], step) for label, step in zip(labels, steps, strict=True))
+    # Positions are rounded in the page, and between them a field may change by more than its last digit.
+    for stored, label in zip((coarse, fine), labels, strict=True):
+        stored["places"] = np.round(stored["places"], -runs[label]["body"]["position"][0]["exponents"][0])
+    body = runs[labels[0]]["body"]
+    exact = {"points": {int(tag): point for point, tag in enumerate(coarse[body["tagged"]].ravel())}, "horizon": coarse["horizon"].ravel()}
+    triangles = None if body["half"] else triangles_of(folders[labels[1]])
+    for field in COMPARED:
+        values = fine[field].reshape(len(fine["places"]), -1)
+        own = coarse[field].reshape(len(coarse["places"]), -1)
+        there = np.full(own.shape, np.nan)
+        for point, at in enumerate(coarse["places"][:, :2]):
+            if body["half"]:
+                found = lattice_values(values, fine["places"], fine["nearest_distance"].min(), at)
+            else:
+                found = mesh_values(values, fine["places"], triangles, at)
+            there[point] = np.nan if found is None else found
+        factor = 10.0 ** next(it["shift"] for it in runs[labels[0]]["fields"] if it["name"] == field)
+        exact[field] = [factor * it for it in differences(own, there)]
+    return exact
+
+
+def compared_rows(page):
+    """Numbers of the table of two compared results with half of their last digits, the name of each row, and its horizon, mm."""
+    rows = page.value("[...document.querySelectorAll('#compared-values tbody tr')].map((row) => [...row.cells].map((it) => it.textContent))")
+    return [(name, number(value) if re.search(r"\d", value) else value, float(horizon or "nan")) for name, value, horizon in rows]
+
+
+def point_at(page, selector, across, down):
+    left, top, width, height = page.box(selector)
+    page.mouse("mouseMoved", 2, 2)
+    page.mouse("mouseMoved", left + across * width, top + down * height)
+    return not page.value("document.querySelector('#first .marker').hidden")
+
+
+def check_circles(page, rows, scale_of):
+    """Circles at the same place in both panes, with radii of one scale."""
+    circles = "[...document.querySelectorAll('.pane .horizon:not([hidden])')].map((it) => [it.offsetWidth, it.style.transform])"
+    centres = []
+    for (_, _, horizon), (width, transform) in zip(rows, page.value(circles), strict=False):
+        centres.append([float(it) + 0.5 * width for it in re.findall(r"-?[\d.]+(?=px)", transform)])
+        scale_of.append(0.5 * width / horizon)
+    assert len(centres) == 2, centres
+    # Widths are whole pixels.
+    assert np.abs(np.subtract(*centres)).max() < 1.5, centres
+
+
+def check_two_panes(page, exact, field):
+    """Two panes have one camera and the values of both results; returns how many values it compared."""
+    second = "document.querySelector('#second .picture').toDataURL()"
+    before = page.value(second)
+    page.value("document.getElementById('zoom-in').click(); 0")
+    assert page.value(second) != before, "both panes are larger"
+    page.value("document.getElementById('zoom-fit').click(); 0")
+    assert page.value(second) == before
+    scales, count = [], 0
+    for across, down in [(0.5, 0.45), (0.4, 0.48), (0.45, 0.6), (0.35, 0.65), (0.25, 0.72), (0.2, 0.6)]:
+        if not point_at(page, "#first .picture", across, down):
+            continue
+        rows = compared_rows(page)
+        point = exact["points"][int(rows[0][0].split()[-1])]
+        if np.isnan(exact[field][1][point]):
+            continue
+        for (name, (shown, half), _), value in zip(rows, exact[field], strict=True):
+            # The page has rounded both components of both results: with the last digit shown that is 1.9 units of it.
+            assert abs(shown - value[point]) <= 5 * half, (name, shown, value[point])
+            count += 1
+        assert abs(rows[0][2] - 1e3 * exact["horizon"][point]) <= 0.01 * rows[0][2], rows
+        check_circles(page, rows, scales)
+    assert count >= 6, "the pointer was over the bodies"
+    assert np.ptp(scales) < 0.1 * np.mean(scales), scales
+    return count
+
+
+def check_difference(page, exact, field, is_known):
+    """The difference is seen at the points of the coarser result alone, with an even scale; returns how many are outside of the finer body.
+
+    The page tells this number, which is compared where it is known exactly: of meshes.
+    """
+    page.value("document.activeElement.blur(); 0")
+    page.key("d", "d")
+    page.until("document.documentElement.dataset.compared.endsWith('difference')")
+    assert page.value("document.querySelectorAll('.pane:not([hidden])').length") == 1
+    values = exact[field][2]
+    sizes = np.sort(np.abs(values[np.abs(values) > 0]))
+    low, high = (number(page.value(f"document.getElementById('legend-{it}').textContent")) for it in ("low", "high"))
+    assert low[0] == -high[0]
+    # Values that are zero in one place and rounding in another move the quantile by a point.
+    near = sizes[[max(int(np.ceil(WITHIN * len(sizes))) + it, 0) for it in (-2, -1)]] if len(sizes) else [1.0, 1.0]
+    assert near[0] - 2e-3 * near[1] <= high[0] <= near[1] * 1.002, (high, near)
+    said = re.search(r"grey: (\d+) of (\d+)", page.value("document.getElementById('legend-note').textContent"))
+    outside = int(np.isnan(values).sum())
+    assert (int(said[1]) if said else 0) == outside or not is_known, (said, outside)
+    page.key("d", "d")
+    page.until("document.documentElement.dataset.compared.endsWith('both')")
+    return outside
+
+
+def check_pair(page, runs, folders, other):
+    """Compares the coarse result with another; returns how many values it compared, and how many points are outside of the other body."""
+    labels = ["coarse", other]
+    choose(page, "compared", list(runs).index(other))
+    page.until(f"document.documentElement.dataset.compared.startsWith({json.dumps(runs[other]['label'])})")
+    said = [page.value(f"document.documentElement.dataset.{it}") for it in ("drawn", "compared")]
+    steps = [int(it.removeprefix(runs[label]["label"]).split()[0]) for it, label in zip(said, labels, strict=True)]
+    exact = exact_comparison(runs, folders, labels, steps)
+    count = 0
+    for field in COMPARED:
+        choose(page, "field", field)
+        drawn(page, field)
+        count += check_two_panes(page, exact, field)
+        outside = check_difference(page, exact, field, is_known=not runs[other]["body"]["half"])
+    return count, outside
+
+
+def check_compared(program, place):
+    """Results of studies side by side and their difference; returns how many values it compared."""
+    count = 0
+    for name, others in {"meshes": ["fine", "tall"], "lattices": ["fine"]}.items():
+        report, folders = run_study(program, name, place)
+        with browser.Browser() as page:
+            page.open(report, READY)
+            runs = {it["label"].partition(" = ")[2]: it for it in described(page)["runs"]}
+            choose(page, "run", list(runs).index("coarse"))
+            drawn(page, "coarse")
+            assert page.value("document.getElementById('compared').offsetHeight") > 0, "several results can be compared"
+            # Bodies before their displacements lie at the same places.
+            choose(page, "magnification", 0)
+            for other in others:
+                more, outside = check_pair(page, runs, folders, other)
+                count += more
+                assert (outside > 0) == (other == "tall") or name == "lattices", (other, outside)
+            choose(page, "compared", "")
+            page.until("document.getElementById('second').hidden && !document.documentElement.dataset.compared")
+            assert not page.complaints(), page.complaints()
+        with browser.Browser(width=390, height=844, mobile=True) as page:
+            page.open(report, READY)
+            choose(page, "compared", 1)
+            page.until("document.documentElement.dataset.compared")
+            assert page.value("document.documentElement.scrollWidth") <= 390
+            first, second = page.box("#first"), page.box("#second")
+            assert second[1] >= first[1] + first[3], "panes are below one another"
+            assert not page.complaints(), page.complaints()
+    return count
 
 
 def main(program, *folders):
@@ -422,12 +631,13 @@ def main(program, *folders):
             check_opened_meshes(page)
             assert not page.complaints(), page.complaints()
         check_layouts(report)
+        n_compared = check_compared(program, Path(place))
         for solid in solids:
             more_values, more_bonds = check_solid(program, solid, folders[-1], Path(place))
             n_values, n_bonds = n_values + more_values, n_bonds + more_bonds
         if solids:
             check_layouts(Path(place) / "solid.html")
-    print(f"report: {n_values} values under the pointer and {n_bonds} bonds as in the files, first picture after {seconds:.1f} s")
+    print(f"report: {n_values} values under the pointer, {n_compared} compared ones and {n_bonds} bonds as in the files, first picture after {seconds:.1f} s")
 
 
 main(*sys.argv[1:])

@@ -21,7 +21,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-plot", 56_506),
     ("ligament-post", 27_060),
     ("ligament-python", 14_221),
-    ("ligament-report", 20_200),
+    ("ligament-report", 20_218),
     ("ligament-run", 30_265),
     ("ligament-study", 86_413),
     ("ligament-verify", 78_593),

@@ -17,7 +17,7 @@ use crate::summary::escaped;
 /// Template of the page, and the parts of its program in the order in which they are joined.
 const PAGE: &str = include_str!("viewer/page.html");
 const STYLE: &str = include_str!("viewer/style.css");
-const PROGRAM: [&str; 19] = [
+const PROGRAM: [&str; 22] = [
     include_str!("viewer/columns.js"),
     include_str!("viewer/numbers.js"),
     include_str!("viewer/run.js"),
@@ -35,6 +35,9 @@ const PROGRAM: [&str; 19] = [
     include_str!("viewer/charts.js"),
     include_str!("viewer/panel.js"),
     include_str!("viewer/pointers.js"),
+    include_str!("viewer/pane.js"),
+    include_str!("viewer/interpolation.js"),
+    include_str!("viewer/comparison.js"),
     include_str!("viewer/main.js"),
     include_str!("viewer/start.js"),
 ];

@@ -2,6 +2,8 @@
 
 const MARGIN = 0.92;
 const MOST_ZOOM = 200;
+// Distance of the corners of bodies of the same size, over their diagonal: a mesh ends at its outermost nodes.
+const ALIKE = 0.02;
 const FROM_ABOVE = { azimuth: -90, elevation: 90 };
 const OBLIQUE = { azimuth: -60, elevation: 28 };
 // The views along the axes, by their names.
@@ -14,8 +16,10 @@ class Camera {
     this.show({ low: [0, 0, 0], high: [1, 1, 0] }, FROM_ABOVE);
   }
 
-  // Looks at a body between two corners of a box.
+  // Looks at a body between two corners of a box; what is seen stays where a body of the same size was seen before.
   show(box, view) {
+    const isNear = (end) => this.box[end].every((it, axis) => Math.abs(it - box[end][axis]) < ALIKE * this.diagonal);
+    if (view === this.home && isNear("low") && isNear("high")) return;
     this.box = box;
     this.home = view;
     this.reset();

@@ -12,27 +12,35 @@ class Page {
     this.runs = description.runs.map((it) => new Run(it));
     this.run = this.runs[0];
     this.step = this.run.description.opensAt;
-    this.canvas = element("body");
-    this.scene = new Scene(this.canvas, () => {
-      this.tellGraphics();
-      this.redraw();
-    });
-    this.lines = new Lines(this.scene);
-    this.symbols = new Symbols(this.scene);
+    this.camera = new Camera();
+    this.first = this.newPane("first");
+    // One beside the first as soon as results are compared.
+    this.second = null;
+    this.panes = [this.first];
+    this.comparison = new Comparison(this.runs);
     this.panel = new Panel();
     this.charts = new Charts(this.runs, description.measured, (number, step) => this.go(step, this.runs[number]));
     this.asked = 0;
+    this.askedBodies = 0;
     this.pinned = null;
-    this.family = [];
-    this.chosenBond = null;
+    this.hovered = null;
     this.listen();
+  }
+
+  newPane(id) {
+    const pane = new Pane(element(id), this.camera, () => {
+      this.tellGraphics();
+      this.redraw();
+    });
+    new ResizeObserver(() => this.redraw()).observe(pane.canvas);
+    listenToPointers(pane, this);
+    return pane;
   }
 
   async start() {
     options(element("run"), this.runs.map((run, number) => [number, run.label]));
     element("run").closest("label").hidden = this.runs.length < 2;
     element("runs").max = this.runs.length - 1;
-    this.hadGraphics = Boolean(this.scene.drawing);
     this.tellGraphics();
     await this.showRun(this.run);
     document.documentElement.dataset.ready = "true";
@@ -40,8 +48,9 @@ class Page {
 
   // Says why the body is not drawn, where it is not.
   tellGraphics() {
-    const isLost = this.hadGraphics && !this.scene.drawing;
-    element("no-view").hidden = Boolean(this.scene.drawing);
+    const without = this.panes.filter((it) => !it.scene.drawing);
+    const isLost = without.some((it) => it.hadGraphics);
+    element("no-view").hidden = without.length === 0;
     element("no-view").textContent = isLost
       ? "The browser took the graphics away; the body is drawn again as soon as it gives them back."
       : "This browser has no WebGL 2, so the body is not drawn; numbers and curves are here.";
@@ -49,40 +58,78 @@ class Page {
 
   // Another result: its fields, steps, curves and summary.
   async showRun(run) {
-    const isOther = run !== this.run;
+    if (run !== this.run) this.step = Math.min(this.step, run.steps.length - 1);
     this.run = run;
-    if (isOther) this.step = Math.min(this.step, run.steps.length - 1);
     Object.assign(element("step"), { max: run.steps.length - 1, value: this.step });
     element("step").closest(".steps").hidden = run.steps.length < 2;
     element("run").value = element("runs").value = this.runs.indexOf(run);
     for (const summary of document.querySelectorAll(".summary")) summary.hidden = Number(summary.dataset.run) !== this.runs.indexOf(run);
     this.charts.showRun(run);
     document.body.classList.toggle("solid", run.isSolid);
-    await this.showBody(run, isOther);
+    await this.showBodies();
+  }
+
+  // The shown result, and the one that it is compared with.
+  get wanted() {
+    return [this.run, this.comparison.beside(this.run)].filter(Boolean);
+  }
+
+  // Compares with another result, or with none.
+  async compare(run) {
+    this.comparison.choose(run);
+    await this.showBodies();
+  }
+
+  // The bodies of the results, and what can be seen of them.
+  async showBodies() {
+    const { wanted, run } = this;
+    const asked = ++this.askedBodies;
+    this.comparison.offer(run);
+    const bodies = await Promise.all(wanted.map((it) => Promise.all([it.body(), it.vector("horizon", 0)])));
+    if (asked !== this.askedBodies) return;
+    if (wanted.length > 1) this.second ??= this.newPane("second");
+    if (this.first.run !== run) this.offer(run);
+    this.offerCracks(wanted);
+    this.panes = [this.first, this.second].slice(0, wanted.length);
+    this.panes.forEach((pane, place) => {
+      const [body, horizons] = bodies[place];
+      if (pane.run !== wanted[place]) pane.show(wanted[place], body, horizons?.[0]);
+    });
+    element("symbols").closest("label").hidden = this.panes.every((it) => it.symbols.isEmpty);
+    this.letGo();
+    this.hovered = null;
+    this.panel.clear();
+    this.camera.show(this.box, run.isSolid ? OBLIQUE : FROM_ABOVE);
+    this.allowTouch();
+    this.tellGraphics();
     await this.showStep();
   }
 
-  // The body of a result, and what can be seen of it.
-  async showBody(run, isOther) {
-    const choice = isOther ? element("field").value : run.description.firstField;
+  // Two corners of the box around the bodies.
+  get box() {
+    const of = (end, outermost) => [0, 1, 2].map((axis) => outermost(...this.panes.map((it) => it.scene.box[end][axis])));
+    return { low: of("low", Math.min), high: of("high", Math.max) };
+  }
+
+  // Whether the difference of two results is seen, in the pane of the coarser one.
+  get isDifference() {
+    return this.panes.length > 1 && this.comparison.isDifference;
+  }
+
+  // The panes that are seen.
+  get shown() {
+    return this.isDifference ? this.comparison.coarserFirst(this.panes).slice(0, 1) : this.panes;
+  }
+
+  // Controls of a result.
+  offer(run) {
+    const choice = this.first.run ? element("field").value : run.description.firstField;
     options(element("field"), run.choices.map((it) => [it.id, it.label]));
     element("field").value = run.choice(choice).id;
     this.offerMagnifications();
-    this.offerCracks();
     element("forces").closest("label").hidden = run.isModes || !run.field("reaction");
     element("section").value = "";
     if (run.isModes) element("scale").value = "inner";
-    this.pinned = null;
-    this.hovered = null;
-    this.family = [];
-    this.panel.clear();
-    this.body = await run.body();
-    this.horizons = (await run.vector("horizon", 0))?.[0];
-    this.scene.show(this.body);
-    this.lines.show(run, this.body);
-    this.symbols.show(run);
-    element("symbols").closest("label").hidden = this.symbols.isEmpty;
-    this.allowTouch();
   }
 
   offerMagnifications() {
@@ -94,17 +141,22 @@ class Page {
     element("magnification").value = auto;
   }
 
-  offerCracks() {
+  // What cracks can be shown as in the panes of some results.
+  offerCracks(runs) {
     const choices = [];
-    const { cracks, body } = this.run.description;
-    if (cracks?.simplices > 0) choices.push(["open", body.half ? "between cells" : "open"]);
-    if (cracks?.lines) choices.push(["lines", "lines"]);
-    if (cracks?.simplices > 0 && this.run.isSolid) choices.push(["surface", "surface, by its opening"]);
-    if (this.run.bonds) choices.push(["bonds", "broken bonds"]);
+    const isAny = (of) => runs.some((it) => of(it.description));
+    const isHalf = isAny(({ body }) => body.half);
+    const isOpen = isAny(({ cracks }) => cracks?.simplices > 0);
+    if (isOpen) choices.push(["open", isHalf ? "between cells" : "open"]);
+    if (isAny(({ cracks }) => cracks?.lines)) choices.push(["lines", "lines"]);
+    if (isOpen && this.run.isSolid) choices.push(["surface", "surface, by its opening"]);
+    if (runs.some((it) => it.bonds)) choices.push(["bonds", "broken bonds"]);
     element("cracks").closest("label").hidden = choices.length === 0;
     // Cells of a cracked lattice are apart in any case.
-    if (!(cracks?.simplices > 0 && body.half)) choices.push(["none", "none"]);
+    if (!(isOpen && isHalf)) choices.push(["none", "none"]);
+    const before = this.first.run === this.run ? element("cracks").value : "";
     options(element("cracks"), choices);
+    if (choices.some(([id]) => id === before)) element("cracks").value = before;
   }
 
   get choice() {
@@ -128,21 +180,41 @@ class Page {
 
   // Reads and draws the step. Of several asked for in a row only the last is drawn.
   async showStep() {
-    const asked = ++this.asked;
-    const { run, step, choice } = this;
+    const { run, step, choice, panes, wanted } = this;
     this.tellStep();
-    const [values, displacement, broken, cut, reaction] = await Promise.all([
-      run.values(choice, step), run.vector("displacement", step), this.readBroken(), run.cut(step), run.isModes ? null : run.vector("reaction", step),
-    ]);
+    // Bodies that are still read are drawn with the step as soon as they are there.
+    if (wanted.length !== panes.length || wanted.some((it, place) => it !== panes[place].run)) return;
+    const asked = ++this.asked;
+    const mode = element("cracks").value;
+    const states = await Promise.all(panes.map((pane) => pane.read(run === pane.run ? step : run.stepAlike(step, pane.run), choice, mode)));
     // One picture a frame: a slow machine would pile them up.
     await new Promise(requestAnimationFrame);
-    if (asked !== this.asked) return;
-    Object.assign(this, { values, displacement, broken, cut, reaction });
+    if (asked !== this.asked || panes !== this.panes) return;
+    panes.forEach((pane, place) => Object.assign(pane, states[place]));
+    this.showPanes();
     this.place();
     this.charts.mark(run, step);
-    const point = this.pinned ?? this.hovered;
-    if (point !== undefined && point !== null) this.panel.showPoint(run, this.body, point, step, choice);
-    document.documentElement.dataset.drawn = `${run.label} ${run.steps[step]} ${choice.id}`;
+    this.showPoint();
+    Object.assign(document.documentElement.dataset, {
+      drawn: `${run.label} ${run.steps[step]} ${choice.id}`,
+      compared: panes.slice(1).map((pane) => `${pane.run.label} ${pane.run.steps[pane.step]} ${this.isDifference ? "difference" : "both"}`).join(),
+    });
+  }
+
+  // Shows the panes that are seen, each with a line of words where there are two.
+  showPanes() {
+    const { panes, shown } = this;
+    element("panes").classList.toggle("two", shown.length > 1);
+    for (const pane of [this.first, this.second]) if (pane) pane.element.hidden = !shown.includes(pane);
+    // Beside the picture, whichever it is.
+    const { stage } = shown.at(-1);
+    if (!stage.contains(element("zoom"))) stage.append(element("zoom"), element("no-view"));
+    const [coarse, fine] = panes.length > 1 ? this.comparison.coarserFirst(panes) : [];
+    for (const pane of shown) {
+      pane.caption.hidden = panes.length < 2;
+      const state = (it) => `${it.run.label}: ${stateText(it.run, it.step)}`;
+      pane.caption.textContent = this.isDifference ? `${state(fine)}; less ${state(coarse)}` : panes.length > 1 ? state(pane) : "";
+    }
   }
 
   tellStep() {
@@ -159,128 +231,171 @@ class Page {
     element("step-text").textContent = words.join(", ");
   }
 
-  // The deformed body, cut and opened as it is asked for.
+  // The deformed bodies, cut and opened as it is asked for.
   place() {
+    if (this.panes.some((it) => !it.values)) return;
     const axis = element("section").value;
     const isCut = axis !== "" && this.run.isSolid;
     element("cut-label").hidden = !isCut;
-    const { low, high } = this.scene.box;
+    const { low, high } = this.first.scene.box;
     const at = isCut ? low[axis] + Number(element("cut").value) * (high[axis] - low[axis]) : 0;
     // Beside the points, which lie in planes of many meshes.
     const section = isCut ? { axis: Number(axis), at: at + 1e-6 * (high[axis] - low[axis]) } : null;
     element("cut-text").textContent = isCut ? `${"xyz"[axis]} = ${shortText(1e3 * at)} mm` : "";
-    this.scene.place({
-      displacement: this.displacement, factor: Number(element("magnification").value), cut: this.cut, mode: element("cracks").value, section,
-    });
+    for (const pane of this.panes) pane.place({ factor: Number(element("magnification").value), mode: element("cracks").value, section });
     this.colour();
   }
 
   colour() {
-    const { choice, run, scene } = this;
-    const scale = element("scale").value;
-    const shown = { values: this.values, label: choice.label, unit: choice.field.unit, map: mapOf(choice.field.name) };
-    const ofSteps = choice.place === null ? [0, choice.field.magnitude] : choice.field.ranges[choice.place];
-    const shift = 10 ** choice.field.shift;
-    let range = scale === "all" ? ofSteps.map((it) => it * shift) : rangeOfValues(this.values, scale === "inner" ? 0.01 : 0);
-    if (scene.isSurface) {
-      const { unit, shift: power } = run.field("displacement");
-      Object.assign(shown, { values: scene.crack.values.map((it) => it * 10 ** power), label: "crack opening", unit, map: "damage" });
-      range = [0, rangeOfValues(shown.values, 0.01)[1]];
-    }
-    this.range = colourRange(...range, shown.map);
-    const bytes = colourTable(this.range.map);
-    scene.colour(shown.values, this.range, bytes);
-    scene.upload();
-    this.showLegend(bytes, shown);
+    if (this.panes.some((it) => !it.values)) return;
+    const { choice, isDifference } = this;
+    element("scale").closest("label").hidden = isDifference;
+    const shown = { label: choice.label, unit: choice.field.unit, map: mapOf(choice.field.name), note: "" };
+    if (isDifference) this.colourDifference(shown);
+    else this.colourValues(shown);
     this.redraw();
   }
 
-  showLegend(bytes, { label, unit }) {
+  // The colours of the values in all panes.
+  colourValues(shown) {
+    const { choice, first } = this;
+    const scale = element("scale").value;
+    const { shift } = choice.field;
+    let values = this.panes.map((it) => it.values);
+    let range = scale === "all" ? this.rangeOfSteps(shift) : rangeOfValues(values.flatMap((it) => Array.from(it)), scale === "inner" ? 0.01 : 0);
+    if (first.scene.isSurface) {
+      const { unit, shift: power } = this.run.field("displacement");
+      values = [first.scene.crack.values.map((it) => it * 10 ** power)];
+      Object.assign(shown, { label: "crack opening", unit, map: "damage" });
+      range = [0, rangeOfValues(values[0], 0.01)[1]];
+    }
+    const without = this.panes.filter((it) => !it.choice).map((it) => it.run.label);
+    if (without.length > 0) shown.note = `grey, without this field: ${without.join(", ")}`;
+    this.range = colourRange(...range, shown.map);
+    const bytes = colourTable(this.range.map);
+    this.panes.forEach((pane, place) => pane.colour(values[place], this.range, bytes));
+    this.showLegend(bytes, shown);
+  }
+
+  // The range of the field over the steps of all panes.
+  rangeOfSteps(shift) {
+    const ranges = this.panes.filter((it) => it.choice).map((it) => it.run.range(it.choice, shift));
+    return [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))];
+  }
+
+  // The colours of the difference, in the pane of the coarser result.
+  colourDifference(shown) {
+    const { values, outside, coarse } = this.comparison.difference(this.panes);
+    this.range = differenceRange(values);
+    const bytes = colourTable(this.range.map);
+    coarse.colour(values, this.range, bytes);
+    const missing = this.panes.find((it) => !it.choice);
+    const grey = outside > 0 ? `; grey: ${outside} of ${values.length} points outside of the finer body` : "";
+    const note = missing ? `grey: without this field in ${missing.run.label}` : `at the points of the coarser result, 98 % within these ends${grey}`;
+    this.showLegend(bytes, { ...shown, label: `finer less coarser: ${shown.label}`, note });
+  }
+
+  showLegend(bytes, { label, unit, note }) {
     const bar = element("legend-bar");
     const picture = new ImageData(new Uint8ClampedArray(bytes), bar.width, 1);
     bar.getContext("2d").putImageData(picture, 0, 0);
     element("legend-low").textContent = shortText(this.range.low);
     element("legend-high").textContent = shortText(this.range.high);
     element("legend-name").textContent = labelWithUnit(label, unit);
-  }
-
-  // The ends of broken bonds in the state of the step.
-  async readBroken() {
-    const { run, step } = this;
-    if (element("cracks").value !== "bonds" || !run.bonds) return null;
-    const [ends, breaks, count] = await Promise.all([run.bonds.ends(), run.bonds.breaks(), run.bonds.countAt(run.steps[step])]);
-    return Array.from(breaks.bond.subarray(0, count), (bond) => [ends.a[bond], ends.b[bond]]);
+    element("legend-note").hidden = !note;
+    element("legend-note").textContent = note;
   }
 
   redraw() {
-    if (!this.values || !this.scene.vertices) return;
-    this.scene.draw(this.lines.layers({
-      step: this.step,
-      mode: element("cracks").value,
-      broken: this.broken,
-      family: this.family,
-      chosen: this.chosenBond,
-      reaction: element("forces").checked ? this.reaction : null,
-      symbols: element("symbols").checked ? this.symbols : null,
-      isOverRed: this.range.map !== "cividis",
-    }));
-    if (this.run.isSolid) drawAxes(element("axes"), this.scene.camera);
+    for (const pane of this.shown) {
+      pane.draw({
+        mode: element("cracks").value,
+        isOverRed: this.range?.map !== "cividis",
+        withForces: element("forces").checked,
+        withSymbols: element("symbols").checked,
+      });
+    }
+    if (this.run.isSolid) drawAxes(element("axes"), this.camera);
     this.mark();
+  }
+
+  // The point that is kept or under the pointer, with its pane.
+  get pointed() {
+    return this.pinned ?? this.hovered;
+  }
+
+  // What each pane has at the place of the pointed point.
+  get seen() {
+    const { pointed } = this;
+    return this.panes.map((pane) => {
+      if (!pointed || !pane.values) return null;
+      if (pane === pointed.pane) return pane.seen(pointed.point);
+      const { x, y } = pointed.pane.body;
+      return pane.seenAt(x[pointed.point], y[pointed.point]);
+    });
   }
 
   mark() {
-    const point = this.pinned ?? this.hovered;
-    const [marker, horizon] = ["marker", "horizon"].map(element);
-    marker.hidden = point === undefined || point === null;
-    horizon.hidden = marker.hidden || !this.horizons;
-    if (marker.hidden) return;
-    const { camera } = this.scene;
-    const [px, py] = this.scene.pixelOf(point);
-    marker.hidden = px < 0 || py < 0 || px > camera.width || py > camera.height;
-    marker.style.transform = `translate(${px}px, ${py}px)`;
-    if (!this.horizons) return;
-    // A circle as large as the horizon of the point in the body before its displacement.
-    const radius = this.horizons[point] * camera.scale;
-    Object.assign(horizon.style, { width: `${2 * radius}px`, height: `${2 * radius}px`, transform: `translate(${px - radius}px, ${py - radius}px)` });
+    const { seen } = this;
+    const horizons = this.panes.map((pane, place) => (seen[place] && pane.horizons ? pane.horizons[seen[place].point] : 0));
+    // One pane has the circles of both results.
+    this.panes.forEach((pane, place) => pane.mark(seen[place], [horizons[place], this.isDifference ? horizons[1 - place] : 0]));
   }
 
-  hover(px, py) {
+  // The values of the pointed point, and beside them those of the compared result.
+  showPoint() {
+    const { pointed, panes } = this;
+    if (!pointed) return;
+    const { pane, point } = pointed;
+    this.panel.showPoint(pane.run, pane.body, point, pane.step, pane.choice ?? pane.run.choice(""));
+    const { label, field } = this.choice;
+    const heads = ["", labelWithUnit(label, field.unit), "horizon (mm)"];
+    this.panel.showCompared(panes.length > 1 ? [heads, ...this.comparison.rows(panes, this.seen, pointed)] : []);
+  }
+
+  hover(pane, px, py) {
     if (this.pinned !== null) {
-      const pixels = (point) => this.scene.pixelOf(point).slice(0, 2);
-      const distances = this.family.map((it) => distanceToSegment(px, py, it.ends.flatMap(pixels)));
+      if (pane !== this.pinned.pane) return;
+      const pixels = (point) => pane.scene.pixelOf(point).slice(0, 2);
+      const distances = pane.family.map((it) => distanceToSegment(px, py, it.ends.flatMap(pixels)));
       const nearest = distances.indexOf(Math.min(...distances));
-      if (distances[nearest] <= REACH) this.chooseBond(this.family[nearest].bond);
+      if (distances[nearest] <= REACH) this.chooseBond(pane.family[nearest].bond);
       return;
     }
-    const point = this.scene.pointAt(px, py);
-    if (point === this.hovered) return;
-    this.hovered = point;
+    const point = pane.scene.pointAt(px, py);
+    if (point === (this.hovered?.point ?? null) && (point === null || pane === this.hovered.pane)) return;
+    this.hovered = point === null ? null : { pane, point };
     this.mark();
-    if (point !== null) this.panel.showPoint(this.run, this.body, point, this.step, this.choice);
+    this.showPoint();
   }
 
-  // Keeps a point and shows its bonds; without one lets go.
-  async pin(point) {
-    this.pinned = point;
-    this.hovered = point;
-    this.family = [];
-    this.chosenBond = null;
+  letGo() {
+    this.pinned = null;
+    for (const pane of this.panes) pane.letGo();
+  }
+
+  // Keeps a point of a pane and shows its bonds; without one lets go.
+  async pin(pane, point) {
+    this.letGo();
+    const pinned = point === null ? null : { pane, point };
+    this.pinned = pinned;
+    this.hovered = pinned;
     if (point === null) this.panel.bondValues.replaceChildren();
     this.redraw();
     if (point === null) return;
-    this.panel.showPoint(this.run, this.body, point, this.step, this.choice);
-    if (!this.run.bonds) return;
-    const family = await this.familyOf(point);
-    if (this.pinned !== point) return;
-    this.family = family;
+    this.showPoint();
+    const { run, body } = pane;
+    if (!run.bonds) return;
+    const family = await this.familyOf(pane, point);
+    if (this.pinned !== pinned) return;
+    pane.family = family;
     this.redraw();
-    await this.panel.showBonds(this.run, this.body, point, this.family, null, (bond) => this.chooseBond(bond));
+    await this.panel.showBonds(run, body, point, family, null, (bond) => this.chooseBond(bond));
   }
 
-  async familyOf(point) {
-    const [ends, breaks] = await Promise.all([this.run.bonds.ends(), this.run.bonds.breaks()]);
-    const { x, y, z } = this.body;
-    const absent = await this.run.bonds.columns.find((it) => it.name === "absent")?.column.multiples(0);
+  async familyOf({ run, body: { x, y, z } }, point) {
+    const [ends, breaks] = await Promise.all([run.bonds.ends(), run.bonds.breaks()]);
+    const absent = await run.bonds.columns.find((it) => it.name === "absent")?.column.multiples(0);
     const bonds = Array.from(ends.ofPoints.subarray(ends.first[point], ends.first[point + 1]));
     return bonds.map((bond) => {
       const [a, b] = [ends.a[bond], ends.b[bond]];
@@ -293,10 +408,11 @@ class Page {
   }
 
   chooseBond(bond) {
-    if (bond === this.chosenBond) return;
-    this.chosenBond = bond;
-    const found = this.family.find((it) => it.bond === bond);
-    if (found) this.panel.showBond(this.run, this.body, found);
+    const pane = this.pinned?.pane;
+    if (!pane || bond === pane.chosenBond) return;
+    pane.chosenBond = bond;
+    const found = pane.family.find((it) => it.bond === bond);
+    if (found) this.panel.showBond(pane.run, pane.body, found);
     this.redraw();
   }
 
@@ -304,16 +420,18 @@ class Page {
     element("run").addEventListener("change", (event) => this.goToRun(Number(event.target.value)));
     element("runs").addEventListener("input", (event) => this.goToRun(Number(event.target.value)));
     element("field").addEventListener("change", () => {
-      this.run.keepOnly(this.choice.field);
+      for (const { run } of this.panes) run.keepOnly(run.field(this.choice.field.name));
       this.showStep();
     });
+    element("compared").addEventListener("change", (event) => this.compare(this.runs[event.target.value] ?? null));
+    element("view").addEventListener("change", (event) => this.showDifference(event.target.value === "difference"));
     element("scale").addEventListener("change", () => this.colour());
     element("magnification").addEventListener("change", () => this.place());
     element("cracks").addEventListener("change", () => this.showStep());
     element("section").addEventListener("change", () => this.place());
     element("cut").addEventListener("input", () => this.place());
     for (const id of ["forces", "symbols"]) element(id).addEventListener("change", () => this.redraw());
-    element("save-body").addEventListener("click", () => save(this.canvas.toDataURL("image/png"), `${this.run.label}-${this.choice.id}-${this.run.steps[this.step]}.png`));
+    element("save-body").addEventListener("click", () => this.saveBody());
     for (const button of document.querySelectorAll("[data-view]")) button.addEventListener("click", () => this.look(button.dataset.view));
     element("step").addEventListener("input", (event) => this.go(Number(event.target.value)));
     element("play").addEventListener("click", () => this.play());
@@ -321,45 +439,63 @@ class Page {
       element(id).addEventListener("click", () => this.zoom(factor));
     }
     element("theme").addEventListener("click", switchTheme);
-    new ResizeObserver(() => this.redraw()).observe(this.canvas);
-    listenToPointers(this.canvas, this);
     document.addEventListener("keydown", (event) => this.key(event));
     window.addEventListener("beforeprint", () => this.print(true));
     window.addEventListener("afterprint", () => this.print(false));
   }
 
+  // The picture of the body, or the pictures of both beside one another.
+  saveBody() {
+    const [first, ...others] = this.shown.map((it) => it.canvas);
+    const names = [...this.wanted.map((it) => it.label), this.isDifference ? "difference" : "", this.choice.id, this.run.steps[this.step]];
+    let whole = first;
+    if (others.length > 0) {
+      whole = Object.assign(document.createElement("canvas"), { width: first.width + others[0].width, height: first.height });
+      [first, ...others].forEach((it, place) => whole.getContext("2d").drawImage(it, place * first.width, 0));
+    }
+    save(whole.toDataURL("image/png"), `${names.filter((it) => it !== "").join("-")}.png`);
+  }
+
+  // Shows the difference of the compared results in place of both.
+  async showDifference(isDifference) {
+    this.comparison.isDifference = isDifference;
+    this.comparison.offer(this.run);
+    await this.showStep();
+  }
+
   zoom(factor, px, py) {
-    if (factor === 0) this.scene.camera.reset();
-    else this.scene.camera.zoomBy(factor, px, py);
+    if (factor === 0) this.camera.reset();
+    else this.camera.zoomBy(factor, px, py);
     this.allowTouch();
     this.redraw();
   }
 
   move(dx, dy) {
-    this.scene.camera.moveBy(dx, dy);
+    this.camera.moveBy(dx, dy);
     this.redraw();
   }
 
   drag(dx, dy, moves) {
     if (this.run.isSolid && !moves) {
-      this.scene.camera.turnBy(dx, dy);
+      this.camera.turnBy(dx, dy);
       this.redraw();
     } else this.move(dx, dy);
   }
 
   look(view) {
-    this.scene.camera.reset(VIEWS[view]);
+    this.camera.reset(VIEWS[view]);
     this.allowTouch();
     this.redraw();
   }
 
   // A finger turns a solid; over the whole body in the plane it scrolls the page, and moves the body once it is larger.
   allowTouch() {
-    this.canvas.style.touchAction = this.run.isSolid || this.scene.camera.zoom > 1.01 ? "none" : "pan-y";
+    for (const { canvas } of this.panes) canvas.style.touchAction = this.run.isSolid || this.camera.zoom > 1.01 ? "none" : "pan-y";
   }
 
   key(event) {
-    const isOnBody = event.target === this.canvas;
+    const pane = this.shown.find((it) => it.canvas === event.target);
+    const isOnBody = Boolean(pane);
     const isElsewhere = event.target !== document.body && !isOnBody;
     if (isElsewhere || event.ctrlKey || event.metaKey || event.altKey) return;
     const moves = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
@@ -374,8 +510,10 @@ class Page {
     else if (event.key === "+" || event.key === "=") this.zoom(1.25);
     else if (event.key === "-") this.zoom(1 / 1.25);
     else if (event.key === "0") this.zoom(0);
-    else if (event.key === "Enter" && isOnBody) this.pin(this.scene.pointAt(this.scene.camera.width / 2, this.scene.camera.height / 2));
-    else if (event.key === "Escape") this.pin(null);
+    else if (event.key === "c" && !element("compared").closest("label").hidden) this.compare(this.wanted[1] ? null : this.comparison.usual(this.run));
+    else if (event.key === "d" && !element("view").closest("label").hidden) this.showDifference(!this.isDifference);
+    else if (event.key === "Enter" && isOnBody) this.pin(pane, pane.scene.pointAt(this.camera.width / 2, this.camera.height / 2));
+    else if (event.key === "Escape") this.pin(null, null);
     else return;
     event.preventDefault();
   }
@@ -394,13 +532,9 @@ class Page {
     button.textContent = "▶";
   }
 
-  // A picture in place of the canvas, which not every browser prints.
+  // What is seen, for paper.
   print(isBefore) {
-    const picture = element("printed");
-    const isDrawn = isBefore && Boolean(this.scene.drawing);
-    if (isDrawn) picture.src = this.canvas.toDataURL("image/png");
-    picture.hidden = !isDrawn;
-    this.canvas.hidden = isDrawn;
+    for (const pane of this.shown) pane.print(isBefore);
     if (!isBefore) this.redraw();
   }
 }

@@ -11,6 +11,11 @@ function exactText(multiple, exponent, shift) {
   return Number(text) === 0 ? "0" : minus(text);
 }
 
+// A value to a power of ten.
+function textTo(value, exponent) {
+  return Number.isFinite(value) ? exactText(Math.round(value / 10 ** exponent), exponent, 0) : shortText(value);
+}
+
 // A value with four digits, in the display unit.
 function shortText(value, digits = 4) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? "–" : "∞";

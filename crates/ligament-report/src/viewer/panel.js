@@ -5,6 +5,7 @@ const ABSENT = ["", "none: cut by a pre-crack", "none: a hole or notch lies betw
 class Panel {
   constructor() {
     this.values = document.getElementById("point-values");
+    this.compared = document.getElementById("compared-values");
     this.bondValues = document.getElementById("bond-values");
     this.history = new Chart(document.getElementById("point-history"), "The field at the point over the steps");
     this.asked = 0;
@@ -15,6 +16,7 @@ class Panel {
     this.asked++;
     this.values.replaceChildren(note("Point at the body, or press Enter on it for the point in the middle."));
     this.history.parent.replaceChildren();
+    this.showCompared([]);
     this.bondValues.replaceChildren();
   }
 
@@ -42,6 +44,21 @@ class Panel {
     if (asked !== this.asked) return;
     write();
     this.values.dataset.whole = `${point} ${step}`;
+  }
+
+  // Values of two results at a place: rows of texts under their heads; without rows nothing.
+  showCompared([heads, ...rows]) {
+    this.compared.replaceChildren();
+    if (!heads) return;
+    const list = document.createElement("table");
+    const add = (body, kinds, texts) => {
+      const row = body.insertRow();
+      texts.forEach((it, place) => row.append(cell(kinds[place], it)));
+    };
+    add(list.createTHead(), heads.map(() => "th"), heads);
+    const body = list.createTBody();
+    for (const row of rows) add(body, ["th", "td", "td"], row);
+    this.compared.append(list);
   }
 
   async showHistory(run, point, step, choice, asked) {

@@ -1,6 +1,7 @@
 // Pointers on the body: hover, click, drag and wheel, and two fingers. A drag turns a solid, and moves a body in the plane.
 
-function listenToPointers(canvas, page) {
+function listenToPointers(pane, page) {
+  const { canvas } = pane;
   const pointers = new Map();
   let moved = 0;
   const place = (event) => {
@@ -22,7 +23,7 @@ function listenToPointers(canvas, page) {
     const now = place(event);
     const before = pointers.get(event.pointerId);
     if (!before) {
-      page.hover(...now);
+      page.hover(pane, ...now);
       return;
     }
     const [distance, centre] = pointers.size === 2 ? [spread(), middle()] : [0, now];
@@ -42,8 +43,9 @@ function listenToPointers(canvas, page) {
     const isClick = pointers.size === 1 && moved <= 4;
     pointers.delete(event.pointerId);
     if (!isClick) return;
-    const point = page.scene.pointAt(...place(event));
-    page.pin(point === page.pinned ? null : point);
+    const point = pane.scene.pointAt(...place(event));
+    const isPinned = page.pinned?.pane === pane && page.pinned.point === point;
+    page.pin(pane, isPinned ? null : point);
   });
   canvas.addEventListener("pointercancel", (event) => pointers.delete(event.pointerId));
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());

@@ -124,12 +124,19 @@ class Run {
     return this.choices.find((it) => it.id === id) ?? this.choices[0];
   }
 
-  // Values of a choice in its display unit.
-  async values({ field, place }, step) {
-    const factor = 10 ** field.shift;
-    if (place !== null) return field.columns[place].values(step, factor);
-    const parts = await Promise.all(field.columns.map((column) => column.values(step, factor)));
-    return parts[0].map((_, point) => Math.hypot(...parts.map((it) => it[point])));
+  // Components of a choice in its display unit, or in that of another shift.
+  async parts({ field, place }, step, shift = field.shift) {
+    return Promise.all(columnsOf(field, place).map((column) => column.values(step, 10 ** shift)));
+  }
+
+  // The power of ten of the last digit of a choice in a step, SI units.
+  exponent({ field, place }, step) {
+    return Math.max(...columnsOf(field, place).map((column) => column.exponents[step]));
+  }
+
+  // The range of a choice over the steps, in the display unit of a shift.
+  range({ field, place }, shift = field.shift) {
+    return (place === null ? [0, field.magnitude] : field.ranges[place]).map((it) => it * 10 ** shift);
   }
 
   // Components of a vector field in a step, in SI units; null without it.
@@ -140,7 +147,7 @@ class Run {
 
   // Values of a choice at a point over the steps, in the display unit.
   async valuesOfPoint({ field, place }, point) {
-    const columns = place === null ? field.columns : [field.columns[place]];
+    const columns = columnsOf(field, place);
     const of = async (column, step) => {
       const multiples = await column.multiples(step);
       return valueOf(multiples[point], column.units[step] * 10 ** field.shift);
@@ -158,6 +165,11 @@ class Run {
       if (field !== shown && field.name !== "displacement") field.columns.forEach((it) => it.forget());
     }
   }
+}
+
+// The columns of a choice: of one component, or of all.
+function columnsOf({ columns }, place) {
+  return place === null ? columns : [columns[place]];
 }
 
 // What can be shown of a field: itself, or its components; of a vector its length too.

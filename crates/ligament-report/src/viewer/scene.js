@@ -6,9 +6,9 @@ const NO_CUT = { list: [], key: "" };
 
 class Scene {
   // `changed` is called when what was drawn was lost, or can be drawn again.
-  constructor(canvas, changed) {
+  constructor(canvas, camera, changed) {
     this.canvas = canvas;
-    this.camera = new Camera();
+    this.camera = camera;
     this.drawing = Drawing.on(canvas);
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
@@ -27,6 +27,7 @@ class Scene {
     this.body = body;
     this.isSolid = body.dimension === 3;
     this.key = null;
+    this.vertices = null;
     const coordinates = [body.x, body.y, body.z];
     const bound = (sign) => coordinates.map((along, axis) => along.reduce((most, it, point) => {
       const outer = sign * it + (body.half ? body.half[axis][point] : 0);
@@ -34,7 +35,6 @@ class Scene {
     }, -Infinity) * sign);
     this.box = { low: bound(-1), high: bound(1) };
     this.origin = this.box.low.map((it, axis) => (it + this.box.high[axis]) / 2);
-    this.camera.show(this.box, this.isSolid ? OBLIQUE : FROM_ABOVE);
   }
 
   // The state of a step. `cut`: where the crack is; `mode`: how it is drawn; `section`: axis and coordinate of a plane, or null.
