@@ -13,7 +13,8 @@ use ligament::run::NoObserver;
 use ligament_analysis::distributed_matrix::Solo;
 use ligament_analysis::refinement_pass::LastPass;
 use ligament_case::case::CaseFile;
-use ligament_output::summary::{Build, RefinementSummary};
+use ligament_output::results::passes::RefinementSummary;
+use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
 use ligament_run::{repeat, resume, run};
 use verification::bench::{Bench, case, run_program, solved};
@@ -90,7 +91,8 @@ fn no_point_beyond_the_fine_part_reaches_a_place() {
         let fine_horizon = refined.fine_horizon();
         let longest = |horizons: &[f64]| horizons.iter().copied().fold(0.0, f64::max);
         let before = longest(&coarse.fixed.horizon);
-        assert!(fine_horizon <= before / 2f64.powi(levels as i32));
+        // Shortest edges at points scatter by a third, and the longest of all need not be at the places.
+        assert!(fine_horizon <= 1.5 * before / 2f64.powi(levels as i32));
         let body = model.body();
         let mut is_coarse = 0;
         for (point, &horizon) in model.fixed.horizon.iter().enumerate() {
@@ -129,7 +131,7 @@ fn a_uniform_strain_passes_a_mesh_bisected_four_to_one() {
 #[test]
 fn the_rim_of_a_hole_is_found_and_refined() {
     let text = r#"
-mesh = { file = "../meshes/plate-with-hole.msh" }
+mesh = { file = "../meshes/plate-with-hole-1mm.msh" }
 material = { young = 30e9, poisson = 0.2, tensile_strength = 3e6 }
 model = { law = "nhpd", horizon_factor = 3.0 }
 correction = { surface = "patch" }
@@ -206,24 +208,20 @@ fn passes_are_repeated_and_resumed() {
     assert_eq!(passes(&stopped), passes(&whole));
 }
 
-/// A run that was stopped soon after its second pass began.
+/// A run that was stopped soon after its second pass began, which writes beside the results of the first.
 fn stopped_in_second_pass(case: &CaseFile, folder: &Path) -> PathBuf {
     let stopped = folder.join("stopped");
+    let second = folder.join("stopped.new");
     let asked = AtomicUsize::new(0);
-    let second_began = || stopped.join("passes.csv").is_file() || stopped.exists();
     let request = run::Request {
-        is_stopped: &|| second_began() && asked.fetch_add(1, Ordering::Relaxed) > FIRST_PASS,
+        is_stopped: &|| second.exists() && asked.fetch_add(1, Ordering::Relaxed) > 3,
         ..run::Request::new(case, &stopped, Build::default())
     };
     assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
-    let resolved = stopped.with_file_name("stopped.new");
-    let resolved = CaseFile::load(&resolved.join("case.resolved.toml"), &[]).unwrap();
+    let resolved = CaseFile::load(&second.join("case.resolved.toml"), &[]).unwrap();
     assert_eq!(resolved.case.refine.unwrap().pass, 2, "stopped in pass 2");
     stopped
 }
-
-/// A number of questions whether to stop between those of the first pass and those of both.
-const FIRST_PASS: usize = 400;
 
 /// History and breaks of a run.
 fn tables(folder: &Path) -> [String; 2] {

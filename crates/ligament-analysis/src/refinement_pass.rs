@@ -2,7 +2,6 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::driver::Outcome;
 use crate::termination::{Termination, Verdict};
 
 /// Record of a pass of refinement.
@@ -96,11 +95,4 @@ impl PassRecord {
 pub fn is_cut_short(end: &Termination) -> bool {
     let by_time = matches!(end, Termination::WallTime { .. });
     by_time || matches!(end.row().verdict, Verdict::Stopped | Verdict::Invalid)
-}
-
-/// Largest reaction at rest (N), and external work at the end (J), of a run.
-pub fn peak_and_work(outcome: &Outcome) -> [f64; 2] {
-    let peak = outcome.at_rest().map(|it| it.reaction);
-    let work = outcome.history.last().map_or(0.0, |it| it.external_work);
-    [peak.fold(0.0, f64::max), work]
 }

@@ -5,7 +5,6 @@ mod modal;
 mod model;
 mod motion;
 mod provenance;
-mod refinement;
 mod solver;
 mod values;
 
@@ -25,13 +24,13 @@ use crate::Error;
 use crate::atomic::read_json;
 use crate::folder::ResultFolder;
 use crate::quantity::{place, quantity};
+use crate::results::passes::RefinementSummary;
 
 pub use end::{INCOMPLETE_RUN_NOTE, verdict};
 pub use modal::{ModalSummary, ModeSummary};
 pub use model::{CorrectionSummary, ModelSummary, ScatterSummary, Spread};
 pub use motion::{EnergiesSummary, MotionSummary};
 pub use provenance::{Build, Identity, Input, Provenance, Stage};
-pub use refinement::RefinementSummary;
 
 pub use solver::{FactorSummary, IterationSummary, SolverSummary};
 pub use values::Text;

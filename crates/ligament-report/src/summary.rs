@@ -70,7 +70,7 @@ fn summary_of_steps(summary: Summary) -> RunSummary {
     let computed = provenance(&summary.model, summary.provenance.as_ref(), &summary.stages);
     let html = tables(
         &texts,
-        &results_of_steps(&summary),
+        &[results_of_steps(&summary), passes(&summary)].concat(),
         &summary.model,
         &computed,
     );
@@ -200,11 +200,14 @@ fn results_of_steps(summary: &Summary) -> Vec<Entry> {
         Some(entry("Ended because", &*summary.termination_message)),
     ];
     let motion = summary.motion.iter().flat_map(motion_entries);
+    rows.into_iter().flatten().chain(motion).collect()
+}
+
+/// The passes of a refinement.
+fn passes(summary: &Summary) -> Vec<Entry> {
     let refinement = summary.refinement.iter();
-    let passes = refinement.flat_map(|it| it.rows(&summary.units));
-    let passes = passes.map(|(name, words)| entry(&capitalised(&name), words));
-    (rows.into_iter().flatten().chain(motion))
-        .chain(passes)
+    let rows = refinement.flat_map(|it| it.rows(&summary.units.force));
+    rows.map(|(name, words)| entry(&capitalised(&name), words))
         .collect()
 }
 

@@ -9,7 +9,7 @@ use ligament_case::case::{CaseFile, StressField};
 use ligament_model::BodyGrid;
 use ligament_output::folder::ResultFolder;
 use ligament_output::results::{OutputState, PieceWriter, ResultWriter, WriteRule};
-use ligament_output::summary::{self, Build, Summary};
+use ligament_output::summary::{self, Build, Provenance, Summary};
 
 use crate::checkpoints::{Checkpoints, StopRequests};
 use crate::inputs::{FileIdentities, Inputs, unreadable_file};
@@ -53,9 +53,9 @@ impl LoadedBody<'_> {
             case,
             model,
             loading,
-            ref build,
             requests,
             earlier,
+            ..
         } = *self;
         let problem = loading.problem(model);
         let motion = loading.motion(&problem);
@@ -64,12 +64,8 @@ impl LoadedBody<'_> {
         let grid = grid(model);
         broadcast_path(&*loading.solver.communicator, Some(folder.path()))?;
         let (fixed, rule) = (&model.fixed, write_rule(case));
-        let mut contents = FileIdentities::default();
-        let inputs = Inputs::determining_inputs(case, &mut contents).map_err(unreadable_file)?;
+        let (inputs, provenance) = self.inputs(folder, restored_run.is_some())?;
         refinement::write_start(folder, model, earlier)?;
-        let provenance = provenance(build.clone(), case, folder.path(), &mut contents);
-        let mut provenance = provenance.map_err(unreadable_file)?;
-        provenance.resumed = restored_run.is_some();
         let every = case.case.output.checkpoint_every;
         let checkpoints = Checkpoints::new(folder, inputs.text().to_owned(), every);
         let (writer, messages, restored) = match restored_run {
@@ -103,6 +99,16 @@ impl LoadedBody<'_> {
         summary::write(folder, &summary)?;
         checkpoints.end(&outcome.termination)?;
         Ok((summary, next.flatten()))
+    }
+
+    /// The inputs of the run, and where its results come from.
+    fn inputs(&self, folder: &ResultFolder, resumed: bool) -> anyhow::Result<(Inputs, Provenance)> {
+        let mut contents = FileIdentities::default();
+        let inputs = Inputs::determining_inputs(self.case, &mut contents);
+        let inputs = inputs.map_err(unreadable_file)?;
+        let found = provenance(self.build.clone(), self.case, folder.path(), &mut contents);
+        let found = found.map_err(unreadable_file)?;
+        Ok((inputs, Provenance { resumed, ..found }))
     }
 }
 

@@ -14,8 +14,7 @@ use ligament_analysis::refinement_pass::{LastPass, PassRecord};
 use ligament_case::case::CaseFile;
 use ligament_case::point_table::text_of_fine_places;
 use ligament_output::folder::ResultFolder;
-use ligament_output::results::passes::{MESH_FILE, PLACES_FILE, write_passes};
-use ligament_output::summary::{RefinementSummary, UnitsSummary};
+use ligament_output::results::passes::{MESH_FILE, PLACES_FILE, RefinementSummary, write_passes};
 
 /// Reason why a run begins anew from the unloaded body.
 #[derive(Debug, Clone)]
@@ -115,13 +114,13 @@ pub(crate) fn end_pass(
     Ok(Some((RefinementSummary { passes, last }, next)))
 }
 
-/// Writes the lines about the passes of a refinement.
+/// Writes the lines about the passes of a refinement; `force` is the unit of the peak.
 pub(crate) fn write_refinement(
     refinement: &RefinementSummary,
-    units: &UnitsSummary,
+    force: &str,
     out: &mut dyn Write,
 ) -> io::Result<()> {
-    let mut rows = refinement.rows(units).into_iter();
+    let mut rows = refinement.rows(force).into_iter();
     rows.try_for_each(|(name, words)| writeln!(out, "  {name:<18} {words}"))
 }
 

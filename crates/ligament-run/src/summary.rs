@@ -18,9 +18,10 @@ use ligament_analysis::{Layout, LoadProgram, Message, ProportionalLoading, Termi
 use ligament_case::case::CaseFile;
 use ligament_output::quantity::{between, quantity, zero_if_rounding};
 use ligament_output::results::criterion_labels;
+use ligament_output::results::passes::RefinementSummary;
 use ligament_output::summary::{
     BondEvent, CertificateSummary, INCOMPLETE_RUN_NOTE, OverlapSummary, PathPoint, Provenance,
-    RefinementSummary, Resultant, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
+    Resultant, Spread, StabilitySummary, Stage, Summary, UnitsSummary,
 };
 use motion::{motion_summary, write_motion};
 use solver::solver_summary;
@@ -181,7 +182,7 @@ pub fn write(summary: &Summary, out: &mut dyn Write) -> io::Result<()> {
         write_certificate(certificate, out)?;
     }
     if let Some(refinement) = &summary.refinement {
-        write_refinement(refinement, &summary.units, out)?;
+        write_refinement(refinement, &summary.units.force, out)?;
     }
     writeln!(out, "  ended because      {}", summary.termination_message)?;
     if let Some([head, words]) = summary.warning_of_end() {

@@ -8,7 +8,7 @@ use ligament::run::{NoObserver, Solution};
 use ligament::setup::{FinePlace, Fineness, Horizon, Refine, Setup};
 use ligament_analysis::refinement_pass::PassRecord;
 use ligament_case::case::CaseFile;
-use ligament_study::meshing::{MeshRequest, make_mesh};
+use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 
 use super::experiment::{Compute, Experiment, Findings};
 use super::places::repository;

@@ -29,7 +29,7 @@ use crate::notches::notches;
 use crate::plausibility;
 use crate::precracks::{self, Precracked};
 use crate::processes::partition_communicator;
-use crate::refinement::RefinedBody;
+use crate::refined_body::RefinedBody;
 use crate::setup::{CorrectionDomain, Position, Refine, Setup};
 use crate::soundness::{require_connected, require_factors, require_finite_rigidities};
 use crate::stage::{Finding, StageWatcher, stage};
@@ -100,7 +100,7 @@ impl Model {
         let model = Self::of_checked::<D>(Setup { body, ..setup }, watcher)?;
         Ok(Self {
             warnings: [
-                warning::of_refinement(&model, &refine, &refined),
+                warning::of_refinement(&model.setup, &model.fixed.horizon, &refine, &refined),
                 model.warnings,
             ]
             .concat(),

@@ -273,6 +273,15 @@ far_field = { near = [{ group = "middle" }, { box = [[0, 0], [1, 1]] }] }
 load = [{ group = "top", force = { y = 1 } }]
 "#;
 
+const REFINED: &str = r#"
+mesh = { file = "disk.msh" }
+material = { young = 1e9, poisson = 0.2, tensile_strength = 1e6 }
+model = { law = "nhpd", horizon_factor = 3 }
+refine = { levels = 2 }
+load = [{ group = "top", force = { y = 1 } }]
+fracture = { steps = 4, criterion = [{ kind = "bond-rankine" }] }
+"#;
+
 /// The mesh has strengths for all of its criteria.
 pub(super) fn documents() -> Vec<Value> {
     let mesh = MESH.replace(
@@ -291,6 +300,7 @@ pub(super) fn documents() -> Vec<Value> {
     [
         mesh.as_str(),
         FAR_FIELD,
+        REFINED,
         LATTICE,
         SOLID,
         MODAL,

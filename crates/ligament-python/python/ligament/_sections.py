@@ -761,6 +761,31 @@ class FarField(TypedDict, total=False):
 near field stays as it is."""
 
 
+class Refine(TypedDict, total=False):
+    """Runs one after the other, each from the unloaded body, on meshes that are finer where bonds of the runs before broke."""
+
+    size: float
+    """Size of the cells where bonds break, m: the edge of an equilateral triangle, or of a regular tetrahedron."""
+    levels: int
+    """Number of times that the edges are halved where bonds break, in the place of `size`."""
+    where: Literal["half", "softening", "broken"]
+    """Bonds around which the mesh is refined.
+
+- `half`: Bonds that broke or lost half of their force.
+- `softening`: Bonds that broke or began to soften.
+- `broken`: Bonds that broke. Default "half"."""
+    strength_share: float
+    """Share of the limit from which on brittle bonds outside of the fine part make it grow; bonds that soften do so only where no bond is open. Default 0.8."""
+    tolerance: float
+    """Relative change of peak and work, between two passes of one size, at which no other pass follows; the path changes by `size` at most. Default 0.02."""
+    passes: int
+    """Largest number of passes. Default 5."""
+    pass: int
+    """Number of the first pass; in results the number of the pass that they are from. Default 1."""
+    places: str
+    """A table with the columns `x` and `y`, in a solid also `z`, m: places around which the mesh is fine from the first pass on that refines it."""
+
+
 class NoFail(TypedDict, total=False):
     """A part of the body."""
 
@@ -1145,6 +1170,8 @@ the temperature, otherwise the first rigid body that moves."""
     """Rigid bodies that parts of the body meet."""
     far_field: FarField
     """Linear finite elements in place of bonds, away from parts of a meshed body."""
+    refine: Refine
+    """Runs one after the other, each from the unloaded body, on meshes that are finer where bonds of the runs before broke."""
     no_fail: Sequence[NoFail]
     """Parts of the body where bonds never break."""
     probe: Sequence[Probe]

@@ -1,7 +1,6 @@
 //! Results of a case that have no limit as the points become finer, seen before any run.
 
 use ligament::setup::{Place, Setup};
-use ligament::singular_place::singular_place;
 use ligament_case::case::CaseFile;
 use ligament_model::failure::Choice;
 use ligament_model::scatter::Scattered;
@@ -132,5 +131,7 @@ fn singularity(case: &CaseFile, setup: &Setup) -> Option<String> {
         |hole: &ligament_case::case::Hole| hole.rectangle.is_some() || hole.polygon.is_some();
     let lattice = case.case.lattice.as_ref();
     let has_corners = lattice.is_some_and(|it| it.remove.iter().any(has_corners));
-    singular_place(setup).or_else(|| has_corners.then(|| "a corner of a hole".to_owned()))
+    setup
+        .singular_place()
+        .or_else(|| has_corners.then(|| "a corner of a hole".to_owned()))
 }

@@ -5,29 +5,17 @@
 //! elsewhere cells grow with the distance d from these places such that no point with a longer horizon than those of the fine part reaches a
 //! place: spacing(d) <= max(h, d/lambda). Places are only added. No state is transferred from mesh to mesh.
 
-mod grading;
 mod places;
 
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::largest_utilisation::LargestUtilisations;
-use ligament_analysis::refinement_pass::{LastPass, PassRecord, is_cut_short, peak_and_work};
-use ligament_mesh::{AnyMesh, gmsh};
+use ligament_analysis::refinement_pass::{LastPass, PassRecord, is_cut_short};
 
-use self::grading::{Graded, graded, median_size};
 use self::places::{CrackBonds, apart, tips};
-use crate::body::AnyBody;
 use crate::error::SetupError;
 use crate::model::Model;
-use crate::setup::{FinePlace, Fineness, Horizon, MaterialRegion, Refine, Setup};
-
-/// The body of a pass of refinement.
-#[derive(Debug, Clone)]
-pub struct RefinedBody {
-    /// The body before all refinement.
-    original: AnyBody,
-    /// The refined mesh; none in the first pass.
-    graded: Option<Graded>,
-}
+use crate::refined_body::{RefinedBody, factor, graded, median_size};
+use crate::setup::{FinePlace, Refine, Setup};
 
 /// A pass that ended.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,68 +26,6 @@ pub struct EndedPass {
     pub places: Vec<FinePlace>,
     /// The refinement of the next pass, or the reason why none follows.
     pub next: Result<Refine, LastPass>,
-}
-
-impl RefinedBody {
-    /// The body of the present pass of a setup's refinement.
-    ///
-    /// # Errors
-    ///
-    /// If the body has no mesh of cells that can be bisected.
-    pub(crate) fn new(setup: &Setup, refine: &Refine) -> Result<Self, SetupError> {
-        let graded = (refine.pass > 1).then(|| graded(&setup.body, refine, factor(setup)));
-        Ok(Self {
-            original: setup.body.clone(),
-            graded: graded.transpose()?,
-        })
-    }
-
-    /// The refined body; none in the first pass.
-    pub(crate) fn body(&self) -> Option<AnyBody> {
-        let graded = self.graded.as_ref()?;
-        Some(graded.mesh.clone().into())
-    }
-
-    /// Text of a Gmsh file of the refined mesh; none in the first pass.
-    pub fn gmsh_text(&self) -> Option<String> {
-        Some(match &self.graded.as_ref()?.mesh {
-            AnyMesh::Plane(mesh) => gmsh::write(mesh),
-            AnyMesh::Solid(mesh) => gmsh::write(mesh),
-        })
-    }
-
-    /// Horizon that the finest points have in the end, m, by the size that the refinement asks for.
-    pub(crate) fn final_horizon(&self, setup: &Setup, refine: &Refine) -> f64 {
-        let size = match refine.fineness {
-            Fineness::Size(size) => size,
-            Fineness::Levels(levels) => median_size(&self.original) / f64::from(levels).exp2(),
-        };
-        factor(setup) * size
-    }
-
-    /// Largest horizon of the points of the fine part, m; 0 in the first pass, which has none.
-    pub fn fine_horizon(&self) -> f64 {
-        self.graded.as_ref().map_or(0.0, |it| it.fine_horizon)
-    }
-}
-
-/// Horizon of a point over the distance to its nearest neighbour; [`Setup::check`] refuses one horizon for all points.
-fn factor(setup: &Setup) -> f64 {
-    match setup.horizon {
-        Horizon::Factor(factor) => factor,
-        Horizon::Length(_) => 1.0,
-    }
-}
-
-impl Setup {
-    /// Whether bonds soften over a zone of a crack that is shorter than two horizons (m): l_ch = E G_c/F_t^2 < 2 H of one of the materials.
-    /// The peak then falls from size to size, so that two passes of one size say nothing.
-    pub(crate) fn has_short_crack_zone(&self, horizon: f64) -> bool {
-        let softens = self.criteria.iter().any(|it| it.after.softens);
-        let mut materials = self.materials.iter();
-        let length = |it: &MaterialRegion| self.characteristic_length(&it.material);
-        softens && materials.any(|it| length(it).is_some_and(|it| horizon > 0.5 * it))
-    }
 }
 
 impl Model {
@@ -197,7 +123,6 @@ impl Model {
         found: &CrackBonds,
         (refine, refined): (&Refine, &RefinedBody),
     ) -> PassRecord {
-        let [peak, work] = peak_and_work(outcome);
         let fine_horizon = refined.fine_horizon();
         let size = match &refined.graded {
             Some(graded) => graded.size,
@@ -209,8 +134,8 @@ impl Model {
             fine_horizon,
             points: self.system.to_bonds().n_points(),
             bonds: self.counts.bonds,
-            peak,
-            work,
+            peak: outcome.peak().map_or(0.0, |it| it.reaction),
+            work: outcome.history.last().map_or(0.0, |it| it.external_work),
             energy_ratio: self.worst_energy_ratio(),
             open_bonds: found.open.len(),
             inside: (fine_horizon > 0.0)

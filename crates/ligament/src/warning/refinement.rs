@@ -3,19 +3,23 @@
 use ligament_analysis::Message;
 use ligament_model::scatter::Scattered;
 
-use crate::model::Model;
-use crate::refinement::RefinedBody;
+use crate::refined_body::RefinedBody;
 use crate::setup::{Place, Refine, Setup};
-use crate::singular_place::singular_place;
 
 /// Messages about a pass of a refinement.
-pub(crate) fn of_refinement(model: &Model, refine: &Refine, refined: &RefinedBody) -> Vec<Message> {
-    let setup = &model.setup;
+///
+/// `horizons` (n_points, m) are of the refined body.
+pub(crate) fn of_refinement(
+    setup: &Setup,
+    horizons: &[f64],
+    refine: &Refine,
+    refined: &RefinedBody,
+) -> Vec<Message> {
     let horizon = refined.final_horizon(setup, refine);
     let found = [
         brittle_at_crack(setup),
         short_crack_zone(setup, horizon),
-        coarse_beside_fine(model, refined.fine_horizon()),
+        coarse_beside_fine(setup, horizons, refined.fine_horizon()),
     ];
     found.into_iter().flatten().collect()
 }
@@ -27,7 +31,7 @@ fn brittle_at_crack(setup: &Setup) -> Option<Message> {
     if setup.criteria.iter().any(|it| it.after.softens) {
         return None;
     }
-    let place = singular_place(setup)?;
+    let place = setup.singular_place()?;
     let text = format!(
         "brittle bonds break by a stress (`{}`) at {place}: the load of a crack falls with the root of the horizon, by sqrt(2) from pass to pass, \
          and has no limit",
@@ -50,9 +54,8 @@ fn short_crack_zone(setup: &Setup, horizon: f64) -> Option<Message> {
 }
 
 /// Message about loads, supports and parts without failure that are partly fine.
-fn coarse_beside_fine(model: &Model, fine_horizon: f64) -> Option<Message> {
-    let setup = &model.setup;
-    let is_fine = |point: &u32| model.fixed.horizon[*point as usize] <= fine_horizon;
+fn coarse_beside_fine(setup: &Setup, horizons: &[f64], fine_horizon: f64) -> Option<Message> {
+    let is_fine = |point: &u32| horizons[*point as usize] <= fine_horizon;
     let is_mixed = |points: &[u32]| {
         let fine = points.iter().filter(|it| is_fine(it)).count();
         fine > 0 && fine < points.len()

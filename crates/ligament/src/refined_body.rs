@@ -1,25 +1,96 @@
-//! Meshes whose cells are as fine as the distance from the places of a crack demands.
+//! The body of a pass of refinement: a mesh whose cells are as fine as the distance from the places of a crack demands.
 
-use ligament_mesh::{AnyMesh, Bisectable, Bisection, Mesh};
+use ligament_mesh::{AnyMesh, Bisectable, Bisection, Mesh, gmsh};
 use rayon::prelude::*;
 use rstar::{Point, PointDistance, RTree};
 
 use crate::body::{AnyBody, Origin};
 use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{FinePlace, Fineness, Refine};
+use crate::setup::{FinePlace, Fineness, Horizon, MaterialRegion, Refine, Setup};
+
+/// The body of a pass of refinement.
+#[derive(Debug, Clone)]
+pub struct RefinedBody {
+    /// The body before all refinement.
+    pub(crate) original: AnyBody,
+    /// The refined mesh; none in the first pass.
+    pub(crate) graded: Option<Graded>,
+}
 
 /// A refined mesh.
 #[derive(Debug, Clone)]
-pub(super) struct Graded {
+pub(crate) struct Graded {
     /// The mesh, with the nodes of the original one first.
-    pub(super) mesh: AnyMesh,
+    pub(crate) mesh: AnyMesh,
     /// Largest horizon of the nodes whose cells are all as fine as the pass makes them, m.
-    pub(super) fine_horizon: f64,
+    pub(crate) fine_horizon: f64,
     /// Median size of the finest cells, m.
-    pub(super) size: f64,
+    pub(crate) size: f64,
     /// Number of times that edges at the places are halved in the end.
-    pub(super) levels: u32,
+    pub(crate) levels: u32,
+}
+
+impl RefinedBody {
+    /// The body of the present pass of a setup's refinement.
+    ///
+    /// # Errors
+    ///
+    /// If the body has no mesh of cells that can be bisected.
+    pub(crate) fn new(setup: &Setup, refine: &Refine) -> Result<Self, SetupError> {
+        let graded = (refine.pass > 1).then(|| graded(&setup.body, refine, factor(setup)));
+        Ok(Self {
+            original: setup.body.clone(),
+            graded: graded.transpose()?,
+        })
+    }
+
+    /// The refined body; none in the first pass.
+    pub(crate) fn body(&self) -> Option<AnyBody> {
+        let graded = self.graded.as_ref()?;
+        Some(graded.mesh.clone().into())
+    }
+
+    /// Text of a Gmsh file of the refined mesh; none in the first pass.
+    pub fn gmsh_text(&self) -> Option<String> {
+        Some(match &self.graded.as_ref()?.mesh {
+            AnyMesh::Plane(mesh) => gmsh::write(mesh),
+            AnyMesh::Solid(mesh) => gmsh::write(mesh),
+        })
+    }
+
+    /// Horizon that the finest points have in the end, m, by the size that the refinement asks for.
+    pub(crate) fn final_horizon(&self, setup: &Setup, refine: &Refine) -> f64 {
+        let size = match refine.fineness {
+            Fineness::Size(size) => size,
+            Fineness::Levels(levels) => median_size(&self.original) / f64::from(levels).exp2(),
+        };
+        factor(setup) * size
+    }
+
+    /// Largest horizon of the points of the fine part, m; 0 in the first pass, which has none.
+    pub fn fine_horizon(&self) -> f64 {
+        self.graded.as_ref().map_or(0.0, |it| it.fine_horizon)
+    }
+}
+
+impl Setup {
+    /// Whether bonds soften over a zone of a crack that is shorter than two horizons (m): l_ch = E G_c/F_t^2 < 2 H of one of the materials.
+    /// The peak then falls from size to size, so that two passes of one size say nothing.
+    pub(crate) fn has_short_crack_zone(&self, horizon: f64) -> bool {
+        let softens = self.criteria.iter().any(|it| it.after.softens);
+        let mut materials = self.materials.iter();
+        let length = |it: &MaterialRegion| self.characteristic_length(&it.material);
+        softens && materials.any(|it| length(it).is_some_and(|it| horizon > 0.5 * it))
+    }
+}
+
+/// Horizon of a point over the distance to its nearest neighbour; [`Setup::check`] refuses one horizon for all points.
+pub(crate) fn factor(setup: &Setup) -> f64 {
+    match setup.horizon {
+        Horizon::Factor(factor) => factor,
+        Horizon::Length(_) => 1.0,
+    }
 }
 
 /// The mesh of a body for a pass, whose points have horizons of a `factor` times their distance to the nearest neighbour: bisected until the horizon
@@ -28,7 +99,7 @@ pub(super) struct Graded {
 /// # Errors
 ///
 /// If the body is no mesh of cells that can be bisected.
-pub(super) fn graded(body: &AnyBody, refine: &Refine, factor: f64) -> Result<Graded, SetupError> {
+pub(crate) fn graded(body: &AnyBody, refine: &Refine, factor: f64) -> Result<Graded, SetupError> {
     let graded = match body.origin() {
         Origin::Mesh(mesh) => of_mesh(mesh, refine, factor, AnyMesh::Plane),
         Origin::SolidMesh(mesh) => of_mesh(mesh, refine, factor, AnyMesh::Solid),
@@ -40,7 +111,7 @@ pub(super) fn graded(body: &AnyBody, refine: &Refine, factor: f64) -> Result<Gra
 }
 
 /// Median size of the cells of a body with a mesh, m; 0 of another body.
-pub(super) fn median_size(body: &AnyBody) -> f64 {
+pub(crate) fn median_size(body: &AnyBody) -> f64 {
     match body.origin() {
         Origin::Mesh(mesh) => median(sizes(mesh)),
         Origin::SolidMesh(mesh) => median(sizes(mesh)),
