@@ -3,11 +3,12 @@
 use std::f64::consts::TAU;
 
 use ligament_analysis::Message;
+use ligament_mesh::Mesh;
 use ligament_model::failure::softening::Law as Softening;
 use ligament_model::failure::{Choice, Criteria, NoLimit};
 use ligament_model::{Elasticity, Material, PointCloud};
 
-use crate::body::Body;
+use crate::body::{Body, Origin};
 use crate::coordinates::coordinates;
 use crate::described::Described;
 use crate::error::Fault;
@@ -32,6 +33,10 @@ const LONGEST: f64 = 10.0;
 
 /// Kind of the message about criteria without a bond that may fail.
 const NOTHING_FAILS: &str = "nothing-fails";
+
+/// Angle of the cells at a node of the outline beyond which it is a re-entrant corner, degrees: that of an L is 270, those of a round hole of
+/// eight edges are 225.
+const RE_ENTRANT: f64 = 230.0;
 
 /// Notes on properties of a setup that are rare but usually intended.
 pub fn notes(setup: &Setup) -> Vec<Message> {
@@ -290,4 +295,26 @@ fn of_angles(setup: &Setup) -> Vec<Message> {
         .into_iter()
         .filter_map(|(what, angle)| of_angle(&what, angle));
     of_more_than_a_turn.collect()
+}
+
+/// Place where the stress of the elastic body of a setup is singular, in words: the tip of a pre-crack, or a re-entrant corner of a mesh in the plane.
+pub fn singular_place(setup: &Setup) -> Option<String> {
+    if !setup.precracks.is_empty() {
+        return Some("the tip of a pre-crack".to_owned());
+    }
+    let Origin::Mesh(mesh) = setup.body.origin() else {
+        return None;
+    };
+    let corner = re_entrant_corner(mesh)?;
+    let position = coordinates(&mesh.positions[corner as usize]);
+    Some(format!("the re-entrant corner at ({position}) m"))
+}
+
+/// The first node of the outline with a re-entrant corner.
+fn re_entrant_corner(mesh: &Mesh) -> Option<u32> {
+    let angles = mesh.angles_at_nodes();
+    let mut outline: Vec<u32> = mesh.outline().into_iter().flatten().collect();
+    outline.sort_unstable();
+    let mut outline = outline.into_iter();
+    outline.find(|&node| angles[node as usize].to_degrees() > RE_ENTRANT)
 }

@@ -1,5 +1,6 @@
 //! Results of a case that have no limit as the points become finer, seen before any run.
 
+use ligament::plausibility::singular_place;
 use ligament::setup::{Place, Setup};
 use ligament_case::case::CaseFile;
 use ligament_model::failure::Choice;
@@ -131,7 +132,5 @@ fn singularity(case: &CaseFile, setup: &Setup) -> Option<String> {
         |hole: &ligament_case::case::Hole| hole.rectangle.is_some() || hole.polygon.is_some();
     let lattice = case.case.lattice.as_ref();
     let has_corners = lattice.is_some_and(|it| it.remove.iter().any(has_corners));
-    setup
-        .singular_place()
-        .or_else(|| has_corners.then(|| "a corner of a hole".to_owned()))
+    singular_place(setup).or_else(|| has_corners.then(|| "a corner of a hole".to_owned()))
 }

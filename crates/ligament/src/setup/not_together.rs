@@ -12,6 +12,7 @@ use super::check::{Checked, contradiction};
 use super::{Action, Analysis, ContactLaw, Horizon, Load, Quantity, Rigid, Setup, Support};
 use crate::body::Origin;
 use crate::error::Field;
+use crate::plausibility::singular_place;
 
 /// A feature that another one may exclude.
 #[derive(Debug)]
@@ -241,7 +242,7 @@ features! {
         first("scatter", &it.scatter, |it| it.correlation_length == 0.0)
     };
     ENERGY_WITHOUT_CRACK = "brittle bonds with a limit of energy in a body without a crack or a re-entrant corner", |it| {
-        when(breaks_by_energy(it) && it.body.n_cells() > 0 && it.singular_place().is_none(), "criteria")
+        when(breaks_by_energy(it) && it.body.n_cells() > 0 && singular_place(it).is_none(), "criteria")
     };
     FAR_FIELD = "a far field", |it| when(it.far_field.is_some(), "far_field");
     GROWING_NEAR_FIELD = "a near field that grows", |it| {

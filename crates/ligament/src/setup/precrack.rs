@@ -1,16 +1,8 @@
 //! Initial cracks of a body.
 
-use ligament_mesh::Mesh;
 use ligament_model::bonds::precrack::Ends;
 
-use super::Setup;
-
-use crate::body::{Body, Origin};
-use crate::coordinates::coordinates;
-
-/// Angle of the cells at a node of the outline beyond which it is a re-entrant corner, degrees: that of an L is 270, those of a round hole of
-/// eight edges are 225.
-const RE_ENTRANT: f64 = 230.0;
+use crate::body::Body;
 
 /// An initial crack of a body.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,28 +77,4 @@ impl PreCrack {
             | CrackShape::Group(_) => &[],
         }
     }
-}
-
-impl Setup {
-    /// Place where the stress of the elastic body is singular, in words: the tip of a pre-crack, or a re-entrant corner of a mesh in the plane.
-    pub fn singular_place(&self) -> Option<String> {
-        if !self.precracks.is_empty() {
-            return Some("the tip of a pre-crack".to_owned());
-        }
-        let Origin::Mesh(mesh) = self.body.origin() else {
-            return None;
-        };
-        let corner = re_entrant_corner(mesh)?;
-        let position = coordinates(&mesh.positions[corner as usize]);
-        Some(format!("the re-entrant corner at ({position}) m"))
-    }
-}
-
-/// The first node of the outline with a re-entrant corner.
-fn re_entrant_corner(mesh: &Mesh) -> Option<u32> {
-    let angles = mesh.angles_at_nodes();
-    let mut outline: Vec<u32> = mesh.outline().into_iter().flatten().collect();
-    outline.sort_unstable();
-    let mut outline = outline.into_iter();
-    outline.find(|&node| angles[node as usize].to_degrees() > RE_ENTRANT)
 }

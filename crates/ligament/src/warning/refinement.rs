@@ -3,6 +3,7 @@
 use ligament_analysis::Message;
 use ligament_model::scatter::Scattered;
 
+use crate::plausibility::singular_place;
 use crate::refined_body::RefinedBody;
 use crate::setup::{Place, Refine, Setup};
 
@@ -31,7 +32,7 @@ fn brittle_at_crack(setup: &Setup) -> Option<Message> {
     if setup.criteria.iter().any(|it| it.after.softens) {
         return None;
     }
-    let place = setup.singular_place()?;
+    let place = singular_place(setup)?;
     let text = format!(
         "brittle bonds break by a stress (`{}`) at {place}: the load of a crack falls with the root of the horizon, by sqrt(2) from pass to pass, \
          and has no limit",
