@@ -675,3 +675,31 @@ fn told_of_platen(text: &str) -> Option<String> {
     let told = warnings.find(|it| it.kind == "early-at-platen")?;
     told.advice
 }
+
+/// A mesh in other units is scaled, and nothing else: the square of 100 mm read as one of 50 mm has half of the lengths, and a group of it a traction on
+/// half of its length.
+#[test]
+fn a_mesh_is_scaled_alone() {
+    let text = r#"
+mesh = { file = "../meshes/square-delaunay.msh" }
+material = { young = 30e9, poisson = 0.2 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+support = [{ group = "left", displacement = { x = 0.0 } }, { group = "corner", displacement = { y = 0.0 } }]
+load = [{ group = "right", force_per_length = { x = 1e6 } }]
+"#;
+    let [whole, half] = [&[][..], &["mesh.scale=0.5"]].map(|it| Bench::new(text, it));
+    let [of_whole, of_half] = [&whole, &half].map(|it| it.model.volume_of_material(0));
+    // Products with a power of two are exact.
+    assert_eq!(of_half, 0.25 * of_whole);
+    let horizons = [&whole, &half].map(|it| it.model.fixed.horizon[7]);
+    assert!((horizons[1] / horizons[0] - 0.5).abs() < 1e-12);
+    let mut warnings = half.model.warnings.iter();
+    assert!(warnings.any(|it| it.kind == "scaled-mesh"));
+    assert!(
+        whole
+            .model
+            .warnings
+            .iter()
+            .all(|it| it.kind != "scaled-mesh")
+    );
+}

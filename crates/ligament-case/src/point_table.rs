@@ -1,5 +1,6 @@
 //! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points; amplitudes, at times; and curves of softening.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use ligament::body::{AnyBody, Points};
@@ -14,20 +15,29 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Column of what a point of a body stands for, m^2 in the plane and m^3 in space.
 const SIZES: [&str; 2] = ["area", "volume"];
 
-/// Ending of the names of tables.
-const ENDING: &str = "csv";
+/// Word before the names of the columns in files of points of PeriLab.
+const HEADER: &str = "header:";
+
+/// Endings of the names of tables.
+const ENDINGS: [&str; 2] = ["csv", "txt"];
+
+/// Column of the numbers of blocks of other programs, whose points are the groups `block-1`, `block-2` and so on.
+const BLOCK: &str = "block_id";
 
 /// Whether a body's file is a table of points.
-pub(crate) fn is_table(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|it| it.eq_ignore_ascii_case(ENDING))
+pub fn is_table(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    ENDINGS.iter().any(|it| ending.eq_ignore_ascii_case(it))
 }
 
 /// Whether the points of a table that begins with these bytes are those of a solid, by its header; `None` where the bytes end before.
 pub(crate) fn holds_solid(bytes: &[u8]) -> Option<bool> {
     let end = bytes.iter().position(|it| *it == b'\n')?;
     let header = String::from_utf8_lossy(&bytes[..end]);
-    Some(header.split(',').map(name_of).any(|it| it == AXES[2]))
+    let header = header.trim_start_matches(['\u{feff}', '#', ' ']);
+    let header = header.trim_start_matches(HEADER);
+    let mut names = Separator::in_header(header).values(header);
+    Some(names.any(|it| name_of(&it) == AXES[2]))
 }
 
 /// The tables that a case names.
@@ -255,26 +265,43 @@ impl<'a> Table<'a> {
         Self::parse(path, &text, expected)
     }
 
-    /// Parses the rows below the header; blank lines and lines that begin with # are ignored.
+    /// Parses the rows below the header, separated by commas, by semicolons or tabs as spreadsheets write them where decimals have commas, or by blanks;
+    /// blank lines and lines that begin with # are ignored, but for a header of them.
     fn parse(path: &'a Path, text: &str, expected: &'a str) -> Result<Self, String> {
         // Spreadsheets write a byte order mark at the beginning of a file.
         let lines = text.trim_start_matches('\u{feff}').lines();
-        let mut lines = (1..)
+        let lines = (1..)
             .zip(lines.map(str::trim))
-            .filter(|(_, text)| !text.is_empty() && !text.starts_with('#'));
-        let (line, header) = lines
-            .next()
+            .filter(|(_, text)| !text.is_empty());
+        let (comments, lines): (Vec<_>, Vec<_>) = lines.partition(|it| it.1.starts_with('#'));
+        let (&(line, first), below) = lines
+            .split_first()
             .ok_or_else(|| at(path, 1, &format!("the file is empty: {expected}")))?;
-        let values = |text: &str| text.split(',').map(|it| it.trim().to_owned()).collect();
-        let row = |(line, text)| Row {
-            line,
-            values: values(text),
+        // Other programs write the names of the columns as a comment above rows of numbers.
+        let above = comments.iter().rev().find(|it| it.0 < line);
+        let above = above.filter(|_| {
+            Separator::in_header(first)
+                .values(first)
+                .all(|it| number(&it).is_some())
+        });
+        let (line, header, below) = match above {
+            Some((line, comment)) => (*line, comment.trim_start_matches('#'), &lines[..]),
+            None => (line, first, below),
+        };
+        let header = header.trim().trim_start_matches(HEADER);
+        let separator = Separator::in_header(header);
+        let row = |(line, text): &(usize, &str)| Row {
+            line: *line,
+            values: separator.values(text).collect(),
         };
         Ok(Self {
             path,
             line,
-            names: header.split(',').map(|it| name_of(it).to_owned()).collect(),
-            rows: lines.map(row).collect(),
+            names: separator
+                .values(header)
+                .map(|it| name_of(&it).to_owned())
+                .collect(),
+            rows: below.iter().map(row).collect(),
             expected,
         })
     }
@@ -287,8 +314,7 @@ impl<'a> Table<'a> {
             return Err(at(self.path, row.line, &reason));
         }
         let text = &row.values[place];
-        let number = text.parse().ok().filter(|it: &f64| it.is_finite());
-        number.ok_or_else(|| at(self.path, row.line, &format!("`{text:.40}` is no number")))
+        number(text).ok_or_else(|| at(self.path, row.line, &format!("`{text:.40}` is no number")))
     }
 
     /// The numbers of a column.
@@ -302,7 +328,11 @@ impl<'a> Table<'a> {
     /// Place of a column.
     fn place(&self, wanted: &str) -> Result<usize, String> {
         let place = self.names.iter().position(|name| name == wanted);
-        place.ok_or_else(|| {
+        let alike = || {
+            let mut names = self.names.iter();
+            names.position(|name| name.eq_ignore_ascii_case(wanted))
+        };
+        place.or_else(alike).ok_or_else(|| {
             let reason = format!("there is no column `{wanted}`: {}", self.expected);
             at(self.path, self.line, &reason)
         })
@@ -328,22 +358,83 @@ impl<'a> Table<'a> {
         let is_group = |place: &usize| *place != size && !axes.contains(place);
         for place in (0..self.names.len()).filter(is_group) {
             let column = self.column(place)?;
-            let members = (0..).zip(column).filter(|(_, it)| *it != 0.0);
-            let members: Vec<u32> = members.map(|(point, _)| point).collect();
-            points = points
-                .with_group(&self.names[place], members)
-                .map_err(fault)?;
+            for (name, members) in groups(&self.names[place], &column) {
+                points = points.with_group(&name, members).map_err(fault)?;
+            }
         }
         Ok(points)
     }
+}
+
+/// Groups of a column with their points: the column itself with the points that have not 0 in it, or the blocks of a column of numbers of blocks.
+fn groups(name: &str, column: &[f64]) -> Vec<(String, Vec<u32>)> {
+    if name != BLOCK {
+        let members = (0..).zip(column).filter(|(_, it)| **it != 0.0);
+        return vec![(name.to_owned(), members.map(|it| it.0).collect())];
+    }
+    let mut blocks: BTreeMap<i64, Vec<u32>> = BTreeMap::new();
+    for (point, block) in (0..).zip(column) {
+        blocks.entry(*block as i64).or_default().push(point);
+    }
+    let named = |(block, members)| (format!("block-{block}"), members);
+    blocks.into_iter().map(named).collect()
+}
+
+/// Separator of the values of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Separator {
+    Comma,
+    /// A semicolon or a tab, beside which decimals may have commas.
+    OfSpreadsheets(char),
+    Blanks,
+}
+
+impl Separator {
+    /// The separator of a header.
+    fn in_header(header: &str) -> Self {
+        match header {
+            _ if header.contains(';') => Self::OfSpreadsheets(';'),
+            _ if header.contains('\t') => Self::OfSpreadsheets('\t'),
+            _ if header.contains(',') => Self::Comma,
+            _ => Self::Blanks,
+        }
+    }
+
+    /// The values of a row, without quotes around them.
+    fn values(self, row: &str) -> impl Iterator<Item = String> {
+        let values: Vec<&str> = match self {
+            Self::Comma => row.split(',').collect(),
+            Self::OfSpreadsheets(separator) => row.split(separator).collect(),
+            Self::Blanks => row.split_whitespace().collect(),
+        };
+        let has_comma = matches!(self, Self::OfSpreadsheets(_));
+        values.into_iter().map(move |it| {
+            let bare = it.trim().trim_matches('"').trim();
+            match has_comma {
+                true => bare.replacen(',', ".", 1),
+                false => bare.to_owned(),
+            }
+        })
+    }
+}
+
+/// A finite number, also with the D of double precision in Fortran before its exponent.
+fn number(text: &str) -> Option<f64> {
+    let read = text
+        .parse()
+        .or_else(|_| text.replace(['d', 'D'], "e").parse());
+    read.ok().filter(|it: &f64| it.is_finite())
 }
 
 fn at(path: &Path, line: usize, reason: &str) -> String {
     format!("{}:{line}: {reason}", path.display())
 }
 
+/// Name of a column without quotes and without a unit in brackets behind it.
 fn name_of(text: &str) -> &str {
-    text.trim().trim_start_matches('\u{feff}').trim_matches('"')
+    let bare = text.trim().trim_start_matches('\u{feff}').trim_matches('"');
+    let unit = bare.find(['[', '(']).filter(|it| *it > 0);
+    bare[..unit.unwrap_or(bare.len())].trim_end()
 }
 
 #[cfg(test)]
@@ -371,6 +462,34 @@ mod tests {
         assert_eq!(holds_solid(text.as_bytes()), Some(false));
         assert_eq!(holds_solid(b"x, y,\"z\",volume\n"), Some(true));
         assert_eq!(holds_solid(b"x, y,\"z\""), None);
+    }
+
+    /// Tables of spreadsheets and of other programs have the numbers of a plain one.
+    #[test]
+    fn separators_quotes_and_units_are_read() {
+        for text in [
+            "time,factor\n0.5,1.25\n",
+            "\u{feff}\"time\",\"factor\"\n\"0.5\",\"1.25\"\n",
+            "Time [s];Factor (-)\n0,5;1,25\n",
+            "time\tfactor\n0,5\t1.25\n",
+            "# made by hand\n# time factor\n0.5 1.25\n",
+            "header: time factor\n5.0D-1 1.25D0\n",
+        ] {
+            let table = Table::parse(Path::new("a.csv"), text, "").unwrap();
+            let columns = ["time", "factor"].map(|it| table.place(it).unwrap());
+            let numbers = columns.map(|it| table.column(it).unwrap());
+            assert_eq!(numbers, [vec![0.5], vec![1.25]], "{text}");
+        }
+    }
+
+    #[test]
+    fn points_of_other_programs_have_their_blocks_as_groups() {
+        let text = "# x y z block_id volume\n0 0 0 1 0.5\n1 0 0 2 0.5\n2 0 0 1 0.5\n";
+        assert_eq!(holds_solid(text.as_bytes()), Some(true));
+        let table = Table::parse(Path::new("points.txt"), text, "").unwrap();
+        let body = table.body::<3>().unwrap();
+        assert_eq!(body.group_names(), ["block-1", "block-2"]);
+        assert_eq!(body.points_of("block-1"), Some(vec![0, 2]));
     }
 
     #[test]

@@ -101,11 +101,11 @@ impl CaseFile {
                     let reason = "the geometry has volumes, and the mesh has no solid cells: mesh the volumes too (`gmsh -3`)";
                     return Err(self.error("mesh.file", reason).into());
                 };
-                Ok(mesh.into())
+                Ok(section.scaled(mesh).into())
             }
             (Some(section), _, _) => {
                 let mesh = stage(watcher, "read mesh", || read_mesh(&section.file))?;
-                Ok(AnyMesh::Plane(mesh).into())
+                Ok(section.scaled(AnyMesh::Plane(mesh)).into())
             }
             (None, Some(section), _) => {
                 let body = stage(watcher, "lattice", || section.grid().body());

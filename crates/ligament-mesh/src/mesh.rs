@@ -142,6 +142,15 @@ pub enum AnyMesh {
 }
 
 impl AnyMesh {
+    /// The mesh with its coordinates multiplied by a positive factor.
+    pub fn scaled(mut self, factor: f64) -> Self {
+        match &mut self {
+            AnyMesh::Plane(mesh) => scale(&mut mesh.positions, factor),
+            AnyMesh::Solid(mesh) => scale(&mut mesh.positions, factor),
+        }
+        self
+    }
+
     /// Number of cells.
     pub fn n_cells(&self) -> usize {
         match self {
@@ -157,6 +166,12 @@ impl AnyMesh {
             AnyMesh::Solid(mesh) => mesh.positions.len(),
         }
     }
+}
+
+/// Multiplies coordinates by a factor.
+fn scale<const D: usize>(positions: &mut [[f64; D]], factor: f64) {
+    let coordinates = positions.iter_mut().flatten();
+    coordinates.for_each(|it| *it *= factor);
 }
 
 /// A physical group of the mesh file: a named set of nodes, with its edges, faces or cells.

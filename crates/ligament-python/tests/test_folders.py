@@ -254,3 +254,14 @@ def test_the_crack_of_a_solid_is_a_surface(tmp_path: Path) -> None:
         assert len(picture.svg) > 1000
     assert "bonds" in result.explain(at=(0.05, 0.02, 0.02))
     assert result.report(tmp_path / "solid.html").stat().st_size > 10_000
+
+
+def test_a_refined_case_has_its_passes_and_its_last_mesh() -> None:
+    case = Path(__file__).parents[3] / "cases" / "verification" / "refined-edge-crack.toml"
+    result = ligament.run(case, refine__levels=1, refine__passes=2, progress=False)
+    first, last = result.summary["refinement"]["passes"]
+    assert last["points"] == result.summary["points"] > first["points"]
+    assert result.summary["refinement"]["last"] in ("all-passes", "same-mesh")
+    assert (result.folder / "mesh.msh").is_file() and (result.folder / "places.csv").is_file()
+    repeated = program("repeat", str(result.folder))
+    assert repeated.returncode == 0, repeated.stderr

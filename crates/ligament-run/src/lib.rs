@@ -43,7 +43,7 @@ mod refinement;
 pub mod repeat;
 pub mod resume;
 pub mod run;
-mod run_observer;
+pub mod run_observer;
 mod run_time_estimate;
 pub mod stability;
 pub mod stages;

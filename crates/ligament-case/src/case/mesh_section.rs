@@ -9,6 +9,8 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{refuse, require};
 use crate::mesh_file::holds_solid;
+use crate::point_table::is_table;
+use ligament_mesh::AnyMesh;
 use ligament_model::Plane;
 
 /// A body in the plane, or a solid.
@@ -27,6 +29,9 @@ pub struct MeshSection {
     /// The mesh, a Gmsh file (2.2 or 4.1), or a table of points (`.csv`), from the folder of the case file.
     #[schemars(length(min = 1))]
     pub file: PathBuf,
+    /// Factor on the coordinates of the mesh, such as 1e-3 for a mesh in mm; lengths elsewhere in the case stay in m.
+    #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
+    pub scale: Option<f64>,
     /// Thickness of a body in the plane, m; a mesh of solid cells has none.
     #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
     pub thickness: Option<f64>,
@@ -42,6 +47,14 @@ pub struct MeshSection {
 }
 
 impl MeshSection {
+    /// The mesh with the factor on its coordinates.
+    pub(crate) fn scaled(&self, mesh: AnyMesh) -> AnyMesh {
+        match self.scale {
+            Some(factor) => mesh.scaled(factor),
+            None => mesh,
+        }
+    }
+
     /// Fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
     pub(super) fn complete(
         &mut self,
@@ -50,6 +63,11 @@ impl MeshSection {
         body: Option<BodyKind>,
     ) -> Result<(), KeyFault> {
         complete_path(&key.child("file"), &mut self.file, folder)?;
+        self.scale = self.scale.filter(|it| *it != 1.0);
+        if is_table(&self.file) {
+            let reason = "give positions and areas or volumes in m";
+            refuse(key, self, &["scale"], "a table of points", reason)?;
+        }
         match (body, holds_solid(&self.file)) {
             (Some(kind), _) => self.is_solid = kind == BodyKind::Solid,
             (None, Ok(is_solid)) => self.is_solid = is_solid,

@@ -270,10 +270,18 @@ impl Case {
         }
     }
 
-    /// Remarks on implausible values in the sections of a body in the plane.
+    /// Remarks on the scale of a mesh, and on implausible values in the sections of a body in the plane.
     fn remarks(&self) -> Vec<Message> {
+        let scale = self.mesh.as_ref().and_then(|it| it.scale);
+        let scale = scale.map(|it| {
+            let text = format!(
+                "the coordinates of the mesh are multiplied by {it}, and nothing else of the case"
+            );
+            Message::new("scaled-mesh", text)
+                .with_advice("boxes, displacements and thicknesses are in m")
+        });
         if self.is_solid() {
-            return Vec::new();
+            return scale.into_iter().collect();
         }
         // A long body in plane strain is computed per metre of its length.
         let is_missing = self.thickness().is_none() && self.plane() == Plane::Stress;
@@ -282,7 +290,7 @@ impl Case {
             let what = format!("the angle of pre-crack {}", index + 1);
             of_angle(&what, crack.angle?)
         });
-        missing.into_iter().chain(angles).collect()
+        scale.into_iter().chain(missing).chain(angles).collect()
     }
 
     /// The setup of the case on a given body, in place of that of the case, with its tables.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use ligament_case::case::CaseFile;
 use ligament_case::input_file;
 use ligament_case::mesh_file::read_any_mesh;
+use ligament_case::point_table::is_table;
 use ligament_mesh::{AnyMesh, Mesh, gmsh};
 use ligament_output::replace_file;
 
@@ -90,7 +91,7 @@ pub(super) fn meshes(
     let Some(section) = &case.case.mesh else {
         return Err(case.error("mesh", "the case has no mesh").into());
     };
-    if section.file.extension().is_some_and(|it| it == "csv") {
+    if is_table(&section.file) {
         let reason =
             "points of a table have no cells that could be made finer: give a mesh or a lattice";
         return Err(case.error("mesh.file", reason).into());
