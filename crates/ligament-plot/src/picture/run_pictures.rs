@@ -11,9 +11,6 @@ use super::request::FieldRequest;
 use super::target::Target;
 use crate::stored_loading::resolved_case;
 
-/// Name of the picture of the horizons of a refined mesh.
-const HORIZONS: &str = "horizons.png";
-
 /// Whether the case of a run asks for pictures at its end, by `output.picture = true`.
 pub fn asks_for_pictures(folder: &Path) -> bool {
     let case = resolved_case(folder).ok();
@@ -35,11 +32,6 @@ pub fn draw_run(folder: &Path) -> Result<Vec<PathBuf>, PictureError> {
     if case.contains_key("refine") {
         drawn.push(draw_fields(&FieldRequest {
             field: Some("horizon".to_owned()),
-            target: Target {
-                out: Some(folder.join(HORIZONS)),
-                force: true,
-                ..Target::default()
-            },
             ..FieldRequest::default_for(folder.to_path_buf())
         })?);
     }
