@@ -1193,6 +1193,8 @@ class Mesh(TypedDict, total=False):
 
     file: str | PathLike[str]
     """The mesh, a Gmsh file (2.2 or 4.1), or a table of points (`.csv`), from the folder of the case file."""
+    scale: float
+    """Factor on the coordinates of the mesh, such as 1e-3 for a mesh in mm; lengths elsewhere in the case stay in m. Default 1.0."""
     thickness: float
     """Thickness of a body in the plane, m; a mesh of solid cells has none. Default 1.0."""
     plane: Literal["stress", "strain"]
