@@ -21,12 +21,15 @@
 
 mod bisection;
 mod cell;
+mod coincidence;
+mod crack;
 mod curve;
 pub mod gmsh;
 mod interpolation;
 mod mesh;
 mod numbering;
 mod overlap;
+mod parse_options;
 mod portion;
 mod remark;
 mod solid;

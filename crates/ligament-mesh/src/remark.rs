@@ -1,6 +1,26 @@
-//! Remarks on a mesh file.
+//! Remarks on a mesh file, and positions in it.
 
 use std::fmt;
+
+use crate::parse_options::CoordinatePlane;
+
+/// A position in a mesh file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FilePosition {
+    /// Line of an ASCII file, counted from 1.
+    Line(usize),
+    /// Offset in a binary file, bytes from its beginning.
+    Byte(usize),
+}
+
+impl fmt::Display for FilePosition {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            FilePosition::Line(line) => write!(f, "line {line}"),
+            FilePosition::Byte(offset) => write!(f, "byte {offset}"),
+        }
+    }
+}
 
 /// A remark on a part of the file that was changed or left out.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,6 +49,28 @@ pub enum Remark {
         /// Number of elements.
         elements: usize,
     },
+    /// Sections that are not used.
+    IgnoredSections {
+        /// Names without the dollar sign, each once with its first position, in the order of the file.
+        sections: Vec<(String, FilePosition)>,
+        /// Number of other sections.
+        others: usize,
+    },
+    /// Cells with a repeated corner, which were read as the cells with fewer corners that they are.
+    CollapsedCells {
+        /// Number of such cells.
+        cells: usize,
+    },
+    /// A crack that is in the mesh, along which nodes are doubled.
+    Crack {
+        /// Number of pairs of edges (of faces in a solid) of the outline that are at one place.
+        faces: usize,
+    },
+    /// A mesh that was turned into the plane of x and y.
+    Turned {
+        /// Plane in which the mesh lies in the file.
+        plane: CoordinatePlane,
+    },
 }
 
 impl fmt::Display for Remark {
@@ -50,6 +92,34 @@ impl fmt::Display for Remark {
                 f,
                 "{elements} elements belong to entities that $Entities does not describe, \
                  so to no physical group"
+            ),
+            Remark::IgnoredSections { sections, others } => {
+                let named = sections.iter();
+                let named = named.map(|(name, place)| format!("${name} ({place})"));
+                let named = named.collect::<Vec<_>>().join(", ");
+                match (sections.len(), others) {
+                    (1, 0) => write!(f, "the section {named} was ignored: nothing in it is used"),
+                    (_, 0) => write!(
+                        f,
+                        "the sections {named} were ignored: nothing in them is used"
+                    ),
+                    _ => write!(
+                        f,
+                        "the sections {named} and {others} others were ignored: nothing in them is used"
+                    ),
+                }
+            }
+            Remark::CollapsedCells { cells } => write!(
+                f,
+                "{cells} cells with a repeated corner were read as the cells with fewer corners that they are"
+            ),
+            Remark::Crack { faces } => write!(
+                f,
+                "nodes are doubled along a crack, or along a seam that is not joined: {faces} pairs of outer sides of cells coincide"
+            ),
+            Remark::Turned { plane } => write!(
+                f,
+                "the mesh was turned from the plane of {plane} into that of x and y"
             ),
         }
     }

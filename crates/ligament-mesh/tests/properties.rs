@@ -292,7 +292,11 @@ proptest! {
     #[test]
     fn any_bytes_behind_a_format_are_refused_or_make_a_sound_mesh(
         format in prop::sample::select(&["2.2 0 8\n", "4.1 0 8\n", "2.2 1 8\n\x01\0\0\0", "4.1 1 8\n\x01\0\0\0"][..]),
-        section in prop::sample::select(&["Nodes", "Elements", "Entities", "PartitionedEntities", "PhysicalNames"][..]),
+        section in prop::sample::select(
+            &[
+                "Nodes", "Elements", "Entities", "PartitionedEntities", "PhysicalNames", "ParametricNodes", "NSets", "Fasets", "Groups",
+            ][..],
+        ),
         bytes in prop::collection::vec(any::<u8>(), 0..200),
     ) {
         let mut file = format!("$MeshFormat\n{format}\n$EndMeshFormat\n${section}\n").into_bytes();

@@ -8,6 +8,7 @@ use super::error::GmshError;
 use super::records::{self, Node, Records};
 use super::{plane, solid};
 use crate::mesh::AnyMesh;
+use crate::parse_options::ParseOptions;
 
 /// An element, given by its corners, and its group; an element in several groups occurs once for each.
 #[derive(Debug, Clone, PartialEq)]
@@ -71,9 +72,9 @@ pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<A
         });
     }
     if elements.iter().any(|it| it.dimension == 3) {
-        solid::assemble(&cursor, records).map(AnyMesh::Solid)
+        solid::assemble(&cursor, records, ParseOptions::default()).map(AnyMesh::Solid)
     } else {
-        plane::assemble(&cursor, records).map(AnyMesh::Plane)
+        plane::assemble(&cursor, records, ParseOptions::default()).map(AnyMesh::Plane)
     }
 }
 

@@ -1,17 +1,21 @@
 //! Cells of a mesh from the elements of a file, with checks for repeated and overlapping cells.
 
 use super::assembly::Assembly;
+use super::collapsed::{Collapsible, first_repeated};
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
 use super::records::{Element, Records};
 use crate::cell::MeshCell;
 use crate::overlap::first_covering;
+use crate::remark::Remark;
 
 /// Cells and the indices of their elements.
 pub(super) struct Cells<C> {
     pub(super) cells: Vec<C>,
     pub(super) elements: Vec<u32>,
+    /// Number of elements with a repeated corner, which are cells with fewer corners.
+    pub(super) n_collapsed: usize,
 }
 
 impl<C> Cells<C> {
@@ -22,19 +26,41 @@ impl<C> Cells<C> {
         assembly: &Assembly,
         cell: impl Fn(Shape, &[u32]) -> Option<C>,
         oriented: impl Fn(&Element, C) -> Result<C, GmshError>,
-    ) -> Result<Self, GmshError> {
+    ) -> Result<Self, GmshError>
+    where
+        C: Collapsible,
+    {
         let mut found = Self {
             cells: Vec::with_capacity(records.elements.len()),
             elements: Vec::with_capacity(records.elements.len()),
+            n_collapsed: 0,
         };
         for (index, element) in (0..).zip(&records.elements) {
-            if let Some(cell) = cell(element.shape, &assembly.corners[element.corners()]) {
-                check_corners(cursor, assembly, element)?;
-                found.cells.push(oriented(element, cell)?);
-                found.elements.push(index);
+            let corners = &assembly.corners[element.corners()];
+            let Some(mut cell) = cell(element.shape, corners) else {
+                continue;
+            };
+            if let Some(repeated) = first_repeated(corners) {
+                let unreadable = || GmshError::RepeatedCorner {
+                    place: cursor.place(element.offset),
+                    element: element.tag,
+                    node: assembly.nodes[repeated as usize].tag,
+                };
+                cell = cell.collapsed().ok_or_else(unreadable)?;
+                found.n_collapsed += 1;
             }
+            found.cells.push(oriented(element, cell)?);
+            found.elements.push(index);
         }
         Ok(found)
+    }
+
+    /// Remarks on cells with a repeated corner, and on the faces of a crack.
+    pub(super) fn remarks(&self, crack_faces: usize) -> impl Iterator<Item = Remark> {
+        let cells = self.n_collapsed;
+        let collapsed = (cells > 0).then_some(Remark::CollapsedCells { cells });
+        let crack = (crack_faces > 0).then_some(Remark::Crack { faces: crack_faces });
+        collapsed.into_iter().chain(crack)
     }
 
     /// Number of cells made from elements of higher order.
@@ -51,23 +77,6 @@ impl<C> Cells<C> {
         cells: [u32; N],
     ) -> [&'a Element; N] {
         cells.map(|cell| &records.elements[self.elements[cell as usize] as usize])
-    }
-}
-
-fn check_corners(
-    cursor: &Cursor<'_>,
-    assembly: &Assembly,
-    element: &Element,
-) -> Result<(), GmshError> {
-    let corners = &assembly.corners[element.corners()];
-    let repeated = (1..corners.len()).find(|index| corners[..*index].contains(&corners[*index]));
-    match repeated {
-        Some(index) => Err(GmshError::RepeatedCorner {
-            place: cursor.place(element.offset),
-            element: element.tag,
-            node: assembly.nodes[corners[index] as usize].tag,
-        }),
-        None => Ok(()),
     }
 }
 
@@ -136,7 +145,8 @@ fn first_with_same_corners<const D: usize, C: MeshCell<D>>(
     let n_cells = u32::try_from(all.cells.len()).map_err(|_| GmshError::TooLarge)?;
     // In a file that repeats a cell for each of its groups, equal cells are duplicates only within one group.
     let owner = |cell: u32| match records.repeats_cells {
-        true => all.elements_of(records, [cell])[0].owner,
+        // A negative owner is an entity.
+        true => all.elements_of(records, [cell])[0].owner.max(0),
         false => 0,
     };
     let mut first: Vec<u32> = (0..n_cells).collect();

@@ -1,6 +1,7 @@
 //! Sequential reading of values from the bytes of a file.
 
-use super::error::{FilePosition, GmshError};
+use super::error::GmshError;
+use crate::remark::FilePosition;
 
 /// Encoding of the numbers in the sections.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,18 +18,27 @@ enum Encoding {
 pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     offset: usize,
+    /// Encoding of the file, by which positions are told.
+    file: Encoding,
+    /// Encoding of the numbers that are read next: text in sections that are text in every file.
     encoding: Encoding,
+    /// Whether a row of text may go on in the next line.
+    has_free_rows: bool,
     /// Name of the current section, and the offset at which it begins.
     section: (&'a str, usize),
 }
 
 impl<'a> Cursor<'a> {
-    /// A cursor at the beginning of the file, whose format section is always text.
+    /// A cursor at the beginning of the file, behind a byte order mark if it has one; the format section is always text.
     pub(super) fn new(bytes: &'a [u8]) -> Self {
+        const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+        let has_mark = bytes.starts_with(BYTE_ORDER_MARK);
         Self {
             bytes,
-            offset: 0,
+            offset: if has_mark { BYTE_ORDER_MARK.len() } else { 0 },
+            file: Encoding::Ascii,
             encoding: Encoding::Ascii,
+            has_free_rows: false,
             section: ("MeshFormat", 0),
         }
     }
@@ -38,16 +48,39 @@ impl<'a> Cursor<'a> {
         // Skips the end of the line, which the cursor has reached.
         self.offset += 1;
         self.encoding = Encoding::LittleEndian;
+        self.file = self.encoding;
         let begin = self.offset;
         let one = self.int("the integer 1")?;
         if one == 1_i32.swap_bytes() {
             self.encoding = Encoding::BigEndian;
+            self.file = self.encoding;
         } else if one != 1 {
             return Err(GmshError::UnknownByteOrder {
                 place: self.place(begin),
             });
         }
         Ok(())
+    }
+
+    /// Reads numbers as text, also in a binary file.
+    pub(super) fn as_text<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
+        let before = std::mem::replace(&mut self.encoding, Encoding::Ascii);
+        let found = read(self);
+        self.encoding = before;
+        found
+    }
+
+    /// Reads rows of text that may go on in the next line.
+    pub(super) fn with_free_rows<T>(&mut self, read: impl FnOnce(&mut Self) -> T) -> T {
+        self.has_free_rows = true;
+        let found = read(self);
+        self.has_free_rows = false;
+        found
+    }
+
+    /// Returns to an offset within the current section.
+    pub(super) fn rewind(&mut self, offset: usize) {
+        self.offset = offset;
     }
 
     pub(super) fn is_ascii(&self) -> bool {
@@ -65,7 +98,7 @@ impl<'a> Cursor<'a> {
 
     /// Position of a byte, as a line or an offset by the kind of file.
     pub(super) fn place(&self, offset: usize) -> FilePosition {
-        if self.is_ascii() {
+        if self.file == Encoding::Ascii {
             let before = &self.bytes[..offset.min(self.bytes.len())];
             FilePosition::Line(1 + before.iter().filter(|byte| **byte == b'\n').count())
         } else {
@@ -81,12 +114,9 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    pub(super) fn unknown_section(&self) -> GmshError {
-        let (name, begin) = self.section;
-        GmshError::UnknownSection {
-            place: self.place(begin),
-            name: name.to_owned(),
-        }
+    /// Name of the current section, and the offset at which it begins.
+    pub(super) fn section(&self) -> (&'a str, usize) {
+        self.section
     }
 
     /// The error for the text `found` at `offset` instead of the expected value.
@@ -120,7 +150,7 @@ impl<'a> Cursor<'a> {
 
     /// Checks that an ASCII row ends here.
     pub(super) fn end_row(&mut self) -> Result<(), GmshError> {
-        if !self.is_ascii() {
+        if !self.is_ascii() || self.has_free_rows {
             return Ok(());
         }
         self.skip_while(is_blank);
@@ -168,7 +198,10 @@ impl<'a> Cursor<'a> {
 
     /// Next word of an ASCII row.
     fn token(&mut self, expected: &'static str) -> Result<&'a [u8], GmshError> {
-        self.skip_while(is_blank);
+        match self.has_free_rows {
+            true => self.skip_while(|byte| byte.is_ascii_whitespace()),
+            false => self.skip_while(is_blank),
+        }
         let begin = self.offset;
         self.skip_while(|byte| !byte.is_ascii_whitespace());
         if begin == self.offset {
@@ -181,10 +214,18 @@ impl<'a> Cursor<'a> {
     }
 
     fn parsed<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, GmshError> {
+        self.parsed_by(expected, |text| text.parse().ok())
+    }
+
+    fn parsed_by<T>(
+        &mut self,
+        expected: &'static str,
+        parse: impl Fn(&str) -> Option<T>,
+    ) -> Result<T, GmshError> {
         let token = self.token(expected)?;
         std::str::from_utf8(token)
             .ok()
-            .and_then(|text| text.parse().ok())
+            .and_then(parse)
             .ok_or_else(|| {
                 self.unexpected_text_error(
                     self.offset - token.len(),
@@ -231,7 +272,9 @@ impl<'a> Cursor<'a> {
     /// Next `double`.
     pub(super) fn real(&mut self, expected: &'static str) -> Result<f64, GmshError> {
         match self.encoding {
-            Encoding::Ascii => self.parsed(expected),
+            Encoding::Ascii => self.parsed_by(expected, |text| {
+                text.parse().ok().or_else(|| fortran_real(text))
+            }),
             Encoding::LittleEndian => self.raw().map(f64::from_le_bytes),
             Encoding::BigEndian => self.raw().map(f64::from_be_bytes),
         }
@@ -314,6 +357,19 @@ impl<'a> Cursor<'a> {
         }
         Err(self.truncation_error())
     }
+}
+
+/// A number as Fortran programs write it: with D as the letter of the exponent, or with no letter before an exponent of three digits
+/// (`2.5D-01`, `0.25-101`).
+fn fortran_real(text: &str) -> Option<f64> {
+    let (digits, exponent) = match text.find(['d', 'D']) {
+        Some(at) => (&text[..at], &text[at + 1..]),
+        None => text
+            .rfind(['+', '-'])
+            .filter(|at| text.len() - at == "-101".len())
+            .map(|at| text.split_at(at))?,
+    };
+    format!("{digits}e{exponent}").parse().ok()
 }
 
 /// White space within a line.

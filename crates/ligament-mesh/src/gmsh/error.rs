@@ -1,26 +1,9 @@
 //! Reasons why a mesh file is refused.
 
-use std::fmt;
-
 use thiserror::Error;
 
-/// A position in a mesh file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum FilePosition {
-    /// Line of an ASCII file, counted from 1.
-    Line(usize),
-    /// Offset in a binary file, bytes from its beginning.
-    Byte(usize),
-}
-
-impl fmt::Display for FilePosition {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            FilePosition::Line(line) => write!(f, "line {line}"),
-            FilePosition::Byte(offset) => write!(f, "byte {offset}"),
-        }
-    }
-}
+use crate::parse_options::CoordinatePlane;
+use crate::remark::FilePosition;
 
 /// Reasons why a file was not read as a mesh.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -35,9 +18,9 @@ pub enum GmshError {
          (a geometry is meshed by `gmsh -2 geometry.geo -o mesh.msh`)"
     )]
     NotGmsh,
-    /// A version of the format other than 2.2 and 4.1.
+    /// A version of the format other than 2.0 to 2.2 and 4.1.
     #[error(
-        "{place}: format version {version} is not read, only 2.2 and 4.1; \
+        "{place}: format version {version} is not read, only 2.2 (2.0, 2.1) and 4.1; \
          convert the file by `gmsh mesh.msh -save -format msh41 -o new.msh`"
     )]
     UnsupportedVersion {
@@ -65,14 +48,6 @@ pub enum GmshError {
     UnknownByteOrder {
         /// Position of the integer.
         place: FilePosition,
-    },
-    /// A section that is not part of a mesh.
-    #[error("{place}: unknown section ${name}; save the mesh by Gmsh, without extra data")]
-    UnknownSection {
-        /// Position of the beginning of the section.
-        place: FilePosition,
-        /// Name of the section, without the dollar sign.
-        name: String,
     },
     /// The file ends within a section.
     #[error(
@@ -183,12 +158,13 @@ pub enum GmshError {
     },
     /// An element refers to a node that the file does not have.
     #[error(
-        "{place}: element {element} names node {node}, which the file does not have; save the mesh again"
+        "{place}: {} names node {node}, which the file does not have; save the mesh again",
+        if *.element == 0 { "a set".to_owned() } else { format!("element {}", .element) }
     )]
     MissingNode {
         /// Position of the element.
         place: FilePosition,
-        /// Tag of the element.
+        /// Tag of the element; 0 for a set of nodes.
         element: u64,
         /// Tag of the node.
         node: u64,
@@ -217,6 +193,64 @@ pub enum GmshError {
         /// Height z of the first node, m.
         plane: f64,
     },
+    /// The mesh lies in another coordinate plane than the one in which it is expected.
+    #[error(
+        "{place}: the mesh lies in the plane of {plane} ({} = {height}), not in that of {wanted}; {}",
+        .plane.normal().0, .plane.remedy(*.wanted)
+    )]
+    OtherPlane {
+        /// Position of the first node off the expected plane.
+        place: FilePosition,
+        /// Plane in which the mesh lies.
+        plane: CoordinatePlane,
+        /// Coordinate of all nodes across this plane, m.
+        height: f64,
+        /// Plane in which the mesh is expected.
+        wanted: CoordinatePlane,
+    },
+    /// A mesh that is expected in another plane than that of x and y does not lie in a plane of two coordinates.
+    #[error(
+        "{place}: node {tag} lies at {} = {height}, others at {common}: \
+         the mesh does not lie in the plane of {wanted}",
+        .wanted.normal().0
+    )]
+    NotInPlane {
+        /// Position of the node.
+        place: FilePosition,
+        /// Tag of the node.
+        tag: u64,
+        /// Plane in which the mesh is expected.
+        wanted: CoordinatePlane,
+        /// Coordinate of the node across this plane, m.
+        height: f64,
+        /// Coordinate of the first node across this plane, m.
+        common: f64,
+    },
+    /// A plane is given for a mesh with solid cells.
+    #[error(
+        "{place}: a solid cell: only a mesh without solid cells is turned from the plane of {plane}"
+    )]
+    SolidInPlane {
+        /// Position of the type of the first solid cell.
+        place: FilePosition,
+        /// Plane that was given.
+        plane: CoordinatePlane,
+    },
+    /// Doubled nodes along a crack that is in the mesh, or along a seam between parts that are not joined.
+    #[error(
+        "{place}: nodes {other} and {tag} are at one place, as {faces} pairs of outer sides of cells are: is this a crack, or are parts not \
+         joined? Leave out the plugin Crack and give the crack as a pre-crack; parts are joined by `Coherence Mesh;` in the geometry"
+    )]
+    CrackInMesh {
+        /// Position in the file of the second of two coincident nodes.
+        place: FilePosition,
+        /// Tag of the second node.
+        tag: u64,
+        /// Tag of the first node.
+        other: u64,
+        /// Number of pairs of outer sides at one place.
+        faces: usize,
+    },
     /// Two nodes at one position.
     #[error(
         "{place}: nodes {other} and {tag} are both at ({x}, {y}); merge them \
@@ -234,8 +268,10 @@ pub enum GmshError {
         /// Coordinate y of both nodes, m.
         y: f64,
     },
-    /// A cell with a repeated corner.
-    #[error("{place}: cell {element} has node {node} at two corners; mesh the geometry again")]
+    /// A cell with a repeated corner that is no cell with fewer corners.
+    #[error(
+        "{place}: cell {element} has node {node} at two corners, and is no cell with fewer corners; mesh the geometry again"
+    )]
     RepeatedCorner {
         /// Position of the cell.
         place: FilePosition,
@@ -254,7 +290,8 @@ pub enum GmshError {
     },
     /// A quadrangle that is not convex or crosses itself.
     #[error(
-        "{place}: quadrangle {element} is not convex; mesh again, with triangles (no Recombine) if need be"
+        "{place}: quadrangle {element} is not convex; are its corners in Gmsh's order (pixels of VTK have the last two exchanged)? \
+         Else mesh again, with triangles (no Recombine) if need be"
     )]
     NotConvex {
         /// Position of the cell.
@@ -325,7 +362,8 @@ pub enum GmshError {
     },
     /// A hexahedron, prism or pyramid that is not convex: its edges at a corner span no positive volume, or it is twisted.
     #[error(
-        "{place}: {shape} {element} is not convex; are its corners in Gmsh's order? \
+        "{place}: {shape} {element} is not convex; are its corners in Gmsh's order (voxels of VTK have the last two of base and top \
+         exchanged)? \
          Else mesh again, with tetrahedra (no Recombine) if need be"
     )]
     NotConvexSolid {

@@ -3,8 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::assembly::{Assembly, DROPPED_NODE};
+use super::collapsed::{Collapsible, first_repeated};
 use super::records::Records;
-use crate::cell::Cell;
+use crate::cell::{Cell, MeshCell};
 use crate::mesh::Group;
 use crate::remark::Remark;
 
@@ -49,12 +50,12 @@ pub(super) fn collect(
     nonempty_groups(groups, assembly.nodes.len(), remarks)
 }
 
-/// The face of a solid cell with given corners.
+/// The face of a solid cell with given corners, of which one may be repeated.
 pub(super) fn face(corners: &[u32]) -> Option<Cell> {
-    match *corners {
-        [a, b, c] => Some(Cell::Triangle([a, b, c])),
-        [a, b, c, d] => Some(Cell::Quadrangle([a, b, c, d])),
-        _ => None,
+    let face = Cell::from_corners(corners)?;
+    match first_repeated(corners) {
+        None => Some(face),
+        Some(_) => face.collapsed(),
     }
 }
 

@@ -7,6 +7,7 @@ use std::thread::available_parallelism;
 use super::cursor::Cursor;
 use super::element_type::Shape;
 use super::error::GmshError;
+use super::ignored::IgnoredSections;
 
 /// Bytes of the stack of a thread.
 const STACK: usize = 1 << 21;
@@ -30,7 +31,8 @@ pub(super) struct Element {
     pub(super) shape: Shape,
     /// Whether the element has nodes in addition to its corners.
     pub(super) higher_order: bool,
-    /// Number of the physical group (2.2) or of the entity (4.1), which determines the groups of the element.
+    /// Number of the physical group (2.2) or of the entity (4.1), which determines the groups of the element; in 2.2, an element without
+    /// a physical group may have the negative number of its entity.
     pub(super) owner: i32,
     /// Index of the first corner among the corners of all elements.
     pub(super) first_corner: usize,
@@ -75,12 +77,18 @@ pub(super) struct Records {
     pub(super) first_solid: Option<TypeRecord>,
     /// Names of physical groups by dimension and number.
     pub(super) names: HashMap<(u8, i32), String>,
+    /// Numbers of physical groups with their names, which are given for all dimensions (2.0).
+    pub(super) names_of_any: Vec<(i32, String)>,
     /// Numbers of the physical groups, by the dimension and the owner of their elements.
     pub(super) physicals: HashMap<(u8, i32), Vec<i32>>,
     /// Values at the nodes.
     pub(super) fields: Vec<FieldRecord>,
     /// Whether a cell in several groups has a record for each group, as in format 2.2, and not a single one, as in format 4.1.
     pub(super) repeats_cells: bool,
+    /// Whether the groups of entities are known in a file of 2.2.
+    pub(super) has_entities: bool,
+    /// Sections that are not used.
+    pub(super) ignored: IgnoredSections,
 }
 
 /// Properties of an element before its nodes.

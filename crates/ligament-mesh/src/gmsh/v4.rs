@@ -5,7 +5,26 @@ use super::error::GmshError;
 use super::records::{ElementHeader, Node, Records, TypeRecord, reserve};
 
 /// Reads the groups of the entities from `$Entities`, or `$PartitionedEntities`, after its first line.
+///
+/// Records of text may go on in the next line, as Gmsh reads them; a file in which they do not is read line by line, so that an error is
+/// found in its line.
 pub(super) fn read_entities(
+    cursor: &mut Cursor<'_>,
+    records: &mut Records,
+    partitioned: bool,
+) -> Result<(), GmshError> {
+    let begin = cursor.offset();
+    let by_lines = read_all_entities(cursor, records, partitioned);
+    if by_lines.is_ok() || !cursor.is_ascii() {
+        return by_lines;
+    }
+    cursor.rewind(begin);
+    cursor
+        .with_free_rows(|cursor| read_all_entities(cursor, records, partitioned))
+        .or(by_lines)
+}
+
+fn read_all_entities(
     cursor: &mut Cursor<'_>,
     records: &mut Records,
     partitioned: bool,

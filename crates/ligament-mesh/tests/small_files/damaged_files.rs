@@ -1,6 +1,7 @@
 //! One damaged or unfit file for each refusal of the reader, with the place it is refused at.
 
 use super::square::{SQUARE, SQUARE_41, golden, refusal, refusal_of};
+use ligament_mesh::Remark;
 use ligament_mesh::gmsh::{FilePosition, GmshError, parse};
 
 fn unexpected(line: usize, expected: &'static str, found: &str) -> GmshError {
@@ -82,21 +83,32 @@ fn odd_encodings_are_refused() {
     );
 }
 
+/// The format says so: sections with another name are ignored. Those on the body are named, if need be several times, in a binary file
+/// by their offset.
 #[test]
-fn unknown_sections_are_refused() {
-    let error = refusal("$EndNodes\n", "$EndNodes\n$Colours\n3\n$EndColours\n");
-    let expected = GmshError::UnknownSection {
-        place: FilePosition::Line(11),
-        name: "Colours".to_owned(),
+fn unknown_sections_are_ignored_with_a_remark() {
+    let mesh = parse(SQUARE.as_bytes()).unwrap();
+    let (before, behind) = SQUARE.split_at(SQUARE.find("$Elements").unwrap());
+    let colours = "$Colours\n$ 3\n$EndColoursOfOther\n$EndColours\n";
+    let text = format!("{before}{colours}{behind}{colours}$Ears\n$EndEars\n");
+    let mut read = parse(text.as_bytes()).unwrap();
+    let sections = [("Colours", 11), ("Ears", 25)];
+    let sections = sections.map(|(name, line)| (name.to_owned(), FilePosition::Line(line)));
+    let expected = Remark::IgnoredSections {
+        sections: sections.to_vec(),
+        others: 0,
     };
-    assert_eq!(error, expected);
-    // Entities are of format 4.1.
-    let error = refusal("$Nodes\n", "$Entities\n0 0 0 0\n$EndEntities\n$Nodes\n");
-    let expected = GmshError::UnknownSection {
-        place: FilePosition::Line(4),
-        name: "Entities".to_owned(),
-    };
-    assert_eq!(error, expected);
+    assert_eq!(std::mem::take(&mut read.remarks), [expected]);
+    assert_eq!(read, mesh);
+    let (mut bytes, _) = golden("triangles-22-binary.msh", "$");
+    let expected = parse(&bytes).unwrap();
+    let at = FilePosition::Byte(bytes.len());
+    bytes.extend(b"$Colours\n\0$End\n$EndColours\n");
+    let read = parse(&bytes).unwrap();
+    let remark = format!("the section $Colours ({at}) was ignored: nothing in it is used");
+    assert_eq!(read.remarks.last().unwrap().to_string(), remark);
+    assert_eq!((read.cells, read.groups), (expected.cells, expected.groups));
+    // Text between sections is no section.
     assert_eq!(
         refusal("$EndNodes\n", "$EndNodes\n7\n"),
         unexpected(11, "the $ of a section", "\"7\"")
@@ -104,27 +116,30 @@ fn unknown_sections_are_refused() {
 }
 
 #[test]
-fn skipped_sections_change_nothing() {
+fn sections_without_effect_need_no_remark() {
     let mesh = parse(SQUARE.as_bytes()).unwrap();
     let comments = "$Comments\n$Nodes costs $ 3\n$EndComments\n";
     assert_eq!(
         parse(format!("{comments}{SQUARE}").as_bytes()).unwrap(),
         mesh
     );
+    let with = |name: &str| {
+        let section = format!("${name}\n0\n$End{name}OfOther\n$End{name}\n");
+        parse(format!("{SQUARE}{section}").as_bytes()).unwrap()
+    };
     for name in [
-        "ElementData",
-        "ElementNodeData",
         "GhostElements",
         "InterpolationScheme",
+        "MeshVersion",
         "Parametrizations",
-        "Periodic",
     ] {
-        let section = format!("${name}\n0\n$End{name}OfOther\n$End{name}\n");
-        assert_eq!(
-            parse(format!("{SQUARE}{section}").as_bytes()).unwrap(),
-            mesh,
-            "{name}"
-        );
+        assert_eq!(with(name), mesh, "{name}");
+    }
+    for name in ["ElementData", "ElementNodeData", "Periodic"] {
+        let mut read = with(name);
+        let remark = read.remarks.remove(0).to_string();
+        assert!(remark.contains(&format!("${name} (line 17)")), "{remark}");
+        assert_eq!(read, mesh, "{name}");
     }
 }
 

@@ -5,5 +5,6 @@
 mod damaged_files;
 mod fields;
 mod groups;
+mod other_programs;
 mod square;
 mod unfit_meshes;

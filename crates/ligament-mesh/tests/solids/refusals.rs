@@ -1,7 +1,10 @@
 //! One file for each refusal of what is no solid mesh, with the place it is refused at.
 
 use super::small_files::{CHAPEL, changed};
-use ligament_mesh::gmsh::{FilePosition, GmshError, parse_any};
+use ligament_mesh::gmsh::{
+    CoordinatePlane, FilePosition, GmshError, ParseOptions, parse_any, parse_any_with,
+};
+use ligament_mesh::{AnyMesh, Remark};
 
 fn refusal(old: &str, new: &str) -> GmshError {
     parse_any(changed(old, new).as_bytes()).unwrap_err()
@@ -178,4 +181,49 @@ fn a_file_without_cells_is_refused() {
     let text =
         format!("{}$EndElements\n", &CHAPEL[..begin]).replace("$Elements\n6", "$Elements\n2");
     assert_eq!(parse_any(text.as_bytes()), Err(GmshError::NoCells));
+}
+
+/// A solid is in no plane, and is not turned.
+#[test]
+fn a_plane_for_a_solid_is_refused() {
+    let options = ParseOptions {
+        plane: CoordinatePlane::Yz,
+        ..ParseOptions::default()
+    };
+    let expected = GmshError::SolidInPlane {
+        place: FilePosition::Line(22),
+        plane: CoordinatePlane::Yz,
+    };
+    assert_eq!(parse_any_with(CHAPEL.as_bytes(), options), Err(expected));
+}
+
+/// The pyramid with its own nodes at the top of the cube.
+#[test]
+fn a_crack_is_refused_or_read() {
+    let doubled = "9 0.5 0.5 2\n15 0 0 1\n16 1 0 1\n17 1 1 1\n18 0 1 1\n";
+    let text = changed("9 0.5 0.5 2\n", doubled)
+        .replace("$Nodes\n9", "$Nodes\n13")
+        .replace("6 1 5 6 7 8 9", "6 1 15 16 17 18 9")
+        .replace("4 1 5 6 9", "4 1 15 16 9");
+    let error = parse_any(text.as_bytes()).unwrap_err();
+    let expected = GmshError::CrackInMesh {
+        place: FilePosition::Line(15),
+        tag: 15,
+        other: 5,
+        faces: 1,
+    };
+    assert_eq!(error, expected);
+    let options = ParseOptions {
+        allows_cracks: true,
+        ..ParseOptions::default()
+    };
+    let Ok(AnyMesh::Solid(mesh)) = parse_any_with(text.as_bytes(), options) else {
+        panic!("a solid mesh");
+    };
+    assert_eq!(mesh.remarks, [Remark::Crack { faces: 1 }]);
+    let [[below, above]] = mesh.crack_faces()[..] else {
+        panic!("one pair of faces");
+    };
+    assert_eq!(below.corners(), [4, 5, 6, 7]);
+    assert_eq!(above.corners(), [9, 10, 11, 12]);
 }

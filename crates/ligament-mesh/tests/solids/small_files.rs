@@ -156,3 +156,17 @@ fn surfaces_inside_of_the_body_are_faces_too() {
         SolidCell::Hexahedron([0, 1, 2, 3, 4, 5, 6, 7])
     );
 }
+
+/// The pyramid, written as a hexahedron with one node at four corners, and a face of it as a quadrangle with a repeated corner.
+#[test]
+fn cells_with_repeated_corners_are_cells_with_fewer() {
+    let text = changed("6 7 2 6 1 5 6 7 8 9", "6 5 2 6 1 5 6 7 8 9 9 9 9");
+    let text = text.replace("4 2 2 4 1 5 6 9", "4 3 2 4 1 5 6 9 9");
+    let mut mesh = solid(&text);
+    let remark = mesh.remarks.remove(0);
+    assert_eq!(remark, Remark::CollapsedCells { cells: 1 });
+    let expected = solid(CHAPEL);
+    assert_eq!(mesh.groups, expected.groups);
+    assert_eq!(mesh.cells[1].shape_name(), "pyramid");
+    assert_eq!(mesh.volume(), expected.volume());
+}

@@ -6,13 +6,69 @@ use super::assembly::Assembly;
 use super::cells::{Cells, check_covering, merge_repeated};
 use super::cursor::Cursor;
 use super::error::GmshError;
-use super::records::Records;
+use super::records::{Node, Records};
 use super::{fields, groups, nodes};
 use crate::cell::Cell;
+use crate::coincidence::size;
+use crate::crack::outer_edges_of;
 use crate::mesh::Mesh;
+use crate::parse_options::{CoordinatePlane, ParseOptions};
+use crate::remark::Remark;
 
 /// Makes the planar mesh of the records, or refuses them.
-pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<Mesh, GmshError> {
+pub(super) fn assemble(
+    cursor: &Cursor<'_>,
+    mut records: Records,
+    options: ParseOptions,
+) -> Result<Mesh, GmshError> {
+    check_elements(cursor, &records)?;
+    for node in &mut records.nodes {
+        node.position = options.plane.turned(node.position);
+    }
+    let assembly = Assembly::new(cursor, &mut records, 2)?;
+    let records = &records;
+    let size = size(assembly.nodes.iter().map(|node| node.position));
+    nodes::check_plane(cursor, &assembly.nodes, size, options.plane)?;
+    let positions: Vec<_> = (assembly.nodes.iter())
+        .map(|node| [node.position[0], node.position[1]])
+        .collect();
+    let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions, size);
+    let all = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented);
+    let planar = all.and_then(|all| merge_repeated(cursor, records, all, positions.len()));
+    let sides = planar.as_ref().map(|(it, _)| it.cells.as_slice());
+    let sides = || outer_edges_of(sides.unwrap_or_default());
+    let refusal = |[first, second]: [&Node; 2]| GmshError::CoincidentNodes {
+        place: cursor.place(second.offset),
+        tag: second.tag,
+        other: first.tag,
+        x: second.position[0],
+        y: second.position[1],
+    };
+    let context = (cursor, options);
+    let n_crack_faces =
+        nodes::check_coincidence(context, &assembly.nodes, &positions, sides, refusal)?;
+    let (planar, cell_of_element) = planar?;
+    cells::check_common_edges(cursor, records, &planar)?;
+    check_covering(cursor, records, &planar, &positions, Cell::triangles)?;
+    let mut remarks = assembly.remarks(planar.n_higher_order(records));
+    remarks.extend(planar.remarks(n_crack_faces));
+    remarks.extend(records.ignored.remark(cursor));
+    let plane = options.plane;
+    remarks.extend((plane != CoordinatePlane::Xy).then_some(Remark::Turned { plane }));
+    let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
+    let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
+    Ok(Mesh {
+        node_tags: assembly.nodes.iter().map(|node| node.tag).collect(),
+        positions,
+        cells: planar.cells,
+        groups,
+        fields,
+        remarks,
+    })
+}
+
+/// Refuses solid elements, and elements that are no cells alone.
+fn check_elements(cursor: &Cursor<'_>, records: &Records) -> Result<(), GmshError> {
     if let Some(record) = records.first_solid {
         return Err(GmshError::VolumeElement {
             place: cursor.place(record.offset),
@@ -20,40 +76,8 @@ pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<Mesh
         });
     }
     let mut elements = records.elements.iter();
-    if !elements.any(|element| element.shape.dimension() == 2) {
-        return Err(GmshError::NoCells);
+    match elements.any(|element| element.shape.dimension() == 2) {
+        true => Ok(()),
+        false => Err(GmshError::NoCells),
     }
-    let assembly = Assembly::new(cursor, &mut records, 2)?;
-    let records = &records;
-    let size = nodes::size(&assembly.nodes);
-    nodes::check_plane(cursor, &assembly.nodes, size)?;
-    if let Some([first, second]) = nodes::coincident(&assembly.nodes, size, 2) {
-        return Err(GmshError::CoincidentNodes {
-            place: cursor.place(second.offset),
-            tag: second.tag,
-            other: first.tag,
-            x: second.position[0],
-            y: second.position[1],
-        });
-    }
-    let positions: Vec<_> = (assembly.nodes.iter())
-        .map(|node| [node.position[0], node.position[1]])
-        .collect();
-    let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions, size);
-    let planar = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented)?;
-    let (planar, cell_of_element) = merge_repeated(cursor, records, planar, positions.len())?;
-    cells::check_common_edges(cursor, records, &planar)?;
-    check_covering(cursor, records, &planar, &positions, Cell::triangles)?;
-    let mut remarks = assembly.remarks(planar.n_higher_order(records));
-    let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
-    let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);
-    let node_tags = assembly.nodes.iter().map(|node| node.tag).collect();
-    Ok(Mesh {
-        node_tags,
-        positions,
-        cells: planar.cells,
-        groups,
-        fields,
-        remarks,
-    })
 }

@@ -6,29 +6,40 @@ use super::assembly::{Assembly, DROPPED_NODE};
 use super::cells::{Cells, check_covering, merge_repeated};
 use super::cursor::Cursor;
 use super::error::GmshError;
-use super::records::Records;
+use super::records::{Node, Records};
 use super::{fields, groups, nodes};
+use crate::crack::outer_faces_of;
 use crate::mesh::{Group, SolidMesh};
+use crate::parse_options::ParseOptions;
 use crate::solid::{Faces, SolidCell};
 
 /// Makes the solid mesh of the records, or refuses them.
-pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<SolidMesh, GmshError> {
+pub(super) fn assemble(
+    cursor: &Cursor<'_>,
+    mut records: Records,
+    options: ParseOptions,
+) -> Result<SolidMesh, GmshError> {
     let assembly = Assembly::new(cursor, &mut records, 3)?;
     let records = &records;
-    let size = nodes::size(&assembly.nodes);
-    if let Some([first, second]) = nodes::coincident(&assembly.nodes, size, 3) {
-        return Err(GmshError::CoincidentNodesInSpace {
-            place: cursor.place(second.offset),
-            tag: second.tag,
-            other: first.tag,
-            position: second.position,
-        });
-    }
     let positions: Vec<_> = assembly.nodes.iter().map(|node| node.position).collect();
     let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions);
-    let solid = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented)?;
-    let (solid, cell_of_element) = merge_repeated(cursor, records, solid, positions.len())?;
+    let all = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented);
+    let solid = all.and_then(|all| merge_repeated(cursor, records, all, positions.len()));
+    let sides = solid.as_ref().map(|(it, _)| it.cells.as_slice());
+    let sides = || outer_faces_of(sides.unwrap_or_default(), positions.len());
+    let refusal = |[first, second]: [&Node; 2]| GmshError::CoincidentNodesInSpace {
+        place: cursor.place(second.offset),
+        tag: second.tag,
+        other: first.tag,
+        position: second.position,
+    };
+    let context = (cursor, options);
+    let n_crack_faces =
+        nodes::check_coincidence(context, &assembly.nodes, &positions, sides, refusal)?;
+    let (solid, cell_of_element) = solid?;
     let mut remarks = assembly.remarks(solid.n_higher_order(records));
+    remarks.extend(solid.remarks(n_crack_faces));
+    remarks.extend(records.ignored.remark(cursor));
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
     drop(cell_of_element);
     let faces = Faces::new(&solid.cells, positions.len());
