@@ -71,7 +71,7 @@ fn around(line: [&[f64]; 2], levels: u32, folder: &Path) -> (String, Vec<Vec<f64
     fs::write(&file, text).unwrap();
     let pass = levels + 1;
     let setting = format!(
-        "refine={{ levels = {levels}, pass = {pass}, passes = {pass}, places = \"{}\" }}",
+        "refine={{ levels = {levels}, pass_number = {pass}, passes = {pass}, places = \"{}\" }}",
         file.display()
     );
     (setting, places)
@@ -219,7 +219,11 @@ fn stopped_in_second_pass(case: &CaseFile, folder: &Path) -> PathBuf {
     };
     assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
     let resolved = CaseFile::load(&second.join("case.resolved.toml"), &[]).unwrap();
-    assert_eq!(resolved.case.refine.unwrap().pass, 2, "stopped in pass 2");
+    assert_eq!(
+        resolved.case.refine.unwrap().pass_number,
+        2,
+        "stopped in pass 2"
+    );
     stopped
 }
 

@@ -53,7 +53,7 @@ impl Anew {
             Self::Growth(growth) => case.case.grow(growth),
             Self::Pass { refine, places, .. } => {
                 if let Some(section) = &mut case.case.refine {
-                    section.pass = refine.pass;
+                    section.pass_number = refine.pass;
                     section.places = Some(places.clone());
                 }
             }
@@ -64,7 +64,7 @@ impl Anew {
 
 /// Number of the pass of a case; 1 where nothing is refined.
 pub(crate) fn pass(case: &CaseFile) -> u32 {
-    case.case.refine.as_ref().map_or(1, |it| it.pass)
+    case.case.refine.as_ref().map_or(1, |it| it.pass_number)
 }
 
 /// Writes the refined mesh of a pass and the records of the passes before into its folder.

@@ -39,9 +39,9 @@ pub struct Refine {
     #[schemars(transform = setup::Refine::PASSES.keywords())]
     pub passes: u32,
     /// Number of the first pass; in results the number of the pass that they are from.
-    #[serde(default = "pass")]
+    #[serde(default = "pass_number")]
     #[schemars(transform = setup::Refine::PASSES.keywords())]
-    pub pass: u32,
+    pub pass_number: u32,
     /// A table with the columns `x` and `y`, in a solid also `z`, m: places around which the mesh is fine from the first pass on that refines it.
     pub places: Option<PathBuf>,
 }
@@ -62,7 +62,7 @@ fn passes() -> u32 {
     usual().passes
 }
 
-fn pass() -> u32 {
+fn pass_number() -> u32 {
     usual().pass
 }
 
@@ -89,7 +89,7 @@ impl Refine {
             strength_share: self.strength_share,
             tolerance: self.tolerance,
             passes: self.passes,
-            pass: self.pass,
+            pass: self.pass_number,
             places: places.transpose().map_err(fault)?.unwrap_or_default(),
         })
     }

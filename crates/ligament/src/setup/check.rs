@@ -533,7 +533,7 @@ impl Setup {
         )?;
         within(Refine::TOLERANCE, field.part("tolerance"), refine.tolerance)?;
         within(Refine::PASSES, field.part("passes"), refine.passes)?;
-        within(Refine::PASSES, field.part("pass"), refine.pass)
+        within(Refine::PASSES, field.part("pass_number"), refine.pass)
     }
 
     /// Checks a near field that grows.
