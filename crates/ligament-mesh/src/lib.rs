@@ -1,8 +1,9 @@
-//! Planar and solid finite-element meshes and their groups, read from Gmsh files.
+//! Planar and solid finite-element meshes and their groups, read from Gmsh files and input decks of Abaqus and CalculiX.
 //!
 //! [`gmsh::parse`] reads the bytes of a `.msh` file (formats 2.2 and 4.1, ASCII and binary) into a [`Mesh`]: nodes, triangles and
 //! quadrangles with their corners counter-clockwise, and the physical groups as sets of nodes. Files without a valid planar mesh are refused
-//! with the position of the fault. [`gmsh::parse_any`] reads solid meshes as well, of tetrahedra, hexahedra, prisms and pyramids.
+//! with the position of the fault. [`gmsh::parse_any`] reads solid meshes as well, of tetrahedra, hexahedra, prisms and pyramids. [`inp::parse`]
+//! reads the mesh of an input deck of Abaqus or CalculiX, and keeps its other keywords.
 //!
 //! ```
 //! let file = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
@@ -25,6 +26,7 @@ mod coincidence;
 mod crack;
 mod curve;
 pub mod gmsh;
+pub mod inp;
 mod interpolation;
 mod mesh;
 mod numbering;
@@ -41,5 +43,5 @@ pub use curve::along_hilbert_curve;
 pub use mesh::{AnyMesh, Group, Mesh, NodeField, SolidMesh};
 pub use numbering::Numbering;
 pub use portion::Portion;
-pub use remark::Remark;
+pub use remark::{DeckRemark, FileLine, Remark};
 pub use solid::{Faces, NotOnOutline, Side, SolidCell};

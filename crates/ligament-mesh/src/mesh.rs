@@ -166,6 +166,22 @@ impl AnyMesh {
             AnyMesh::Solid(mesh) => mesh.positions.len(),
         }
     }
+
+    /// Groups in the order of dimension, then number.
+    pub fn groups(&self) -> &[Group] {
+        match self {
+            AnyMesh::Plane(mesh) => &mesh.groups,
+            AnyMesh::Solid(mesh) => &mesh.groups,
+        }
+    }
+
+    /// Remarks for the user on parts of the file that were changed or left out.
+    pub fn remarks(&self) -> &[Remark] {
+        match self {
+            AnyMesh::Plane(mesh) => &mesh.remarks,
+            AnyMesh::Solid(mesh) => &mesh.remarks,
+        }
+    }
 }
 
 /// Multiplies coordinates by a factor.

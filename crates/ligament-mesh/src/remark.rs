@@ -1,6 +1,7 @@
 //! Remarks on a mesh file, and positions in it.
 
 use std::fmt;
+use std::sync::Arc;
 
 use crate::parse_options::CoordinatePlane;
 
@@ -71,6 +72,103 @@ pub enum Remark {
         /// Plane in which the mesh lies in the file.
         plane: CoordinatePlane,
     },
+    /// Something in an input deck.
+    Deck {
+        /// Line of the deck, the first of several.
+        line: FileLine,
+        /// What was changed or left out.
+        remark: DeckRemark,
+    },
+}
+
+/// A line of a file, or of one that it includes.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct FileLine {
+    /// Name of an included file, as the including one gives it.
+    pub file: Option<Arc<str>>,
+    /// Number of the line, counted from 1.
+    pub number: usize,
+}
+
+/// A remark on a part of an input deck that was changed or left out.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum DeckRemark {
+    /// Elements that are no part of the body: springs, beams, shells beside a solid and others.
+    LeftOutElements {
+        /// Element type.
+        kind: String,
+        /// Number of elements of this type.
+        elements: usize,
+        /// Number of these elements that are edges or faces of the body, and as such are in groups.
+        in_groups: usize,
+    },
+    /// Shells and membranes in a deck without plane or solid elements, which were read as plane cells.
+    ShellsAsCells {
+        /// Number of elements.
+        elements: usize,
+    },
+    /// Elements with repeated corners, which were read as the cells that they are: triangles, prisms, pyramids or tetrahedra.
+    CollapsedElements {
+        /// Number of elements.
+        elements: usize,
+    },
+    /// Nodes or elements that the deck defines again, differently; the last definition counts.
+    Redefined {
+        /// What is defined: nodes or elements.
+        items: &'static str,
+        /// Number of replaced definitions.
+        count: usize,
+    },
+    /// Members of a set that were left out.
+    LeftOutMembers {
+        /// Name of the set.
+        set: String,
+        /// Number of members that the deck does not define.
+        undefined: usize,
+        /// Number of nodes of no cell, or of elements that are neither cells nor edges or faces of cells.
+        beside: usize,
+        /// Whether the set has other members, which form a group.
+        is_group: bool,
+    },
+    /// Sides of elements in a surface that were left out, as edges or faces of no cell.
+    LeftOutSides {
+        /// Name of the surface.
+        surface: String,
+        /// Number of sides.
+        sides: usize,
+        /// Whether the surface has other sides, which form a group.
+        is_group: bool,
+    },
+    /// A surface without sides of elements or nodes, such as an analytical one.
+    LeftOutSurface {
+        /// Name of the surface.
+        surface: String,
+        /// Type of the surface.
+        kind: String,
+    },
+    /// An instance of a part whose nodes got other numbers, because those in the deck are not unique.
+    ShiftedNumbers {
+        /// Name of the instance.
+        instance: String,
+        /// Number added to the numbers of the nodes.
+        shift: u64,
+    },
+    /// A part without an instance, which was left out.
+    PartWithoutInstance {
+        /// Name of the part.
+        part: String,
+        /// Number of elements of the part.
+        elements: usize,
+    },
+}
+
+impl fmt::Display for FileLine {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.file {
+            Some(file) => write!(f, "line {} of {file}", self.number),
+            None => write!(f, "line {}", self.number),
+        }
+    }
 }
 
 impl fmt::Display for Remark {
@@ -121,6 +219,96 @@ impl fmt::Display for Remark {
                 f,
                 "the mesh was turned from the plane of {plane} into that of x and y"
             ),
+            Remark::Deck { line, remark } => write!(f, "{line}: {remark}"),
         }
+    }
+}
+
+impl fmt::Display for DeckRemark {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            DeckRemark::LeftOutElements {
+                kind,
+                elements,
+                in_groups,
+            } => {
+                write!(
+                    f,
+                    "{elements} elements of type {kind} are no part of the body and were left out"
+                )?;
+                match in_groups {
+                    0 => Ok(()),
+                    _ => write!(
+                        f,
+                        "; {in_groups} of them remain as edges or faces in groups"
+                    ),
+                }
+            }
+            DeckRemark::ShellsAsCells { elements } => write!(
+                f,
+                "without plane or solid elements, {elements} shells or membranes were read as plane cells, which do not bend"
+            ),
+            DeckRemark::CollapsedElements { elements } => write!(
+                f,
+                "{elements} elements with repeated corners were read as cells with fewer corners"
+            ),
+            DeckRemark::Redefined { items, count } => write!(
+                f,
+                "{count} {items} are defined again, differently; the last definition counts"
+            ),
+            DeckRemark::LeftOutMembers { .. } => self.fmt_members(f),
+            DeckRemark::LeftOutSides {
+                surface,
+                sides,
+                is_group,
+            } => write!(
+                f,
+                "{sides} sides in the surface {surface} are edges or faces of no cell and were left out{}",
+                end(*is_group)
+            ),
+            DeckRemark::LeftOutSurface { surface, kind } => write!(
+                f,
+                "the surface {surface} of type {kind} has no sides of elements and was left out"
+            ),
+            DeckRemark::ShiftedNumbers { instance, shift } => write!(
+                f,
+                "node n of the instance {instance} has the number {shift} + n in the mesh"
+            ),
+            DeckRemark::PartWithoutInstance { part, elements } => write!(
+                f,
+                "the part {part} with {elements} elements has no instance and was left out"
+            ),
+        }
+    }
+}
+
+impl DeckRemark {
+    fn fmt_members(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let DeckRemark::LeftOutMembers {
+            set,
+            undefined,
+            beside,
+            is_group,
+        } = self
+        else {
+            return Ok(());
+        };
+        let kinds = [
+            (undefined, "that the file does not define"),
+            (beside, "on no cell"),
+        ];
+        let counts = kinds.iter().filter(|(count, _)| **count > 0);
+        let counts: Vec<String> = counts.map(|(n, which)| format!("{n} {which}")).collect();
+        let counts = counts.join(" and ");
+        let end = end(*is_group);
+        write!(f, "members of the set {set} were left out: {counts}{end}")
+    }
+}
+
+/// What becomes of a group of which something was left out.
+fn end(is_group: bool) -> &'static str {
+    match is_group {
+        true => "",
+        false => "; it would be an empty group, and is none",
     }
 }

@@ -1,5 +1,6 @@
-//! Mesh files, whole and damaged, of all versions and encodings.
+//! Mesh files, whole and damaged, of all versions and encodings, and input decks.
 
+mod decks;
 mod golden;
 mod meshes;
 mod properties;

@@ -1,11 +1,12 @@
 //! `ligament mesh`.
 
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
-use ligament_study::meshing::via_meshio::{ConversionRequest, convert, default_out};
+use ligament_study::meshing::input_deck::{DeckRequest, convert_deck, is_deck};
+use ligament_study::meshing::via_meshio::{Conversion, ConversionRequest, convert, default_out};
 
 use super::argument_parsers::{number, output_file};
 use crate::inspect::write_summary;
@@ -16,7 +17,7 @@ Examples:
   ligament mesh disk.geo
   ligament mesh disk.geo --out meshes/disk-1mm.msh --set h=0.001
   ligament mesh disk.geo --gmsh ~/gmsh/bin/gmsh
-  ligament mesh --via-meshio plate.inp                 Abaqus, with its sets: writes plate.msh
+  ligament mesh plate.inp                              Abaqus, CalculiX, with its sets: writes plate.msh
   ligament mesh --via-meshio plate.med --python ~/venv/bin/python
 
 A geometry with volumes becomes a solid mesh if a physical volume contains them, or if there are no groups.
@@ -26,8 +27,11 @@ Lengths of the geometry, or of the mesh, are in m.";
 /// `ligament mesh`.
 #[derive(Debug, Args)]
 pub struct MeshArgs {
-    /// The geometry (Gmsh .geo)
-    #[arg(value_name = "FILE.geo", required_unless_present = "via_meshio")]
+    /// The geometry (Gmsh .geo), or an input deck of Abaqus or CalculiX (.inp), whose mesh is read with its sets and surfaces
+    #[arg(
+        value_name = "FILE.geo|FILE.inp",
+        required_unless_present = "via_meshio"
+    )]
     pub geometry: Option<PathBuf>,
     /// Convert a mesh of another program instead, with its groups (needs Python with meshio)
     #[arg(long, value_name = "FILE", conflicts_with_all = ["geometry", "numbers", "gmsh"])]
@@ -68,6 +72,7 @@ impl MeshArgs {
     pub(super) fn execute(self) -> anyhow::Result<()> {
         match (self.via_meshio.clone(), self.geometry.clone()) {
             (Some(source), _) => self.convert(source),
+            (None, Some(deck)) if is_deck(&deck) => self.read_deck(deck),
             (None, Some(geometry)) => self.mesh(geometry),
             (None, None) => Ok(()),
         }
@@ -95,13 +100,28 @@ impl MeshArgs {
             python: self.python,
         };
         let converted = convert(&request)?;
-        let mut out = terminal::for_messages(&request.out);
-        write_summary(&mut out, &request.out, &converted.mesh)?;
-        for remark in &converted.remarks {
-            writeln!(out, "  note: {remark}")?;
-        }
-        Ok(())
+        write_conversion(&request.out, &converted)
     }
+
+    fn read_deck(self, source: PathBuf) -> anyhow::Result<()> {
+        let request = DeckRequest {
+            out: self.out.unwrap_or_else(|| default_out(&source)),
+            force: self.force,
+            source,
+        };
+        let converted = convert_deck(&request)?;
+        write_conversion(&request.out, &converted)
+    }
+}
+
+/// Writes the mesh and the remarks of a conversion for the user.
+fn write_conversion(path: &Path, converted: &Conversion) -> anyhow::Result<()> {
+    let mut out = terminal::for_messages(path);
+    write_summary(&mut out, path, &converted.mesh)?;
+    for remark in &converted.remarks {
+        writeln!(out, "  note: {remark}")?;
+    }
+    Ok(())
 }
 
 /// A number of the geometry on the command line.

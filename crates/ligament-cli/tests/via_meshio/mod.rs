@@ -458,3 +458,24 @@ fn a_mesh_is_no_geometry() {
     );
     assert_eq!(ligament(["mesh"]).status.code(), Some(2));
 }
+
+/// The mesh of an input deck is read without Python: sets and surfaces are groups, and what a mesh does not have is named with its line.
+#[test]
+fn a_deck_needs_no_python() {
+    let folder = tempfile::tempdir().unwrap();
+    let deck = "*HEADING\nplate\n*NODE, NSET=all\n1, 0, 0\n2, 2, 0\n3, 2, 1\n4, 0, 1\n*ELEMENT, TYPE=CPS4, ELSET=plate\n1, 1, 2, 3, 4\n\
+        *SURFACE, NAME=right\n1, S2\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1D11, .3\n";
+    let source = folder.path().join("plate.inp");
+    fs::write(&source, deck).unwrap();
+    let output = ligament([OsStr::new("mesh"), source.as_os_str()]);
+    let said = text(&output.stdout) + &text(&output.stderr);
+    assert!(output.status.success(), "{said}");
+    for words in ["*ELASTIC (line 14)", "plane = \"stress\"", "right", "plate"] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let mesh = gmsh::parse(&fs::read(folder.path().join("plate.msh")).unwrap()).unwrap();
+    assert_eq!((mesh.cells.len(), mesh.area()), (1, 2.0));
+    assert_eq!(mesh.group("right").unwrap().edges.len(), 1);
+    let again = ligament([OsStr::new("mesh"), source.as_os_str()]);
+    assert!(!again.status.success(), "an existing mesh is not replaced");
+}

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ligament::suggestion::hint;
 use ligament_mesh::gmsh::GmshError;
+use ligament_mesh::inp::InpError;
 
 /// Error of making or converting a mesh. An existing mesh is then unchanged.
 #[derive(Debug, thiserror::Error)]
@@ -94,6 +95,14 @@ pub enum MeshingError {
         mesh: PathBuf,
         /// Last lines of Python's output.
         lines: Vec<String>,
+    },
+    /// An input deck cannot be read.
+    #[error("cannot use the input deck {}", deck.display())]
+    Deck {
+        /// The deck.
+        deck: PathBuf,
+        /// The reader's reason.
+        source: InpError,
     },
     /// The mesh by gmsh cannot be used.
     #[error("gmsh made a mesh of {} that cannot be used", geometry.display())]

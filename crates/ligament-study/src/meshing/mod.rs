@@ -3,6 +3,7 @@
 //! | module | makes a mesh of |
 //! |---|---|
 //! | [`gmsh_program`] | a geometry, by the program gmsh |
+//! | [`input_deck`] | an input deck of Abaqus or CalculiX, by the program itself |
 //! | [`via_meshio`] | a mesh in another format, by the Python package meshio |
 
 use std::ffi::OsString;
@@ -14,6 +15,7 @@ use ligament_output::{is_stream, remove_if_there};
 
 mod error;
 pub mod gmsh_program;
+pub mod input_deck;
 pub mod via_meshio;
 
 pub use error::{MeshingError, Refusal};

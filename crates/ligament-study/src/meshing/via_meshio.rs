@@ -90,22 +90,36 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
     }
     let handed = output.status.success().then(|| ScriptOutput::parse(&text));
     let ScriptOutput { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
-    let text = match &mesh {
+    let mesh = write_converted(source, &mesh, (out, request.force))?;
+    Ok(Conversion { mesh, remarks })
+}
+
+/// Writes the mesh of a source in Gmsh's format 4.1, in place of an existing file where `force` says so; returns the mesh as it is read back.
+///
+/// # Errors
+///
+/// If the mesh cannot be used or written.
+pub(super) fn write_converted(
+    source: &Path,
+    mesh: &AnyMesh,
+    (out, force): (&Path, bool),
+) -> Result<AnyMesh, MeshingError> {
+    let text = match mesh {
         AnyMesh::Plane(mesh) => gmsh::write(mesh),
         AnyMesh::Solid(mesh) => gmsh::write(mesh),
     };
     let mesh = gmsh::parse_any(text.as_bytes()).map_err(|error| MeshingError::UnusableSource {
-        mesh: source.clone(),
+        mesh: source.to_owned(),
         source: error,
     })?;
     let write_error = |source| MeshingError::File {
         action: "write",
-        path: out.clone(),
+        path: out.to_owned(),
         source,
     };
     make_folder_of(out).map_err(write_error)?;
-    write_file(out, text.as_bytes(), request.force)?;
-    Ok(Conversion { mesh, remarks })
+    write_file(out, text.as_bytes(), force)?;
+    Ok(mesh)
 }
 
 fn call_python(request: &ConversionRequest) -> Result<Output, MeshingError> {
