@@ -447,7 +447,7 @@ fn what_python_says_is_passed_on() {
 #[test]
 fn a_mesh_is_no_geometry() {
     let folder = tempfile::tempdir().unwrap();
-    let source = folder.path().join("plate.inp");
+    let source = folder.path().join("plate.med");
     fs::write(&source, "*NODE\n").unwrap();
     let output = ligament([OsStr::new("mesh"), source.as_os_str()]);
     assert_eq!(output.status.code(), Some(1));
@@ -470,7 +470,7 @@ fn a_deck_needs_no_python() {
     let output = ligament([OsStr::new("mesh"), source.as_os_str()]);
     let said = text(&output.stdout) + &text(&output.stderr);
     assert!(output.status.success(), "{said}");
-    for words in ["*ELASTIC (line 14)", "plane = \"stress\"", "right", "plate"] {
+    for words in ["*ELASTIC (line 13)", "plane = \"stress\"", "right", "plate"] {
         assert!(said.contains(words), "{words}: {said}");
     }
     let mesh = gmsh::parse(&fs::read(folder.path().join("plate.msh")).unwrap()).unwrap();

@@ -18,7 +18,7 @@ enum Encoding {
 pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     offset: usize,
-    /// Encoding of the file, by which positions are told.
+    /// Encoding of the file, which decides whether positions are lines or bytes.
     file: Encoding,
     /// Encoding of the numbers that are read next: text in sections that are text in every file.
     encoding: Encoding,

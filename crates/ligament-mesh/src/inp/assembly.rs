@@ -6,8 +6,7 @@ use super::error::InpError;
 use super::groups::Groups;
 use super::model::Model;
 use super::part::Element;
-use super::shape::{collapsed, is_collapsed};
-use super::source::{Position, Source};
+use super::source::Source;
 use crate::gmsh::{self, GmshError};
 use crate::mesh::AnyMesh;
 use crate::remark::{DeckRemark, FileLine, Remark};
@@ -23,7 +22,7 @@ pub(super) fn assemble<'a>(
     let (cells, mut nodes) = Cells::new(source, &body)?;
     let mut mesh = cells.mesh(source, &body, &mut nodes)?;
     let mut remarks = remarks_on_nodes(&cells, &nodes);
-    remarks.extend(cells.remark(source));
+    remarks.extend_from_slice(mesh.remarks());
     remarks.extend(of_body);
     remarks.extend(remarks_on_definitions(source, model));
     let cells = cells.numbers(&body);
@@ -47,30 +46,25 @@ struct Cells {
     /// Space and index of the element of each cell.
     origins: Vec<(u32, u32)>,
     n_higher_order: usize,
-    n_collapsed: usize,
-    first_collapsed: Option<Position>,
 }
 
 impl Cells {
     /// Cells of a body, and the uses of the nodes: 0 for a corner, [`INNER`] or [`UNUSED`].
     fn new(source: &Source<'_>, body: &Body<'_>) -> Result<(Self, Vec<Vec<u32>>), InpError> {
         let parts = body.spaces.iter().map(|space| space.part);
-        let mut uses: Vec<Vec<u32>> =
-            (parts.map(|part| vec![UNUSED; part.nodes.list.len()])).collect();
+        let uses = parts.map(|part| vec![UNUSED; part.nodes.list.len()]);
+        let mut uses: Vec<Vec<u32>> = uses.collect();
         let count = body.kinds.iter().flatten().filter(|kind| kind.is_cell);
         let count = count.map(|kind| kind.count).sum();
         let mut cells = Self {
             elements: Vec::with_capacity(count),
             origins: Vec::with_capacity(count),
             n_higher_order: 0,
-            n_collapsed: 0,
-            first_collapsed: None,
         };
         for (index, (space, uses)) in (0..).zip(body.spaces.iter().zip(&mut uses)) {
             for (place, element) in (0..).zip(&space.part.elements.list) {
                 if body.is_cell(element) {
-                    cells.use_nodes(source, body, (space, element), uses)?;
-                    cells.add(source, body, (space, element))?;
+                    cells.add(source, body, (space, element), uses)?;
                     cells.origins.push((index, place));
                 }
             }
@@ -78,8 +72,8 @@ impl Cells {
         Ok((cells, uses))
     }
 
-    /// Marks the nodes of an element as used.
-    fn use_nodes(
+    /// Adds an element as a cell, and marks its nodes as used.
+    fn add(
         &mut self,
         source: &Source<'_>,
         body: &Body<'_>,
@@ -89,7 +83,7 @@ impl Cells {
         let element_type = body.type_of(element);
         let n_corners = element_type.shape.map_or(0, Shape::corners);
         let nodes = space.part.elements.nodes(element);
-        self.n_higher_order += usize::from(element_type.is_higher_order(nodes.len()));
+        self.n_higher_order += usize::from(nodes.len() > n_corners);
         for (place, &node) in nodes.iter().enumerate() {
             let index = space.part.nodes.index(node);
             let index = index.ok_or_else(|| InpError::MissingNode {
@@ -103,39 +97,11 @@ impl Cells {
                 uses[index] = INNER;
             }
         }
-        Ok(())
-    }
-
-    /// Adds an element as a cell.
-    fn add(
-        &mut self,
-        source: &Source<'_>,
-        body: &Body<'_>,
-        (space, element): (&Space<'_>, &Element),
-    ) -> Result<(), InpError> {
-        let Some(shape) = body.type_of(element).shape else {
-            return Ok(());
-        };
-        let nodes = &space.part.elements.nodes(element)[..shape.corners()];
-        let tags = |nodes: &[u32]| -> Vec<u64> {
-            let tags = nodes.iter().map(|node| space.shift + u64::from(*node));
-            tags.collect()
-        };
-        let corners = if is_collapsed(nodes) {
-            self.n_collapsed += 1;
-            self.first_collapsed.get_or_insert(element.position);
-            let distinct = collapsed(shape, nodes).ok_or_else(|| InpError::NoCell {
-                line: source.line(element.position),
-                element: space.label(element.label),
-                kind: body.type_of(element).name.clone(),
-            })?;
-            tags(&distinct)
-        } else {
-            tags(nodes)
-        };
+        let corners = nodes[..n_corners].iter();
+        let corners = corners.map(|node| space.shift + u64::from(*node));
         self.elements.push(gmsh::Element {
             dimension: if body.is_solid { 3 } else { 2 },
-            corners,
+            corners: corners.collect(),
             group: None,
         });
         Ok(())
@@ -161,22 +127,12 @@ impl Cells {
     /// Number of each element's cell, by spaces.
     fn numbers(self, body: &Body<'_>) -> Vec<Vec<u32>> {
         let parts = body.spaces.iter().map(|space| space.part);
-        let mut numbers: Vec<Vec<u32>> =
-            (parts.map(|part| vec![NO_CELL; part.elements.list.len()])).collect();
+        let numbers = parts.map(|part| vec![NO_CELL; part.elements.list.len()]);
+        let mut numbers: Vec<Vec<u32>> = numbers.collect();
         for (number, (space, element)) in (0..).zip(self.origins) {
             numbers[space as usize][element as usize] = number;
         }
         numbers
-    }
-
-    /// Remark on elements with repeated corners.
-    fn remark(&self, source: &Source<'_>) -> Option<Remark> {
-        Some(Remark::Deck {
-            line: source.line(self.first_collapsed?),
-            remark: DeckRemark::CollapsedElements {
-                elements: self.n_collapsed,
-            },
-        })
     }
 }
 
@@ -262,6 +218,7 @@ impl Faults<'_> {
         match error {
             GmshError::TooLarge => InpError::TooLarge,
             GmshError::NoMemory { megabytes } => InpError::NoMemory { megabytes },
+            GmshError::OtherPlane { plane, .. } => InpError::OtherPlane { plane },
             GmshError::NotPlanar { tag, z, plane, .. } => {
                 let (line, node) = self.node(tag);
                 InpError::NotPlanar {
@@ -271,15 +228,17 @@ impl Faults<'_> {
                     plane,
                 }
             }
-            GmshError::CoincidentNodes {
-                tag, other, x, y, ..
-            } => self.coincident(tag, other, [x, y, 0.0]),
-            GmshError::CoincidentNodesInSpace {
-                tag,
-                other,
-                position,
-                ..
-            } => self.coincident(tag, other, position),
+            GmshError::CoincidentNodes { tag, other, .. }
+            | GmshError::CoincidentNodesInSpace { tag, other, .. } => {
+                self.coincident(tag, other, 0)
+            }
+            GmshError::CrackInMesh {
+                tag, other, faces, ..
+            } => self.coincident(tag, other, faces),
+            GmshError::RepeatedCorner { element, .. } => self.unfit(
+                element,
+                "has repeated corners, and is no cell with fewer corners",
+            ),
             GmshError::ZeroArea { element, .. } => self.unfit(element, "has no area"),
             GmshError::NotConvex { element, .. } | GmshError::NotConvexSolid { element, .. } => {
                 self.unfit(element, "is not convex, or its nodes are in another order")
@@ -315,14 +274,14 @@ impl Faults<'_> {
         (self.source.line(position), label)
     }
 
-    fn coincident(&self, tag: u64, other: u64, position: [f64; 3]) -> InpError {
+    fn coincident(&self, tag: u64, other: u64, faces: usize) -> InpError {
         let ((line, node), (other_line, other)) = (self.node(tag), self.node(other));
         InpError::CoincidentNodes {
             line,
             node,
             other,
             other_line,
-            position,
+            faces,
         }
     }
 

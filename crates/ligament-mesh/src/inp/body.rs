@@ -126,7 +126,7 @@ pub(super) struct Kind {
     pub(super) is_cell: bool,
 }
 
-/// Which elements are the cells of the body.
+/// The body: spaces with elements, and the types of these elements that are its cells.
 pub(super) struct Body<'a> {
     pub(super) spaces: Vec<Space<'a>>,
     pub(super) types: &'a [ElementType],

@@ -137,12 +137,6 @@ impl ElementType {
         let n = self.shape.map_or(0, Shape::corners);
         (0..n).map(move |place| step * place)
     }
-
-    /// Whether an element with some number of nodes has nodes besides its corners.
-    pub(super) fn is_higher_order(&self, nodes: usize) -> bool {
-        let is_line = self.shape == Some(Shape::Edge);
-        !is_line && self.shape.is_some_and(|shape| nodes > shape.corners())
-    }
 }
 
 type Found = (Use, Option<Shape>, RangeInclusive<usize>);

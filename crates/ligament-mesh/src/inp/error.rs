@@ -5,6 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::element_type::{Plane, Refusal};
+use crate::parse_options::CoordinatePlane;
 use crate::remark::FileLine;
 
 /// Reasons why an input deck was not read as a mesh.
@@ -232,18 +233,6 @@ pub enum InpError {
         /// Number of the node.
         node: u32,
     },
-    /// An element with repeated corners that is no cell.
-    #[error(
-        "{line}: element {element} of type {kind} has repeated corners and is no triangle, quadrangle, tetrahedron, pyramid or prism; mesh the part again"
-    )]
-    NoCell {
-        /// Line of the element.
-        line: FileLine,
-        /// Number of the element, with the name of its instance.
-        element: String,
-        /// Element type.
-        kind: String,
-    },
     /// A plane element in a deck with solid ones that is no face of these.
     #[error(
         "{line}: element {element} of type {kind} is a plane element beside solid ones, and is the face of none of them; a body consists of \
@@ -289,11 +278,19 @@ pub enum InpError {
         /// Height z of the first node, m.
         plane: f64,
     },
-    /// Two nodes at one position.
+    /// The mesh lies in a plane, but not in that of x and y.
     #[error(
-        "{line}: nodes {other} ({other_line}) and {node} are both at ({}, {}, {}); merge them (in Abaqus/CAE: Edit Mesh, Merge nodes): \
-         cells are joined by the nodes that they share",
-        .position[0], .position[1], .position[2]
+        "the mesh lies in the plane of {plane}, not in that of x and y; exchange the coordinates, or turn the part"
+    )]
+    OtherPlane {
+        /// Plane in which the mesh lies.
+        plane: CoordinatePlane,
+    },
+    /// Two nodes at one position: parts that are not joined, or a crack in the mesh.
+    #[error(
+        "{line}: nodes {other} ({other_line}) and {node} are at one place{}; merge them (in Abaqus/CAE: Edit Mesh, Merge nodes, or merge the \
+         instances): cells are joined by the nodes that they share, and a crack is given as a pre-crack",
+        faces_at_one_place(*.faces)
     )]
     CoincidentNodes {
         /// Line of the second node.
@@ -304,8 +301,8 @@ pub enum InpError {
         other: String,
         /// Line of the first node.
         other_line: FileLine,
-        /// Position of both nodes, m.
-        position: [f64; 3],
+        /// Number of pairs of outer sides of cells at one place, where all coincident nodes are on such sides.
+        faces: usize,
     },
     /// An element whose shape is no cell: flat, or not convex.
     #[error("{line}: element {element} of type {kind} {fault}; mesh the part again")]
@@ -341,6 +338,13 @@ pub enum InpError {
         /// Description of the fault.
         reason: String,
     },
+}
+
+fn faces_at_one_place(faces: usize) -> String {
+    match faces {
+        0 => String::new(),
+        faces => format!(", as {faces} pairs of outer sides of cells are"),
+    }
 }
 
 fn word(plane: Plane) -> &'static str {

@@ -6,7 +6,7 @@ use super::body::{Body, INNER, NO_CELL, Numbers, UNUSED};
 use super::element_type::Use;
 use super::error::InpError;
 use super::part::{Element, Elements, Member, Nodes, Part, Set, Side, Surface};
-use super::shape::{collapsed, is_collapsed};
+use super::shape::without_repetition;
 use super::source::{Position, Source};
 use crate::cell::{Cell, MeshCell, ascending};
 use crate::mesh::{AnyMesh, Group, SolidMesh};
@@ -132,13 +132,8 @@ impl<'a> Groups<'a> {
 
     /// Numbers in the mesh of the corners of an element; `None` where one of them is no node of the mesh, or the element has no shape.
     fn corners_in_mesh(&self, space: usize, element: &Element) -> Option<Vec<u32>> {
-        let (shape, corners) = self.body.corners(space, element)?;
-        let distinct = if is_collapsed(&corners) {
-            collapsed(shape, &corners)?
-        } else {
-            corners
-        };
-        let numbers = self.numbers_of(space, &distinct);
+        let (_, corners) = self.body.corners(space, element)?;
+        let numbers = self.numbers_of(space, &without_repetition(corners.into_iter()));
         (!numbers.contains(&UNUSED)).then_some(numbers)
     }
 

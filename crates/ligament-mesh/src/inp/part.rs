@@ -260,7 +260,7 @@ impl Items {
     }
 }
 
-/// Which sides of elements a line of a surface names.
+/// Sides of elements that a line of a surface names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     /// A side by its number, counted from 1.

@@ -204,6 +204,6 @@ fn faults_of_assemblies_are_named_with_their_lines() {
     }
     // Instances that touch do not share nodes.
     let error = refusal(&PAIR.replace("3., 0., 0.\n3., 0., 0., 3., 0., 1., 90.", "1., 0., 0."));
-    let expected = "line 3: nodes Square-1.2 (line 4) and Square-2.1 are both at (1, 0, 0); merge";
+    let expected = "line 3: nodes Square-1.2 (line 4) and Square-2.1 are at one place, as 1 pairs of outer sides";
     assert!(error.starts_with(expected), "{error}");
 }

@@ -128,7 +128,7 @@ fn faults_of_planar_meshes_are_named_with_lines_of_the_deck() {
         (
             "6, 2, 1\n",
             "6, 1, 1\n",
-            "line 7: nodes 5 (line 6) and 6 are both at (1, 1, 0); merge them",
+            "line 7: nodes 5 (line 6) and 6 are at one place; merge them",
         ),
         (
             "1, 1, 2, 5, 4",
@@ -186,7 +186,7 @@ fn faults_of_solid_meshes_are_named_with_lines_of_the_deck() {
         (
             "9, 0.5, 0.5, 2",
             "9, 1, 1, 1",
-            "line 10: nodes 7 (line 8) and 9 are both at (1, 1, 1)",
+            "line 10: nodes 7 (line 8) and 9 are at one place",
         ),
     ] {
         assert_eq!(CHAPEL.matches(old).count(), 1, "{old}");

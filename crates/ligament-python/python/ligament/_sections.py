@@ -780,7 +780,7 @@ class Refine(TypedDict, total=False):
     """Relative change of peak and work, between two passes of one size, at which no other pass follows; the path changes by `size` at most. Default 0.02."""
     passes: int
     """Largest number of passes. Default 5."""
-    pass: int
+    pass_number: int
     """Number of the first pass; in results the number of the pass that they are from. Default 1."""
     places: str
     """A table with the columns `x` and `y`, in a solid also `z`, m: places around which the mesh is fine from the first pass on that refines it."""
