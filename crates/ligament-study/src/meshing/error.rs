@@ -102,7 +102,7 @@ pub enum MeshingError {
         /// The deck.
         deck: PathBuf,
         /// The reader's reason.
-        source: InpError,
+        source: Box<InpError>,
     },
     /// The mesh by gmsh cannot be used.
     #[error("gmsh made a mesh of {} that cannot be used", geometry.display())]

@@ -56,7 +56,7 @@ pub fn convert_deck(request: &DeckRequest) -> Result<Conversion, MeshingError> {
     let deck = inp::parse(&bytes, &mut |name| fs::read(folder.join(name)));
     let deck = deck.map_err(|error| MeshingError::Deck {
         deck: source.clone(),
-        source: error,
+        source: Box::new(error),
     })?;
     let remarks = remarks(&deck);
     let mesh = write_converted(source, &deck.mesh, (out, *force))?;
