@@ -14,7 +14,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-case", 61_783),
     ("ligament-cli", 57_314),
     ("ligament-linalg", 22_578),
-    ("ligament-mesh", 84_208),
+    ("ligament-mesh", 83_241),
     ("ligament-model", 223_291),
     ("ligament-output", 74_365),
     ("ligament-petsc", 2_978),
@@ -23,7 +23,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-python", 14_221),
     ("ligament-report", 20_363),
     ("ligament-run", 31_826),
-    ("ligament-study", 87_034),
+    ("ligament-study", 87_042),
     ("ligament-verify", 80_850),
 ];
 
