@@ -22,7 +22,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-post", 27_060),
     ("ligament-python", 14_221),
     ("ligament-report", 20_363),
-    ("ligament-run", 31_826),
+    ("ligament-run", 31_827),
     ("ligament-study", 87_042),
     ("ligament-verify", 80_850),
 ];
