@@ -4,19 +4,17 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ligament::ensemble::Ensemble;
 use ligament::patch_test::patch_test;
 use ligament::run::{NoObserver, Solution};
-use ligament_analysis::distributed_matrix::Solo;
 use ligament_analysis::driver::Outcome;
 use ligament_case::case::CaseFile;
 use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
-use ligament_run::{repeat, resume, run};
-use verification::bench::{Bench, case, missing_energy, solved};
+use ligament_run::run;
+use verification::bench::{Bench, case, error_of, is_repeated, missing_energy, resume_run, solved};
 
 /// Square of 100 mm and 568 points.
 const SQUARE: &str = r#"
@@ -228,13 +226,7 @@ fn what_is_wrong_is_refused() {
         ),
         (&lattice, "output={}", "are the cells of a mesh"),
     ] {
-        let path = verification::repository().join("tests/case.toml");
-        let settings = [PART_OF_SQUARE, setting].map(str::to_owned);
-        let error = CaseFile::parse(&path, text.to_owned(), &settings)
-            .map_err(|it| it.to_string())
-            .and_then(|it| it.setup(&mut ()).map_err(|it| it.to_string()))
-            .and_then(|it| it.solve(&mut NoObserver).map_err(|it| it.to_string()));
-        let error = error.unwrap_err();
+        let error = error_of(text, &[PART_OF_SQUARE, setting]);
         assert!(error.contains(words), "{setting}: {error}");
     }
 }
@@ -315,15 +307,7 @@ fn a_run_that_began_anew_is_repeated_and_resumed() {
     request.run(ProgressMode::Quiet).unwrap();
     let resolved = CaseFile::load(&whole.join("case.resolved.toml"), &[]).unwrap();
     assert!(!resolved.case.far_field.unwrap().near.is_empty());
-    let repeat = repeat::Request {
-        folder: &whole,
-        out: None,
-        mesh: None,
-        threads: Some(2),
-        build: Build::default(),
-        is_stopped: &|| false,
-    };
-    assert!(repeat.repeat(ProgressMode::Quiet).unwrap().is_same());
+    assert!(is_repeated(&whole));
 
     let stopped = folder.path().join("stopped");
     let asked = AtomicUsize::new(0);
@@ -332,16 +316,7 @@ fn a_run_that_began_anew_is_repeated_and_resumed() {
         ..run::Request::new(&case, &stopped, Build::default())
     };
     assert!(request.run(ProgressMode::Quiet).unwrap().is_stopped());
-    let resume = resume::Request {
-        folder: &stopped,
-        mesh: None,
-        settings: &[],
-        threads: None,
-        build: Build::default(),
-        is_stopped: &|| false,
-        communicator: Arc::new(Solo),
-    };
-    resume.resume(ProgressMode::Quiet).unwrap();
+    resume_run(&stopped);
     let tables =
         |it: &Path| ["history.csv", "breaks.csv"].map(|name| std::fs::read(it.join(name)).unwrap());
     assert!(tables(&whole) == tables(&stopped));

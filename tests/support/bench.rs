@@ -15,11 +15,12 @@ use ligament_analysis::{ProportionalLoading, State};
 use ligament_case::case::CaseFile;
 use ligament_mesh::Mesh;
 use ligament_model::correction::{CorrectionReport, DomainReport};
-use ligament_output::summary::Summary;
+use ligament_output::summary::{Build, Summary};
 use ligament_run::model::{Model, build_model_on};
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::run::{self, Report};
 use ligament_run::stages::Stages;
+use ligament_run::{repeat, resume};
 use tempfile::TempDir;
 
 use crate::meshes;
@@ -67,6 +68,44 @@ pub fn case(text: &str, settings: &[&str]) -> CaseFile {
 pub fn solved(text: &str, settings: &[&str]) -> Solution {
     let setup = case(text, settings).setup(&mut ()).unwrap();
     setup.solve(&mut NoObserver).unwrap()
+}
+
+/// The error of a case that lies in `tests/` and cannot be read, prepared or solved; `settings` are `key=value` each.
+pub fn error_of(text: &str, settings: &[&str]) -> String {
+    let path = crate::repository().join("tests/case.toml");
+    let settings: Vec<String> = settings.iter().map(|&it| it.to_owned()).collect();
+    let solved = CaseFile::parse(&path, text.to_owned(), &settings)
+        .map_err(|it| it.to_string())
+        .and_then(|it| it.setup(&mut ()).map_err(|it| it.to_string()))
+        .and_then(|it| it.solve(&mut NoObserver).map_err(|it| it.to_string()));
+    solved.err().expect("the case is wrong")
+}
+
+/// Whether a stored run is repeated to the bit on two threads.
+pub fn is_repeated(folder: &Path) -> bool {
+    let repeat = repeat::Request {
+        folder,
+        out: None,
+        mesh: None,
+        threads: Some(2),
+        build: Build::default(),
+        is_stopped: &|| false,
+    };
+    repeat.repeat(ProgressMode::Quiet).unwrap().is_same()
+}
+
+/// Resumes a stopped run up to its end.
+pub fn resume_run(folder: &Path) {
+    let resume = resume::Request {
+        folder,
+        mesh: None,
+        settings: &[],
+        threads: None,
+        build: Build::default(),
+        is_stopped: &|| false,
+        communicator: Arc::new(Solo),
+    };
+    resume.resume(ProgressMode::Quiet).unwrap();
 }
 
 /// Largest of what the ledger of energy misses in a history, over the largest work.

@@ -107,11 +107,6 @@ pub enum DeckRemark {
         /// Number of elements.
         elements: usize,
     },
-    /// Elements with repeated corners, which were read as the cells that they are: triangles, prisms, pyramids or tetrahedra.
-    CollapsedElements {
-        /// Number of elements.
-        elements: usize,
-    },
     /// Nodes or elements that the deck defines again, differently; the last definition counts.
     Redefined {
         /// What is defined: nodes or elements.
@@ -247,10 +242,6 @@ impl fmt::Display for DeckRemark {
             DeckRemark::ShellsAsCells { elements } => write!(
                 f,
                 "without plane or solid elements, {elements} shells or membranes were read as plane cells, which do not bend"
-            ),
-            DeckRemark::CollapsedElements { elements } => write!(
-                f,
-                "{elements} elements with repeated corners were read as cells with fewer corners"
             ),
             DeckRemark::Redefined { items, count } => write!(
                 f,

@@ -41,8 +41,8 @@ impl MarkedCell for MarkedFace {
         self.refinement_edge
     }
 
-    /// Triangles between the middle and all sides but the refinement edge, in the orientation of the face. The four triangles of a
-    /// quadrangle are those of its halves: the middle of the common diagonal bisects both.
+    /// Triangles between the middle and all sides but the refinement edge, in the orientation of the face. A quadrangle gives
+    /// four triangles, two of each half: the middle of the common diagonal bisects both halves.
     fn children(&self, middle: u32) -> impl Iterator<Item = Self> + use<> {
         let Self {
             face,

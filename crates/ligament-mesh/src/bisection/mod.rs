@@ -26,7 +26,7 @@ const LEAST_SHARE: f64 = 0.5;
 /// - A quadrangle that is refined becomes four triangles around the middle of its shorter diagonal, in one bisection. Other quadrangles stay.
 /// - A tetrahedron is bisected as a marked tetrahedron of Arnold, Mukherjee and Pouly, first at its longest edge. Its descendants have at most
 ///   72 shapes. Three bisections of all tetrahedra are the middles of all edges. The radius ratio of a regular tetrahedron falls to 0.25
-///   for one of its descendants and no further, those of random ones to between 0.8 and 0.1 of their own.
+///   for one of its descendants and no further, the radius ratios of random ones to between 0.8 and 0.1 of their own.
 /// - The outline of a planar mesh is curved where its edges turn to the same side by similar angles below 40 degrees: new nodes lie on a
 ///   curve through the nodes of the original outline, unless a cell would lose half of its area by that. On a circle of 12 edges they
 ///   are exact after two bisections of all cells, 1.1e-4 of the radius off after four, and never more than 1.5e-4 (24 edges: 6.9e-6,
@@ -56,7 +56,7 @@ struct Leaf<M> {
 }
 
 impl<const D: usize, C: Bisectable<D>> Bisection<D, C> {
-    /// An original mesh, of which no cell is bisected yet.
+    /// The original mesh before any bisection.
     ///
     /// # Errors
     /// Returns an error if the mesh has solid cells other than tetrahedra.

@@ -10,7 +10,7 @@ use crate::mesh::{Group, Mesh, NodeField};
 
 impl<const D: usize, C: Bisectable<D>> Bisection<D, C> {
     /// The mesh. Groups have the parts of their original edges, faces and cells. A new node has the mean of the values at the
-    /// ends of its edge, if both have one, and a tag above those of the original nodes.
+    /// ends of its edge, if both have one, and a tag above all tags of original nodes.
     pub fn mesh(&self) -> Mesh<D, C> {
         let original = &self.original;
         let cells: Vec<C> = self.cells().collect();

@@ -39,7 +39,7 @@ impl MarkedTetrahedron {
         }
     }
 
-    /// Whether all marked edges lie in one plane: those of the two faces without the refinement edge meet its ends, and each other.
+    /// Whether all marked edges lie in one plane: the marked edges of the two faces without the refinement edge meet its ends, and each other.
     fn is_planar(&self) -> bool {
         let other_end = |[p, q]: [u32; 2], end: u32| match end {
             _ if end == p => Some(q),

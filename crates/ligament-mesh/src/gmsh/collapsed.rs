@@ -11,7 +11,7 @@ pub(super) trait Collapsible: Sized {
 }
 
 impl Collapsible for Cell {
-    /// A quadrangle of which two successive corners are one node is a triangle.
+    /// The triangle of a quadrangle whose two successive corners are one node.
     fn collapsed(&self) -> Option<Self> {
         match *around(self.corners())?.as_slice() {
             [a, b, c] => Some(Cell::Triangle([a, b, c])),

@@ -72,6 +72,7 @@ fn coarse_beside_fine(setup: &Setup, horizons: &[f64], fine_horizon: f64) -> Opt
         .filter(|group| setup.body.points_of(group).is_some_and(|it| is_mixed(&it)))
         .map(|group| format!("`{group}`"))
         .collect();
+    mixed.sort_unstable();
     mixed.dedup();
     (!mixed.is_empty()).then(|| {
         let text = format!(
