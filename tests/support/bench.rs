@@ -78,7 +78,7 @@ pub fn error_of(text: &str, settings: &[&str]) -> String {
         .map_err(|it| it.to_string())
         .and_then(|it| it.setup(&mut ()).map_err(|it| it.to_string()))
         .and_then(|it| it.solve(&mut NoObserver).map_err(|it| it.to_string()));
-    solved.err().expect("the case is wrong")
+    solved.expect_err("the case is wrong")
 }
 
 /// Whether a stored run is repeated to the bit on two threads.
