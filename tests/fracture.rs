@@ -16,6 +16,7 @@ mod failure_criteria;
 mod fracture_energy;
 mod fragments;
 mod incremental;
+mod joints;
 mod mbb_pd_reference;
 mod missed_contact;
 mod properties;

@@ -21,6 +21,7 @@ mod loads;
 mod mbb_pd;
 mod mbb_pd_variants;
 mod mesh_in_parts;
+mod meshed_cracks;
 mod modal;
 mod neighbours;
 mod patch;

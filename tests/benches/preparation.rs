@@ -9,6 +9,7 @@ use ligament_mesh::{Mesh, gmsh};
 use ligament_model::correction::length::length_factors;
 use ligament_model::correction::patch::Settings;
 use ligament_model::correction::{StopRule, Sweeps, domain, patch};
+use ligament_model::failure::Basis;
 use ligament_model::failure::strength::{critical_energy, critical_stretches};
 use ligament_model::law::Law;
 use ligament_model::{
@@ -73,7 +74,16 @@ fn preparation(criterion: &mut Criterion) {
             BondSystem::new(cloud, bonds, ElementKind::Beam, stiffness, alpha, omega)
         };
         let system = put_together(stages());
-        let no_fail = vec![false; cloud.len()];
+        let basis = Basis {
+            system: &system,
+            no_fail: &vec![false; cloud.len()],
+            space: plane.into(),
+            materials: &[],
+            joints: &[],
+            constants: Vec::new(),
+            lattice: None,
+            scatter: &[],
+        };
 
         let mut group = criterion.benchmark_group(name);
         group.throughput(Throughput::Elements(cloud.len() as u64));
@@ -93,7 +103,7 @@ fn preparation(criterion: &mut Criterion) {
             bencher.iter_batched(stages, put_together, BatchSize::LargeInput);
         });
         group.bench_function("critical stretches", |bencher| {
-            bencher.iter(|| critical_stretches(black_box(&system), &energies, &no_fail));
+            bencher.iter(|| critical_stretches(black_box(&basis), &energies));
         });
         group.finish();
     }

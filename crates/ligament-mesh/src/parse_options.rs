@@ -7,9 +7,6 @@ use std::fmt;
 pub struct ParseOptions {
     /// Plane in which a mesh without solid cells lies; from another one than that of x and y the mesh is turned into it.
     pub plane: CoordinatePlane,
-    /// Whether a mesh with doubled nodes along a crack is read, whose faces [`Mesh::crack_faces`](crate::Mesh::crack_faces) lists. It is
-    /// refused otherwise, like any mesh with two nodes at one place.
-    pub allows_cracks: bool,
 }
 
 /// A plane of two coordinates.

@@ -208,7 +208,7 @@ impl fmt::Display for Remark {
             ),
             Remark::Crack { faces } => write!(
                 f,
-                "nodes are doubled along a crack, or along a seam that is not joined: {faces} pairs of outer sides of cells coincide"
+                "a crack is in the mesh: {faces} pairs of outer sides of cells with nodes of their own are at one place, and no bond crosses them; cells that should hold together there are joined by `Coherence Mesh;` in the geometry"
             ),
             Remark::Turned { plane } => write!(
                 f,

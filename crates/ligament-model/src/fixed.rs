@@ -19,6 +19,8 @@ pub struct ConstantFields {
     pub patch_residual: Vec<f64>,
     /// Points whose bonds never fail, shape (n_points).
     pub no_fail: Vec<bool>,
+    /// Name of each interface between materials, and whether each bond crosses it, shape (n_bonds).
+    pub interfaces: Vec<(String, Vec<bool>)>,
     /// Random factors of each property that varies; empty where none does.
     pub scatter: Vec<Factors>,
     /// Pairs within a horizon that are not bonded, in the order of their ends.
@@ -52,7 +54,7 @@ pub struct AbsentBond {
 pub enum Absence {
     /// A pre-crack cut the bond.
     PreCrack,
-    /// The straight line between them leaves the body: a hole, slot or notch lies there.
+    /// The straight line between them leaves the body: a hole, slot, notch or crack of the mesh lies there.
     Void,
 }
 

@@ -240,7 +240,7 @@ pub fn criteria<const D: usize>(
     if !setup.analysis.is_fracture() || setup.criteria.is_empty() {
         return Ok(Criteria::default());
     }
-    let (materials, space) = (setup.materials(), setup.space());
+    let (materials, space) = (setup.materials_with_joints(), setup.space());
     let basis = Basis {
         system,
         no_fail: &fixed.no_fail,
@@ -249,6 +249,7 @@ pub fn criteria<const D: usize>(
             .map(|it| setup.law.split(it, space))
             .collect(),
         materials: &materials,
+        joints: &setup.joints(),
         lattice: cast_ref(system).map(|system| lattice(setup, system)),
         scatter: &fixed.scatter,
     };

@@ -83,6 +83,7 @@ impl Model {
         watcher: &mut dyn StageWatcher,
     ) -> Result<Self, SetupError> {
         setup.check()?;
+        let setup = precracks::with_lines_of_groups(setup)?;
         if let Some(refine) = &setup.refine {
             return Self::of_pass::<D>(refine.clone(), setup, watcher);
         }
@@ -175,6 +176,7 @@ impl Model {
             Some(near) => Bonded::of_near_field(near, &*body, &material_of_cell, watcher)?,
         };
         fixed.no_fail = no_fail;
+        fixed.interfaces = setup.crossed_interfaces(&system);
         fixed.scatter = scatter::factors(&setup.scatter, &body.positions(), &body.numbering());
         let limits = || formulation::criteria(&setup, &system, &fixed);
         let criteria = stage(watcher, "criteria", limits)?;
@@ -183,6 +185,7 @@ impl Model {
             warnings: warnings(described, &system.cloud, report, &fixed, &criteria, crossed)
                 .into_iter()
                 .chain(warning::without_edges(&system))
+                .chain(warning::of_interfaces(&fixed, &system.cloud.subdomain))
                 .collect(),
             correction_range: counts::correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system, &fixed.absent),
@@ -333,7 +336,7 @@ fn bonded<const D: usize>(
     watcher.found(&counts::finding(&cloud, &bonds, &absent));
     let cracks = precracks::cracks(body, &setup.precracks)?;
     let mut crossed = stage(watcher, "pre-cracks", || {
-        Precracked::new(&cracks, &bonds, &cloud)
+        Precracked::new(&cracks, &bonds, &cloud, &body.rim())
     });
     let absent = with_cut(absent, &bonds, &crossed.is_cut);
     let Corrected {
@@ -514,6 +517,7 @@ fn of_correction(correction: &Correction) -> ConstantFields {
         domain_factor: correction.domain_factor.clone(),
         shear_ratio: correction.shear_ratio.clone(),
         patch_residual: correction.patch_residual().to_vec(),
+        interfaces: Vec::new(),
         no_fail: Vec::new(),
         scatter: Vec::new(),
         absent: Vec::new(),

@@ -1,5 +1,7 @@
 //! Pre-cracks of a setup as lines and surfaces that cut bonds.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use ligament_mesh::Cell;
 use ligament_model::bonds::precrack::{
     Crack, Ends, PreCrack as Line, SolidPreCrack, count_touched_bonds, cut_bonds,
@@ -7,8 +9,76 @@ use ligament_model::bonds::precrack::{
 use ligament_model::{BondSet, PointCloud};
 
 use crate::body::{Body, Geometry};
+use crate::coordinates::in_dimensions;
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{CrackShape, PreCrack};
+use crate::setup::{CrackShape, PreCrack, Setup};
+
+/// The setup with lines in the place of the curve groups of a body in the plane along which it has pre-cracks: one for each line of edges that
+/// hang together.
+///
+/// # Errors
+///
+/// If the body has no group of a name, or the group has no edges.
+pub(crate) fn with_lines_of_groups(setup: Setup) -> Result<Setup, SetupError> {
+    let body = setup.body.as_body();
+    if setup.dimensions() != 2 || setup.precracks.iter().all(|it| !it.is_along_group()) {
+        return Ok(setup);
+    }
+    let mut precracks = Vec::new();
+    for (index, crack) in setup.precracks.iter().enumerate() {
+        let CrackShape::Group(group) = &crack.shape else {
+            precracks.push(crack.clone());
+            continue;
+        };
+        let field = Field::element("precracks", index).part("surface");
+        if body.points_of(group).is_none() {
+            return Err(field.error(Fault::UnknownName {
+                what: body.group_kind(),
+                found: group.clone(),
+                candidates: body.group_names(),
+            }));
+        }
+        let edges = body.curve_of(group);
+        if edges.is_empty() {
+            let reason =
+                "a pre-crack runs along a physical curve of the mesh: this group has no edges";
+            return Err(field.error(Fault::Contradiction(reason.into())));
+        }
+        let position = |node: u32| in_dimensions(&body.position(node));
+        precracks.extend(polylines(&edges).into_iter().map(|nodes| PreCrack {
+            shape: CrackShape::Line(nodes.into_iter().map(position).collect()),
+            ends: crack.ends,
+        }));
+    }
+    Ok(Setup { precracks, ..setup })
+}
+
+/// Nodes along the lines that edges form, each edge once: from the lowest node with an odd number of edges on, or of a closed line from its
+/// lowest node, and at each node on to the lowest neighbour.
+fn polylines(edges: &[[u32; 2]]) -> Vec<Vec<u32>> {
+    let mut neighbours: BTreeMap<u32, BTreeSet<u32>> = BTreeMap::new();
+    for &[a, b] in edges {
+        neighbours.entry(a).or_default().insert(b);
+        neighbours.entry(b).or_default().insert(a);
+    }
+    let mut lines = Vec::new();
+    while let Some(start) = (neighbours.iter().find(|(_, others)| others.len() % 2 == 1))
+        .or_else(|| neighbours.iter().find(|(_, others)| !others.is_empty()))
+        .map(|(&node, _)| node)
+    {
+        let mut line = vec![start];
+        let mut node = start;
+        while let Some(next) = neighbours.get_mut(&node).and_then(BTreeSet::pop_first) {
+            if let Some(others) = neighbours.get_mut(&next) {
+                others.remove(&node);
+            }
+            line.push(next);
+            node = next;
+        }
+        lines.push(line);
+    }
+    lines
+}
 
 /// The lines or surfaces that cut bonds of a body.
 ///
@@ -76,7 +146,10 @@ fn triangles_of_group(
     }
     let triangles: Vec<[u32; 3]> = faces.iter().flat_map(Cell::triangles).collect();
     if triangles.is_empty() {
-        return Err(field.part("surface").error(Fault::NoArea));
+        let reason =
+            "a pre-crack of a solid has the faces of a physical surface: this group has none";
+        let fault = Fault::Contradiction(reason.into());
+        return Err(field.part("surface").error(fault));
     }
     Ok(triangles)
 }
@@ -85,7 +158,7 @@ fn triangles_of_group(
 pub(crate) struct Precracked {
     /// Whether a pre-crack cuts each bond, shape (n_bonds).
     pub(crate) is_cut: Vec<bool>,
-    /// Number of bonds that only touch an end of a pre-crack.
+    /// Number of bonds along the outline that only touch an end of a pre-crack.
     pub(crate) touched: usize,
     /// Indices of the pre-cracks that cut no bond.
     pub(crate) idle: Vec<usize>,
@@ -98,6 +171,7 @@ impl Precracked {
         cracks: &[Crack],
         bonds: &BondSet<D>,
         cloud: &PointCloud<D>,
+        is_on_outline: &[bool],
     ) -> Self {
         let is_cut = cut_bonds(cracks, &bonds.ends, cloud);
         let count = |is_cut: &[bool]| {
@@ -111,7 +185,7 @@ impl Precracked {
         };
         Self {
             idle: (0..cracks.len()).filter(is_idle).collect(),
-            touched: count_touched_bonds(cracks, bonds, cloud, &is_cut),
+            touched: count_touched_bonds(cracks, bonds, cloud, &is_cut, is_on_outline),
             share: share(cloud, bonds, &is_cut),
             is_cut,
         }

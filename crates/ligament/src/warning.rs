@@ -2,6 +2,7 @@
 
 mod correction;
 mod criteria;
+mod joint;
 mod platen;
 mod refinement;
 mod volumetric;
@@ -23,6 +24,7 @@ use crate::plausibility::corners;
 use crate::setup::{Horizon, MaterialRegion, Setup};
 
 pub use criteria::few_bonds;
+pub(crate) use joint::of_interfaces;
 pub(crate) use refinement::of_refinement;
 pub(crate) use volumetric::without_edges;
 
@@ -80,8 +82,10 @@ pub(crate) fn of_model(
         _ => {}
     }
     if touched > 0 {
-        let text = format!("{touched} bonds only touch an end of a pre-crack and stay whole");
-        let advice = "if the crack begins at the outline, start it a little outside, or set `ends = \"included\"`";
+        let text = format!(
+            "{touched} bonds along the outline only touch an end of a pre-crack and stay whole"
+        );
+        let advice = "start the crack a little outside, or set `ends = \"included\"`";
         warnings.push(Message::new("touched-bonds", text).with_advice(advice));
     }
     if setup.probes.iter().any(|it| it.reading.is_stress()) {

@@ -3,7 +3,8 @@
 use std::fmt;
 
 /// Paths of repeatable sections, those of a study last.
-const REPEATED: [&[&str]; 11] = [
+const REPEATED: [&[&str]; 12] = [
+    &["interface"],
     &["precrack"],
     &["support"],
     &["load"],

@@ -39,7 +39,7 @@ pub struct Precrack {
     /// Radius of a disk in a solid, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub radius: Option<f64>,
-    /// The faces of this physical surface of a solid mesh.
+    /// The faces of this physical surface of a solid mesh, or the edges of this physical curve of a mesh in the plane.
     pub group: Option<String>,
     /// Whether bonds that only touch the crack are cut.
     #[serde(default)]
@@ -51,30 +51,35 @@ impl Precrack {
     pub(super) fn setup(&self, key: &KeyPath, dimensions: usize) -> Result<PreCrack, KeyFault> {
         Ok(PreCrack {
             shape: match dimensions {
-                2 => CrackShape::Line(self.line(key)?),
+                2 => self.line(key)?,
                 _ => self.surface(key)?,
             },
             ends: self.ends,
         })
     }
 
-    fn line(&self, key: &KeyPath) -> Result<Vec<Point>, KeyFault> {
-        let of_solids = ["normal", "radius", "group"];
+    fn line(&self, key: &KeyPath) -> Result<CrackShape, KeyFault> {
+        let of_solids = ["normal", "radius"];
         let reason = "only pre-cracks of solids, which are surfaces, have it";
         refuse(key, self, &of_solids, "a body in the plane", reason)?;
         let straight = ["centre", "length", "angle"];
-        match &self.points {
-            Some(points) => {
-                let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line";
-                refuse(key, self, &straight, "`points`", reason)?;
-                Ok(points.iter().map(Coordinates::in_plane).collect())
-            }
-            None if first_given(self, &straight).is_some() => Ok(self.ends_of_line(key)?.to_vec()),
-            None => {
-                let keys = [("points", false), ("centre", false)];
-                Err(not_exactly_one(key, &keys))
-            }
+        let reason = "a pre-crack has the corners of a polyline, or `centre`, `length` and `angle` of a straight line, or a group of curves";
+        if let Some(group) = &self.group {
+            refuse(key, self, &["points"], "`group`", reason)?;
+            refuse(key, self, &straight, "`group`", reason)?;
+            return Ok(CrackShape::Group(group.clone()));
         }
+        Ok(CrackShape::Line(match &self.points {
+            Some(points) => {
+                refuse(key, self, &straight, "`points`", reason)?;
+                points.iter().map(Coordinates::in_plane).collect()
+            }
+            None if first_given(self, &straight).is_some() => self.ends_of_line(key)?.to_vec(),
+            None => {
+                let keys = [("points", false), ("centre", false), ("group", false)];
+                return Err(not_exactly_one(key, &keys));
+            }
+        }))
     }
 
     fn surface(&self, key: &KeyPath) -> Result<CrackShape, KeyFault> {

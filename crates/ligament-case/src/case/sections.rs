@@ -6,7 +6,7 @@ use ligament::Message;
 use ligament::body::AnyBody;
 use ligament::near_growth::Growth;
 use ligament::plausibility::{of_angle, without_thickness};
-use ligament::setup::{self, Alpha, QuietEdge, Section, Setup, SurfaceContact};
+use ligament::setup::{self, Alpha, Interface, QuietEdge, Section, Setup, SurfaceContact};
 use ligament_analysis::SolverSettings;
 use ligament_analysis::modal::ModalSettings;
 use ligament_analysis::motion::{MotionSettings, Scheme};
@@ -64,6 +64,9 @@ pub struct Case {
     )]
     #[schemars(schema_with = "material::schema")]
     pub materials: Vec<Material>,
+    /// Interfaces between two materials with strengths of their own.
+    #[serde(rename = "interface", default, skip_serializing_if = "Vec::is_empty")]
+    pub interfaces: Vec<Interface>,
     /// The bond model.
     pub model: ModelSection,
     /// The corrections of the bonds; without it as in the paper of the law.
@@ -308,6 +311,7 @@ impl Case {
             materials: (self.materials.iter())
                 .map(Material::setup)
                 .collect::<Result<_, _>>()?,
+            interfaces: self.interfaces.clone(),
             law,
             rotational_scale: self.model.rotational_scale(),
             horizon: self.model.horizon(&at("model"))?,

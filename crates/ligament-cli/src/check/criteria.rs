@@ -33,11 +33,25 @@ pub(super) fn write(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
             write_energy(report, model, criterion)?;
         }
     }
+    write_interfaces(report, model)?;
     write_curves(report, model)?;
     write_cracks(report, model)?;
     crack_work::write(report, model)?;
     write_characteristic_lengths(report, model)?;
     write_scatters(report, model)
+}
+
+/// Writes the interfaces with their properties and the number of their bonds.
+fn write_interfaces(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
+    let crossed = model.setup.interfaces.iter().zip(&model.fixed.interfaces);
+    for (interface, (name, crosses)) in crossed {
+        let given = interface.properties().into_iter();
+        let given = given.filter_map(|(key, value)| Some(format!("{key} = {:e}", value?)));
+        let bonds = crosses.iter().filter(|it| **it).count();
+        let words = format!("{bonds} bonds; {}", given.collect::<Vec<_>>().join(", "));
+        report.entry(&format!("interface {name}"), words)?;
+    }
+    Ok(())
 }
 
 /// Draws the stress over the opening of a crack for each law of softening.

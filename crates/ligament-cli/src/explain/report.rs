@@ -40,6 +40,13 @@ pub(super) fn bond(
     entry(out, "bond horizon H", horizons)?;
     let [alpha, omega] = [&bonds.length_factor, &bonds.domain_factor].map(|it| it[life.pair]);
     entry(out, "alpha, Omega", format!("{alpha:.5}, {omega:.5}"))?;
+    for (name, _) in bonds.interfaces.iter().filter(|it| it.1[life.pair]) {
+        entry(
+            out,
+            "interface",
+            format!("crosses {name}, whose strengths its limits have"),
+        )?;
+    }
     for (name, words) in words::limits(life) {
         entry(out, &name, words)?;
     }

@@ -338,7 +338,7 @@ pub(super) fn reasons_without_bond(
                 .to_owned()
         }
         Some(Absence::Void) => {
-            "No bond: a hole, slot or notch of the body lies between them.".to_owned()
+            "No bond: a hole, slot, notch or crack of the mesh lies between them.".to_owned()
         }
         None => format!(
             "No bond: neither point lies in the horizon of the other; their bonds reach {}.",

@@ -72,7 +72,7 @@ pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<A
         });
     }
     if elements.iter().any(|it| it.dimension == 3) {
-        solid::assemble(&cursor, records, ParseOptions::default()).map(AnyMesh::Solid)
+        solid::assemble(&cursor, records).map(AnyMesh::Solid)
     } else {
         plane::assemble(&cursor, records, ParseOptions::default()).map(AnyMesh::Plane)
     }

@@ -236,12 +236,12 @@ pub enum GmshError {
         /// Plane that was given.
         plane: CoordinatePlane,
     },
-    /// Doubled nodes along a crack that is in the mesh, or along a seam between parts that are not joined.
+    /// Doubled nodes along a seam between parts that are not joined, or along a crack that parts the body.
     #[error(
-        "{place}: nodes {other} and {tag} are at one place, as {faces} pairs of outer sides of cells are: is this a crack, or are parts not \
-         joined? Leave out the plugin Crack and give the crack as a pre-crack; parts are joined by `Coherence Mesh;` in the geometry"
+        "{place}: nodes {other} and {tag} are at one place, as {faces} pairs of outer sides of cells are, and part the mesh into pieces: are \
+         parts not joined? `Coherence Mesh;` in the geometry joins them; a crack through the whole body is given as a pre-crack"
     )]
-    CrackInMesh {
+    Seam {
         /// Position in the file of the second of two coincident nodes.
         place: FilePosition,
         /// Tag of the second node.

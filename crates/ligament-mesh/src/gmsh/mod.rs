@@ -8,6 +8,7 @@
 //! - Nodes that no cell uses are dropped, also from the groups.
 //! - `$NodeData` gives the fields of the mesh; only scalars are stored.
 //! - In a planar mesh the z coordinate must be constant and is dropped; [`ParseOptions`] turn a mesh from another plane.
+//! - Doubled nodes along a crack are read, and a remark tells it; a seam that parts the mesh into pieces is refused.
 //! - Clockwise or inverted cells are reoriented. In a solid mesh a surface element in a group must be a face of a cell.
 //! - A cell with a repeated corner is the cell with fewer corners that it is.
 //! - Other sections are ignored, as the format says, with a remark where they say something about the body.
@@ -84,7 +85,7 @@ pub fn parse_any_with(bytes: &[u8], options: ParseOptions) -> Result<AnyMesh, Gm
             place: cursor.place(record.offset),
             plane: options.plane,
         }),
-        Some(_) => solid::assemble(&cursor, records, options).map(AnyMesh::Solid),
+        Some(_) => solid::assemble(&cursor, records).map(AnyMesh::Solid),
     }
 }
 

@@ -232,7 +232,7 @@ impl Faults<'_> {
             | GmshError::CoincidentNodesInSpace { tag, other, .. } => {
                 self.coincident(tag, other, 0)
             }
-            GmshError::CrackInMesh {
+            GmshError::Seam {
                 tag, other, faces, ..
             } => self.coincident(tag, other, faces),
             GmshError::RepeatedCorner { element, .. } => self.unfit(

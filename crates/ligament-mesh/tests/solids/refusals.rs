@@ -188,7 +188,6 @@ fn a_file_without_cells_is_refused() {
 fn a_plane_for_a_solid_is_refused() {
     let options = ParseOptions {
         plane: CoordinatePlane::Yz,
-        ..ParseOptions::default()
     };
     let expected = GmshError::SolidInPlane {
         place: FilePosition::Line(22),
@@ -199,25 +198,25 @@ fn a_plane_for_a_solid_is_refused() {
 
 /// The pyramid with its own nodes at the top of the cube.
 #[test]
-fn a_crack_is_refused_or_read() {
+fn a_seam_is_refused_and_a_crack_is_read() {
     let doubled = "9 0.5 0.5 2\n15 0 0 1\n16 1 0 1\n17 1 1 1\n18 0 1 1\n";
     let text = changed("9 0.5 0.5 2\n", doubled)
         .replace("$Nodes\n9", "$Nodes\n13")
         .replace("6 1 5 6 7 8 9", "6 1 15 16 17 18 9")
         .replace("4 1 5 6 9", "4 1 15 16 9");
     let error = parse_any(text.as_bytes()).unwrap_err();
-    let expected = GmshError::CrackInMesh {
+    let expected = GmshError::Seam {
         place: FilePosition::Line(15),
         tag: 15,
         other: 5,
         faces: 1,
     };
     assert_eq!(error, expected);
-    let options = ParseOptions {
-        allows_cracks: true,
-        ..ParseOptions::default()
-    };
-    let Ok(AnyMesh::Solid(mesh)) = parse_any_with(text.as_bytes(), options) else {
+    // The crack ends at the edge of nodes 5 and 6.
+    let text = text
+        .replace("6 1 15 16 17 18 9", "6 1 5 6 17 18 9")
+        .replace("4 1 15 16 9", "4 1 5 6 9");
+    let Ok(AnyMesh::Solid(mesh)) = parse_any(text.as_bytes()) else {
         panic!("a solid mesh");
     };
     assert_eq!(mesh.remarks, [Remark::Crack { faces: 1 }]);

@@ -1,6 +1,7 @@
 //! What the limits of bonds are made from.
 
 use super::crack_energies::Lattice;
+use super::joint::{crosses, shares_of_length};
 use crate::material::{Material, Plane, Space, VolumetricSplit};
 use crate::scatter::{Factors, Scattered};
 use crate::system::BondSystem;
@@ -14,8 +15,11 @@ pub struct Basis<'a, const D: usize = 2> {
     pub no_fail: &'a [bool],
     /// The space in which the body deforms.
     pub space: Space,
-    /// The materials.
+    /// The materials (n_materials); in a body of several then all of them with the strengths of each material, shape (n_materials, n_materials),
+    /// and of each interface, shape (n_joints, n_materials).
     pub materials: &'a [Material],
+    /// Interfaces between two materials, by their indices, with strengths of their own, shape (n_joints).
+    pub joints: &'a [[usize; 2]],
     /// The elastic constants that the law makes of those of each material, and those of its bonds; none with axes, shape (n_materials).
     pub constants: Vec<Option<VolumetricSplit>>,
     /// The bonds as a lattice far from its edges, for those with strains of their own; in the plane alone.
@@ -25,8 +29,8 @@ pub struct Basis<'a, const D: usize = 2> {
 }
 
 impl<const D: usize> Basis<'_, D> {
-    /// A value of each material, from the constants that the law makes of its own; infinite where it has none, shape
-    /// (n_materials).
+    /// A value of each of `materials`, from the constants that the law makes of its own; infinite where it has none, shape
+    /// (n).
     pub fn each(&self, value: impl Fn(&VolumetricSplit, &Material) -> Option<f64>) -> Vec<f64> {
         let value = |(constants, material): (&Option<VolumetricSplit>, &Material)| {
             value(constants.as_ref()?, material)
@@ -37,13 +41,77 @@ impl<const D: usize> Basis<'_, D> {
             .collect()
     }
 
-    /// The smallest of the values of the materials (n_materials) that have a share in an end of each bond or that it crosses, and
-    /// infinity where the bond never fails, shape (n_bonds).
+    /// The smallest of the values of the materials in which a bond lies, or of the interfaces that it crosses, and infinity where an end is
+    /// marked in `no_fail`, shape (n_bonds). Of several materials it is the mean over the length, each with the strengths of the weakest.
     pub fn weakest(&self, of_materials: &[f64]) -> Vec<f64> {
-        weakest(self.system, self.no_fail, of_materials)
+        let limits = self.weakest_of_bonds(of_materials);
+        let of_bond = |(ends, (limit, _)): (&[u32; 2], (f64, usize))| {
+            if ends.iter().any(|end| self.no_fail[*end as usize]) {
+                f64::INFINITY
+            } else {
+                limit
+            }
+        };
+        let ends = self.system.bonds.ends.iter();
+        ends.zip(limits).map(of_bond).collect()
     }
 
-    /// The limits that are given, or the smallest of those of the materials (n_materials), like [`weakest`](Self::weakest).
+    /// The material of each bond with the smallest value, as in [`weakest`](Self::weakest); where several make up the mean, the one with the
+    /// largest value, which is the softest. Shape (n_bonds).
+    pub(super) fn weakest_materials(&self, of_materials: &[f64]) -> Vec<usize> {
+        let limits = self.weakest_of_bonds(of_materials);
+        limits.map(|(_, material)| material).collect()
+    }
+
+    /// Springs in series: the modulus of a bond from those of its materials (Pa), 1/sum of phi_i/M_i with the fractions phi_i of its length.
+    pub(super) fn in_series(&self, bond: usize, moduli: &[f64]) -> f64 {
+        match shares_of_length(self.system, bond)[..] {
+            [(material, _)] => moduli[material],
+            ref several => {
+                let compliances = several.iter().map(|&(it, share)| share / moduli[it]);
+                1.0 / compliances.sum::<f64>()
+            }
+        }
+    }
+
+    fn weakest_of_bonds(&self, values: &[f64]) -> impl Iterator<Item = (f64, usize)> {
+        (0..self.system.bonds.len()).map(move |bond| self.weakest_of_bond(bond, values))
+    }
+
+    fn weakest_of_bond(&self, bond: usize, values: &[f64]) -> (f64, usize) {
+        let BondSystem { cloud, bonds, .. } = self.system;
+        if let [only] = values {
+            return (*only, 0);
+        }
+        let shares = shares_of_length(self.system, bond);
+        let joints = self.joints.iter().enumerate();
+        let crossed = joints.filter(|(_, between)| crosses(cloud, bonds, bond, **between));
+        let n_materials = cloud.n_materials;
+        let mut rows: Vec<usize> = crossed.map(|(joint, _)| n_materials + joint).collect();
+        if rows.is_empty() {
+            if let [(material, _)] = shares[..] {
+                return (values[material], material);
+            }
+            rows.extend(shares.iter().map(|it| it.0));
+        }
+        let of_row = |row: usize| {
+            let indices = shares.iter().map(|it| n_materials * (1 + row) + it.0);
+            let terms = indices
+                .clone()
+                .zip(&shares)
+                .map(|(it, (_, share))| share * values[it]);
+            let softest = indices.reduce(|a, b| if values[b] > values[a] { b } else { a });
+            (terms.sum(), softest.unwrap_or_default())
+        };
+        let weaker =
+            |one: (f64, usize), other: (f64, usize)| if other.0 < one.0 { other } else { one };
+        rows.into_iter()
+            .map(of_row)
+            .reduce(weaker)
+            .unwrap_or((f64::INFINITY, 0))
+    }
+
+    /// The limits that are given, or the smallest of those of the materials, like [`weakest`](Self::weakest).
     pub(super) fn given_or(
         &self,
         given: Option<f64>,
@@ -81,59 +149,4 @@ impl Basis<'_> {
             _ => panic!("bonds with strains of their own are those of a lattice in a plane"),
         }
     }
-}
-
-/// The smallest of the values of the materials (n_materials) that have a share in an end of each bond or that it crosses, and infinity
-/// where an end is marked in `no_fail` (n_points), shape (n_bonds).
-pub(super) fn weakest<const D: usize>(
-    system: &BondSystem<D>,
-    no_fail: &[bool],
-    of_materials: &[f64],
-) -> Vec<f64> {
-    let materials = weakest_materials(system, of_materials);
-    let of_bond = |(ends, material): (&[u32; 2], usize)| {
-        if ends.iter().any(|end| no_fail[*end as usize]) {
-            f64::INFINITY
-        } else {
-            of_materials[material]
-        }
-    };
-    system
-        .bonds
-        .ends
-        .iter()
-        .zip(materials)
-        .map(of_bond)
-        .collect()
-}
-
-/// The material with the smallest of the values (n_materials) among those that have a share in an end of each bond or that it crosses,
-/// the first of equals, shape (n_bonds).
-pub(super) fn weakest_materials<const D: usize>(
-    BondSystem { cloud, bonds, .. }: &BondSystem<D>,
-    of_materials: &[f64],
-) -> Vec<usize> {
-    let smaller = |one: usize, other: usize| {
-        let is_smaller = of_materials[other] < of_materials[one];
-        let is_equal = of_materials[other] == of_materials[one];
-        if is_smaller || (is_equal && other < one) {
-            other
-        } else {
-            one
-        }
-    };
-    let among = |shares: &[f64]| {
-        let present = (0..shares.len()).filter(|&material| shares[material] > 0.0);
-        present.reduce(smaller).unwrap_or_default()
-    };
-    let at_points: Vec<usize> = (0..cloud.len()).map(|it| among(cloud.shares(it))).collect();
-    let of_bond = |ends: &[u32; 2]| {
-        let [a, b] = ends.map(|end| at_points[end as usize]);
-        smaller(a, b)
-    };
-    let mut of_bonds: Vec<usize> = bonds.ends.iter().map(of_bond).collect();
-    for (bond, shares) in bonds.composition.numbered() {
-        of_bonds[bond] = smaller(of_bonds[bond], among(shares));
-    }
-    of_bonds
 }

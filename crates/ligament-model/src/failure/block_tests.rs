@@ -75,6 +75,7 @@ fn made(
         space: Space::Solid,
         constants: vec![material.elasticity.isotropic().map(VolumetricSplit::whole)],
         materials: &[material],
+        joints: &[],
         lattice: None,
         scatter: &[],
     };

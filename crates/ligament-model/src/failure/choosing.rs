@@ -197,7 +197,9 @@ impl Choice {
             ("fibre_distance", _) => {
                 format!("only {takers} looks at a fibre beside the axis of the bond")
             }
-            _ => format!("only {takers} has a limit for opening and one for shear"),
+            _ => format!(
+                "only {takers} has a limit for opening and one for shear; others take one as `limit`"
+            ),
         };
         Err(Unfit::NotWith {
             field: key,

@@ -12,9 +12,10 @@ use crate::system::BondSystem;
 pub static CRITICAL_STRETCH: Kind = Kind {
     source: "Silling and Askari 2005",
     takes: &[FRACTURE_ENERGY],
+    keys: &["limit"],
     ..Kind::new(
         "critical-stretch",
-        "Stretch, from the `fracture_energy`.",
+        "Stretch, from the `fracture_energy` or a `limit`.",
         &[Measure::Tension],
         PerSpace::both(of_stretch, of_stretch),
     )
@@ -33,8 +34,15 @@ pub static BOND_ENERGY: Kind = Kind {
     )
 };
 
-fn of_stretch<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
-    Ok(vec![Limits::without_coefficient(critical_stretches(basis))])
+fn of_stretch<const D: usize>(
+    choice: &Choice,
+    basis: &Basis<'_, D>,
+) -> Result<Vec<Limits>, NoLimit> {
+    let limit = match choice.limit {
+        Some(_) => basis.given_or(choice.limit, Vec::new),
+        None => critical_stretches(basis),
+    };
+    Ok(vec![Limits::without_coefficient(limit)])
 }
 
 /// Limits with k_t/k_n of each bond; 0 where the bond has no stiffness at all.
@@ -116,8 +124,8 @@ pub fn critical_stretches<const D: usize>(basis: &Basis<'_, D>) -> Vec<f64> {
     critical_stretches_for(basis, &basis.each(|_, material| material.fracture_energy))
 }
 
-/// Critical stretches of brittle bonds (n_bonds) for fracture energies of the materials (n_materials), J/m^2; a bond has the mean opening
-/// modulus and the mean length of its ends.
+/// Critical stretches of brittle bonds (n_bonds) for fracture energies of the materials, J/m^2; a bond has the opening modulus of its
+/// materials in series, and the mean length of the bonds of its ends.
 pub(super) fn critical_stretches_for<const D: usize>(
     basis: &Basis<'_, D>,
     of_materials: &[f64],
@@ -126,11 +134,10 @@ pub(super) fn critical_stretches_for<const D: usize>(
     let energy = basis.weakest(of_materials);
     let moduli = basis.each(|constants, _| Some(opening_modulus(&constants.bonds, basis.space)));
     let lengths = mean_lengths(system);
-    let modulus = |end: u32| system.cloud.mean_property(end as usize, &moduli);
-    let of_bonds = energy.into_iter().zip(&*system.bonds.ends);
+    let of_bonds = energy.into_iter().zip(&*system.bonds.ends).enumerate();
     of_bonds
-        .map(|(energy, &[a, b])| {
-            let modulus = 0.5 * (modulus(a) + modulus(b));
+        .map(|(bond, (energy, &[a, b]))| {
+            let modulus = basis.in_series(bond, &moduli);
             let length = 0.5 * (lengths[a as usize] + lengths[b as usize]);
             critical_stretch(energy, modulus, length, basis.space)
         })

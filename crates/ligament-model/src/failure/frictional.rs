@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::basis::{Basis, weakest_materials};
+use super::basis::Basis;
 use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::stretch;
@@ -68,7 +68,7 @@ fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     }
 }
 
-/// Limits a and coefficients tan(beta); a bond between materials takes those of the one with the smaller a.
+/// Limits a and coefficients tan(beta).
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let (space, calibration) = (basis.space, choice.calibration.unwrap_or_default());
     let conditions = basis.constants.iter().zip(basis.materials);
@@ -107,7 +107,7 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
     };
     let (cohesion, slope) = (of(|it| it.cohesion), of(|it| it.slope));
     let limit = basis.weakest(&cohesion);
-    let materials = weakest_materials(basis.system, &cohesion);
+    let materials = basis.weakest_materials(&cohesion);
     // A bond that never fails has no slope, which may be infinite: infinity times zero is no number.
     let slope_of = |(limit, material): (&f64, usize)| {
         if limit.is_finite() {

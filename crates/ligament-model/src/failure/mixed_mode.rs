@@ -1,6 +1,6 @@
 //! The criterion of bonds with strains of their own (MBB-PD): opening along x and along y, each mixed with shear.
 
-use super::basis::{Basis, weakest_materials};
+use super::basis::Basis;
 use super::crack_energies::{Limits as OfModes, Toughness};
 use super::kind::{Choice, FRACTURE_ENERGY, Kind, Limits, PerSpace};
 use super::measure::Measure;
@@ -48,7 +48,7 @@ pub(super) fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
 
 /// Opening along x and along y. Bonds along y do not open along x, nor the other way round; the others do both.
 ///
-/// A bond between materials takes what the one with the smaller critical stretch has.
+/// A bond of several materials has the coefficients of the softest of them, with the energies of the weakest.
 fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
     let of_materials: Vec<OfMaterial> = match (choice.critical_stretch, choice.critical_angle) {
         (Some(stretch), Some(angle)) => {
@@ -70,7 +70,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
 fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limits {
     let bonds = &basis.system.bonds;
     let stretches: Vec<f64> = of_materials.iter().map(|it| it.stretch[axis]).collect();
-    let materials = weakest_materials(basis.system, &stretches);
+    let materials = basis.weakest_materials(&stretches);
     let other_axis = [BondClass::Vertical, BondClass::Horizontal][axis];
     let mut limit = basis.weakest(&stretches);
     for (limit, &direction) in limit.iter_mut().zip(&bonds.direction) {

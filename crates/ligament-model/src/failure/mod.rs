@@ -31,6 +31,7 @@ pub mod fibre;
 pub mod fracture_energy;
 pub mod frictional;
 pub mod hooke;
+pub mod joint;
 mod kind;
 mod measure;
 pub mod mixed_mode;

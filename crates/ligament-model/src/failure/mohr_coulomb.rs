@@ -110,8 +110,7 @@ impl Friction {
     }
 }
 
-/// Limits F_t/E' of tension and c/E' of shear, by which brittle bonds break, or from which those begin that soften; a bond between materials
-/// takes those of the one with the smaller cohesion.
+/// Limits F_t/E' of tension and c/E' of shear, by which brittle bonds break, or from which those begin that soften.
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let friction = |material: &Material| {
         if let (Some(cohesion), Some(angle)) = (choice.cohesion, choice.friction_angle) {

@@ -1,13 +1,13 @@
 //! Limits of stresses across the bonds.
 
-use super::basis::{Basis, weakest_materials};
+use super::basis::Basis;
 use super::criterion::Surroundings;
 use super::hooke::Moduli;
 use super::kind::Limits;
 use crate::material::VolumetricSplit;
 
 /// Limits of a stress across the bonds over E', from those of the materials (n_materials), with the coefficients of its measure that a
-/// function makes of the index of a material and its moduli. A bond between materials takes those of the one with the smallest limit.
+/// function makes of the index of a material and its moduli. A bond of several materials has those of the softest.
 pub(super) fn of_stress<const D: usize, const N: usize>(
     basis: &Basis<'_, D>,
     of_materials: &[f64],
@@ -19,7 +19,7 @@ pub(super) fn of_stress<const D: usize, const N: usize>(
     };
     let constants = basis.constants.iter().enumerate();
     let of_material: Vec<[f64; N]> = constants.map(of_material).collect();
-    let materials = weakest_materials(basis.system, of_materials).into_iter();
+    let materials = basis.weakest_materials(of_materials).into_iter();
     Limits {
         limit: basis.weakest(of_materials),
         coefficient: materials.flat_map(|it| of_material[it]).collect(),

@@ -1,11 +1,10 @@
 //! The energy-based tensile strength of NHPD (eqs 14 to 16).
 
-use super::basis::{Basis, weakest};
+use super::basis::Basis;
 use super::kind::{Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
 use super::unfit::NoLimit;
 use crate::material::{Isotropic, Plane, Space};
-use crate::system::BondSystem;
 
 /// Stretch, from the energy at the tensile strength.
 pub static STRENGTH: Kind = Kind {
@@ -27,7 +26,7 @@ fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits
         let strength = material.tensile_strength? * (of_bonds.young / bar.young);
         Some(critical_energy(&constants.bonds, strength, basis.space))
     });
-    let limit = critical_stretches(basis.system, &energies, basis.no_fail);
+    let limit = critical_stretches(basis, &energies);
     Ok(vec![Limits::without_coefficient(limit)])
 }
 
@@ -58,20 +57,17 @@ pub fn critical_energy(
     square / (2.0 * young) * reduction
 }
 
-/// Critical stretches s_0 (n_bonds), NHPD eq. 16, for the critical energies e_0 of the materials (n_materials, J/m^3; infinite for
+/// Critical stretches s_0 (n_bonds), NHPD eq. 16, for the critical energies e_0 of the materials (J/m^3; infinite for
 /// one that never fails):
 ///
 /// s_0 = sqrt(e_0 (V_A + V_B) / (Omega alpha V_A V_B c l))
 ///
-/// A bond between materials takes the smallest e_0 of all that have a share in one of its ends or that it crosses. A bond of which an end is
-/// marked in `no_fail` (n_points) never breaks: s_0 is infinite.
-pub fn critical_stretches<const D: usize>(
-    system: &BondSystem<D>,
-    energies: &[f64],
-    no_fail: &[bool],
-) -> Vec<f64> {
+/// A bond of several materials takes the mean e_0 over its length ([`Basis::weakest`]). A bond with an end that never fails never breaks: s_0 is
+/// infinite.
+pub fn critical_stretches<const D: usize>(basis: &Basis<'_, D>, energies: &[f64]) -> Vec<f64> {
+    let system = basis.system;
     let volumes = &system.cloud.volumes;
-    let mut limits = weakest(system, no_fail, energies);
+    let mut limits = basis.weakest(energies);
     let of_bonds = system.bonds.ends.iter().zip(&system.rigidities.axial);
     for (limit, (&[a, b], axial_rigidity)) in limits.iter_mut().zip(of_bonds) {
         let both = volumes[a as usize] + volumes[b as usize];

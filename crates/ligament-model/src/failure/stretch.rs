@@ -39,7 +39,7 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
     Ok(vec![Limits::without_coefficient(limit)])
 }
 
-/// Limits as they are given, or of the strength that the kind takes first (n_bonds); a bond between materials takes the smaller one.
+/// Limits as they are given, or of the strength that the kind takes first (n_bonds).
 pub(super) fn of_strength<const D: usize>(
     choice: &Choice,
     basis: &Basis<'_, D>,

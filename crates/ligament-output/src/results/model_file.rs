@@ -7,6 +7,7 @@
 //! | cell field | of a bond |
 //! |---|---|
 //! | `absent` | 0; 1 where a pre-crack cut the bond, 2 where a void of the body lies between its ends: absent bonds have no values |
+//! | `interface.A-B` | 1 where the bond crosses the interface between the materials A and B |
 //! | `horizon` | H, m |
 //! | `length_factor`, `domain_factor` | alpha, Omega |
 //! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it |
@@ -34,6 +35,9 @@ pub(super) const DISSIPATED_ENERGY: &str = "dissipated_energy";
 
 /// Prefix of the names of the fields of supported and loaded points.
 pub(super) const GROUP: &str = "group.";
+
+/// Prefix of the names of the fields of interfaces.
+pub(super) const INTERFACE: &str = "interface.";
 
 /// Stem of the model file's name.
 const MODEL: &str = "model";
@@ -87,6 +91,13 @@ pub(super) fn write(
     let omega: Vec<f32> = (fixed.domain_factor.iter().map(|&omega| omega as f32))
         .chain(nothing)
         .collect();
+    let interfaces: Vec<(String, Vec<i64>)> = (fixed.interfaces.iter())
+        .map(|(name, crosses)| {
+            let crosses = crosses.iter().copied().map(i64::from);
+            let all = crosses.chain(std::iter::repeat_n(0, n_absent)).collect();
+            (format!("{INTERFACE}{name}"), all)
+        })
+        .collect();
     let limits = limits(problem, n_absent);
     let largest = at_end.map(|(largest, _)| UtilisationColumns::new(largest, n_absent));
     let dissipated = at_end.map(|(_, dissipated)| with_nan_for_absent(dissipated, n_absent));
@@ -97,6 +108,8 @@ pub(super) fn write(
         Field::single("length_factor", &alpha),
         Field::single("domain_factor", &omega),
     ];
+    let named = interfaces.iter();
+    cell_fields.extend(named.map(|(name, crosses)| Field::integer(name, crosses)));
     cell_fields.extend(
         limits
             .iter()

@@ -11,7 +11,7 @@ use ligament_model::Absence;
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
 
-use super::model_file::{COEFFICIENTS, GROUP, model_file};
+use super::model_file::{COEFFICIENTS, GROUP, INTERFACE, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::tables::stored_names;
 use crate::csv::read::{CsvTable, Row};
@@ -76,6 +76,8 @@ pub struct StoredBonds {
     pub length_factor: Vec<f64>,
     /// Factor Omega, shape (n_bonds).
     pub domain_factor: Vec<f64>,
+    /// Name of each interface between materials, and whether each bond crosses it, shape (n_bonds).
+    pub interfaces: Vec<(String, Vec<bool>)>,
 }
 
 /// A failure criterion with its limits.
@@ -316,9 +318,21 @@ impl StoredBonds {
             horizon: file.finite_numbers(FieldLocation::Cell, "horizon")?,
             length_factor: bond_values(file, "length_factor", &absence)?,
             domain_factor: bond_values(file, "domain_factor", &absence)?,
+            interfaces: interfaces(file)?,
             absence,
         })
     }
+}
+
+/// Name of each interface, and whether each bond crosses it, shape (n_bonds).
+fn interfaces(file: &VtuFile) -> Result<Vec<(String, Vec<bool>)>, Error> {
+    let names = file.fields(FieldLocation::Cell);
+    let named = names.filter_map(|field| Some((field, field.strip_prefix(INTERFACE)?)));
+    let crossed = |(field, name): (&str, &str)| {
+        let crosses = file.required_integers(FieldLocation::Cell, field)?;
+        Ok((name.to_owned(), crosses.iter().map(|it| *it != 0).collect()))
+    };
+    named.map(crossed).collect()
 }
 
 /// Values of a field that all bonds must have; absent bonds have none.

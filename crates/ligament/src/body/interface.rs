@@ -120,6 +120,11 @@ pub trait Body: Debug + Send + Sync {
         None
     }
 
+    /// Edges of the curve groups of a name; empty for bodies without a mesh.
+    fn curve_of(&self, _group: &str) -> Vec<[u32; 2]> {
+        Vec::new()
+    }
+
     /// The other points of the cells at a point; empty where the body has no cells between points.
     fn around(&self, _point: u32) -> Vec<u32> {
         Vec::new()

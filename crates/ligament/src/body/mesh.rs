@@ -175,8 +175,11 @@ impl<const D: usize, C: BodyCell<D>> Body for BodyOnMesh<D, C> {
 
     /// The edges of a curve group.
     fn lengths_of(&self, group: &str) -> Vec<Portion<1>> {
-        let edges = self.of_groups(group, |it| &it.edges);
-        self.mesh.edge_portions(&edges)
+        self.mesh.edge_portions(&self.curve_of(group))
+    }
+
+    fn curve_of(&self, group: &str) -> Vec<[u32; 2]> {
+        self.of_groups(group, |it| &it.edges)
     }
 
     /// The triangles of the faces of a surface group.

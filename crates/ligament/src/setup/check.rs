@@ -46,6 +46,7 @@ impl Setup {
             in_range(settings, |key| Field::whole("modal").part(key))?;
         }
         self.check_criteria()?;
+        self.check_interfaces()?;
         self.check_scatter()?;
         self.check_dimension()?;
         self.check_correction()?;

@@ -41,7 +41,7 @@ fn no_motion(space: Space) -> &'static str {
 
 impl Setup {
     /// Number of dimensions of the body.
-    fn dimensions(&self) -> usize {
+    pub(crate) fn dimensions(&self) -> usize {
         self.body.dimensions()
     }
 
@@ -350,8 +350,8 @@ impl Setup {
         for (index, crack) in self.precracks.iter().enumerate() {
             let field = Field::element("precracks", index);
             let CrackShape::Line(points) = &crack.shape else {
-                if self.dimensions() == 2 {
-                    let reason = "a body in the plane is cut by lines: give `CrackShape::Line`";
+                if self.dimensions() == 2 && !crack.is_along_group() {
+                    let reason = "a body in the plane is cut by lines: give `CrackShape::Line` or a group of curves";
                     return contradiction(field.part("surface"), reason);
                 }
                 continue;

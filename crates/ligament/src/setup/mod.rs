@@ -8,6 +8,7 @@ mod conditions;
 mod contact;
 mod correction;
 mod curve;
+mod joint;
 mod not_together;
 mod precrack;
 mod probe;
@@ -34,6 +35,7 @@ pub use conditions::{
 pub use contact::{ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub(crate) use curve::CurveAxis;
+pub use joint::Interface;
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use ligament_model::material::PoissonForm;
 pub use not_together::{Exclusion, Feature, NOT_TOGETHER};
@@ -56,6 +58,8 @@ pub struct Setup {
     pub section: Section,
     /// Materials: one without a group for the whole body, or one for each of several groups.
     pub materials: Vec<MaterialRegion>,
+    /// Interfaces between two materials with strengths of their own.
+    pub interfaces: Vec<Interface>,
     /// Bond law.
     pub law: Law,
     /// Size of the rotational stiffness, for laws with rotations of points.
@@ -149,6 +153,7 @@ impl Setup {
             horizon: Horizon::Factor(3.0),
             bonds_through_voids: false,
             correction: Correction::of_paper(&law),
+            interfaces: Vec::new(),
             precracks: Vec::new(),
             closing: false,
             closing_friction: 0.0,

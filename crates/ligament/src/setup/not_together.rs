@@ -3,7 +3,7 @@
 use ligament_analysis::load_program::Amplitude;
 use ligament_analysis::motion::{MotionSettings, Scheme};
 use ligament_model::ElementKind;
-use ligament_model::failure::Choice;
+use ligament_model::failure::{Choice, printed};
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::material::Space;
 use ligament_model::scatter::Scattered;
@@ -230,6 +230,15 @@ features! {
         Some(first("materials", &moduli, |modulus| *modulus > 0.0)?.part("elasticity"))
     };
     POINTS_ALONE = "bodies of points without cells", |it| when(matches!(it.body.origin(), Origin::Points), "body");
+    INTERFACES = "interfaces with strengths of their own", |it| first("interfaces", &it.interfaces, |_| true);
+    PRINTED_CRITERIA = "criteria of `mbb-pd` as printed", |it| {
+        let printed = [printed::OPENING, printed::SLIDING, printed::MIXED].map(|it| it.word);
+        first("criteria", &it.criteria, |choice| printed.contains(&choice.kind.word))
+    };
+    PRECRACKS_ALONG_CURVES = "pre-cracks along groups of curves", |it| {
+        let is_plane = it.dimensions() == 2;
+        first("precracks", &it.precracks, |crack| is_plane && crack.is_along_group())
+    };
     SEVERAL_PROCESSES = "several processes", |it| when(it.solver.communicator.0.size() > 1, "solver");
     REFINEMENT = "refinement where bonds break", |it| when(it.refine.is_some(), "refine");
     ONE_HORIZON = "one horizon for all points", |it| {
@@ -286,6 +295,10 @@ pub static NOT_TOGETHER: &[Exclusion] = pairs! {
         crack";
     STIFFNESS_OF_CELLS, SEVERAL_PROCESSES, "ranks.md", "the cells around a point may belong to several processes, which do not exchange them: take one \
         process, or a Poisson's ratio of at most 1/4 (in plane stress 1/3)";
+    INTERFACES, NO_BREAKAGE, "fracture.md", "an interface has strengths, and nothing breaks without a [fracture] section";
+    INTERFACES, PRINTED_CRITERIA, "fracture.md", "their limits belong to points, and an interface has those of bonds: take `mixed-mode`";
+    PRECRACKS_ALONG_CURVES, SEVERAL_PROCESSES, "ranks.md", "the first process alone has the edges of the mesh: take one process, or give the corners \
+        of the line as `points`";
     FAR_FIELD, CLOSING_FACES, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, CONTACT, "far-field.md", BONDS_EVERYWHERE;
     FAR_FIELD, TEMPERATURES, "far-field.md", BONDS_EVERYWHERE;

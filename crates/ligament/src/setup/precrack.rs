@@ -36,7 +36,7 @@ pub enum CrackShape {
         /// Indices of each triangle's corners in `points`.
         triangles: Vec<[u32; 3]>,
     },
-    /// The faces of a surface group of a solid mesh.
+    /// The faces of a surface group of a solid mesh, or the edges of a curve group of a mesh in the plane.
     Group(String),
 }
 
@@ -47,6 +47,11 @@ impl PreCrack {
             shape: CrackShape::Line(points),
             ends: Ends::Excluded,
         }
+    }
+
+    /// Whether the crack runs along a group of the body.
+    pub(crate) fn is_along_group(&self) -> bool {
+        matches!(self.shape, CrackShape::Group(_))
     }
 
     /// Positions on the crack that a box around it has to contain, m.

@@ -35,8 +35,8 @@ pub(super) fn assemble(
     let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions, size);
     let all = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented);
     let planar = all.and_then(|all| merge_repeated(cursor, records, all, positions.len()));
-    let sides = planar.as_ref().map(|(it, _)| it.cells.as_slice());
-    let sides = || outer_edges_of(sides.unwrap_or_default());
+    let cells = planar.as_ref().map(|(it, _)| it.cells.as_slice());
+    let cells = cells.unwrap_or_default();
     let refusal = |[first, second]: [&Node; 2]| GmshError::CoincidentNodes {
         place: cursor.place(second.offset),
         tag: second.tag,
@@ -44,9 +44,9 @@ pub(super) fn assemble(
         x: second.position[0],
         y: second.position[1],
     };
-    let context = (cursor, options);
-    let n_crack_faces =
-        nodes::check_coincidence(context, &assembly.nodes, &positions, sides, refusal)?;
+    let sides = || outer_edges_of(cells);
+    let all = (assembly.nodes.as_slice(), positions.as_slice());
+    let n_crack_faces = nodes::check_coincidence(cursor, all, cells, sides, refusal)?;
     let (planar, cell_of_element) = planar?;
     cells::check_common_edges(cursor, records, &planar)?;
     check_covering(cursor, records, &planar, &positions, Cell::triangles)?;

@@ -10,32 +10,27 @@ use super::records::{Node, Records};
 use super::{fields, groups, nodes};
 use crate::crack::outer_faces_of;
 use crate::mesh::{Group, SolidMesh};
-use crate::parse_options::ParseOptions;
 use crate::solid::{Faces, SolidCell};
 
 /// Makes the solid mesh of the records, or refuses them.
-pub(super) fn assemble(
-    cursor: &Cursor<'_>,
-    mut records: Records,
-    options: ParseOptions,
-) -> Result<SolidMesh, GmshError> {
+pub(super) fn assemble(cursor: &Cursor<'_>, mut records: Records) -> Result<SolidMesh, GmshError> {
     let assembly = Assembly::new(cursor, &mut records, 3)?;
     let records = &records;
     let positions: Vec<_> = assembly.nodes.iter().map(|node| node.position).collect();
     let oriented = |element: &_, cell| cells::oriented(cursor, element, cell, &positions);
     let all = Cells::from_elements(cursor, records, &assembly, cells::cell, oriented);
     let solid = all.and_then(|all| merge_repeated(cursor, records, all, positions.len()));
-    let sides = solid.as_ref().map(|(it, _)| it.cells.as_slice());
-    let sides = || outer_faces_of(sides.unwrap_or_default(), positions.len());
+    let cells = solid.as_ref().map(|(it, _)| it.cells.as_slice());
+    let cells = cells.unwrap_or_default();
     let refusal = |[first, second]: [&Node; 2]| GmshError::CoincidentNodesInSpace {
         place: cursor.place(second.offset),
         tag: second.tag,
         other: first.tag,
         position: second.position,
     };
-    let context = (cursor, options);
-    let n_crack_faces =
-        nodes::check_coincidence(context, &assembly.nodes, &positions, sides, refusal)?;
+    let sides = || outer_faces_of(cells, positions.len());
+    let all = (assembly.nodes.as_slice(), positions.as_slice());
+    let n_crack_faces = nodes::check_coincidence(cursor, all, cells, sides, refusal)?;
     let (solid, cell_of_element) = solid?;
     let mut remarks = assembly.remarks(solid.n_higher_order(records));
     remarks.extend(solid.remarks(n_crack_faces));

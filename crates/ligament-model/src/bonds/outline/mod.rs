@@ -5,6 +5,9 @@
 //! the outline, and if it continues into a cell, or along a side of one, from its first end and from every node and, in space, every edge of
 //! the outline on it. A bond along the outline, or one that only touches a corner or an edge, stays in the body: positions closer to a line
 //! or a plane than 1e-5 of the nearest distance of the bond's ends lie on it, or rounding would decide about bonds along a slanted side.
+//!
+//! The two faces of a crack in the mesh are facets at one place, with nodes of their own. A bond that ends on such a node has passed through
+//! the other face where the way back from this node leaves the body.
 
 mod plane;
 mod solid;
@@ -40,6 +43,8 @@ pub struct Facets<const D: usize, const N: usize> {
     parts: Vec<[u32; N]>,
     /// Numbers of the parts at each node of the outline; none at other nodes.
     parts_at: Incidence,
+    /// Whether each node shares its place with another one, shape (n_nodes).
+    is_doubled: Vec<bool>,
 }
 
 impl<const D: usize, const N: usize> Facets<D, N> {
@@ -64,6 +69,7 @@ impl<const D: usize, const N: usize> Facets<D, N> {
             tree: RTree::bulk_load(facets.iter().map(boxed).collect()),
             parts_at: Incidence::from_pairs(at_outline, positions.len()),
             parts,
+            is_doubled: doubled(&is_on_outline, positions),
         }
     }
 
@@ -102,6 +108,22 @@ impl<const D: usize, const N: usize> Facets<D, N> {
     }
 }
 
+/// Flags of the nodes of an outline that share their place with another one, shape (n_nodes).
+fn doubled<const D: usize>(is_on_outline: &[bool], positions: &[[f64; D]]) -> Vec<bool> {
+    let numbered = positions.iter().zip(is_on_outline).enumerate();
+    let on_outline = numbered.filter(|(_, (_, is_on))| **is_on);
+    let mut placed: Vec<([u64; D], usize)> = on_outline
+        .map(|(node, (place, _))| (place.map(|x| (x + 0.0).to_bits()), node))
+        .collect();
+    placed.sort_unstable();
+    let mut is_doubled = vec![false; positions.len()];
+    for pair in placed.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        is_doubled[pair[0].1] = true;
+        is_doubled[pair[1].1] = true;
+    }
+    is_doubled
+}
+
 /// Flags of the nodes of some facets, shape (n_nodes).
 fn marked<const D: usize>(facets: &[[u32; D]], n_nodes: usize) -> Vec<bool> {
     let mut is_marked = vec![false; n_nodes];
@@ -122,8 +144,17 @@ pub trait Outline<const D: usize>: Sync {
     /// Whether the line between two nodes leaves the body, given all facets that it may intersect.
     fn is_crossed_by_bonds(&self, ends: [u32; 2], near: &[Self::Facet], slack: f64) -> bool;
 
+    /// Whether a node shares its place with another one: both are on the faces of a crack in the mesh.
+    fn is_doubled(&self, node: u32) -> bool;
+
     /// Nodes of an edge that passes through a facet, the smallest of all such edges; none where cells do not overlap.
     fn first_crossing(&self) -> Option<[u32; 2]>;
+
+    /// Whether the line between two nodes leaves the body, whatever the faces of cracks that it ends on.
+    fn parts(&self, [a, b]: [u32; 2], near: &[Self::Facet], slack: f64) -> bool {
+        self.is_crossed_by_bonds([a, b], near, slack)
+            || (self.is_doubled(b) && self.is_crossed_by_bonds([b, a], near, slack))
+    }
 }
 
 /// Whether the straight line of each bond between nodes of a mesh leaves the outline of the cells, shape (n_bonds).
@@ -146,7 +177,7 @@ pub fn bonds_outside<const D: usize, O: Outline<D>>(
     };
     let leaves = |bond: usize, near: &[O::Facet]| {
         let slack = cloud.slack_between(bonds.ends[bond]);
-        outline.is_crossed_by_bonds(bonds.ends[bond], near, slack)
+        outline.parts(bonds.ends[bond], near, slack)
     };
     let leaving = |point: u32| {
         let around = box_around(cloud.positions[point as usize], reach(point));
@@ -191,7 +222,7 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
             .facets_within(box_around(position, shortest))
             .collect();
         let is_seen = |other: u32, length: f64| {
-            !outline.is_crossed_by_bonds([point, other], &near, cloud.tolerance(point) * length)
+            !outline.parts([point, other], &near, cloud.tolerance(point) * length)
         };
         tree.locate_within_distance(position, shortest * shortest)
             .filter(|other| other.data != point)

@@ -67,6 +67,10 @@ impl Outline<2> for PlaneOutline {
             })
     }
 
+    fn is_doubled(&self, node: u32) -> bool {
+        self.is_doubled[node as usize]
+    }
+
     fn first_crossing(&self) -> Option<[u32; 2]> {
         let line = |edge: [u32; 2]| edge.map(|node| self.at(node));
         self.first_edge_through(|edge, ends| crosses(ends, line(edge), 0.0))

@@ -160,6 +160,10 @@ impl Outline<3> for SolidOutline {
             || near.iter().any(|facet| self.is_left_at(facet, ends, slack))
     }
 
+    fn is_doubled(&self, node: u32) -> bool {
+        self.is_doubled[node as usize]
+    }
+
     fn first_crossing(&self) -> Option<[u32; 2]> {
         self.first_edge_through(|nodes, ends| self.facet(nodes).is_crossed_by(ends))
     }

@@ -130,20 +130,22 @@ pub fn cut_bonds<const D: usize, C: Cut<D>>(
     ends.map(|&ends| pieces.any(cloud, ends, C::cuts)).collect()
 }
 
-/// Number of bonds that the pre-cracks do not cut although the rim of one touches them between their ends: where a polyline begins on the
-/// outline of a mesh, these are the bonds along the outline.
+/// Number of bonds between points on the outline of the body (`is_on_outline`, n_points) that the pre-cracks do not cut although the rim of one
+/// touches them between their ends: the bonds along the outline, where a polyline begins on it and not before.
 pub fn count_touched_bonds<const D: usize, C: Cut<D>>(
     cracks: &[C],
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
     is_cut: &[bool],
+    is_on_outline: &[bool],
 ) -> usize {
     if cracks.is_empty() {
         return 0;
     }
     let pieces = Pieces::new(cracks, cloud);
     let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
-    let here = whole.filter(|(ends, _)| {
+    let along_outline = whole.filter(|(ends, _)| ends.iter().all(|it| is_on_outline[*it as usize]));
+    let here = along_outline.filter(|(ends, _)| {
         cloud.subdomain.owns_bond(**ends) && pieces.any(cloud, **ends, C::touches)
     });
     cloud.subdomain.count(here.count())

@@ -39,7 +39,13 @@ fn a_disk_cuts_what_crosses_it() {
     }
     assert!(count > 100 && on_rim > 0, "{count} {on_rim}");
     assert_eq!(
-        count_touched_bonds(std::slice::from_ref(&disk), &bonds, &cloud, &cut),
+        count_touched_bonds(
+            std::slice::from_ref(&disk),
+            &bonds,
+            &cloud,
+            &cut,
+            &vec![true; cloud.len()]
+        ),
         on_rim
     );
     let with_rim = cut_bonds(&[disk.with_rim()], &bonds.ends, &cloud);
@@ -127,7 +133,7 @@ fn a_closed_surface_has_no_gap() {
     }
     assert!(parted > 200);
     assert_eq!(
-        count_touched_bonds(&[crack], &bonds, &cloud, &cut),
+        count_touched_bonds(&[crack], &bonds, &cloud, &cut, &vec![true; cloud.len()]),
         0,
         "it has no rim"
     );

@@ -1,0 +1,204 @@
+//! Joints between two materials that are weaker or stronger than both: bars in tension, against the closed form.
+//!
+//! All points are held across, and Poisson's ratio is 0: the stress of a bar is the same everywhere, and it breaks at the smallest of the
+//! strengths of its halves and of its joint. Where everything softens slowly, the work to part it is the fracture energy of what breaks.
+#![allow(clippy::unwrap_used, reason = "a failed unwrap fails the test")]
+
+use ligament::body::SolidMeshBody;
+use ligament::prelude::*;
+use ligament::setup::{Interface, MaterialRegion, Surface, event, stepped};
+use ligament_mesh::{Group, SolidCell, SolidMesh};
+use ligament_model::Canvas;
+use ligament_model::correction::patch::Settings;
+use ligament_model::failure::fracture_energy::BOND_ENERGY;
+use ligament_model::failure::softening::linear;
+use ligament_model::failure::stretch::TENSION;
+use ligament_model::failure::{Choice, bond_rankine, rankine};
+use verification::meshes;
+use verification::solids::block;
+
+const SIZE: [f64; 2] = [0.1, 0.05];
+const STRENGTH: f64 = 1e-3;
+const ENERGY: f64 = 2e-7;
+
+/// A bar of two halves with Young's moduli 1 and `ratio`, its ends pulled apart by `pulled`.
+fn bar(body: impl Into<AnyBody>, ratio: f64, pulled: f64) -> Setup {
+    let mut setup = Setup::new(body, Material::isotropic(1.0, 0.0), Law::NHPD);
+    let half = |name: &str, young: f64| MaterialRegion {
+        group: Some(format!("{name}-half")),
+        material: Material {
+            name: name.to_owned(),
+            tensile_strength: Some(STRENGTH),
+            fracture_energy: Some(ENERGY),
+            ..Material::isotropic(young, 0.0)
+        },
+    };
+    setup.materials = vec![half("left", 1.0), half("right", ratio)];
+    setup.correction.surface = Surface::Patch(Settings::default());
+    let is_solid = matches!(setup.body, AnyBody::Solid(_));
+    let across = [Component::Y, Component::Z];
+    setup.supports = vec![
+        Support::new("left", &[Component::X]),
+        Support::new(Place::Everywhere, &across[..1 + usize::from(is_solid)]),
+    ];
+    let along_x = Displacement {
+        x: Some(pulled),
+        ..Displacement::default()
+    };
+    setup.loads = vec![Load::new("right", Action::Displacement(along_x))];
+    setup
+}
+
+/// The joint of the halves with a part of their strength and of their fracture energy.
+fn joint(strength: f64, energy: f64) -> Vec<Interface> {
+    vec![Interface {
+        between: ["left".to_owned(), "right-half".to_owned()],
+        tensile_strength: Some(strength * STRENGTH),
+        fracture_energy: Some(energy * ENERGY),
+        ..Interface::default()
+    }]
+}
+
+fn lattice() -> LatticeBody {
+    let n = 40_u32;
+    let side = SIZE[0] / f64::from(n);
+    let sets = [
+        ("left", CellSet::left(1)),
+        ("right", CellSet::right(1)),
+        ("left-half", CellSet::left(n / 2)),
+        ("right-half", CellSet::right(n / 2)),
+    ];
+    let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
+    LatticeBody::new([n, n / 2], [side; 2], [0.5 * side; 2], &[], &sets).unwrap()
+}
+
+/// A block of 8 by 3 by 3 hexahedra of unit size.
+fn solid() -> SolidMesh {
+    let grid = block([8, 3, 3], 0.0);
+    let Canvas::Solid(cells) = grid.canvas else {
+        unreachable!("a block is of solid cells")
+    };
+    let middle = |cell: &SolidCell| {
+        let corners = cell.corners().iter();
+        corners
+            .map(|&node| grid.positions[node as usize][0])
+            .sum::<f64>()
+            / 8.0
+    };
+    let numbered = || (0..).zip(&cells);
+    let half = |is_left: bool| -> Vec<u32> {
+        let of_half = numbered().filter(|(_, cell)| (middle(cell) < 4.0) == is_left);
+        of_half.map(|it| it.0).collect()
+    };
+    let at = |x: f64| -> Vec<u32> {
+        let nodes = (0..).zip(&grid.positions);
+        nodes
+            .filter(|(_, place)| place[0] == x)
+            .map(|it| it.0)
+            .collect()
+    };
+    let group = |name: &str, number, nodes, cells| Group {
+        name: name.to_owned(),
+        dimension: if number < 3 { 0 } else { 3 },
+        number,
+        nodes,
+        edges: Vec::new(),
+        faces: Vec::new(),
+        cells,
+    };
+    SolidMesh {
+        node_tags: (1..=grid.positions.len() as u64).collect(),
+        groups: vec![
+            group("left", 1, at(0.0), Vec::new()),
+            group("right", 2, at(8.0), Vec::new()),
+            group("left-half", 3, Vec::new(), half(true)),
+            group("right-half", 4, Vec::new(), half(false)),
+        ],
+        positions: grid.positions.clone(),
+        cells,
+        ..SolidMesh::default()
+    }
+}
+
+/// Largest stress of a bar over the strength of its halves, for the area of its section.
+fn strength(mut setup: Setup, area: f64, interfaces: Vec<Interface>) -> f64 {
+    setup.interfaces = interfaces;
+    let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
+    let largest = history.iter().map(|row| row.reaction.abs());
+    largest.fold(0.0, f64::max) / (area * STRENGTH)
+}
+
+/// A joint of half and of twice the strength, between equal halves and beside one that is four times as stiff, in bodies with and without points
+/// on the interface.
+#[test]
+fn a_bar_breaks_at_the_weakest_of_its_halves_and_its_joint() {
+    for kind in [TENSION, bond_rankine::BOND_RANKINE] {
+        for ratio in [1.0, 4.0] {
+            let bodies: [(&str, AnyBody, f64, f64); 3] = [
+                ("lattice", lattice().into(), SIZE[1], SIZE[0]),
+                (
+                    "mesh",
+                    MeshBody::from(meshes::read("meshes/bimaterial.msh")).into(),
+                    SIZE[1],
+                    SIZE[0],
+                ),
+                ("solid", SolidMeshBody::from(solid()).into(), 9.0, 8.0),
+            ];
+            for (name, body, area, length) in bodies {
+                let mut setup = bar(body, ratio, 3.0 * STRENGTH * length);
+                setup.criteria = vec![kind.into()];
+                setup.analysis = Analysis::Event(event());
+                let found = [joint(0.5, 1.0), joint(2.0, 1.0), Vec::new()]
+                    .map(|interfaces| strength(setup.clone(), area, interfaces));
+                println!("{} {name}, ratio {ratio}: {found:?}", kind.word);
+            }
+        }
+    }
+}
+
+/// A joint of half the strength and a quarter of the fracture energy, parted in load steps by bonds that soften.
+#[test]
+fn parting_a_joint_takes_its_fracture_energy() {
+    for (kind, ratio) in [
+        (BOND_ENERGY, 1.0),
+        (BOND_ENERGY, 4.0),
+        (rankine::RANKINE, 1.0),
+    ] {
+        for (name, body) in [
+            ("lattice", AnyBody::from(lattice())),
+            (
+                "mesh",
+                MeshBody::from(meshes::read("meshes/bimaterial.msh")).into(),
+            ),
+        ] {
+            let pulled = 6e-4;
+            let mut setup = bar(body, ratio, pulled);
+            setup.criteria = vec![Choice {
+                after: linear::LAW,
+                ..kind.into()
+            }];
+            setup.analysis =
+                Analysis::Stepped(stepped((1..=60).map(|it| f64::from(it) / 60.0).collect()));
+            setup.interfaces = joint(0.5, 0.25);
+            let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
+            let mut work = 0.0;
+            let mut before = [0.0; 2];
+            for row in &history {
+                let now = [row.load_factor * pulled, row.reaction.abs()];
+                work += 0.5 * (now[1] + before[1]) * (now[0] - before[0]);
+                before = now;
+            }
+            let largest = history
+                .iter()
+                .map(|row| row.reaction.abs())
+                .fold(0.0, f64::max);
+            println!(
+                "{} {name} {ratio}: {} {} last {}",
+                kind.word,
+                work / (ENERGY * SIZE[1]),
+                largest / (STRENGTH * SIZE[1]),
+                before[1] / largest
+            );
+        }
+    }
+}
