@@ -3,7 +3,7 @@
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use ligament_mesh::gmsh::{self, GmshError};
+use ligament_mesh::gmsh::{self, CoordinatePlane, GmshError};
 use ligament_mesh::{AnyMesh, Mesh};
 
 use crate::input_file;
@@ -21,7 +21,7 @@ pub enum MeshFileError {
         source: io::Error,
     },
     /// The file is not a planar Gmsh mesh.
-    #[error("cannot use the mesh {}", path.display())]
+    #[error("cannot use the mesh {}{}", path.display(), by_key(source))]
     Parse {
         /// The mesh file.
         path: PathBuf,
@@ -33,25 +33,55 @@ pub enum MeshFileError {
     OfFirstProcess,
 }
 
-/// Reads a mesh file.
+/// The key that reads a mesh in another plane.
+fn by_key(error: &GmshError) -> String {
+    match error {
+        GmshError::OtherPlane { plane, .. } => {
+            let word = plane.word();
+            format!("; `coordinates = \"{word}\"` in [mesh] takes it as it is")
+        }
+        _ => String::new(),
+    }
+}
+
+/// Reads a file of a mesh that lies in a plane.
 ///
 /// # Errors
 ///
-/// If the file cannot be read or is not a planar Gmsh mesh.
-pub fn read_mesh(path: &Path) -> Result<Mesh, MeshFileError> {
-    read(path, gmsh::parse)
+/// If the file cannot be read or is not a Gmsh mesh in this plane.
+pub fn read_mesh(path: &Path, plane: CoordinatePlane) -> Result<Mesh, MeshFileError> {
+    read(path, |bytes| gmsh::parse_with(bytes, plane))
 }
 
-/// Reads a file of a mesh in the plane or of solid cells.
+/// Reads a file of a mesh in a plane or of solid cells.
 ///
 /// # Errors
 ///
 /// If the file cannot be read or is not a Gmsh mesh of either kind.
-pub fn read_any_mesh(path: &Path) -> Result<AnyMesh, MeshFileError> {
-    read(path, gmsh::parse_any)
+pub fn read_any_mesh(path: &Path, plane: CoordinatePlane) -> Result<AnyMesh, MeshFileError> {
+    read(path, |bytes| gmsh::parse_any_with(bytes, plane))
 }
 
-fn read<T>(path: &Path, parse: fn(&[u8]) -> Result<T, GmshError>) -> Result<T, MeshFileError> {
+/// Reads a file of a mesh of solid cells, or in whichever plane of two coordinates it lies, which is returned with it.
+///
+/// # Errors
+///
+/// As for [`read_any_mesh`].
+pub fn read_in_own_plane(path: &Path) -> Result<(AnyMesh, CoordinatePlane), MeshFileError> {
+    let usual = CoordinatePlane::Xy;
+    match read_any_mesh(path, usual) {
+        Err(MeshFileError::Parse {
+            source: GmshError::OtherPlane { plane, .. },
+            ..
+        }) => Ok((read_any_mesh(path, plane)?, plane)),
+        read => Ok((read?, usual)),
+    }
+}
+
+fn read<T>(
+    path: &Path,
+    parse: impl FnOnce(&[u8]) -> Result<T, GmshError>,
+) -> Result<T, MeshFileError> {
     let read = input_file::read(path);
     let bytes = read.map_err(|source| MeshFileError::Read {
         path: path.to_owned(),

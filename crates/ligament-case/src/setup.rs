@@ -96,7 +96,9 @@ impl CaseFile {
                 body.map_err(|reason| self.error("mesh.file", reason).into())
             }
             (Some(section), _, _) if section.is_solid => {
-                let mesh = stage(watcher, "read mesh", || read_any_mesh(&section.file))?;
+                let mesh = stage(watcher, "read mesh", || {
+                    read_any_mesh(&section.file, section.coordinate_plane())
+                })?;
                 let AnyMesh::Solid(_) = mesh else {
                     let reason = "the geometry has volumes, and the mesh has no solid cells: mesh the volumes too (`gmsh -3`)";
                     return Err(self.error("mesh.file", reason).into());
@@ -104,7 +106,9 @@ impl CaseFile {
                 Ok(section.scaled(mesh).into())
             }
             (Some(section), _, _) => {
-                let mesh = stage(watcher, "read mesh", || read_mesh(&section.file))?;
+                let mesh = stage(watcher, "read mesh", || {
+                    read_mesh(&section.file, section.coordinate_plane())
+                })?;
                 Ok(section.scaled(AnyMesh::Plane(mesh)).into())
             }
             (None, Some(section), _) => {

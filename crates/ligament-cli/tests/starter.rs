@@ -373,6 +373,41 @@ fn sizes_are_sensible() {
     }
 }
 
+/// A mesh with the same z everywhere, and the same square in the plane of x and z, y in the place of z: both cases have one body.
+#[test]
+fn a_mesh_in_another_plane_is_turned() {
+    let names = ["left", "right", "bottom", "top"];
+    let text = square(0.1, names);
+    let nodes = text
+        .lines()
+        .map(|line| match line.split(' ').collect::<Vec<_>>()[..] {
+            [node, x, y, "0"] => format!("{node} {x} 0.25 {y}\n"),
+            _ => format!("{line}\n"),
+        });
+    let turned = nodes.collect::<String>();
+    let bodies = [&text, &turned].map(|text| {
+        let (folder, starter) = of_text(text);
+        let starter = starter.unwrap();
+        assert_eq!(
+            starter.text.contains("coordinates = \"xz\""),
+            text == &turned
+        );
+        let body = case(&starter, folder.path()).read_body(&mut ()).unwrap();
+        let body = body.as_body();
+        let points = 0..body.n_points() as u32;
+        points.map(|it| body.position(it)).collect::<Vec<_>>()
+    });
+    assert_eq!(bodies[0], bodies[1]);
+    let (folder, starter) = of_text(&turned);
+    let text = starter.unwrap().text.replace("coordinates", "#");
+    let wrong = CaseFile::parse(&folder.path().join("case.toml"), text, &[]).unwrap();
+    let error = wrong.read_body(&mut ()).unwrap_err().to_string();
+    assert!(
+        error.contains("`coordinates = \"xz\"` in [mesh]"),
+        "{error}"
+    );
+}
+
 #[test]
 fn a_lattice_takes_the_place_of_a_mesh() {
     for law in Law::ALL {

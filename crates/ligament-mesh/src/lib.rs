@@ -23,6 +23,7 @@
 mod bisection;
 mod cell;
 mod coincidence;
+mod coordinate_plane;
 mod crack;
 mod curve;
 pub mod gmsh;
@@ -31,7 +32,6 @@ mod interpolation;
 mod mesh;
 mod numbering;
 mod overlap;
-mod parse_options;
 mod portion;
 mod remark;
 mod solid;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::parse_options::CoordinatePlane;
+use crate::coordinate_plane::CoordinatePlane;
 
 /// A position in a mesh file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use ligament::body::Points;
 use ligament_case::point_table;
 use ligament_mesh::AnyMesh;
-use ligament_mesh::gmsh::{self, Element};
+use ligament_mesh::gmsh::{self, CoordinatePlane, Element};
 use ligament_output::replace_file;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -56,7 +56,7 @@ pub(crate) fn write_mesh(
             group: group.as_deref(),
         }));
     }
-    let mesh = gmsh::assemble(&nodes, &all);
+    let mesh = gmsh::assemble(&nodes, &all, CoordinatePlane::Xy);
     let text = match mesh.map_err(|error| errors::body_error(py, &error.to_string()))? {
         AnyMesh::Plane(mesh) => gmsh::write(&mesh),
         AnyMesh::Solid(mesh) => gmsh::write(&mesh),

@@ -8,6 +8,7 @@ use ligament::run::{NoObserver, Solution};
 use ligament::setup::{FinePlace, Fineness, Horizon, Refine, Setup};
 use ligament_analysis::refinement_pass::PassRecord;
 use ligament_case::case::CaseFile;
+use ligament_study::meshing::Coordinates;
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 
 use super::experiment::{Compute, Experiment, Findings};
@@ -164,6 +165,8 @@ fn meshed(geometry: &str, out: &std::path::Path, numbers: &[(&str, f64)]) -> any
         force: true,
         gmsh: "gmsh".into(),
         numbers: numbers.iter().map(|it| (it.0.to_owned(), it.1)).collect(),
+        size: None,
+        coordinates: Coordinates::default(),
     })?;
     Ok(())
 }

@@ -257,7 +257,7 @@ fn scatter_below_spacing(
 pub fn large_body(length: f64) -> Option<Message> {
     (length > SUSPICIOUSLY_LARGE).then(|| {
         let text = format!("the body is {length:.1} m across");
-        let advice = "is the mesh in mm? Lengths are in m, so scale it by 0.001: `scale = 1e-3` in [mesh] (in Gmsh: Mesh.ScalingFactor = 0.001)";
+        let advice = "is the mesh in mm? Lengths are in m, so scale it: `mesh.scale = 1e-3` in the case, or `ligament mesh --scale 1e-3`";
         Message::new("large-body", text).with_advice(advice)
     })
 }

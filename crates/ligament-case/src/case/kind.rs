@@ -23,7 +23,8 @@ impl Case {
         if source.body.is_some() || self.check_as(source, !is_solid).is_err() {
             return Err(error);
         }
-        Err(match (&mesh.unread, read_any_mesh(&mesh.file)) {
+        let read = read_any_mesh(&mesh.file, mesh.coordinate_plane());
+        Err(match (&mesh.unread, read) {
             (Some(reason), _) => {
                 let reason = format!("{reason}; paths are relative to the folder of the case file");
                 unreadable_mesh(source, "read", mesh, &reason)

@@ -8,9 +8,11 @@ use serde::{Deserialize, Serialize};
 use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::values::{refuse, require};
+use super::word::Word;
 use crate::mesh_file::holds_solid;
 use crate::point_table::is_table;
 use ligament_mesh::AnyMesh;
+use ligament_mesh::gmsh::CoordinatePlane;
 use ligament_model::Plane;
 
 /// A body in the plane, or a solid.
@@ -32,6 +34,9 @@ pub struct MeshSection {
     /// Factor on the coordinates of the mesh, such as 1e-3 for a mesh in mm; lengths elsewhere in the case stay in m.
     #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
     pub scale: Option<f64>,
+    /// Plane in which a mesh without solid cells lies; from another one than that of x and y it is turned, and the case has the turned x and y.
+    #[schemars(extend("default" = "xy"))]
+    pub coordinates: Option<Word<CoordinatePlane>>,
     /// Thickness of a body in the plane, m; a mesh of solid cells has none.
     #[schemars(extend("exclusiveMinimum" = 0, "default" = 1.0))]
     pub thickness: Option<f64>,
@@ -55,6 +60,11 @@ impl MeshSection {
         }
     }
 
+    /// Plane in which a mesh without solid cells lies.
+    pub fn coordinate_plane(&self) -> CoordinatePlane {
+        self.coordinates.unwrap_or_default().0
+    }
+
     /// Fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
     pub(super) fn complete(
         &mut self,
@@ -64,9 +74,16 @@ impl MeshSection {
     ) -> Result<(), KeyFault> {
         complete_path(&key.child("file"), &mut self.file, folder)?;
         self.scale = self.scale.filter(|it| *it != 1.0);
+        self.coordinates = (self.coordinates).filter(|it| it.0 != CoordinatePlane::Xy);
         if is_table(&self.file) {
             let reason = "give positions and areas or volumes in m";
-            refuse(key, self, &["scale"], "a table of points", reason)?;
+            refuse(
+                key,
+                self,
+                &["scale", "coordinates"],
+                "a table of points",
+                reason,
+            )?;
         }
         match (body, holds_solid(&self.file)) {
             (Some(kind), _) => self.is_solid = kind == BodyKind::Solid,
@@ -78,7 +95,7 @@ impl MeshSection {
             return refuse(
                 key,
                 self,
-                &["thickness", "plane"],
+                &["thickness", "plane", "coordinates"],
                 "a mesh of solid cells",
                 reason,
             );

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use ligament::setup::{Iteration, Surface};
+use ligament_mesh::gmsh::CoordinatePlane;
 use ligament_model::correction::StopRule;
 use ligament_model::correction::patch::Settings;
 use ligament_model::word::{self, Worded};
@@ -41,6 +42,12 @@ worded! { Option<StopRule>:
     [None] "auto" "`sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.";
     [Some(Iteration::SUM)] in [Some(StopRule::Sum(_))] "sum" "Summed over all bonds (the paper's): grows with the size of the model.";
     [Some(Iteration::MEAN)] in [Some(StopRule::Mean(_))] "mean" "Mean per bond: independent of the size of the model.";
+}
+
+worded! { CoordinatePlane:
+    [CoordinatePlane::Xy] "xy" "The plane of x and y.";
+    [CoordinatePlane::Xz] "xz" "The plane of x and z: z becomes y.";
+    [CoordinatePlane::Yz] "yz" "The plane of y and z: y becomes x, and z becomes y.";
 }
 
 /// The word of a value that is written as one.

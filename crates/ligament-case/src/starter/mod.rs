@@ -5,9 +5,10 @@ mod text;
 
 use std::path::{Component, Path, PathBuf};
 
+use ligament_mesh::gmsh::CoordinatePlane;
 use ligament_mesh::{AnyMesh, Group};
 
-use crate::mesh_file::{MeshFileError, bounding_box, read_any_mesh};
+use crate::mesh_file::{MeshFileError, bounding_box, read_in_own_plane};
 use groups::{LoadPlace, MeshGroups, SupportAndLoad};
 use ligament::setup::Law;
 use ligament::warning::large_body;
@@ -71,7 +72,7 @@ pub fn mesh_case(path: &Path, folder: &Path, law: Law) -> Result<Starter, Starte
     if law.row.needs_lattice {
         return Err(StarterError::NeedsLattice(law));
     }
-    let mesh = read_any_mesh(path).map_err(|source| match source {
+    let (mesh, plane) = read_in_own_plane(path).map_err(|source| match source {
         MeshFileError::Parse { .. } if extension != "msh" => StarterError::OtherFormat {
             path: path.to_owned(),
             source,
@@ -79,18 +80,18 @@ pub fn mesh_case(path: &Path, folder: &Path, law: Law) -> Result<Starter, Starte
         source => StarterError::Mesh(source),
     })?;
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
-    let file = relative(path, folder);
+    let file = (relative(path, folder), plane);
     match &mesh {
         AnyMesh::Plane(mesh) => {
             let spacing = (mesh.area() / mesh.positions.len() as f64).sqrt();
             let named = named(&mesh.groups, &mesh.positions, mesh.cells.len());
-            Ok(case_of_mesh(named, spacing, [&file, &name], law))
+            Ok(case_of_mesh(named, spacing, (&file, &name), law))
         }
         AnyMesh::Solid(mesh) => {
             check_solid(law)?;
             let spacing = (mesh.volume() / mesh.positions.len() as f64).cbrt();
             let named = named(&mesh.groups, &mesh.positions, mesh.cells.len());
-            Ok(case_of_mesh(named, spacing, [&file, &name], law))
+            Ok(case_of_mesh(named, spacing, (&file, &name), law))
         }
     }
 }
@@ -121,11 +122,12 @@ fn laws_for_solids() -> String {
     })
 }
 
-/// The starter case of a mesh with a spacing of its points (m); `file` is its path in the case, `name` the name of the body.
+/// The starter case of a mesh with a spacing of its points (m); `file` is its path in the case with the plane in which it lies, `name` the
+/// name of the body.
 fn case_of_mesh<const D: usize>(
     mesh: MeshGroups<'_, D>,
     spacing: f64,
-    [file, name]: [&str; 2],
+    (file, name): (&(String, CoordinatePlane), &str),
     law: Law,
 ) -> Starter {
     let extent = bounding_box(mesh.positions);
@@ -138,7 +140,7 @@ fn case_of_mesh<const D: usize>(
     let body = Body {
         name: name.to_owned(),
         section: Section::Mesh {
-            file: file.to_owned(),
+            file: file.clone(),
             groups: mesh.groups.to_vec(),
         },
         parts: mesh.parts().iter().map(|it| it.name.clone()).collect(),

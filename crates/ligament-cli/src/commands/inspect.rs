@@ -1,10 +1,12 @@
 //! `ligament inspect`.
 
+use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
 
-use ligament_case::mesh_file::read_any_mesh;
+use ligament_case::mesh_file::read_in_own_plane;
+use ligament_mesh::gmsh::CoordinatePlane;
 
 use crate::inspect::write_summary;
 use crate::terminal;
@@ -27,7 +29,16 @@ pub struct InspectArgs {
 impl InspectArgs {
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
-        let mesh = read_any_mesh(&self.mesh)?;
-        Ok(write_summary(&mut terminal::stdout(), &self.mesh, &mesh)?)
+        let (mesh, plane) = read_in_own_plane(&self.mesh)?;
+        let mut out = terminal::stdout();
+        write_summary(&mut out, &self.mesh, &mesh)?;
+        if plane != CoordinatePlane::Xy {
+            let word = plane.word();
+            writeln!(
+                out,
+                "  note: a case reads it by `coordinates = \"{word}\"` in [mesh]"
+            )?;
+        }
+        Ok(())
     }
 }

@@ -7,8 +7,8 @@ use ligament_mesh::{Cell, Group, Mesh};
 use ligament_output::quantity::quantity;
 
 use super::words::{
-    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_groups, write_remarks,
-    write_size_note,
+    Elements, NAMES, box_in_words, description, edge_length, edges_in_words, points_or_edges,
+    write_fields, write_groups, write_remarks, write_size_note,
 };
 use crate::lines::entry;
 
@@ -26,25 +26,23 @@ pub(super) fn write(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
     line("area", quantity(mesh.area(), "m^2"))?;
     line("bounding box", box_in_words(corners))?;
     line("edges", edges_in_words(lengths))?;
-    write_groups(out, &mesh.groups, |group| kind_and_size(group, mesh))?;
+    write_groups(out, &mesh.groups, |group| {
+        description(elements(group, mesh), &mesh.positions)
+    })?;
     write_fields(out, &mesh.fields)?;
     write_remarks(out, &mesh.remarks)?;
     write_size_note(out, corners)
 }
 
-fn kind_and_size(group: &Group, mesh: &Mesh) -> (&'static str, String) {
+fn elements<'a>(group: &'a Group, mesh: &'a Mesh) -> Elements<'a> {
+    let positions = &mesh.positions;
     match group.dimension {
-        0 => ("points", String::new()),
-        1 => {
-            let edges = group.edges.iter();
-            let lengths = edges.map(|&edge| edge_length(&mesh.positions, edge));
-            ("curve", quantity(lengths.sum::<f64>(), "m"))
-        }
-        _ => {
+        2 => {
             let cells = group.cells.iter().map(|&cell| &mesh.cells[cell as usize]);
-            let area: f64 = cells.map(|cell| cell.area(&mesh.positions)).sum();
-            ("surface", quantity(area, "m^2"))
+            let cells = cells.map(|it| (it.corners(), it.area(positions)));
+            ("surface", Some("m^2"), cells.collect())
         }
+        _ => points_or_edges(group, positions),
     }
 }
 
@@ -71,9 +69,9 @@ mod tests {
   bounding box  x 0 to 1.000 m, y 0 to 1.000 m
   edges         shortest 1.000 m, longest 1.414 m, ratio 1.41
   groups
-    name   kind     number     nodes  size
-    left   curve         1         2  1.000 m
-    plate  surface       2         4  1.000 m^2
+    name   kind     number     nodes  size       centre
+    left   curve         1         2  1.000 m    (0, 0.5000) m
+    plate  surface       2         4  1.000 m^2  (0.5000, 0.5000) m
 ";
         assert_eq!(text, expected);
     }

@@ -7,8 +7,8 @@ use ligament_mesh::{Cell, Faces, Group, SolidCell, SolidMesh};
 use ligament_output::quantity::{between, place, quantity};
 
 use super::words::{
-    NAMES, box_in_words, edge_length, edges_in_words, write_fields, write_groups, write_remarks,
-    write_size_note,
+    Elements, NAMES, box_in_words, description, edge_length, edges_in_words, points_or_edges,
+    write_fields, write_groups, write_remarks, write_size_note,
 };
 use crate::lines::entry;
 
@@ -37,7 +37,8 @@ pub(super) fn write(out: &mut dyn Write, mesh: &SolidMesh) -> io::Result<()> {
         line("quality", quality.in_words())?;
     }
     write_groups(out, &mesh.groups, |group| {
-        kind_and_size(group, mesh, &faces)
+        let [kind, size, centre] = description(elements(group, mesh), &mesh.positions);
+        [kind, size, centre + inside(group, &faces)]
     })?;
     write_fields(out, &mesh.fields)?;
     write_remarks(out, &mesh.remarks)?;
@@ -163,30 +164,30 @@ fn volumes_note(mesh: &SolidMesh) -> Option<String> {
     })
 }
 
-fn kind_and_size(group: &Group, mesh: &SolidMesh, faces: &Faces<'_>) -> (&'static str, String) {
+fn elements<'a>(group: &'a Group, mesh: &'a SolidMesh) -> Elements<'a> {
     let positions = &mesh.positions;
     match group.dimension {
-        0 => ("points", String::new()),
-        1 => {
-            let lengths = group.edges.iter().map(|&edge| edge_length(positions, edge));
-            ("curve", quantity(lengths.sum::<f64>(), "m"))
-        }
         2 => {
-            let size: f64 = group.faces.iter().map(|it| area(it, positions)).sum();
-            let is_inside = |face: &&Cell| faces.sides_at(face).len() > 1;
-            let inside = group.faces.iter().filter(is_inside).count();
-            let place = match inside {
-                0 => "",
-                inside if inside == group.faces.len() => ", inside of the body",
-                _ => ", partly inside of the body",
-            };
-            ("surface", quantity(size, "m^2") + place)
+            let sides = group.faces.iter();
+            let sides = sides.map(|it| (it.corners(), area(it, positions)));
+            ("surface", Some("m^2"), sides.collect())
         }
-        _ => {
+        3 => {
             let cells = group.cells.iter().map(|&cell| &mesh.cells[cell as usize]);
-            let volume: f64 = cells.map(|cell| cell.volume(positions)).sum();
-            ("volume", quantity(volume, "m^3"))
+            let cells = cells.map(|it| (it.corners(), it.volume(positions)));
+            ("volume", Some("m^3"), cells.collect())
         }
+        _ => points_or_edges(group, positions),
+    }
+}
+
+/// Where a surface is, if it is not outside of the body.
+fn inside(group: &Group, faces: &Faces<'_>) -> &'static str {
+    let is_inside = |face: &&Cell| faces.sides_at(face).len() > 1;
+    match group.faces.iter().filter(is_inside).count() {
+        0 => "",
+        inside if inside == group.faces.len() => ", inside of the body",
+        _ => ", partly inside of the body",
     }
 }
 

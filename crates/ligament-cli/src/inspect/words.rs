@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ligament::warning::large_body;
 use ligament_mesh::{Group, NodeField, Remark};
 use ligament_output::columns::MAX_COLUMN_WIDTH;
-use ligament_output::quantity::{between, quantity};
+use ligament_output::quantity::{between, place, quantity};
 
 use crate::lines::entry;
 
@@ -82,11 +82,46 @@ pub(super) fn write_size_note<const D: usize>(
     Ok(())
 }
 
-/// Writes one line per group, with its kind and size by `kind_and_size`.
+/// Elements of a group: their kind, the unit of their sizes, and for each its corners and its size.
+pub(super) type Elements<'a> = (&'static str, Option<&'static str>, Vec<(&'a [u32], f64)>);
+
+/// The nodes of a group of points, or the edges of a curve.
+pub(super) fn points_or_edges<'a, const D: usize>(
+    group: &'a Group,
+    positions: &[[f64; D]],
+) -> Elements<'a> {
+    if group.dimension == 0 {
+        let nodes = group.nodes.chunks(1).map(|it| (it, 1.0));
+        return ("points", None, nodes.collect());
+    }
+    let edges = group.edges.iter();
+    let edges = edges.map(|it| (it.as_slice(), edge_length(positions, *it)));
+    ("curve", Some("m"), edges.collect())
+}
+
+/// Kind, size and centre of the elements of a group.
+pub(super) fn description<const D: usize>(
+    (kind, unit, elements): Elements<'_>,
+    positions: &[[f64; D]],
+) -> [String; 3] {
+    let total: f64 = elements.iter().map(|it| it.1).sum();
+    let mut centre = [0.0; D];
+    for (corners, size) in elements {
+        let share = size / (total * corners.len() as f64);
+        for corner in corners {
+            let position = positions[*corner as usize];
+            (centre.iter_mut().zip(position)).for_each(|(sum, it)| *sum += share * it);
+        }
+    }
+    let size = unit.map_or(String::new(), |unit| quantity(total, unit));
+    [kind.to_owned(), size, place(&centre)]
+}
+
+/// Writes one line per group, with its kind, size and centre by `description`.
 pub(super) fn write_groups(
     out: &mut dyn Write,
     groups: &[Group],
-    kind_and_size: impl Fn(&Group) -> (&'static str, String),
+    description: impl Fn(&Group) -> [String; 3],
 ) -> io::Result<()> {
     if groups.is_empty() {
         let none = "none: a case can select by `box` or `at` only";
@@ -95,15 +130,19 @@ pub(super) fn write_groups(
     let letters = groups.iter().map(|group| group.name.chars().count());
     let width = letters.fold(4, usize::max).min(MAX_COLUMN_WIDTH);
     writeln!(out, "  groups")?;
+    let described: Vec<[String; 3]> = groups.iter().map(description).collect();
+    let letters = described.iter().map(|[_, size, _]| size.chars().count());
+    let of_size = letters.fold(4, usize::max);
     writeln!(
         out,
-        "    {:width$}  {:7}  {:>6}  {:>8}  size",
-        "name", "kind", "number", "nodes"
+        "    {:width$}  {:7}  {:>6}  {:>8}  {:of_size$}  centre",
+        "name", "kind", "number", "nodes", "size"
     )?;
-    for group in groups {
-        let (kind, size) = kind_and_size(group);
+    for (group, [kind, size, centre]) in groups.iter().zip(described) {
         let (name, number, nodes) = (&group.name, group.number, group.nodes.len());
-        let line = format!("    {name:width$}  {kind:7}  {number:>6}  {nodes:>8}  {size}");
+        let line = format!(
+            "    {name:width$}  {kind:7}  {number:>6}  {nodes:>8}  {size:of_size$}  {centre}"
+        );
         writeln!(out, "{}", line.trim_end())?;
     }
     Ok(())

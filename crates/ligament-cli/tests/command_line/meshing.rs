@@ -1,6 +1,7 @@
 //! Calls of `ligament mesh` with a shell script in place of gmsh.
 
 use super::*;
+use ligament_mesh::gmsh;
 use std::os::unix::fs::PermissionsExt;
 
 const GEOMETRY: &str = "DefineConstant[ size = 0.1 ];\nDefineConstant[ radius = 1 ];\n";
@@ -170,4 +171,69 @@ fn a_geometry_that_is_not_there_is_named() {
         stderr(&output),
         "error: there is no geometry nowhere/plate.geo\n"
     );
+}
+
+/// A plate whose coordinates are multiplied by 1/2, which is exact: from a geometry, and from the mesh itself with its y in the place of z.
+#[test]
+fn meshes_are_scaled_and_turned() {
+    let folder = folder(&format!("cp {} \"$OUT\"", plate().display()));
+    let half = |path: &str| {
+        let mesh = gmsh::parse(&fs::read(folder.path().join(path)).unwrap()).unwrap();
+        mesh.positions
+    };
+    let original = gmsh::parse(&fs::read(plate()).unwrap()).unwrap();
+    let expected: Vec<[f64; 2]> = (original.positions.iter())
+        .map(|it| it.map(|coordinate| 0.5 * coordinate))
+        .collect();
+    let output = mesh(folder.path(), &["--scale", "0.5"]);
+    assert_success(&output);
+    assert_eq!(half("plate.msh"), expected);
+    let upright: Vec<[f64; 3]> = original
+        .positions
+        .iter()
+        .map(|it| [it[0], 7.0, it[1]])
+        .collect();
+    let mut text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n".to_owned();
+    text += &format!("{}\n", upright.len());
+    for (tag, [x, y, z]) in original.node_tags.iter().zip(&upright) {
+        text += &format!("{tag} {x} {y} {z}\n");
+    }
+    text += &format!("$EndNodes\n$Elements\n{}\n", original.cells.len());
+    for (number, cell) in (1..).zip(&original.cells) {
+        let corners = cell.corners().iter();
+        let corners: Vec<String> = corners
+            .map(|it| original.node_tags[*it as usize].to_string())
+            .collect();
+        text += &format!("{number} 2 2 0 1 {}\n", corners.join(" "));
+    }
+    let standing = folder.path().join("standing.msh");
+    fs::write(&standing, text + "$EndElements\n").unwrap();
+    let converted = |more: &[&str]| {
+        ligament(
+            ["mesh".as_ref(), standing.as_os_str()]
+                .into_iter()
+                .chain(more.iter().map(OsStr::new)),
+        )
+    };
+    let refused = converted(&["--scale", "0.5"]);
+    assert_eq!(refused.status.code(), Some(1));
+    assert!(
+        stderr(&refused).contains("`--plane xz` turns it"),
+        "{}",
+        stderr(&refused)
+    );
+    let refused = converted(&["--size", "0.5"]);
+    assert!(
+        stderr(&refused).contains("--size and --set are for geometries"),
+        "{}",
+        stderr(&refused)
+    );
+    let output = converted(&["--scale", "0.5", "--plane", "xz"]);
+    assert_success(&output);
+    assert!(
+        stdout(&output).contains("turned from the plane of x and z"),
+        "{}",
+        stdout(&output)
+    );
+    assert_eq!(half("standing-gmsh.msh"), expected);
 }

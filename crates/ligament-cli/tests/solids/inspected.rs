@@ -45,7 +45,8 @@ fn sizes_groups_and_quality_are_told() {
 fn units_and_missing_volume_groups_are_told() {
     let large = inspected(&Block::new(1000.0));
     assert!(
-        large.contains("note: the body is 2000.0 m across") && large.contains("scale it by 0.001"),
+        large.contains("note: the body is 2000.0 m across")
+            && large.contains("`ligament mesh --scale 1e-3`"),
         "{large}"
     );
     let mut block = Block::new(1.0);
@@ -74,7 +75,7 @@ fn slivers_and_inner_surfaces_are_told() {
         "{said}"
     );
     assert!(said.contains("-optimize_netgen"), "{said}");
-    assert!(said.contains("m^2, inside of the body"), "{said}");
+    assert!(said.contains(" m, inside of the body"), "{said}");
 }
 
 /// Tetrahedra and prisms, of which the latter have no radius ratio.

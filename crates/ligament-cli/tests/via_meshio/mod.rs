@@ -444,6 +444,36 @@ fn what_python_says_is_passed_on() {
     }
 }
 
+/// A plate that stands in the plane of x and z, by its plane and with a factor that is exact.
+#[test]
+#[ignore = "needs LIGAMENT_PYTHON; run by tools/test"]
+fn a_standing_mesh_is_turned_and_scaled() {
+    let folder = fixtures("plate-coarse.msh");
+    let (source, out, python) = (
+        folder.path().join("upright.vtu"),
+        folder.path().join("out.msh"),
+        python(),
+    );
+    let mut words = ["mesh", "--plane", "xz", "--scale", "0.5", "--via-meshio"]
+        .map(OsStr::new)
+        .to_vec();
+    words.extend([
+        source.as_os_str(),
+        "--python".as_ref(),
+        python.as_os_str(),
+        "--out".as_ref(),
+        out.as_os_str(),
+    ]);
+    let output = ligament(words);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let original = read(&repository().join("meshes/plate-coarse.msh"));
+    let halves = original
+        .positions
+        .iter()
+        .map(|it| it.map(|coordinate| 0.5 * coordinate));
+    assert_eq!(read(&out).positions, halves.collect::<Vec<_>>());
+}
+
 #[test]
 fn a_mesh_is_no_geometry() {
     let folder = tempfile::tempdir().unwrap();

@@ -7,8 +7,8 @@ use super::element_type::Shape;
 use super::error::GmshError;
 use super::records::{self, Node, Records};
 use super::{plane, solid};
+use crate::coordinate_plane::CoordinatePlane;
 use crate::mesh::AnyMesh;
-use crate::parse_options::ParseOptions;
 
 /// An element, given by its corners, and its group; an element in several groups occurs once for each.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,12 +22,16 @@ pub struct Element<'a> {
 }
 
 /// The mesh of nodes, given by their tags and positions (m), and elements: a solid mesh if an element is solid. It is checked like a
-/// mesh file.
+/// mesh file; a planar mesh lies in a given plane.
 ///
 /// # Errors
 /// Returns an error if an element has another number of corners, or the elements form no mesh; as its position it names the number of an
 /// element as a line.
-pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<AnyMesh, GmshError> {
+pub fn assemble(
+    nodes: &[(u64, [f64; 3])],
+    elements: &[Element<'_>],
+    plane: CoordinatePlane,
+) -> Result<AnyMesh, GmshError> {
     // One line for each element: errors give the number of an element as a line.
     let lines = "\n".repeat(elements.len());
     let cursor = Cursor::new(lines.as_bytes());
@@ -71,10 +75,13 @@ pub fn assemble(nodes: &[(u64, [f64; 3])], elements: &[Element<'_>]) -> Result<A
             offset: index,
         });
     }
-    if elements.iter().any(|it| it.dimension == 3) {
-        solid::assemble(&cursor, records).map(AnyMesh::Solid)
-    } else {
-        plane::assemble(&cursor, records, ParseOptions::default()).map(AnyMesh::Plane)
+    match elements.iter().position(|it| it.dimension == 3) {
+        Some(index) if plane != CoordinatePlane::Xy => Err(GmshError::SolidInPlane {
+            place: cursor.place(index),
+            plane,
+        }),
+        Some(_) => solid::assemble(&cursor, records).map(AnyMesh::Solid),
+        None => plane::assemble(&cursor, records, plane).map(AnyMesh::Plane),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::parse_options::CoordinatePlane;
+use crate::coordinate_plane::CoordinatePlane;
 use crate::remark::FilePosition;
 
 /// Reasons why a file was not read as a mesh.

@@ -7,7 +7,7 @@
 //!   `Mesh.SaveTopology`: save 4.1 then.
 //! - Nodes that no cell uses are dropped, also from the groups.
 //! - `$NodeData` gives the fields of the mesh; only scalars are stored.
-//! - In a planar mesh the z coordinate must be constant and is dropped; [`ParseOptions`] turn a mesh from another plane.
+//! - In a planar mesh the z coordinate must be constant and is dropped; a mesh in another plane is turned into it by its [`CoordinatePlane`].
 //! - Doubled nodes along a crack are read, and a remark tells it; a seam that parts the mesh into pieces is refused.
 //! - Clockwise or inverted cells are reoriented. In a solid mesh a surface element in a group must be a face of a cell.
 //! - A cell with a repeated corner is the cell with fewer corners that it is.
@@ -51,7 +51,7 @@ pub use arrays::{Element, assemble};
 pub use error::GmshError;
 pub use write::write;
 
-pub use crate::parse_options::{CoordinatePlane, ParseOptions};
+pub use crate::coordinate_plane::CoordinatePlane;
 pub use crate::remark::FilePosition;
 
 /// Reads the bytes of a Gmsh mesh file of a planar mesh.
@@ -59,9 +59,17 @@ pub use crate::remark::FilePosition;
 /// # Errors
 /// Returns an error if the file is damaged or not planar, with the position in the file and a remedy.
 pub fn parse(bytes: &[u8]) -> Result<Mesh, GmshError> {
+    parse_with(bytes, CoordinatePlane::Xy)
+}
+
+/// Reads the bytes of a Gmsh mesh file of a planar mesh like [`parse`], which lies in a given plane.
+///
+/// # Errors
+/// Returns an error as [`parse`] does.
+pub fn parse_with(bytes: &[u8], plane: CoordinatePlane) -> Result<Mesh, GmshError> {
     let mut cursor = Cursor::new(bytes);
     let records = sections::read(&mut cursor)?;
-    plane::assemble(&cursor, records, ParseOptions::default())
+    plane::assemble(&cursor, records, plane)
 }
 
 /// Reads the bytes of a Gmsh mesh file: a solid mesh if it has a solid cell, else a planar one.
@@ -69,21 +77,21 @@ pub fn parse(bytes: &[u8]) -> Result<Mesh, GmshError> {
 /// # Errors
 /// Returns an error if the file is damaged, or has no solid cell and is not planar, with the position in the file and a remedy.
 pub fn parse_any(bytes: &[u8]) -> Result<AnyMesh, GmshError> {
-    parse_any_with(bytes, ParseOptions::default())
+    parse_any_with(bytes, CoordinatePlane::Xy)
 }
 
-/// Reads the bytes of a Gmsh mesh file like [`parse_any`], with options.
+/// Reads the bytes of a Gmsh mesh file like [`parse_any`]; without solid cells it lies in a given plane.
 ///
 /// # Errors
 /// Returns an error as [`parse_any`] does, and for a solid mesh with another plane than that of x and y.
-pub fn parse_any_with(bytes: &[u8], options: ParseOptions) -> Result<AnyMesh, GmshError> {
+pub fn parse_any_with(bytes: &[u8], plane: CoordinatePlane) -> Result<AnyMesh, GmshError> {
     let mut cursor = Cursor::new(bytes);
     let records = sections::read(&mut cursor)?;
     match records.first_solid {
-        None => plane::assemble(&cursor, records, options).map(AnyMesh::Plane),
-        Some(record) if options.plane != CoordinatePlane::Xy => Err(GmshError::SolidInPlane {
+        None => plane::assemble(&cursor, records, plane).map(AnyMesh::Plane),
+        Some(record) if plane != CoordinatePlane::Xy => Err(GmshError::SolidInPlane {
             place: cursor.place(record.offset),
-            plane: options.plane,
+            plane: plane,
         }),
         Some(_) => solid::assemble(&cursor, records).map(AnyMesh::Solid),
     }

@@ -7,8 +7,8 @@ use super::error::GmshError;
 use super::records::Node;
 use crate::cell::MeshCell;
 use crate::coincidence::{coincident_pairs, lowest_at_place};
+use crate::coordinate_plane::CoordinatePlane;
 use crate::crack::opposite_sides;
-use crate::parse_options::CoordinatePlane;
 
 /// Largest difference of heights, relative to the mesh size.
 const FLATNESS: f64 = 1e-9;

@@ -7,6 +7,7 @@ use super::groups::Groups;
 use super::model::Model;
 use super::part::Element;
 use super::source::Source;
+use crate::coordinate_plane::CoordinatePlane;
 use crate::gmsh::{self, GmshError};
 use crate::mesh::AnyMesh;
 use crate::remark::{DeckRemark, FileLine, Remark};
@@ -15,12 +16,13 @@ use crate::remark::{DeckRemark, FileLine, Remark};
 pub(super) fn assemble<'a>(
     source: &Source<'_>,
     model: &'a Model,
+    plane: CoordinatePlane,
 ) -> Result<(AnyMesh, Body<'a>), InpError> {
     let mut of_body = Vec::new();
     let spaces = spaces(source, model, &mut of_body)?;
     let body = Body::new(source, model, spaces, &mut of_body)?;
     let (cells, mut nodes) = Cells::new(source, &body)?;
-    let mut mesh = cells.mesh(source, &body, &mut nodes)?;
+    let mut mesh = cells.mesh((source, plane), &body, &mut nodes)?;
     let mut remarks = remarks_on_nodes(&cells, &nodes);
     remarks.extend_from_slice(mesh.remarks());
     remarks.extend(of_body);
@@ -110,7 +112,7 @@ impl Cells {
     /// The mesh of the cells; numbers the nodes at their corners.
     fn mesh(
         &self,
-        source: &Source<'_>,
+        (source, plane): (&Source<'_>, CoordinatePlane),
         body: &Body<'_>,
         numbers: &mut [Vec<u32>],
     ) -> Result<AnyMesh, InpError> {
@@ -121,7 +123,7 @@ impl Cells {
             cells: self,
             nodes: &origins,
         };
-        gmsh::assemble(&nodes, &self.elements).map_err(|error| faults.error(error))
+        gmsh::assemble(&nodes, &self.elements, plane).map_err(|error| faults.error(error))
     }
 
     /// Number of each element's cell, by spaces.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use thiserror::Error;
 
 use super::element_type::{Plane, Refusal};
-use crate::parse_options::CoordinatePlane;
+use crate::coordinate_plane::CoordinatePlane;
 use crate::remark::FileLine;
 
 /// Reasons why an input deck was not read as a mesh.

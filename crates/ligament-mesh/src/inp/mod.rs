@@ -46,6 +46,7 @@ mod source;
 use std::collections::BTreeMap;
 use std::io;
 
+use crate::coordinate_plane::CoordinatePlane;
 use crate::mesh::{AnyMesh, Group};
 use crate::remark::FileLine;
 
@@ -93,9 +94,21 @@ pub fn parse(
     text: &[u8],
     read: &mut dyn FnMut(&str) -> io::Result<Vec<u8>>,
 ) -> Result<Deck, InpError> {
+    parse_with(text, CoordinatePlane::Xy, read)
+}
+
+/// Reads an input deck like [`parse`]; a planar mesh lies in a given plane.
+///
+/// # Errors
+/// Returns an error as [`parse`] does, and for a solid mesh with another plane than that of x and y.
+pub fn parse_with(
+    text: &[u8],
+    plane: CoordinatePlane,
+    read: &mut dyn FnMut(&str) -> io::Result<Vec<u8>>,
+) -> Result<Deck, InpError> {
     let source = source::Source::read(text, read)?;
     let model = reader::read(&source)?;
-    let (mesh, body) = assembly::assemble(&source, &model)?;
+    let (mesh, body) = assembly::assemble(&source, &model, plane)?;
     let plane = body.plane;
     let instances = body.spaces.iter();
     let instances = instances.filter_map(|space| Some((space.name?.to_owned(), space.shift)));

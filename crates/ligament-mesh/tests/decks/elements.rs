@@ -1,10 +1,12 @@
 //! Elements: their types, orders and shapes, those that are no cells, plane elements beside solid ones.
 
 use super::{
-    CHAPEL, NODES, SQUARES, group, labels, plane, read, refusal, remarks, solid, with_squares,
+    CHAPEL, NODES, SQUARES, group, labels, no_files, plane, read, refusal, remarks, solid,
+    try_read, with_squares,
 };
-use ligament_mesh::inp::Plane;
-use ligament_mesh::{Cell, DeckRemark, Remark, SolidCell};
+use ligament_mesh::gmsh::CoordinatePlane;
+use ligament_mesh::inp::{InpError, Plane, parse_with};
+use ligament_mesh::{AnyMesh, Cell, DeckRemark, Remark, SolidCell};
 
 #[test]
 fn the_state_of_the_plane_is_that_of_the_elements() {
@@ -242,4 +244,33 @@ fn clockwise_and_inverted_elements_are_reoriented() {
     let deck = read(&format!("{text}*SURFACE, NAME=Base\n1, S2\n"));
     assert!((solid(&deck).volume() - 4.0 / 3.0).abs() < 1e-15);
     assert_eq!(labels(&deck, "Base"), [1, 2, 3, 4]);
+}
+
+/// Shells in the plane of y and z, which the deck gives as (0, a, b), become the squares with a to the right and b upwards.
+#[test]
+fn shells_in_another_plane_are_turned() {
+    let turned = NODES
+        .lines()
+        .map(|line| match line.split(", ").collect::<Vec<_>>()[..] {
+            [node, a, b] => format!("{node}, 0, {a}, {b}\n"),
+            _ => format!("{line}\n"),
+        });
+    let text = turned.collect::<String>() + &SQUARES.replace("CPS4", "S4");
+    let error = try_read(&text).unwrap_err();
+    let expected = InpError::OtherPlane {
+        plane: CoordinatePlane::Yz,
+    };
+    assert_eq!(error, expected);
+    let plane = CoordinatePlane::Yz;
+    let AnyMesh::Plane(mesh) = parse_with(text.as_bytes(), plane, &mut no_files)
+        .unwrap()
+        .mesh
+    else {
+        panic!("a planar mesh");
+    };
+    let AnyMesh::Plane(expected) = read(&format!("{NODES}{SQUARES}")).mesh else {
+        panic!("a planar mesh");
+    };
+    assert_eq!(mesh.positions, expected.positions);
+    assert_eq!(mesh.cells, expected.cells);
 }

@@ -1,9 +1,7 @@
 //! Files of other programs, and of Gmsh with unusual options: each means the square, or what is left of it.
 
 use super::square::{SQUARE, SQUARE_41};
-use ligament_mesh::gmsh::{
-    CoordinatePlane, FilePosition, GmshError, ParseOptions, parse, parse_any_with,
-};
+use ligament_mesh::gmsh::{CoordinatePlane, FilePosition, GmshError, parse, parse_any_with};
 use ligament_mesh::{AnyMesh, Cell, Mesh, Remark};
 
 /// The square with `old` replaced by `new`.
@@ -204,11 +202,8 @@ fn meshes_in_other_planes_are_named_and_turned() {
     ];
     for (plane, text) in &planes {
         for wanted in planes.each_ref().map(|it| it.0) {
-            let options = ParseOptions {
-                plane: wanted,
-                ..ParseOptions::default()
-            };
-            let found = parse_any_with(text.as_bytes(), options);
+            let plane = wanted;
+            let found = parse_any_with(text.as_bytes(), plane);
             if wanted != *plane {
                 let error = found.unwrap_err();
                 let is_named = matches!(error, GmshError::OtherPlane { plane: of, height: 2.0, .. } if of == *plane);
@@ -233,12 +228,9 @@ fn meshes_in_other_planes_are_named_and_turned() {
 
 #[test]
 fn meshes_in_no_plane_are_refused_in_their_own_coordinates() {
-    let options = ParseOptions {
-        plane: CoordinatePlane::Xz,
-        ..ParseOptions::default()
-    };
+    let plane = CoordinatePlane::Xz;
     let text = in_plane(|x, y| [x, 2.0 + 0.5 * x, y]);
-    let error = parse_any_with(text.as_bytes(), options).unwrap_err();
+    let error = parse_any_with(text.as_bytes(), plane).unwrap_err();
     let expected = "line 7: node 2 lies at y = 2.5, others at 2: the mesh does not lie in the plane of x and z";
     assert_eq!(error.to_string(), expected);
     assert!(matches!(

@@ -1,9 +1,7 @@
 //! One file for each refusal of what is no solid mesh, with the place it is refused at.
 
 use super::small_files::{CHAPEL, changed};
-use ligament_mesh::gmsh::{
-    CoordinatePlane, FilePosition, GmshError, ParseOptions, parse_any, parse_any_with,
-};
+use ligament_mesh::gmsh::{CoordinatePlane, FilePosition, GmshError, parse_any, parse_any_with};
 use ligament_mesh::{AnyMesh, Remark};
 
 fn refusal(old: &str, new: &str) -> GmshError {
@@ -186,14 +184,12 @@ fn a_file_without_cells_is_refused() {
 /// A solid is in no plane, and is not turned.
 #[test]
 fn a_plane_for_a_solid_is_refused() {
-    let options = ParseOptions {
-        plane: CoordinatePlane::Yz,
-    };
+    let plane = CoordinatePlane::Yz;
     let expected = GmshError::SolidInPlane {
         place: FilePosition::Line(22),
         plane: CoordinatePlane::Yz,
     };
-    assert_eq!(parse_any_with(CHAPEL.as_bytes(), options), Err(expected));
+    assert_eq!(parse_any_with(CHAPEL.as_bytes(), plane), Err(expected));
 }
 
 /// The pyramid with its own nodes at the top of the cube.

@@ -46,7 +46,7 @@ pub use lines::stored_precracks;
 pub use request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
 pub use run_pictures::{asks_for_pictures, draw_run};
 pub use series::{animate, draw_each};
-pub use solid::{Section, View};
+pub use solid::{Section, View, draw_groups};
 pub use target::{Format, Target};
 
 use crate::drawing::gif::GifError;

@@ -1195,6 +1195,12 @@ class Mesh(TypedDict, total=False):
     """The mesh, a Gmsh file (2.2 or 4.1), or a table of points (`.csv`), from the folder of the case file."""
     scale: float
     """Factor on the coordinates of the mesh, such as 1e-3 for a mesh in mm; lengths elsewhere in the case stay in m. Default 1.0."""
+    coordinates: Literal["xy", "xz", "yz"]
+    """Plane in which a mesh without solid cells lies; from another one than that of x and y it is turned, and the case has the turned x and y.
+
+- `xy`: The plane of x and y.
+- `xz`: The plane of x and z: z becomes y.
+- `yz`: The plane of y and z: y becomes x, and z becomes y. Default "xy"."""
     thickness: float
     """Thickness of a body in the plane, m; a mesh of solid cells has none. Default 1.0."""
     plane: Literal["stress", "strain"]

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ligament_case::case::CaseFile;
+use ligament_case::case::{CaseFile, MeshSection};
 use ligament_case::input_file;
 use ligament_case::mesh_file::read_any_mesh;
 use ligament_case::point_table::is_table;
@@ -12,6 +12,7 @@ use ligament_output::replace_file;
 use super::displaced_nodes::with_displaced_nodes;
 use super::interval::{FLOOR, FLOOR_OF_SPLIT};
 use crate::meshing::MeshingError;
+use crate::meshing::cad::quoted_in_gmsh;
 use crate::sweep::meshes::{MeshPlan, make};
 use crate::sweep::plan::MESHES;
 use crate::sweep::toml_text::quoted;
@@ -96,7 +97,7 @@ pub(super) fn meshes(
             "points of a table have no cells that could be made finer: give a mesh or a lattice";
         return Err(case.error("mesh.file", reason).into());
     }
-    let mesh = read_any_mesh(&section.file);
+    let mesh = read_any_mesh(&section.file, section.coordinate_plane());
     let geometry = source.geometry.clone().filter(|_| !source.split);
     let geometry = geometry.or_else(|| found_geometry(&section.file).filter(|_| !source.split));
     match (geometry, mesh) {
@@ -105,12 +106,13 @@ pub(super) fn meshes(
                 geometry,
                 source,
                 folder: folder.join(MESHES),
+                section,
                 dimensions: if case.case.is_solid() { 3.0 } else { 2.0 },
                 print,
             };
             meshing.bodies(mesh.ok().as_ref())
         }
-        (None, Ok(AnyMesh::Plane(mesh))) => split(&section.file, &mesh, folder),
+        (None, Ok(AnyMesh::Plane(mesh))) => split(section, &mesh, folder),
         (None, Ok(AnyMesh::Solid(_))) => {
             let reason = "cells of a solid are not split: name the geometry of the mesh by `--geometry FILE.geo`";
             Err(case.error("mesh.file", reason).into())
@@ -139,6 +141,8 @@ struct Meshing<'a> {
     geometry: PathBuf,
     source: &'a MeshSource,
     folder: PathBuf,
+    /// Section of the mesh of the case.
+    section: &'a MeshSection,
     /// Number of dimensions of space.
     dimensions: f64,
     print: &'a mut dyn FnMut(&str),
@@ -223,7 +227,7 @@ impl Meshing<'_> {
                 ));
                 let name = format!("{size}-displaced");
                 let file = written(&self.folder, &name, &with_displaced_nodes(mesh, 1))?;
-                body(size, "displaced", &file)
+                in_xy(body(size, "displaced", &file), self.section)
             }
             _ => body(size, other.mesher, &other.file),
         };
@@ -267,7 +271,7 @@ impl Meshing<'_> {
         Ok(GmshMesh {
             size,
             mesher,
-            mesh: read_any_mesh(&file)?,
+            mesh: read_any_mesh(&file, self.section.coordinate_plane())?,
             file,
         })
     }
@@ -291,22 +295,20 @@ impl Meshing<'_> {
     }
 }
 
-/// A path as a text in a script of Gmsh.
-fn quoted_in_gmsh(path: &Path) -> String {
-    format!("\"{}\"", path.to_string_lossy().replace('"', "\\\""))
-}
-
 /// The mesh of a case as the size 2h, and its cells split in four as h, each also with displaced inner nodes.
-fn split(file: &Path, coarse: &Mesh, folder: &Path) -> anyhow::Result<SizedBodies> {
+fn split(section: &MeshSection, coarse: &Mesh, folder: &Path) -> anyhow::Result<SizedBodies> {
     let folder = folder.join(MESHES);
     let fine = coarse.split_in_four();
-    let file_of = |name: &str, mesh: &Mesh| written(&folder, name, mesh);
-    let moved = |name: &str, mesh: &Mesh| file_of(name, &with_displaced_nodes(mesh, 1));
+    let made = |size: &str, mesher: &'static str, mesh: &Mesh| {
+        let file = written(&folder, &format!("{size}-{mesher}"), mesh)?;
+        anyhow::Ok(in_xy(body(size, mesher, &file), section))
+    };
+    let moved = |mesh: &Mesh| with_displaced_nodes(mesh, 1);
     let bodies = vec![
-        body("h", "split", &file_of("h-split", &fine)?),
-        body("h", "displaced", &moved("h-displaced", &fine)?),
-        body("2h", "split", &std::path::absolute(file)?),
-        body("2h", "displaced", &moved("2h-displaced", coarse)?),
+        made("h", "split", &fine)?,
+        made("h", "displaced", &moved(&fine))?,
+        body("2h", "split", &std::path::absolute(&section.file)?),
+        made("2h", "displaced", &moved(coarse))?,
     ];
     let mut notes = Vec::new();
     if has_curved_outline(coarse) {
@@ -343,6 +345,15 @@ fn written(folder: &Path, name: &str, mesh: &Mesh) -> anyhow::Result<PathBuf> {
     let path = std::path::absolute(folder.join(format!("{name}.msh")))?;
     replace_file(&path, gmsh::write(mesh).as_bytes())?;
     Ok(path)
+}
+
+/// A body whose mesh was turned into the plane of x and y where that of the case lies in another one.
+fn in_xy(mut body: SizedBody, section: &MeshSection) -> SizedBody {
+    if section.coordinates.is_some() {
+        let setting = ("mesh.coordinates".to_owned(), quoted("xy"));
+        body.settings.push(setting);
+    }
+    body
 }
 
 /// The body with a mesh.

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use ligament::suggestion::hint;
-use ligament_mesh::gmsh::GmshError;
+use ligament_mesh::gmsh::{CoordinatePlane, GmshError};
 use ligament_mesh::inp::InpError;
 
 /// Error of making or converting a mesh. An existing mesh is then unchanged.
@@ -18,9 +18,17 @@ pub enum MeshingError {
         /// The path at which the source should be.
         path: PathBuf,
     },
+    /// A CAD file is given without a size of the cells.
+    #[error("{}: give the size of the cells in m, `--size SIZE`{}", geometry.display(), proposed(*size))]
+    NoSize {
+        /// The CAD file.
+        geometry: PathBuf,
+        /// Size of about 5000 cells, m.
+        size: Option<f64>,
+    },
     /// The file is not a geometry, by its extension.
     #[error(
-        "{} is no .geo file: `ligament mesh` meshes geometries of Gmsh; a mesh of another program is \
+        "{} is no .geo file and no CAD file (.step, .stp, .iges, .igs, .brep): `ligament mesh` meshes geometries; a mesh of another program is \
          converted by `ligament mesh --via-meshio {}`",
         .0.display(), .0.display()
     )]
@@ -97,7 +105,10 @@ pub enum MeshingError {
         lines: Vec<String>,
     },
     /// An input deck cannot be read.
-    #[error("cannot use the input deck {}", deck.display())]
+    #[error("cannot use the input deck {}{}", deck.display(), match **source {
+        InpError::OtherPlane { plane } => by_option(plane),
+        _ => String::new(),
+    })]
     Deck {
         /// The deck.
         deck: PathBuf,
@@ -105,7 +116,7 @@ pub enum MeshingError {
         source: Box<InpError>,
     },
     /// The mesh by gmsh cannot be used.
-    #[error("gmsh made a mesh of {} that cannot be used", geometry.display())]
+    #[error("gmsh made a mesh of {} that cannot be used{}", geometry.display(), turned(source))]
     Unusable {
         /// File of the geometry.
         geometry: PathBuf,
@@ -113,12 +124,20 @@ pub enum MeshingError {
         source: GmshError,
     },
     /// The converted mesh cannot be used.
-    #[error("the mesh of {} cannot be used", mesh.display())]
+    #[error("the mesh of {} cannot be used{}", mesh.display(), turned(source))]
     UnusableSource {
         /// The mesh that was to be converted.
         mesh: PathBuf,
         /// The reader's reason; its lines refer to the Gmsh file that would have been written.
         source: GmshError,
+    },
+    /// A plane is given for a mesh with solid cells.
+    #[error("{} has solid cells: only a mesh without them is turned from the plane of {plane}", mesh.display())]
+    SolidInPlane {
+        /// The mesh that was to be converted.
+        mesh: PathBuf,
+        /// Plane that was given.
+        plane: CoordinatePlane,
     },
     /// A file could not be read or written.
     #[error("cannot {action} {}", path.display())]
@@ -147,7 +166,7 @@ pub enum Refusal {
     Shapes,
     /// The source has neither planar nor solid cells.
     NoCells,
-    /// The source has planar cells only and is not in the plane of x and y.
+    /// The source has planar cells only and is not in the expected plane.
     NotPlanar,
 }
 
@@ -173,6 +192,24 @@ impl Refusal {
             ),
         }
     }
+}
+
+/// The option that turns a mesh in another plane.
+fn turned(error: &GmshError) -> String {
+    match error {
+        GmshError::OtherPlane { plane, .. } => by_option(*plane),
+        _ => String::new(),
+    }
+}
+
+fn by_option(plane: CoordinatePlane) -> String {
+    format!("; `--plane {}` turns it", plane.word())
+}
+
+fn proposed(size: Option<f64>) -> String {
+    size.map_or(String::new(), |size| {
+        format!("; `--size {size:e}` makes about 5000 cells")
+    })
 }
 
 /// Lines of another program's output, indented below an error.

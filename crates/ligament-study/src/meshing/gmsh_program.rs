@@ -9,12 +9,13 @@ use ligament_mesh::gmsh;
 use ligament_output::{check_file, write_file};
 
 use super::error::{MeshingError, Refusal};
-use super::{UnfinishedMesh, is_same_file, last_lines, output_of};
+use super::via_meshio::write_converted;
+use super::{Coordinates, UnfinishedMesh, cad, is_same_file, last_lines, output_of};
 
 /// Request for a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshRequest {
-    /// The geometry, a Gmsh .geo file.
+    /// The geometry, a Gmsh .geo file or a CAD file.
     pub geometry: PathBuf,
     /// The mesh file to write.
     pub out: PathBuf,
@@ -24,6 +25,10 @@ pub struct MeshRequest {
     pub gmsh: PathBuf,
     /// Numbers of the geometry to be set, by name.
     pub numbers: Vec<(String, f64)>,
+    /// Largest size of the cells, m; necessary for a CAD file.
+    pub size: Option<f64>,
+    /// Coordinates of the mesh.
+    pub coordinates: Coordinates,
 }
 
 /// Advice where gmsh is missing.
@@ -44,7 +49,8 @@ pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
         return Err(MeshingError::NoSource { what, path });
     }
     let is_geo = |end: &std::ffi::OsStr| end.eq_ignore_ascii_case("geo");
-    if !geometry.extension().is_some_and(is_geo) {
+    let is_cad = cad::is_cad(geometry);
+    if !is_cad && !geometry.extension().is_some_and(is_geo) {
         return Err(MeshingError::NoGeo(geometry.clone()));
     }
     if is_same_file(geometry, out) {
@@ -52,47 +58,58 @@ pub fn make_mesh(request: &MeshRequest) -> Result<AnyMesh, MeshingError> {
         return Err(MeshingError::WouldReplaceSource { what, path });
     }
     check_file(out, request.force)?;
-    check_numbers(request)?;
     let write_error = |source| MeshingError::File {
         action: "write",
         path: out.clone(),
         source,
     };
-    let unfinished = UnfinishedMesh::beside(out).map_err(write_error)?;
-    let output = call_gmsh(request, unfinished.path())?;
-    let complaints = complaints(&output);
-    if !output.status.success() || !complaints.is_empty() || !unfinished.path().is_file() {
-        return Err(MeshingError::Refused {
-            refusal: Refusal::NotMeshed,
-            path: geometry.clone(),
-            lines: match complaints.is_empty() {
-                true => last_lines(lines(&output), "gmsh", &output),
-                false => complaints,
-            },
-        });
+    let unfinished = UnfinishedMesh::beside(out, "msh").map_err(write_error)?;
+    let script = UnfinishedMesh::beside(out, "geo").map_err(write_error)?;
+    let mut meshed = geometry.as_path();
+    if is_cad {
+        meshed = script.path();
+        std::fs::write(meshed, cad::script(geometry)).map_err(write_error)?;
     }
+    check_numbers(request, meshed)?;
+    if is_cad && request.size.is_none() {
+        let said = call_gmsh(request, meshed, None)?;
+        let size = cad::proposed_size(&said, request.coordinates.scale);
+        let geometry = geometry.clone();
+        return Err(MeshingError::NoSize { geometry, size });
+    }
+    call_gmsh(request, meshed, Some(unfinished.path()))?;
     let bytes = std::fs::read(unfinished.path()).map_err(write_error)?;
-    let mesh = gmsh::parse_any(&bytes).map_err(|source| MeshingError::Unusable {
+    let mesh = gmsh::parse_any_with(&bytes, request.coordinates.plane);
+    let mut mesh = mesh.map_err(|source| MeshingError::Unusable {
         geometry: geometry.clone(),
         source,
     })?;
-    write_file(out, &bytes, request.force)?;
+    if !is_cad && request.coordinates == Coordinates::default() {
+        write_file(out, &bytes, request.force)?;
+        return Ok(mesh);
+    }
+    if is_cad {
+        cad::name_groups(&mut mesh);
+    }
+    let mesh = mesh.scaled(request.coordinates.scale);
+    write_converted(geometry, &mesh, (out, request.force))?;
     Ok(mesh)
 }
 
-/// Refuses numbers that the geometry does not use, which gmsh ignores without a message.
-fn check_numbers(request: &MeshRequest) -> Result<(), MeshingError> {
+/// Refuses numbers that the program of the geometry does not use, which gmsh ignores without a message.
+fn check_numbers(request: &MeshRequest, program: &Path) -> Result<(), MeshingError> {
     let MeshRequest {
         geometry, numbers, ..
     } = request;
-    let bytes = std::fs::read(geometry).map_err(|source| MeshingError::File {
+    let bytes = std::fs::read(program).map_err(|source| MeshingError::File {
         action: "read the geometry",
         path: geometry.clone(),
         source,
     })?;
     let text = String::from_utf8_lossy(&bytes);
     let words: BTreeSet<&str> = text.split(|character| !is_word(character)).collect();
-    if words.contains("Include") || words.contains("Merge") {
+    let is_geometry = program == geometry.as_path();
+    if is_geometry && (words.contains("Include") || words.contains("Merge")) {
         return Ok(());
     }
     // Names with other characters are options of gmsh, such as Mesh.MeshSizeFactor.
@@ -127,15 +144,48 @@ fn declared_constants(geometry: &str) -> Vec<String> {
         .collect()
 }
 
-fn call_gmsh(request: &MeshRequest, out: &Path) -> Result<Output, MeshingError> {
+/// Has gmsh make a mesh of a geometry, or read it alone without a file for the mesh; returns what it says.
+fn call_gmsh(
+    request: &MeshRequest,
+    geometry: &Path,
+    out: Option<&Path>,
+) -> Result<Vec<String>, MeshingError> {
     let mut command = Command::new(&request.gmsh);
-    let [geometry, out] = [request.geometry.as_path(), out].map(operand);
-    command.arg("-3").arg(geometry).arg("-o").arg(out);
-    command.args(["-format", "msh41"]);
+    match out {
+        Some(out) => {
+            command.arg("-3").arg(operand(geometry));
+            command
+                .arg("-o")
+                .arg(operand(out))
+                .args(["-format", "msh41"]);
+        }
+        None => {
+            command.arg(operand(geometry)).arg("-parse_and_exit");
+        }
+    }
+    if let Some(size) = request.size {
+        let size = size / request.coordinates.scale;
+        command.args(["-clmax", &size.to_string()]);
+    }
     for (name, value) in &request.numbers {
         command.args(["-setnumber", name, &value.to_string()]);
     }
-    output_of(&mut command, REMEDY)
+    let output = output_of(&mut command, REMEDY)?;
+    let said = lines(&output);
+    let is_complaint = |line: &&String| line.trim_start().starts_with("Error");
+    let complaints: Vec<String> = said.iter().filter(is_complaint).cloned().collect();
+    let is_made = out.is_none_or(Path::is_file);
+    if output.status.success() && complaints.is_empty() && is_made {
+        return Ok(said);
+    }
+    Err(MeshingError::Refused {
+        refusal: Refusal::NotMeshed,
+        path: request.geometry.clone(),
+        lines: match complaints.is_empty() {
+            true => last_lines(said, "gmsh", &output),
+            false => complaints,
+        },
+    })
 }
 
 /// A path in a form that gmsh does not read as an option.
@@ -149,18 +199,11 @@ fn operand(path: &Path) -> PathBuf {
 fn lines(output: &Output) -> Vec<String> {
     let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
     let both = text(&output.stdout) + "\n" + &text(&output.stderr);
-    both.lines()
+    // What follows a carriage return is written over a line of progress.
+    both.split(['\n', '\r'])
         .map(str::trim_end)
         .filter(|line| !line.is_empty())
         .map(str::to_owned)
-        .collect()
-}
-
-/// The lines in which gmsh reports errors, possibly with a successful exit status.
-fn complaints(output: &Output) -> Vec<String> {
-    lines(output)
-        .into_iter()
-        .filter(|line| line.trim_start().starts_with("Error"))
         .collect()
 }
 

@@ -1,76 +1,100 @@
-//! Meshes of input decks of Abaqus and CalculiX, read by the program itself.
+//! Meshes of input decks of Abaqus and CalculiX and of Gmsh files, read by the program itself.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use ligament_mesh::inp::{self, Deck, Plane};
+use ligament_mesh::{AnyMesh, gmsh};
 use ligament_output::check_file;
 
 use super::error::MeshingError;
-use super::is_same_file;
 use super::via_meshio::{Conversion, write_converted};
+use super::{Coordinates, is_same_file};
 
-/// Ending of the names of input decks.
-const ENDING: &str = "inp";
+/// Endings of the names of input decks and of Gmsh meshes.
+const ENDINGS: [&str; 2] = ["inp", GMSH];
+const GMSH: &str = "msh";
 
-/// Request for the mesh of an input deck.
+/// Request for the mesh of an input deck or of another mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeckRequest {
-    /// The deck.
+    /// The deck, or the Gmsh mesh.
     pub source: PathBuf,
     /// The mesh file to write.
     pub out: PathBuf,
     /// Whether an existing file may be replaced.
     pub force: bool,
+    /// Coordinates of the mesh.
+    pub coordinates: Coordinates,
 }
 
-/// Whether a file is an input deck, by its name.
+/// Whether a file is an input deck or a Gmsh mesh, by its name.
 pub fn is_deck(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|it| it.eq_ignore_ascii_case(ENDING))
+    ENDINGS.iter().any(|it| ends_in(path, it))
 }
 
-/// Reads an input deck with the files that it includes, from its folder, and returns the mesh written to `request.out` in Gmsh's format 4.1. Remarks name
-/// what of the deck the mesh does not have.
+fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|it| it.eq_ignore_ascii_case(ending))
+}
+
+/// Reads a Gmsh mesh, or an input deck with the files that it includes, from its folder, and returns the mesh written to `request.out` in
+/// Gmsh's format 4.1. Remarks name what of the source the mesh does not have.
 ///
 /// # Errors
 ///
-/// If the deck cannot be read or has no mesh, or the result cannot be written.
+/// If the source cannot be read or has no mesh, or the result cannot be written.
 pub fn convert_deck(request: &DeckRequest) -> Result<Conversion, MeshingError> {
-    let DeckRequest { source, out, force } = request;
+    let DeckRequest {
+        source,
+        out,
+        force,
+        coordinates,
+    } = request;
     if !source.is_file() {
-        let (what, path) = ("input deck", source.clone());
+        let (what, path) = ("mesh", source.clone());
         return Err(MeshingError::NoSource { what, path });
     }
     if is_same_file(source, out) {
-        let (what, path) = ("deck itself", out.clone());
+        let (what, path) = ("source itself", out.clone());
         return Err(MeshingError::WouldReplaceSource { what, path });
     }
     check_file(out, *force)?;
-    let folder = source.parent().unwrap_or(Path::new(""));
     let bytes = fs::read(source).map_err(|error| MeshingError::File {
         action: "read",
         path: source.clone(),
         source: error,
     })?;
-    let deck = inp::parse(&bytes, &mut |name| fs::read(folder.join(name)));
-    let deck = deck.map_err(|error| MeshingError::Deck {
-        deck: source.clone(),
-        source: Box::new(error),
-    })?;
-    let remarks = remarks(&deck);
-    let mesh = write_converted(source, &deck.mesh, (out, *force))?;
+    let plane = coordinates.plane;
+    let (mesh, remarks) = if ends_in(source, GMSH) {
+        let mesh = gmsh::parse_any_with(&bytes, plane);
+        let mesh = mesh.map_err(|error| MeshingError::UnusableSource {
+            mesh: source.clone(),
+            source: error,
+        })?;
+        let remarks = of_mesh(&mesh).collect();
+        (mesh, remarks)
+    } else {
+        let folder = source.parent().unwrap_or(Path::new(""));
+        let deck = inp::parse_with(&bytes, plane, &mut |name| fs::read(folder.join(name)));
+        let deck = deck.map_err(|error| MeshingError::Deck {
+            deck: source.clone(),
+            source: Box::new(error),
+        })?;
+        let remarks = remarks(&deck);
+        (deck.mesh, remarks)
+    };
+    let mesh = write_converted(source, &mesh.scaled(coordinates.scale), (out, *force))?;
     Ok(Conversion { mesh, remarks })
+}
+
+fn of_mesh(mesh: &AnyMesh) -> impl Iterator<Item = String> {
+    mesh.remarks().iter().map(ToString::to_string)
 }
 
 /// What the mesh does not say of a deck.
 fn remarks(deck: &Deck) -> Vec<String> {
-    let mut remarks: Vec<String> = deck
-        .mesh
-        .remarks()
-        .iter()
-        .map(ToString::to_string)
-        .collect();
+    let mut remarks: Vec<String> = of_mesh(&deck.mesh).collect();
     if let Some(plane) = deck.plane {
         let word = match plane {
             Plane::Stress => "stress",

@@ -2,8 +2,9 @@
 //!
 //! | module | makes a mesh of |
 //! |---|---|
+//! | [`cad`] | a CAD file, by the program gmsh |
 //! | [`gmsh_program`] | a geometry, by the program gmsh |
-//! | [`input_deck`] | an input deck of Abaqus or CalculiX, by the program itself |
+//! | [`input_deck`] | an input deck of Abaqus or CalculiX, or another mesh of Gmsh, by the program itself |
 //! | [`via_meshio`] | a mesh in another format, by the Python package meshio |
 
 use std::ffi::OsString;
@@ -11,14 +12,34 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use ligament_mesh::gmsh::CoordinatePlane;
 use ligament_output::{is_stream, remove_if_there};
 
+pub mod cad;
 mod error;
 pub mod gmsh_program;
 pub mod input_deck;
 pub mod via_meshio;
 
 pub use error::{MeshingError, Refusal};
+
+/// How coordinates of a source become those of its mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coordinates {
+    /// Plane in which a source without solid cells lies; from another one than that of x and y the mesh is turned.
+    pub plane: CoordinatePlane,
+    /// Factor on the coordinates.
+    pub scale: f64,
+}
+
+impl Default for Coordinates {
+    fn default() -> Self {
+        Self {
+            plane: CoordinatePlane::Xy,
+            scale: 1.0,
+        }
+    }
+}
 
 /// Number of last lines of a program in an error.
 const LAST_LINES: usize = 5;
@@ -58,19 +79,19 @@ fn make_folder_of(file: &Path) -> io::Result<()> {
     file.parent().map_or(Ok(()), std::fs::create_dir_all)
 }
 
-/// An unfinished mesh: a hidden file beside its final path, removed at the end.
+/// An unfinished mesh or a script for it: a hidden file beside the final path of the mesh, removed at the end.
 struct UnfinishedMesh(PathBuf);
 
 impl UnfinishedMesh {
-    /// A path in the folder of `out`, created if needed, with a name unique to this process. For a pipe or a device the path is in the
+    /// A path in the folder of `out`, created if needed, with a name unique to this process and an ending. For a pipe or a device the path is in the
     /// system's folder of temporary files.
-    fn beside(out: &Path) -> io::Result<Self> {
+    fn beside(out: &Path, ending: &str) -> io::Result<Self> {
         let aside = std::env::temp_dir().join("mesh");
         let out = if is_stream(out) { &aside } else { out };
         make_folder_of(out)?;
         let mut name = OsString::from(".");
         name.push(out.file_stem().unwrap_or_default());
-        name.push(format!("-unfinished-{}.msh", std::process::id()));
+        name.push(format!("-unfinished-{}.{ending}", std::process::id()));
         let path = out.with_file_name(name);
         // A link at the path is removed, so that its target is not written.
         remove_if_there(&path)?;

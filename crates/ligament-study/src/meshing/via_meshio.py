@@ -473,17 +473,21 @@ def is_exodus(path):
 # Writing
 
 
-def planar(mesh, used):
-    """Coordinates in the plane of the used nodes, which must have one."""
+def planar(mesh, used, plane):
+    """Coordinates in the plane of the used nodes, which must be the given one."""
     points = mesh.points
     if points.shape[1] < 3:
         return points
+    axes = [*map("xyz".index, plane)]
+    axes.append(3 - sum(axes))
+    points = points[:, axes]
     spans = [float(points[used, axis].max() - points[used, axis].min()) for axis in range(3)]
     # The same as for nodes of a Gmsh file.
     if spans[2] > 1e-9 * max(spans):
-        flat = [name for name, span in zip("xyz", spans) if span <= 1e-9 * max(spans)]
-        hint = f"{flat[0]} is the same everywhere: turn the mesh into the plane of x and y" if flat else "it is curved or inclined"
-        raise Unfit("not-planar", f"z goes from {points[used, 2].min():.6g} to {points[used, 2].max():.6g}; {hint}")
+        flat = [axis for axis, span in zip(axes, spans) if span <= 1e-9 * max(spans)]
+        own = flat and "xyz".replace("xyz"[flat[0]], "")
+        hint = f"{'xyz'[flat[0]]} is the same everywhere: give `--plane {own}`" if flat else "it is curved or inclined"
+        raise Unfit("not-planar", f"{'xyz'[axes[2]]} goes from {points[used, 2].min():.6g} to {points[used, 2].max():.6g}; {hint}")
     return points
 
 
@@ -497,10 +501,10 @@ def tags_of(mesh, abaqus):
     return list(range(1, 1 + len(mesh.points)))
 
 
-def hand_over(mesh, elements, groups, tags, remarks, out):
+def hand_over(mesh, plane, elements, groups, tags, remarks, out):
     cells, is_solid = elements.nodes[elements.top], elements.top == 3
     used = sorted({node for cell in cells for node in cell})
-    points = mesh.points if is_solid else planar(mesh, used)
+    points = mesh.points if is_solid else planar(mesh, used, plane)
     place = {node: k for k, node in enumerate(used)}
     unused = len(mesh.points) - len(used)
     if unused:
@@ -530,7 +534,7 @@ def hand_over(mesh, elements, groups, tags, remarks, out):
     print(f"groups {n_groups}", *lines, "end", sep="\n", file=out)
 
 
-def main(path, file_format):
+def main(path, plane, file_format):
     try:
         import meshio
         import numpy
@@ -560,13 +564,13 @@ def main(path, file_format):
     add_data(mesh, groups, remarks, numpy)
     add_point_data(mesh, groups, numpy)
     out = io.StringIO()
-    hand_over(mesh, elements, groups, tags_of(mesh, abaqus), remarks, out)
+    hand_over(mesh, plane, elements, groups, tags_of(mesh, abaqus), remarks, out)
     sys.stdout.write(out.getvalue())
 
 
 try:
     sys.stdout.reconfigure(encoding="utf-8", newline="\n")
-    main(Path(sys.argv[1]), sys.argv[2] if len(sys.argv) > 2 else None)
+    main(Path(sys.argv[1]), sys.argv[2], sys.argv[3] if len(sys.argv) > 3 else None)
 except Unfit as fault:
     print("error", *fault.args, sep="\n")
     sys.exit(1)

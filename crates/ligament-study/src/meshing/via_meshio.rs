@@ -6,12 +6,12 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use ligament_mesh::gmsh;
+use ligament_mesh::gmsh::{self, CoordinatePlane};
 use ligament_mesh::{AnyMesh, Cell, Group, Mesh, SolidCell, SolidMesh};
 use ligament_output::{check_file, write_file};
 
 use super::error::{MeshingError, Refusal};
-use super::{is_same_file, last_lines, make_folder_of, output_of};
+use super::{Coordinates, is_same_file, last_lines, make_folder_of, output_of};
 
 /// Text of the script, which is passed on the command line.
 const SCRIPT: &str = include_str!("via_meshio.py");
@@ -29,6 +29,8 @@ pub struct ConversionRequest {
     pub force: bool,
     /// Program python: a path, or a name on the PATH.
     pub python: PathBuf,
+    /// Coordinates of the mesh.
+    pub coordinates: Coordinates,
 }
 
 /// A converted mesh.
@@ -90,7 +92,12 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
     }
     let handed = output.status.success().then(|| ScriptOutput::parse(&text));
     let ScriptOutput { mesh, remarks } = handed.flatten().ok_or_else(failed)?;
-    let mesh = write_converted(source, &mesh, (out, request.force))?;
+    let Coordinates { plane, scale } = request.coordinates;
+    if plane != CoordinatePlane::Xy && matches!(mesh, AnyMesh::Solid(_)) {
+        let mesh = source.clone();
+        return Err(MeshingError::SolidInPlane { mesh, plane });
+    }
+    let mesh = write_converted(source, &mesh.scaled(scale), (out, request.force))?;
     Ok(Conversion { mesh, remarks })
 }
 
@@ -126,7 +133,10 @@ fn call_python(request: &ConversionRequest) -> Result<Output, MeshingError> {
     // A relative path that begins with a hyphen would be an option of Python.
     let path = std::path::absolute(&request.source).unwrap_or_else(|_| request.source.clone());
     let mut command = Command::new(&request.python);
-    command.args(["-c", SCRIPT]).arg(path).args(&request.format);
+    command.args(["-c", SCRIPT]).arg(path);
+    command
+        .arg(request.coordinates.plane.word())
+        .args(&request.format);
     output_of(&mut command, REMEDY)
 }
 

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::meshing::MeshingError;
 use crate::meshing::gmsh_program::{MeshRequest, make_mesh};
+use crate::meshing::{Coordinates, MeshingError};
 
 /// Plan of a mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,6 +39,8 @@ impl MeshPlan {
                 force: true,
                 gmsh: "gmsh".into(),
                 numbers,
+                size: None,
+                coordinates: Coordinates::default(),
             },
             content,
         }

@@ -11,6 +11,7 @@ use ligament_output::summary::Summary;
 use ligament_post::crack::CrackLine;
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{Report, run};
+use ligament_study::meshing::Coordinates;
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 use rustix::time::{ClockId, clock_gettime};
 
@@ -141,6 +142,8 @@ fn mesh(variant: &Variant, place: &Path) -> anyhow::Result<PathBuf> {
         numbers: numbers
             .map(|(name, value)| (name.clone(), *value))
             .collect(),
+        size: None,
+        coordinates: Coordinates::default(),
     })
     .context("the program gmsh must be on the PATH")?;
     Ok(out)

@@ -1,6 +1,7 @@
 //! The body of a starter case, and numbers and strings in the form of a case.
 
 use ligament_mesh::Group;
+use ligament_mesh::gmsh::CoordinatePlane;
 use toml_edit::Value;
 
 use crate::case::values::is_unseen;
@@ -26,7 +27,10 @@ pub(in crate::starter) struct Body<const D: usize> {
 /// Origin of a body.
 pub(in crate::starter) enum Section<const D: usize> {
     /// Body from a mesh file.
-    Mesh { file: String, groups: Vec<Group> },
+    Mesh {
+        file: (String, CoordinatePlane),
+        groups: Vec<Group>,
+    },
     /// Body from a lattice, with `rows` rows or layers fixed and as many moved.
     Lattice { cells: [u32; D], rows: u32 },
 }

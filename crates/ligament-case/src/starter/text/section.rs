@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use ligament_mesh::Group;
+use ligament_mesh::gmsh::CoordinatePlane;
 
 use super::body::{Body, Section, coordinates, exact, quantum, quoted, short, size};
 use crate::starter::groups::SupportAndLoad;
@@ -24,11 +25,22 @@ thickness = 1.0 # m, EXAMPLE
 plane = \"stress\" # thin bodies; \"strain\" for long ones
 ";
 
-fn mesh<const D: usize>(body: &Body<D>, file: &str, groups: &[Group]) -> String {
+fn mesh<const D: usize>(
+    body: &Body<D>,
+    (file, plane): &(String, CoordinatePlane),
+    groups: &[Group],
+) -> String {
     let mut text = format!(
         "[mesh]\nfile = {} # from the folder of this file\n",
         quoted(file)
     );
+    if *plane != CoordinatePlane::Xy {
+        let word = plane.word();
+        let _ = writeln!(
+            text,
+            "coordinates = \"{word}\" # the plane of the mesh, whose coordinates are x and y of this file"
+        );
+    }
     let sides: Vec<String> = (0..D).map(|axis| short(size(body, axis))).collect();
     if let [width, height] = sides.as_slice() {
         text += OF_THE_PLANE;

@@ -10,25 +10,25 @@ use super::records::{Node, Records};
 use super::{fields, groups, nodes};
 use crate::cell::Cell;
 use crate::coincidence::size;
+use crate::coordinate_plane::CoordinatePlane;
 use crate::crack::outer_edges_of;
 use crate::mesh::Mesh;
-use crate::parse_options::{CoordinatePlane, ParseOptions};
 use crate::remark::Remark;
 
 /// Makes the planar mesh of the records, or refuses them.
 pub(super) fn assemble(
     cursor: &Cursor<'_>,
     mut records: Records,
-    options: ParseOptions,
+    plane: CoordinatePlane,
 ) -> Result<Mesh, GmshError> {
     check_elements(cursor, &records)?;
     for node in &mut records.nodes {
-        node.position = options.plane.turned(node.position);
+        node.position = plane.turned(node.position);
     }
     let assembly = Assembly::new(cursor, &mut records, 2)?;
     let records = &records;
     let size = size(assembly.nodes.iter().map(|node| node.position));
-    nodes::check_plane(cursor, &assembly.nodes, size, options.plane)?;
+    nodes::check_plane(cursor, &assembly.nodes, size, plane)?;
     let positions: Vec<_> = (assembly.nodes.iter())
         .map(|node| [node.position[0], node.position[1]])
         .collect();
@@ -53,7 +53,6 @@ pub(super) fn assemble(
     let mut remarks = assembly.remarks(planar.n_higher_order(records));
     remarks.extend(planar.remarks(n_crack_faces));
     remarks.extend(records.ignored.remark(cursor));
-    let plane = options.plane;
     remarks.extend((plane != CoordinatePlane::Xy).then_some(Remark::Turned { plane }));
     let groups = groups::collect(records, &assembly, &cell_of_element, &mut remarks);
     let fields = fields::on_nodes(records, &assembly.by_tag, &assembly.numbers);

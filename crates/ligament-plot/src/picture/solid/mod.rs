@@ -6,6 +6,7 @@
 //! like pictures of bodies in the plane: it can be edited, and becomes PNG or PDF.
 
 mod draw;
+mod groups;
 mod outline;
 mod read;
 mod scene;
@@ -13,6 +14,7 @@ mod section;
 mod view;
 mod visible;
 
+pub use groups::draw_groups;
 pub use section::Section;
 pub use view::View;
 

@@ -1,13 +1,6 @@
-//! Options of reading a mesh file.
+//! Plane in which a mesh without solid cells lies: from another one than that of x and y it is turned into it.
 
 use std::fmt;
-
-/// How a mesh file is read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct ParseOptions {
-    /// Plane in which a mesh without solid cells lies; from another one than that of x and y the mesh is turned into it.
-    pub plane: CoordinatePlane,
-}
 
 /// A plane of two coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -23,7 +16,16 @@ pub enum CoordinatePlane {
 
 impl CoordinatePlane {
     /// All planes.
-    pub(crate) const ALL: [Self; 3] = [Self::Xy, Self::Xz, Self::Yz];
+    pub const ALL: [Self; 3] = [Self::Xy, Self::Xz, Self::Yz];
+
+    /// Name of the plane: its two coordinates.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Xy => "xy",
+            Self::Xz => "xz",
+            Self::Yz => "yz",
+        }
+    }
 
     /// A position turned together with this plane into the plane of x and y: the coordinates to the right, upwards and towards the viewer.
     pub(crate) fn turned(self, [x, y, z]: [f64; 3]) -> [f64; 3] {
