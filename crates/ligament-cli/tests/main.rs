@@ -7,6 +7,7 @@ mod columns;
 mod command_line;
 mod converge_command;
 mod crack_command;
+mod decks;
 mod ends;
 mod ensemble_command;
 mod explain;

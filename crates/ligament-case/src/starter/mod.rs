@@ -1,5 +1,6 @@
 //! `ligament new`: a commented starter case for a mesh or a lattice, which runs unchanged.
 
+mod deck;
 mod groups;
 mod text;
 
@@ -7,6 +8,8 @@ use std::path::{Component, Path, PathBuf};
 
 use ligament_mesh::gmsh::CoordinatePlane;
 use ligament_mesh::{AnyMesh, Group};
+
+pub use deck::{DeckCase, Units, deck_case};
 
 use crate::mesh_file::{MeshFileError, bounding_box, read_in_own_plane};
 use groups::{LoadPlace, MeshGroups, SupportAndLoad};
@@ -69,9 +72,7 @@ pub fn mesh_case(path: &Path, folder: &Path, law: Law) -> Result<Starter, Starte
     if extension == "geo" || extension == "geo_unrolled" {
         return Err(StarterError::Geometry(path.to_owned()));
     }
-    if law.row.needs_lattice {
-        return Err(StarterError::NeedsLattice(law));
-    }
+    check_law(law, false)?;
     let (mesh, plane) = read_in_own_plane(path).map_err(|source| match source {
         MeshFileError::Parse { .. } if extension != "msh" => StarterError::OtherFormat {
             path: path.to_owned(),
@@ -88,7 +89,7 @@ pub fn mesh_case(path: &Path, folder: &Path, law: Law) -> Result<Starter, Starte
             Ok(case_of_mesh(named, spacing, (&file, &name), law))
         }
         AnyMesh::Solid(mesh) => {
-            check_solid(law)?;
+            check_law(law, true)?;
             let spacing = (mesh.volume() / mesh.positions.len() as f64).cbrt();
             let named = named(&mesh.groups, &mesh.positions, mesh.cells.len());
             Ok(case_of_mesh(named, spacing, (&file, &name), law))
@@ -108,8 +109,16 @@ fn named<'a, const D: usize>(
     }
 }
 
-fn check_solid(law: Law) -> Result<(), StarterError> {
-    match law.row.exists_in(Space::Solid) {
+/// Refuses a law for a mesh, or for that of a solid.
+fn check_law(law: Law, is_solid: bool) -> Result<(), StarterError> {
+    if law.row.needs_lattice {
+        return Err(StarterError::NeedsLattice(law));
+    }
+    check_space(law, is_solid)
+}
+
+fn check_space(law: Law, is_solid: bool) -> Result<(), StarterError> {
+    match law.row.exists_in(Space::Solid) || !is_solid {
         true => Ok(()),
         false => Err(StarterError::NeedsPlane(law)),
     }
@@ -192,7 +201,7 @@ pub fn solid_lattice_case(
     spacing: f64,
     law: Law,
 ) -> Result<Starter, StarterError> {
-    check_solid(law)?;
+    check_space(law, true)?;
     Ok(lattice_case_of_cells(cells, spacing, law))
 }
 

@@ -8,8 +8,13 @@ use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use ligament::setup::Law;
 use ligament_case::case::MOST_CELLS;
-use ligament_case::starter::{lattice_case, mesh_case, solid_lattice_case};
+use ligament_case::starter::{
+    DeckCase, Starter, Units, deck_case, lattice_case, mesh_case, solid_lattice_case,
+};
+use ligament_mesh::gmsh::CoordinatePlane;
 use ligament_output::{check_file, is_stream, write_file};
+use ligament_study::meshing::input_deck::{is_deck, read_deck};
+use ligament_study::meshing::via_meshio::write_converted;
 
 use super::argument_parsers::{output_file, positive_number};
 use crate::terminal;
@@ -19,17 +24,22 @@ Examples:
   ligament new plate.msh                             writes case.toml, for plate.msh
   ligament new meshes/disk.msh --out disk/case.toml --law bbpd
   ligament new plate.msh --out plate.ligament.toml   a name by which editors know a case
+  ligament new model.inp --units mm-N-MPa            a deck of Abaqus or CalculiX, with its materials and loads
   ligament new --lattice 60,120,0.001                a lattice in place of a mesh
   ligament new --lattice 10,10,40,0.001              a lattice of a solid
 
-The case runs as it is; replace its example material and loading with your own.";
+The case runs as it is; replace its example material and loading with your own. Of a deck the mesh is written beside the case, and what
+is not carried out stands in it as a comment with its line.";
 
 /// `ligament new`.
 #[derive(Debug, Args)]
 pub struct NewArgs {
-    /// The mesh (Gmsh .msh)
+    /// The mesh (Gmsh .msh), or an input deck of Abaqus or CalculiX (.inp)
     #[arg(value_name = "MESH", required_unless_present = "lattice")]
     pub mesh: Option<PathBuf>,
+    /// Units of the deck, which does not say them [default: m-N-Pa]
+    #[arg(long, value_name = "SYSTEM", value_parser = units(), conflicts_with = "lattice")]
+    pub units: Option<Units>,
     /// A lattice in place of a mesh: numbers of cells along x and y, in a solid x, y and z, and their side in m
     #[arg(long, value_name = "NX,NY[,NZ],SPACING", value_parser = lattice, conflicts_with = "mesh")]
     pub lattice: Option<Lattice>,
@@ -61,6 +71,11 @@ impl NewArgs {
                 .with_context(|| format!("cannot make the folder {}", folder.display()))?;
         }
         let starter = match (&self.mesh, self.lattice) {
+            (Some(deck), _) if is_deck(deck) => self.deck(deck, folder)?,
+            (Some(mesh), _) if self.units.is_some() => anyhow::bail!(
+                "--units are those of an input deck (.inp): {} is a mesh, whose unit is mesh.scale in the case",
+                mesh.display()
+            ),
             (Some(mesh), _) => mesh_case(mesh, folder, self.law)?,
             (None, Some(Lattice::Plane(cells, spacing))) => lattice_case(cells, spacing, self.law),
             (None, Some(Lattice::Solid(cells, spacing))) => {
@@ -83,6 +98,48 @@ impl NewArgs {
         }
         Ok(())
     }
+}
+
+impl NewArgs {
+    /// The case of a deck, whose mesh and tables are written beside it.
+    fn deck(&self, source: &Path, folder: &Path) -> anyhow::Result<Starter> {
+        let mut deck = read_deck(source, CoordinatePlane::Xy)?;
+        let name = source.file_name().unwrap_or_default().to_string_lossy();
+        let mesh = Path::new(name.as_ref()).with_extension("msh");
+        let [name, file] = [name.as_ref(), &mesh.to_string_lossy()];
+        let DeckCase {
+            mut starter,
+            tables,
+            left_out,
+        } = deck_case(&mut deck, [name, file], self.units, self.law)?;
+        for (name, _) in &tables {
+            check_file(&folder.join(name), self.force)?;
+        }
+        let mesh = folder.join(mesh);
+        check_file(&mesh, self.force)?;
+        write_converted(source, &deck.mesh, (&mesh, self.force))?;
+        for (name, text) in &tables {
+            write_file(&folder.join(name), text.as_bytes(), self.force)?;
+        }
+        let also = tables.iter().map(|(name, _)| folder.join(name));
+        let also = also.map(|it| format!(", {}", it.display()));
+        let also: String = also.collect();
+        starter.choice += &format!("; its mesh is {}{also}", mesh.display());
+        starter.choice += &match left_out + deck.mesh.remarks().len() {
+            0 => "; all of the deck is carried out".to_owned(),
+            count => format!(
+                "\nnot carried out of the deck: {count}; comments at the top of the case name them with their lines"
+            ),
+        };
+        Ok(starter)
+    }
+}
+
+fn units() -> impl TypedValueParser<Value = Units> {
+    PossibleValuesParser::new(Units::ALL.map(|it| it.name)).try_map(|word| {
+        let units = Units::ALL.into_iter().find(|it| it.name == word);
+        units.ok_or("no such units")
+    })
 }
 
 fn laws() -> impl TypedValueParser<Value = Law> {

@@ -1,5 +1,7 @@
 //! The mesh of a model.
 
+use std::collections::BTreeMap;
+
 use super::body::{Body, INNER, NO_CELL, Numbers, Space, UNUSED, spaces};
 use super::element_type::Shape;
 use super::error::InpError;
@@ -12,12 +14,20 @@ use crate::gmsh::{self, GmshError};
 use crate::mesh::AnyMesh;
 use crate::remark::{DeckRemark, FileLine, Remark};
 
-/// The mesh of a model, and its body.
+/// The mesh of a model with its body, and the nodes that are not in the mesh as in [`Deck`](super::Deck).
+pub(super) struct Assembled<'a> {
+    pub(super) mesh: AnyMesh,
+    pub(super) body: Body<'a>,
+    pub(super) outside: BTreeMap<String, Vec<u64>>,
+    pub(super) midpoints: BTreeMap<u64, [u64; 2]>,
+}
+
+/// The mesh of a model.
 pub(super) fn assemble<'a>(
     source: &Source<'_>,
     model: &'a Model,
     plane: CoordinatePlane,
-) -> Result<(AnyMesh, Body<'a>), InpError> {
+) -> Result<Assembled<'a>, InpError> {
     let mut of_body = Vec::new();
     let spaces = spaces(source, model, &mut of_body)?;
     let body = Body::new(source, model, spaces, &mut of_body)?;
@@ -27,19 +37,24 @@ pub(super) fn assemble<'a>(
     remarks.extend_from_slice(mesh.remarks());
     remarks.extend(of_body);
     remarks.extend(remarks_on_definitions(source, model));
-    let cells = cells.numbers(&body);
+    let (cells, midpoints) = cells.numbers(&body);
     let numbers = Numbers { nodes, cells };
     let mut collected = Groups::new(source, &body, &numbers, &mesh);
     collected.collect()?;
     collected.check_plane_elements()?;
     remarks.extend(collected.remarks_on_elements());
-    let (groups, of_groups) = collected.finish();
+    let (groups, of_groups, outside) = collected.finish();
     remarks.extend(of_groups);
     match &mut mesh {
         AnyMesh::Plane(mesh) => (mesh.groups, mesh.remarks) = (groups, remarks),
         AnyMesh::Solid(mesh) => (mesh.groups, mesh.remarks) = (groups, remarks),
     }
-    Ok((mesh, body))
+    Ok(Assembled {
+        mesh,
+        body,
+        outside,
+        midpoints,
+    })
 }
 
 /// Elements that are cells.
@@ -48,6 +63,7 @@ struct Cells {
     /// Space and index of the element of each cell.
     origins: Vec<(u32, u32)>,
     n_higher_order: usize,
+    midpoints: BTreeMap<u64, [u64; 2]>,
 }
 
 impl Cells {
@@ -62,6 +78,7 @@ impl Cells {
             elements: Vec::with_capacity(count),
             origins: Vec::with_capacity(count),
             n_higher_order: 0,
+            midpoints: BTreeMap::new(),
         };
         for (index, (space, uses)) in (0..).zip(body.spaces.iter().zip(&mut uses)) {
             for (place, element) in (0..).zip(&space.part.elements.list) {
@@ -97,6 +114,11 @@ impl Cells {
                 uses[index] = 0;
             } else if uses[index] == UNUSED {
                 uses[index] = INNER;
+                let edge = element_type.shape.and_then(|it| it.edge(place));
+                if let Some(edge) = edge {
+                    let ends = edge.map(|corner| space.shift + u64::from(nodes[corner]));
+                    self.midpoints.insert(space.shift + u64::from(node), ends);
+                }
             }
         }
         let corners = nodes[..n_corners].iter();
@@ -126,15 +148,15 @@ impl Cells {
         gmsh::assemble(&nodes, &self.elements, plane).map_err(|error| faults.error(error))
     }
 
-    /// Number of each element's cell, by spaces.
-    fn numbers(self, body: &Body<'_>) -> Vec<Vec<u32>> {
+    /// Number of each element's cell, by spaces, and the nodes in the middle of edges.
+    fn numbers(self, body: &Body<'_>) -> (Vec<Vec<u32>>, BTreeMap<u64, [u64; 2]>) {
         let parts = body.spaces.iter().map(|space| space.part);
         let numbers = parts.map(|part| vec![NO_CELL; part.elements.list.len()]);
         let mut numbers: Vec<Vec<u32>> = numbers.collect();
         for (number, (space, element)) in (0..).zip(self.origins) {
             numbers[space as usize][element as usize] = number;
         }
-        numbers
+        (numbers, self.midpoints)
     }
 }
 

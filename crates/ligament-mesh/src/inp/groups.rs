@@ -1,6 +1,7 @@
 //! Groups of the mesh from sets and surfaces.
 
 use std::cell::OnceCell;
+use std::collections::BTreeMap;
 
 use super::body::{Body, INNER, NO_CELL, Numbers, UNUSED};
 use super::element_type::Use;
@@ -23,6 +24,8 @@ pub(super) struct Groups<'a> {
     remarks: Vec<Remark>,
     /// Whether each element is an edge or face in a group, by spaces.
     in_groups: Vec<Vec<bool>>,
+    /// Nodes of sets that are no nodes of the mesh.
+    outside: BTreeMap<String, Vec<u64>>,
 }
 
 /// Members of a set or surface, by their dimension, and the number of those that were left out.
@@ -31,6 +34,8 @@ struct Draft {
     groups: [Group; 4],
     undefined: usize,
     beside: usize,
+    /// Numbers of nodes that are no nodes of the mesh.
+    outside: Vec<u64>,
 }
 
 impl<'a> Groups<'a> {
@@ -49,6 +54,7 @@ impl<'a> Groups<'a> {
             groups: Vec::new(),
             remarks: Vec::new(),
             in_groups: in_groups.collect(),
+            outside: BTreeMap::new(),
         }
     }
 
@@ -71,11 +77,11 @@ impl<'a> Groups<'a> {
         Ok(())
     }
 
-    /// The groups, in the order of dimension and number, and remarks on what they lack.
-    pub(super) fn finish(mut self) -> (Vec<Group>, Vec<Remark>) {
+    /// The groups, in the order of dimension and number, remarks on what they lack, and the nodes of sets that are no nodes of the mesh.
+    pub(super) fn finish(mut self) -> (Vec<Group>, Vec<Remark>, BTreeMap<String, Vec<u64>>) {
         self.groups
             .sort_by_key(|group| (group.dimension, group.number));
-        (self.groups, self.remarks)
+        (self.groups, self.remarks, self.outside)
     }
 
     fn nodes(&self, home: usize, members: &[Member]) -> Draft {
@@ -85,11 +91,19 @@ impl<'a> Groups<'a> {
             let index = |part: &Part, label| Nodes::index(&part.nodes, label);
             match self.body.space_of(home, *member, index) {
                 None => draft.undefined += 1,
-                Some((space, index)) => match self.numbers.nodes[space][index] {
-                    UNUSED => draft.beside += 1,
-                    INNER => inner += 1,
-                    number => draft.groups[0].nodes.push(number),
-                },
+                Some((space, index)) => {
+                    let number = self.numbers.nodes[space][index];
+                    match number {
+                        UNUSED => draft.beside += 1,
+                        INNER => inner += 1,
+                        number => draft.groups[0].nodes.push(number),
+                    }
+                    if matches!(number, UNUSED | INNER) {
+                        let space = &self.body.spaces[space];
+                        let label = space.part.nodes.list[index].label;
+                        draft.outside.push(space.shift + u64::from(label));
+                    }
+                }
             }
         }
         if draft.groups[0].nodes.is_empty() {
@@ -245,6 +259,9 @@ impl<'a> Groups<'a> {
     /// Adds the groups of a draft, and a remark on what was left out.
     fn add_draft(&mut self, home: usize, name: &str, position: Position, draft: Draft) {
         let name = self.name(home, name);
+        if !draft.outside.is_empty() {
+            self.outside.insert(name.clone(), draft.outside);
+        }
         let is_group = draft.groups.iter().any(|group| !group.nodes.is_empty());
         if draft.undefined + draft.beside > 0 {
             self.remark(

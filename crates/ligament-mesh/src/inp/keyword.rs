@@ -1,6 +1,8 @@
 //! Keywords with their parameters and data lines.
 
-use super::fields::Fields;
+use std::collections::HashMap;
+
+use super::fields::{Fields, label};
 use crate::remark::FileLine;
 
 /// A keyword that is no part of the mesh, such as `*ELASTIC` or `*BOUNDARY`, as the deck has it.
@@ -60,6 +62,35 @@ impl Keyword {
         let mut parameters = self.parameters.iter();
         parameters.find(|parameter| squeezed(&parameter.name) == name)
     }
+}
+
+impl Keyword {
+    /// Names of the groups of sides on which the data lines of a `*DLOAD` press: `SET.P3` for side 3 of a set, `dload-17` for single
+    /// elements under one pressure, by the first of their lines; `None` for lines without a side by number.
+    pub fn pressed_sides(&self) -> Vec<Option<String>> {
+        let mut firsts = HashMap::new();
+        let name = |line: &DataLine| {
+            let fields = line.fields();
+            let [elements, kind, value, ..] = fields.as_slice() else {
+                return None;
+            };
+            side_number(kind)?;
+            Some(match label(elements.as_bytes()) {
+                None => format!("{elements}.{}", kind.to_uppercase()),
+                Some(_) => {
+                    let first = firsts.entry(value.clone()).or_insert(line.line.number);
+                    format!("dload-{first}")
+                }
+            })
+        };
+        self.data.iter().map(name).collect()
+    }
+}
+
+/// Number of a side under pressure, such as `P3`.
+pub(super) fn side_number(kind: &str) -> Option<u8> {
+    let number = kind.strip_prefix(['P', 'p'])?;
+    number.parse().ok().filter(|number| *number > 0)
 }
 
 impl DataLine {

@@ -13,6 +13,7 @@
 //!   or faces of cells (trusses, shells, plane elements on a solid) form a group of curves or surfaces. A `*SURFACE` of sides of elements
 //!   is a group of curves in the plane, of surfaces in space; sides without a number are those on the outline of the body.
 //! - Sets of an instance are called `instance.set`. Nodes of several instances get unique numbers.
+//! - Sides on which a `*DLOAD` presses are a group as well ([`Keyword::pressed_sides`]).
 //! - [`Remark`](crate::Remark)s tell, with lines, what was left out or changed.
 //!
 //! The rules are those of the Abaqus Analysis User's Guide, sections 1.2.1, 2.1.1, 2.2.1, 2.3 and 2.10.1, and of the CalculiX manual.
@@ -63,8 +64,23 @@ pub struct Deck {
     pub plane: Option<Plane>,
     /// Keywords that are no part of the mesh, in their order.
     pub keywords: Vec<Keyword>,
-    /// Instances, each with the number that was added to the numbers of its nodes in the mesh.
-    pub instances: Vec<(String, u64)>,
+    /// Instances in their order.
+    pub instances: Vec<Instance>,
+    /// Numbers of the nodes that are no nodes of the mesh, of each set with such nodes: reference points, and nodes between corners.
+    pub outside: BTreeMap<String, Vec<u64>>,
+    /// Nodes in the middle of an edge of a cell of second order, with the numbers of the two corners.
+    pub midpoints: BTreeMap<u64, [u64; 2]>,
+}
+
+/// An instance of a part.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Instance {
+    /// Name of the instance.
+    pub name: String,
+    /// Name of its part.
+    pub part: String,
+    /// Number that was added to the numbers of its nodes in the mesh.
+    pub shift: u64,
 }
 
 impl Deck {
@@ -108,16 +124,28 @@ pub fn parse_with(
 ) -> Result<Deck, InpError> {
     let source = source::Source::read(text, read)?;
     let model = reader::read(&source)?;
-    let (mesh, body) = assembly::assemble(&source, &model, plane)?;
+    let assembly::Assembled {
+        mesh,
+        body,
+        outside,
+        midpoints,
+    } = assembly::assemble(&source, &model, plane)?;
     let plane = body.plane;
-    let instances = body.spaces.iter();
-    let instances = instances.filter_map(|space| Some((space.name?.to_owned(), space.shift)));
+    let instances = body.spaces.iter().filter_map(|space| {
+        Some(Instance {
+            name: space.name?.to_owned(),
+            part: space.part.name.clone(),
+            shift: space.shift,
+        })
+    });
     let instances = instances.collect();
     Ok(Deck {
         mesh,
         plane,
         keywords: model.keywords,
         instances,
+        outside,
+        midpoints,
     })
 }
 

@@ -5,7 +5,7 @@ use super::error::InpError;
 use super::keyword::{Keyword, Scope, squeezed};
 use super::model::{Instance, Model, Names, is_same_name};
 use super::nodes;
-use super::part::{Items, Part};
+use super::part::{Items, Part, Surface};
 use super::sets;
 use super::source::{Block, Command, Position, Source};
 
@@ -341,13 +341,21 @@ impl Reader<'_> {
             Level::Part(part) => Scope::Part(self.model.parts[part].name.clone()),
             Level::Instance(index) => Scope::Instance(self.model.instances[index].name.clone()),
         };
-        self.model.keywords.push(Keyword {
+        let keyword = Keyword {
             line,
             name: block.header.name.clone(),
             parameters: block.header.parameters.clone(),
             data: self.source.data_lines(block),
             scope,
-        });
+        };
+        if name == "DLOAD" {
+            let surfaces = sets::pressed_surfaces(&keyword, self.source.rows(block), &self.names());
+            let part = self.part();
+            let is_new = |it: &Surface| part.surfaces.iter().all(|other| other.name != it.name);
+            let surfaces: Vec<Surface> = surfaces.into_iter().filter(is_new).collect();
+            part.surfaces.extend(surfaces);
+        }
+        self.model.keywords.push(keyword);
         Ok(())
     }
 

@@ -1,8 +1,10 @@
 //! Sets and surfaces: `*NSET`, `*ELSET` and `*SURFACE`.
 
+use std::collections::BTreeMap;
+
 use super::error::InpError;
 use super::fields;
-use super::keyword::text_of;
+use super::keyword::{Keyword, side_number, text_of};
 use super::model::Names;
 use super::part::{Items, Member, Set, Side, Surface};
 use super::source::{Command, Row};
@@ -132,6 +134,30 @@ pub(super) fn read_surface(
         position: command.position(),
         sides,
     }))
+}
+
+/// Surfaces of the sides on which the data lines of a `*DLOAD` press, without lines whose elements nothing defines.
+pub(super) fn pressed_surfaces<'s>(
+    keyword: &Keyword,
+    rows: impl Iterator<Item = Row<'s>>,
+    names: &Names<'_>,
+) -> Vec<Surface> {
+    let mut surfaces: BTreeMap<String, Surface> = BTreeMap::new();
+    for (mut row, name) in rows.zip(keyword.pressed_sides()) {
+        let (elements, kind) = (row.field(), text_of(row.field()));
+        let members = members_of(&row, elements, Items::Elements, names);
+        if let (Some(name), Some(number), Ok(members)) = (name, side_number(&kind), members) {
+            let surface = surfaces.entry(name.clone()).or_insert(Surface {
+                name,
+                position: row.position,
+                sides: Vec::new(),
+            });
+            surface
+                .sides
+                .push((row.position, Side::Number(number), members));
+        }
+    }
+    surfaces.into_values().collect()
 }
 
 /// The side that the next field names.

@@ -45,6 +45,25 @@ impl Shape {
         }
     }
 
+    /// Corners at the ends of the edge in whose middle the node at a place of an element of second order is; `None` for other places.
+    pub(super) fn edge(self, place: usize) -> Option<[usize; 2]> {
+        let around = match self {
+            Shape::Edge => 1,
+            Shape::Triangle | Shape::Tetrahedron | Shape::Prism => 3,
+            Shape::Quadrangle | Shape::Pyramid | Shape::Hexahedron => 4,
+        };
+        let number = place.checked_sub(self.corners())?;
+        let (ring, k) = (number / around, number % around);
+        let is_apex = matches!(self, Shape::Tetrahedron | Shape::Pyramid);
+        match (ring, self.corners() - around) {
+            (0, _) => Some([k, (k + 1) % around.max(2)]),
+            (1, 1) if is_apex => Some([k, around]),
+            (1, above) if above == around => Some([around + k, around + (k + 1) % around]),
+            (2, above) if above == around => Some([k, around + k]),
+            _ => None,
+        }
+    }
+
     /// Nodes of a side of an element, without those that follow themselves; `None` for a number that the shape does not have.
     pub(super) fn side<T: Copy + PartialEq>(self, corners: &[T], number: usize) -> Option<Vec<T>> {
         let places = self.sides().get(number.checked_sub(1)?)?;

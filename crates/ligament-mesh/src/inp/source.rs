@@ -92,7 +92,7 @@ impl<'a> Source<'a> {
     }
 
     /// Data lines of a block, without comments; blank lines are among them.
-    fn rows<'s>(&'s self, block: &'s Block) -> impl Iterator<Item = Row<'s>> + use<'s> {
+    pub(super) fn rows<'s>(&'s self, block: &'s Block) -> impl Iterator<Item = Row<'s>> + use<'s> {
         block.data.iter().flat_map(move |lines| {
             let file = lines.first.file;
             let text = &self.files[usize::from(file)].text[lines.bytes.clone()];

@@ -52,8 +52,13 @@ fn instances_are_moved_and_turned() {
         [[3.0, 0.0], [3.0, 1.0], [2.0, 1.0], [2.0, 0.0]]
     );
     assert_eq!(mesh.node_tags[..], [1, 2, 3, 4, 11, 12, 13, 14]);
-    let instances = [("Square-1".to_owned(), 0), ("Square-2".to_owned(), 10)];
-    assert_eq!(deck.instances, instances);
+    let instances = deck.instances.iter();
+    let instances: Vec<_> = instances
+        .map(|it| (&*it.name, &*it.part, it.shift))
+        .collect();
+    let [first, second] = [("Square-1", 0), ("Square-2", 10)];
+    let of_part = |(name, shift)| (name, "Square", shift);
+    assert_eq!(instances, [of_part(first), of_part(second)]);
     assert_eq!(labels(&deck, "Square-1.Low"), [1, 2]);
     assert_eq!(labels(&deck, "square-2.low"), [11, 12]);
     assert_eq!(labels(&deck, "Corner"), [13]);

@@ -45,6 +45,11 @@ fn second_order_elements_keep_their_corners() {
     assert_eq!(higher, &Remark::HigherOrderCells { cells: 1, nodes: 3 });
     assert_eq!(unused, &Remark::UnusedNodes { nodes: 1 });
     assert_eq!(labels(&deck, "All"), [1, 2, 3]);
+    // Nodes of sets that are no nodes of the mesh, and the corners beside those in the middle of edges.
+    assert_eq!(deck.outside["All"], [4, 5, 6, 7]);
+    assert_eq!(deck.outside["Middle"], [4, 5]);
+    let midpoints: Vec<_> = deck.midpoints.clone().into_iter().collect();
+    assert_eq!(midpoints, [(4, [1, 2]), (5, [2, 3]), (6, [3, 1])]);
     assert_eq!(group(&deck, "Low").edges, [[0, 1]]);
     let of_sets = remarks(&deck);
     let left_out = |set: &str, beside, is_group| DeckRemark::LeftOutMembers {
@@ -273,4 +278,68 @@ fn shells_in_another_plane_are_turned() {
     };
     assert_eq!(mesh.positions, expected.positions);
     assert_eq!(mesh.cells, expected.cells);
+}
+
+/// Every node in the middle of an edge of solid elements of second order lies in the middle of the two corners.
+#[test]
+fn middles_of_edges_lie_between_their_corners() {
+    const TETRAHEDRON: [[f64; 3]; 4] =
+        [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 4.0]];
+    const BOX: [[f64; 3]; 8] = [
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [1.0, 2.0, 0.0],
+        [0.0, 2.0, 0.0],
+        [0.0, 0.0, 4.0],
+        [1.0, 0.0, 4.0],
+        [1.0, 2.0, 4.0],
+        [0.0, 2.0, 4.0],
+    ];
+    // Edges in the order of the manuals, by corners counted from 1.
+    let ten: &[[usize; 2]] = &[[1, 2], [2, 3], [3, 1], [1, 4], [2, 4], [3, 4]];
+    let twenty: &[[usize; 2]] = &[
+        [1, 2],
+        [2, 3],
+        [3, 4],
+        [4, 1],
+        [5, 6],
+        [6, 7],
+        [7, 8],
+        [8, 5],
+        [1, 5],
+        [2, 6],
+        [3, 7],
+        [4, 8],
+    ];
+    for (kind, corners, edges) in [
+        ("C3D10", &TETRAHEDRON[..], ten),
+        ("C3D20", &BOX[..], twenty),
+    ] {
+        let middle = |edge: &[usize; 2]| {
+            let [a, b] = edge.map(|it| corners[it - 1]);
+            std::array::from_fn(|axis| 0.5 * (a[axis] + b[axis]))
+        };
+        let positions: Vec<[f64; 3]> = corners
+            .iter()
+            .copied()
+            .chain(edges.iter().map(middle))
+            .collect();
+        let mut text = "*NODE\n".to_owned();
+        for (label, [x, y, z]) in (1..).zip(&positions) {
+            text += &format!("{label}, {x}, {y}, {z}\n");
+        }
+        let labels: Vec<String> = (1..=positions.len()).map(|it| it.to_string()).collect();
+        text += &format!(
+            "*ELEMENT, TYPE={kind}\n1, {}\n",
+            labels.join(", ").replace("15,", "15,\n")
+        );
+        let deck = read(&text);
+        assert_eq!(deck.midpoints.len(), edges.len(), "{kind}");
+        for (number, ends) in deck.midpoints {
+            let at = |number: u64| positions[number as usize - 1];
+            let [a, b] = ends.map(at);
+            let between: [f64; 3] = std::array::from_fn(|axis| 0.5 * (a[axis] + b[axis]));
+            assert_eq!(at(number), between, "{kind}: {number}");
+        }
+    }
 }

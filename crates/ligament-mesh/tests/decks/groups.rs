@@ -207,3 +207,30 @@ fn sides_and_surfaces_that_are_none_are_told_or_refused() {
         [(16, DeckRemark::LeftOutSurface { surface, kind })]
     );
 }
+
+/// Sides under `*DLOAD` are groups: those of a set by side, single elements by pressure. Lines without a side are none.
+#[test]
+fn pressed_sides_are_groups() {
+    let deck = with_squares(
+        "*STEP\n*DLOAD\nPlate, p1, 2.\nPlate, GRAV, 9.81, 0., -1.\nNobody, P1, 1.\n3, P3, 5.\n4, P3, 5.\n4, P2, 7.\n*END STEP\n",
+    );
+    // The first side of each square, from its first to its second node.
+    assert_eq!(
+        group(&deck, "Plate.P1").edges,
+        [[0, 1], [1, 2], [3, 4], [4, 5]]
+    );
+    let first = group(&deck, "dload-21");
+    assert_eq!(first.edges, [[7, 6], [8, 7]]);
+    assert_eq!(group(&deck, "dload-23").edges, [[5, 8]]);
+    let names: Vec<_> = deck.keywords[1].pressed_sides();
+    let expected = [
+        "Plate.P1",
+        "",
+        "Nobody.P1",
+        "dload-21",
+        "dload-21",
+        "dload-23",
+    ];
+    let expected = expected.map(|it| (!it.is_empty()).then(|| it.to_owned()));
+    assert_eq!(names, expected);
+}

@@ -202,8 +202,7 @@ fn meshes_in_other_planes_are_named_and_turned() {
     ];
     for (plane, text) in &planes {
         for wanted in planes.each_ref().map(|it| it.0) {
-            let plane = wanted;
-            let found = parse_any_with(text.as_bytes(), plane);
+            let found = parse_any_with(text.as_bytes(), wanted);
             if wanted != *plane {
                 let error = found.unwrap_err();
                 let is_named = matches!(error, GmshError::OtherPlane { plane: of, height: 2.0, .. } if of == *plane);

@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use ligament_mesh::gmsh::CoordinatePlane;
 use ligament_mesh::inp::{self, Deck, Plane};
 use ligament_mesh::{AnyMesh, gmsh};
 use ligament_output::check_file;
@@ -51,23 +52,14 @@ pub fn convert_deck(request: &DeckRequest) -> Result<Conversion, MeshingError> {
         force,
         coordinates,
     } = request;
-    if !source.is_file() {
-        let (what, path) = ("mesh", source.clone());
-        return Err(MeshingError::NoSource { what, path });
-    }
     if is_same_file(source, out) {
         let (what, path) = ("source itself", out.clone());
         return Err(MeshingError::WouldReplaceSource { what, path });
     }
     check_file(out, *force)?;
-    let bytes = fs::read(source).map_err(|error| MeshingError::File {
-        action: "read",
-        path: source.clone(),
-        source: error,
-    })?;
     let plane = coordinates.plane;
     let (mesh, remarks) = if ends_in(source, GMSH) {
-        let mesh = gmsh::parse_any_with(&bytes, plane);
+        let mesh = gmsh::parse_any_with(&content(source, "mesh")?, plane);
         let mesh = mesh.map_err(|error| MeshingError::UnusableSource {
             mesh: source.clone(),
             source: error,
@@ -75,17 +67,40 @@ pub fn convert_deck(request: &DeckRequest) -> Result<Conversion, MeshingError> {
         let remarks = of_mesh(&mesh).collect();
         (mesh, remarks)
     } else {
-        let folder = source.parent().unwrap_or(Path::new(""));
-        let deck = inp::parse_with(&bytes, plane, &mut |name| fs::read(folder.join(name)));
-        let deck = deck.map_err(|error| MeshingError::Deck {
-            deck: source.clone(),
-            source: Box::new(error),
-        })?;
+        let deck = read_deck(source, plane)?;
         let remarks = remarks(&deck);
         (deck.mesh, remarks)
     };
     let mesh = write_converted(source, &mesh.scaled(coordinates.scale), (out, *force))?;
     Ok(Conversion { mesh, remarks })
+}
+
+/// Reads an input deck with the files that it includes, from its folder; a planar mesh lies in a given plane.
+///
+/// # Errors
+///
+/// If the deck cannot be read or has no mesh.
+pub fn read_deck(source: &Path, plane: CoordinatePlane) -> Result<Deck, MeshingError> {
+    let bytes = content(source, "input deck")?;
+    let folder = source.parent().unwrap_or(Path::new(""));
+    let deck = inp::parse_with(&bytes, plane, &mut |name| fs::read(folder.join(name)));
+    deck.map_err(|error| MeshingError::Deck {
+        deck: source.to_owned(),
+        source: Box::new(error),
+    })
+}
+
+/// Content of a source that must be there.
+fn content(source: &Path, what: &'static str) -> Result<Vec<u8>, MeshingError> {
+    if !source.is_file() {
+        let path = source.to_owned();
+        return Err(MeshingError::NoSource { what, path });
+    }
+    fs::read(source).map_err(|error| MeshingError::File {
+        action: "read",
+        path: source.to_owned(),
+        source: error,
+    })
 }
 
 fn of_mesh(mesh: &AnyMesh) -> impl Iterator<Item = String> {

@@ -106,7 +106,7 @@ pub fn convert(request: &ConversionRequest) -> Result<Conversion, MeshingError> 
 /// # Errors
 ///
 /// If the mesh cannot be used or written.
-pub(super) fn write_converted(
+pub fn write_converted(
     source: &Path,
     mesh: &AnyMesh,
     (out, force): (&Path, bool),

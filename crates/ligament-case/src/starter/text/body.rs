@@ -41,7 +41,7 @@ pub(super) fn size<const D: usize>(body: &Body<D>, axis: usize) -> f64 {
 }
 
 /// A TOML string with invisible characters escaped.
-pub(super) fn quoted(text: &str) -> String {
+pub(in crate::starter) fn quoted(text: &str) -> String {
     if !text.contains(is_unseen) {
         return Value::from(text).to_string().trim().to_owned();
     }
@@ -82,7 +82,7 @@ impl Quantum {
 }
 
 /// A number rounded to `count` significant digits.
-pub(super) fn digits(value: f64, count: usize) -> f64 {
+pub(in crate::starter) fn digits(value: f64, count: usize) -> f64 {
     format!("{value:.*e}", count - 1).parse().unwrap_or(value)
 }
 
@@ -92,7 +92,7 @@ pub(super) fn short(value: f64) -> String {
 }
 
 /// Text of a number in TOML, with a point or an exponent.
-pub(super) fn exact(value: f64) -> String {
+pub(in crate::starter) fn exact(value: f64) -> String {
     let size = value.abs();
     if size != 0.0 && !(1e-3..1e5).contains(&size) {
         format!("{value:e}")

@@ -11,7 +11,8 @@ use super::groups::{LoadPlace, SupportAndLoad};
 use crate::case::key_path::KeyPath;
 use crate::case::values::{is_unseen, require_column_name};
 pub(super) use body::{Body, Section};
-use body::{coordinates, digits, exact, quoted, size};
+use body::{coordinates, size};
+pub(super) use body::{digits, exact, quoted};
 use ligament::setup::Law;
 use ligament_model::law::{BondLaw, LAWS, Materials, PaperCorrection};
 use ligament_model::material::Space;
@@ -43,7 +44,7 @@ pub(super) fn case_text<const D: usize>(
         head(body, law, warnings),
         section(body),
         materials(body, law),
-        model(body, law),
+        model::<D>(is_lattice(body), law),
         precrack(body, ends),
         conditions(body, ends),
         fracture(body, law),
@@ -153,8 +154,32 @@ angle = 0.0 # rad, from the x axis to the axis 1, counter-clockwise, EXAMPLE
     }
 }
 
-fn model<const D: usize>(body: &Body<D>, law: Law) -> String {
-    let is_lattice = matches!(body.section, Section::Lattice { .. });
+/// Text of the law and its correction for the mesh of a deck.
+pub(super) fn deck_model(dimensions: u8, law: Law) -> String {
+    match dimensions {
+        2 => model::<2>(false, law),
+        _ => model::<3>(false, law),
+    }
+}
+
+/// Text of the comments by which bonds of a deck's body break.
+pub(super) fn deck_examples(has_stages: bool) -> String {
+    let steps = match has_stages {
+        true => "#    each [[stage]] has `steps = 20` then\n",
+        false => "#steps = 100 # equal load steps up to load factor 1\n",
+    };
+    format!(
+        "\
+# The deck has no fracture: the case is one linear elastic solution. For fracture give the material a strength, and remove the # of
+#[fracture]
+{steps}#stop = {{ load_fraction = 0.5 }} # when the load has fallen to this share of its largest
+#[[fracture.criterion]]
+#kind = \"bond-rankine\" # EXAMPLE, with the `tensile_strength`
+"
+    )
+}
+
+fn model<const D: usize>(is_lattice: bool, law: Law) -> String {
     let others = LAWS.into_iter().filter(|it| {
         let exists = D == 2 || it.exists_in(Space::Solid);
         *it != law.row && exists && (is_lattice || !it.needs_lattice)
@@ -172,7 +197,7 @@ fn model<const D: usize>(body: &Body<D>, law: Law) -> String {
     };
     let correction = match law.row.correction {
         PaperCorrection::None => "",
-        _ if !has_patch(body, law) => {
+        _ if !has_patch::<D>(is_lattice, law) => {
             "
 # Makes the energies of stretches along the axes those of the material. Others: volume, none; for meshes patch.
 [correction]
@@ -201,9 +226,12 @@ horizon_factor = 3.0
     )
 }
 
+fn is_lattice<const D: usize>(body: &Body<D>) -> bool {
+    matches!(body.section, Section::Lattice { .. })
+}
+
 /// Whether the case has the patch correction: of laws whose paper corrects surfaces, and not of lattices in space.
-fn has_patch<const D: usize>(body: &Body<D>, law: Law) -> bool {
-    let is_lattice = matches!(body.section, Section::Lattice { .. });
+fn has_patch<const D: usize>(is_lattice: bool, law: Law) -> bool {
     law.row.correction != PaperCorrection::None && !(D > 2 && is_lattice)
 }
 
@@ -292,7 +320,7 @@ limit = {} # stretch, EXAMPLE
 ",
             exact(STRETCH)
         ),
-        (Materials::Isotropic | Materials::Anisotropic, _) if has_patch(body, law) => "\
+        (Materials::Isotropic | Materials::Anisotropic, _) if has_patch::<D>(is_lattice(body), law) => "\
 # When a bond fails: where the stress on the plane across it is F_t. With a crack or notch, and for concrete: rankine with after =
 # \"linear\", with `tensile_strength` and `fracture_energy`. Under pressure: mohr-coulomb, with `compressive_strength`. Others: tension,
 # strength (NHPD), sliding, frictional, critical-stretch, bond-energy, ...
