@@ -129,76 +129,85 @@ fn strength(mut setup: Setup, area: f64, interfaces: Vec<Interface>) -> f64 {
 }
 
 /// A joint of half and of twice the strength, between equal halves and beside one that is four times as stiff, in bodies with and without points
-/// on the interface.
+/// on the interface, by limits of stretch and of stress.
+///
+/// Equal halves: 2 % for directions of bonds that the few cells of the solid lack. Unequal ones have no uniform stress within a horizon of the
+/// joint, and first bonds break there up to 9 % early; with the smaller of the limits of both materials it was 75 %.
 #[test]
 fn a_bar_breaks_at_the_weakest_of_its_halves_and_its_joint() {
     for kind in [TENSION, bond_rankine::BOND_RANKINE] {
-        for ratio in [1.0, 4.0] {
+        for (ratio, tolerance) in [(1.0, 0.02), (4.0, 0.09)] {
+            let mesh = MeshBody::from(meshes::read("meshes/bimaterial.msh"));
             let bodies: [(&str, AnyBody, f64, f64); 3] = [
                 ("lattice", lattice().into(), SIZE[1], SIZE[0]),
-                (
-                    "mesh",
-                    MeshBody::from(meshes::read("meshes/bimaterial.msh")).into(),
-                    SIZE[1],
-                    SIZE[0],
-                ),
+                ("mesh", mesh.into(), SIZE[1], SIZE[0]),
                 ("solid", SolidMeshBody::from(solid()).into(), 9.0, 8.0),
             ];
             for (name, body, area, length) in bodies {
                 let mut setup = bar(body, ratio, 3.0 * STRENGTH * length);
                 setup.criteria = vec![kind.into()];
                 setup.analysis = Analysis::Event(event());
-                let found = [joint(0.5, 1.0), joint(2.0, 1.0), Vec::new()]
-                    .map(|interfaces| strength(setup.clone(), area, interfaces));
-                println!("{} {name}, ratio {ratio}: {found:?}", kind.word);
+                for (interfaces, expected) in [
+                    (joint(0.5, 1.0), 0.5),
+                    (joint(2.0, 1.0), 1.0),
+                    (Vec::new(), 1.0),
+                ] {
+                    let found = strength(setup.clone(), area, interfaces);
+                    let words = format!("{} {name}, ratio {ratio}: {found}", kind.word);
+                    assert!((found / expected - 1.0).abs() < tolerance, "{words}");
+                }
             }
         }
     }
 }
 
-/// A joint of half the strength and a quarter of the fracture energy, parted in load steps by bonds that soften.
+/// A joint of half the strength and a quarter of the fracture energy, parted in load steps by bonds that soften: the work, and the largest
+/// force where bonds begin by a stress (`bond-energy` begins by the strength of many bonds, in a body much larger than its horizon).
+///
+/// Lattice and mesh hold .90 to .98 of the fracture energy at a horizon factor of 3 without a joint. On a mesh beside a half that is four times as
+/// stiff, bonds of one length differ by its ratio, and the work is 20 % too large.
 #[test]
 fn parting_a_joint_takes_its_fracture_energy() {
-    for (kind, ratio) in [
-        (BOND_ENERGY, 1.0),
-        (BOND_ENERGY, 4.0),
-        (rankine::RANKINE, 1.0),
-    ] {
-        for (name, body) in [
-            ("lattice", AnyBody::from(lattice())),
-            (
-                "mesh",
-                MeshBody::from(meshes::read("meshes/bimaterial.msh")).into(),
-            ),
-        ] {
-            let pulled = 6e-4;
+    let cases = [
+        (BOND_ENERGY, 1.0, [0.1, 0.1]),
+        (BOND_ENERGY, 4.0, [0.1, 0.25]),
+        (rankine::RANKINE, 1.0, [0.12, 0.12]),
+    ];
+    let (pulled, steps) = (6e-4, 60_u32);
+    for (kind, ratio, tolerances) in cases {
+        let mesh = MeshBody::from(meshes::read("meshes/bimaterial.msh"));
+        let bodies = [AnyBody::from(lattice()), mesh.into()];
+        for (body, tolerance) in bodies.into_iter().zip(tolerances) {
             let mut setup = bar(body, ratio, pulled);
             setup.criteria = vec![Choice {
                 after: linear::LAW,
                 ..kind.into()
             }];
-            setup.analysis =
-                Analysis::Stepped(stepped((1..=60).map(|it| f64::from(it) / 60.0).collect()));
+            let factors = (1..=steps).map(|it| f64::from(it) / f64::from(steps));
+            setup.analysis = Analysis::Stepped(stepped(factors.collect()));
             setup.interfaces = joint(0.5, 0.25);
             let history = setup.solve(&mut NoObserver).unwrap().outcome.history;
-            let mut work = 0.0;
-            let mut before = [0.0; 2];
-            for row in &history {
-                let now = [row.load_factor * pulled, row.reaction.abs()];
-                work += 0.5 * (now[1] + before[1]) * (now[0] - before[0]);
-                before = now;
-            }
-            let largest = history
-                .iter()
-                .map(|row| row.reaction.abs())
-                .fold(0.0, f64::max);
-            println!(
-                "{} {name} {ratio}: {} {} last {}",
-                kind.word,
-                work / (ENERGY * SIZE[1]),
-                largest / (STRENGTH * SIZE[1]),
-                before[1] / largest
+            let points = history.iter();
+            let points = points.map(|row| [row.load_factor * pulled, row.reaction.abs()]);
+            let points: Vec<[f64; 2]> = std::iter::once([0.0; 2]).chain(points).collect();
+            let area =
+                |pair: &[[f64; 2]]| 0.5 * (pair[0][1] + pair[1][1]) * (pair[1][0] - pair[0][0]);
+            let work = points.windows(2).map(area).sum::<f64>() / (0.25 * ENERGY * SIZE[1]);
+            assert!(
+                (work - 1.0).abs() < tolerance,
+                "{} {ratio}: {work}",
+                kind.word
             );
+            let largest = points.iter().map(|it| it[1]).fold(0.0, f64::max);
+            let last = points[points.len() - 1][1];
+            assert!(
+                last < 1e-3 * largest,
+                "it is not parted: {last} of {largest}"
+            );
+            if kind.word == rankine::RANKINE.word {
+                let strength = largest / (0.5 * STRENGTH * SIZE[1]);
+                assert!((strength - 1.0).abs() < 0.02, "{strength}");
+            }
         }
     }
 }

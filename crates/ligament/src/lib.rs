@@ -61,6 +61,7 @@ mod extent;
 mod faces;
 pub mod foresight;
 pub mod formulation;
+mod joints;
 pub mod loading;
 mod local;
 pub mod model;

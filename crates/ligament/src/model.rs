@@ -22,6 +22,7 @@ use crate::division::divided;
 use crate::error::SetupError;
 use crate::faces;
 use crate::formulation::{self, Formulation};
+use crate::joints;
 use crate::loading;
 use crate::local::{Bounds, Discrete, bounds, points};
 use crate::near_field::NearField;
@@ -185,7 +186,7 @@ impl Model {
             warnings: warnings(described, &system.cloud, report, &fixed, &criteria, crossed)
                 .into_iter()
                 .chain(warning::without_edges(&system))
-                .chain(warning::of_interfaces(&fixed, &system.cloud.subdomain))
+                .chain(joints::of_interfaces(&fixed, &system.cloud.subdomain))
                 .collect(),
             correction_range: counts::correction_range(&correction, &system.cloud),
             counts: BondCounts::new(&system, &fixed.absent),

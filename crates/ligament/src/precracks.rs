@@ -14,7 +14,7 @@ use crate::error::{Fault, Field, SetupError};
 use crate::setup::{CrackShape, PreCrack, Setup};
 
 /// The setup with lines in the place of the curve groups of a body in the plane along which it has pre-cracks: one for each line of edges that
-/// hang together.
+/// hang together, from its end with the smaller x (then y) on.
 ///
 /// # Errors
 ///
@@ -45,9 +45,16 @@ pub(crate) fn with_lines_of_groups(setup: Setup) -> Result<Setup, SetupError> {
             return Err(field.error(Fault::Contradiction(reason.into())));
         }
         let position = |node: u32| in_dimensions(&body.position(node));
-        precracks.extend(polylines(&edges).into_iter().map(|nodes| PreCrack {
-            shape: CrackShape::Line(nodes.into_iter().map(position).collect()),
-            ends: crack.ends,
+        precracks.extend(polylines(&edges).into_iter().map(|nodes| {
+            let mut line: Vec<[f64; 2]> = nodes.into_iter().map(position).collect();
+            // Points on the line lie left of it: the order of the nodes in the file does not decide about them.
+            if line.last() < line.first() {
+                line.reverse();
+            }
+            PreCrack {
+                shape: CrackShape::Line(line),
+                ends: crack.ends,
+            }
         }));
     }
     Ok(Setup { precracks, ..setup })

@@ -2,7 +2,6 @@
 
 mod correction;
 mod criteria;
-mod joint;
 mod platen;
 mod refinement;
 mod volumetric;
@@ -24,7 +23,6 @@ use crate::plausibility::corners;
 use crate::setup::{Horizon, MaterialRegion, Setup};
 
 pub use criteria::few_bonds;
-pub(crate) use joint::of_interfaces;
 pub(crate) use refinement::of_refinement;
 pub(crate) use volumetric::without_edges;
 

@@ -128,6 +128,14 @@ pub struct Case {
     pub output: Output,
 }
 
+/// A section that a case need not have.
+fn optional<T, U>(
+    section: &Option<T>,
+    setup: impl FnOnce(&T) -> Result<U, KeyFault>,
+) -> Result<Option<U>, KeyFault> {
+    section.as_ref().map(setup).transpose()
+}
+
 impl Case {
     /// Reads a parsed document and fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
     pub(super) fn read(
@@ -319,12 +327,8 @@ impl Case {
             correction: self.correction.setup(&law),
             closing: self.model.closing,
             closing_friction: self.model.closing_friction,
-            far_field: (self.far_field.as_ref())
-                .map(|it| it.setup(&at("far_field")))
-                .transpose()?,
-            refine: (self.refine.as_ref())
-                .map(|it| it.setup(&at("refine"), tables))
-                .transpose()?,
+            far_field: optional(&self.far_field, |it| it.setup(&at("far_field")))?,
+            refine: optional(&self.refine, |it| it.setup(&at("refine"), tables))?,
             no_fail: each(&at("no_fail"), &self.no_fail, Region::place)?,
             supports: each(&at("support"), &self.supports, Support::setup)?,
             loads: each(&at("load"), &self.loads, |it, key| it.setup(key, tables))?,

@@ -240,7 +240,7 @@ fn criteria_name_what_they_lack_of_the_material() {
         (
             energy,
             "kind = \"critical-stretch\"",
-            "\"critical-stretch\"",
+            "\"critical-stretch\" without `limit`",
         ),
         (
             energy,

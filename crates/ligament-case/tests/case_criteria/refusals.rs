@@ -130,7 +130,8 @@ fn keys_that_a_kind_does_not_take_are_refused() {
         (
             "kind = \"strength\"\nlimit = 1e-3",
             "61:9: fracture.criterion.0.limit: `limit` does not apply with kind = \"strength\": its limits come from the \
-             material; \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\" and \"bond-energy\" take one; remove it",
+             material; \"tension\", \"compression\", \"fibre\", \"sliding\", \"frictional\", \"critical-stretch\" \
+             and \"bond-energy\" take one; remove it",
         ),
         (
             "kind = \"sliding\"\ncalibration = \"two-point\"",

@@ -115,6 +115,9 @@ shear_modulus = 1e8
 group = "top"
 young = 1e9
 poisson = 0.2
+[[interface]]
+between = ["fibre", "matrix"]
+tensile_strength = 1e6
 [model]
 law = "orthotropic"
 horizon = 0.3

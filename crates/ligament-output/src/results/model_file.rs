@@ -91,13 +91,7 @@ pub(super) fn write(
     let omega: Vec<f32> = (fixed.domain_factor.iter().map(|&omega| omega as f32))
         .chain(nothing)
         .collect();
-    let interfaces: Vec<(String, Vec<i64>)> = (fixed.interfaces.iter())
-        .map(|(name, crosses)| {
-            let crosses = crosses.iter().copied().map(i64::from);
-            let all = crosses.chain(std::iter::repeat_n(0, n_absent)).collect();
-            (format!("{INTERFACE}{name}"), all)
-        })
-        .collect();
+    let interfaces = interfaces(fixed, n_absent);
     let limits = limits(problem, n_absent);
     let largest = at_end.map(|(largest, _)| UtilisationColumns::new(largest, n_absent));
     let dissipated = at_end.map(|(_, dissipated)| with_nan_for_absent(dissipated, n_absent));
@@ -108,8 +102,7 @@ pub(super) fn write(
         Field::single("length_factor", &alpha),
         Field::single("domain_factor", &omega),
     ];
-    let named = interfaces.iter();
-    cell_fields.extend(named.map(|(name, crosses)| Field::integer(name, crosses)));
+    cell_fields.extend((interfaces.iter()).map(|(name, crosses)| Field::integer(name, crosses)));
     cell_fields.extend(
         limits
             .iter()
@@ -130,6 +123,16 @@ pub(super) fn write(
     let path = folder.join(vtu::file_name(MODEL, subdomain));
     let fields = [&point_fields[..], &cell_fields];
     lines.write(&path, grid, fields, (subdomain, &[]))
+}
+
+/// Fields of the interfaces: a name and 1 for its bonds for each.
+fn interfaces(fixed: &ConstantFields, n_absent: usize) -> Vec<(String, Vec<i64>)> {
+    let field = |(name, crosses): &(String, Vec<bool>)| {
+        let crosses = crosses.iter().copied().map(i64::from);
+        let all = crosses.chain(std::iter::repeat_n(0, n_absent));
+        (format!("{INTERFACE}{name}"), all.collect())
+    };
+    fixed.interfaces.iter().map(field).collect()
 }
 
 /// Fields of the supported and loaded points: a name and 1 at its points for each group.

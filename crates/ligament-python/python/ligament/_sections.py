@@ -132,6 +132,22 @@ class MaterialPart(TypedDict, total=False):
     """Thermal expansion across the plane, 1/K; for plane strain."""
 
 
+class Interface(TypedDict, total=False):
+    """An interface between two materials, whose bonds have strengths of their own. A property that is not given is the smaller one of both
+materials."""
+
+    between: Sequence[str]
+    """Names or groups of the two materials, `["a", "b"]`; points on the interface hold to the first."""
+    tensile_strength: float
+    """Tensile strength, Pa."""
+    compressive_strength: float
+    """Compressive strength, Pa, positive."""
+    fracture_energy: float
+    """Fracture energy of opening, J/m^2."""
+    fracture_energy_sliding: float
+    """Fracture energy of sliding where it is another, J/m^2; for `mixed-mode`."""
+
+
 class Model(TypedDict, total=False):
     """The bond model."""
 
@@ -257,7 +273,7 @@ class Precrack(TypedDict, total=False):
     radius: float
     """Radius of a disk in a solid, m."""
     group: str
-    """The faces of this physical surface of a solid mesh."""
+    """The faces of this physical surface of a solid mesh, or the edges of this physical curve of a mesh in the plane."""
     ends: Literal["excluded", "included"]
     """Whether bonds that only touch the crack are cut.
 
@@ -930,7 +946,7 @@ class FractureCriterion(TypedDict, total=False):
 - `fibre`: Stretch of the outermost fibre of a bond that bends, from the `tensile_strength` or a `limit`; with a `fibre_distance`.
 - `sliding`: Sliding, from the `tensile_strength` or a `limit`.
 - `frictional`: Sliding that compression makes harder, from both strengths, from the `tensile_strength` and a `friction_angle`, or from a `limit` and a `friction_angle`.
-- `critical-stretch`: Stretch, from the `fracture_energy`.
+- `critical-stretch`: Stretch, from the `fracture_energy` or a `limit`.
 - `bond-energy`: Energy of stretch and sliding, from the `fracture_energy` or a `limit`; where bonds soften, from the `tensile_strength`.
 - `mixed-mode`: Opening and shear of the bonds of `mbb-pd`, from the fracture energies or limits of both.
 - `printed-opening`: Critical stretch and angle of the bonds of `mbb-pd` in mode I as printed, from the fracture energy and the bonds left.
@@ -1146,6 +1162,8 @@ class SectionsOnBody(TypedDict, total=False):
 the temperature, otherwise the first rigid body that moves."""
     material: Material | Mapping[str, MaterialPart]
     """The material of the whole body; or a table `[material.NAME]` with a `group` for each of several."""
+    interface: Sequence[Interface]
+    """Interfaces between two materials with strengths of their own."""
     model: Model
     """The bond model."""
     correction: Correction

@@ -6,14 +6,15 @@ use std::fmt::Debug;
 use ligament_analysis::Component;
 use ligament_model::case_type::{Number, OutOfRange, Range, Ranged};
 use ligament_model::correction::patch;
+use ligament_model::failure::Choice;
 use ligament_model::law::{BondLaw, Materials, PaperCorrection, suited};
 use ligament_model::scatter::{Distribution, Scatter, Scattered};
 use ligament_model::{Advice, Anisotropic, Elasticity, Material, Orthotropic, Plane};
 
 use super::setting::Setting;
 use super::{
-    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Fineness, Horizon, Load,
-    MaterialRegion, Place, Profile, Reading, Refine, Setup, Surface,
+    Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Fineness, Horizon, Interface,
+    Load, MaterialRegion, Place, Profile, Reading, Refine, Setup, Surface,
 };
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
@@ -166,6 +167,54 @@ impl Setup {
             }
         }
         Ok(())
+    }
+
+    fn check_interfaces(&self) -> Checked {
+        for (index, interface) in self.interfaces.iter().enumerate() {
+            let field = Field::element("interfaces", index);
+            in_range(interface, |key| field.part(key))?;
+            self.check_sides(field.part("between"), interface)?;
+            self.check_effect(field, interface)?;
+        }
+        Ok(())
+    }
+
+    fn check_sides(&self, field: Field, interface: &Interface) -> Checked {
+        let names = |it: &MaterialRegion| [Some(it.material.name.clone()), it.group.clone()];
+        let candidates: Vec<String> = self.materials.iter().flat_map(names).flatten().collect();
+        for name in &interface.between {
+            if !candidates.contains(name) {
+                return Err(field.error(Fault::UnknownName {
+                    what: "material",
+                    found: name.clone(),
+                    candidates,
+                }));
+            }
+        }
+        match self.sides(interface) {
+            Some([one, other]) if one == other => {
+                let reason = "an interface lies between two materials, and both are this one: give each side a [material.NAME] of its own";
+                contradiction(field, reason)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Refuses an interface that changes no limit.
+    fn check_effect(&self, field: Field, interface: &Interface) -> Checked {
+        let is_given = |key: &str| {
+            let mut properties = interface.properties().into_iter();
+            properties.any(|(name, value)| name == key && value.is_some())
+        };
+        let uses = |it: &Choice| {
+            let of_softening = it.parameter_from_energy().is_some() && is_given("fracture_energy");
+            of_softening || it.takes().iter().any(|property| is_given(property.key))
+        };
+        if self.criteria.iter().any(uses) {
+            return Ok(());
+        }
+        let reason = "no criterion takes a property that it has: give the strength or the fracture energy that the criteria take from the materials";
+        contradiction(field, reason)
     }
 
     fn check_correction(&self) -> Checked {

@@ -8,7 +8,7 @@ mod conditions;
 mod contact;
 mod correction;
 mod curve;
-mod joint;
+mod interface;
 mod not_together;
 mod precrack;
 mod probe;
@@ -35,7 +35,7 @@ pub use conditions::{
 pub use contact::{ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};
 pub(crate) use curve::CurveAxis;
-pub use joint::Interface;
+pub use interface::Interface;
 pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use ligament_model::material::PoissonForm;
 pub use not_together::{Exclusion, Feature, NOT_TOGETHER};

@@ -6,8 +6,8 @@
 //! the outline on it. A bond along the outline, or one that only touches a corner or an edge, stays in the body: positions closer to a line
 //! or a plane than 1e-5 of the nearest distance of the bond's ends lie on it, or rounding would decide about bonds along a slanted side.
 //!
-//! The two faces of a crack in the mesh are facets at one place, with nodes of their own. A bond that ends on such a node has passed through
-//! the other face where the way back from this node leaves the body.
+//! The two faces of a crack in the mesh are facets at one place, with nodes of their own. A bond to such a node stays in the body if cells of both
+//! of its ends lie on a common side of its line.
 
 mod plane;
 mod solid;
@@ -23,9 +23,25 @@ use crate::cloud::lumping::shortest_edges;
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::geometry::bounding_box;
 use crate::horizon::INCLUSION_TOLERANCE;
+use crate::tensor::{directions_across, minus, norm};
 
 /// Number of points along the curve that are checked together for a near outline: most of a body is far from it.
 const BLOCK: usize = 64;
+
+/// Sides of a line, as parts of the directions across it; in the plane the first one counts. No crack of a regular mesh lies along them.
+const SIDES: [[f64; 2]; 8] = [
+    [1.0, 0.41],
+    [-1.0, -0.41],
+    [1.0, -0.41],
+    [-1.0, 0.41],
+    [0.41, 1.0],
+    [-0.41, -1.0],
+    [0.41, -1.0],
+    [-0.41, 1.0],
+];
+
+/// Distance of a side from a line, relative to the length of the line: well above rounding, well below any cell.
+const ASIDE: f64 = 1e-3;
 
 /// Outline of a mesh in the plane.
 pub type PlaneOutline = Facets<2, 3>;
@@ -147,13 +163,39 @@ pub trait Outline<const D: usize>: Sync {
     /// Whether a node shares its place with another one: both are on the faces of a crack in the mesh.
     fn is_doubled(&self, node: u32) -> bool;
 
+    /// Position of a node, m.
+    fn position(&self, node: u32) -> [f64; D];
+
+    /// Whether the line from a node to a position begins in a cell of this node.
+    fn begins_in_body(&self, node: u32, end: [f64; D]) -> bool;
+
     /// Nodes of an edge that passes through a facet, the smallest of all such edges; none where cells do not overlap.
     fn first_crossing(&self) -> Option<[u32; 2]>;
 
-    /// Whether the line between two nodes leaves the body, whatever the faces of cracks that it ends on.
-    fn parts(&self, [a, b]: [u32; 2], near: &[Self::Facet], slack: f64) -> bool {
-        self.is_crossed_by_bonds([a, b], near, slack)
-            || (self.is_doubled(b) && self.is_crossed_by_bonds([b, a], near, slack))
+    /// Whether the line between two nodes leaves the body, or one of them lies on the other face of a crack in the mesh.
+    fn is_parted(&self, ends: [u32; 2], near: &[Self::Facet], slack: f64) -> bool {
+        let is_on_crack = ends.iter().any(|&end| self.is_doubled(end));
+        self.is_crossed_by_bonds(ends, near, slack) || (is_on_crack && !self.have_common_side(ends))
+    }
+
+    /// Whether the cells of two nodes lie on a common side of the line between them: all around it in the body, on one side along a face.
+    fn have_common_side(&self, [a, b]: [u32; 2]) -> bool {
+        let [p, q] = [a, b].map(|node| self.position(node));
+        let length = norm(minus(q, p));
+        if length == 0.0 {
+            return false;
+        }
+        let across = directions_across(minus(q, p).map(|x| x / length));
+        SIDES.iter().any(|parts| {
+            let beside = |end: [f64; D]| {
+                let parts = parts.iter().zip(&across);
+                parts.fold(end, |place, (part, direction)| {
+                    let far = ASIDE * part * length;
+                    std::array::from_fn(|axis| place[axis] + far * direction[axis])
+                })
+            };
+            self.begins_in_body(a, beside(q)) && self.begins_in_body(b, beside(p))
+        })
     }
 }
 
@@ -177,7 +219,7 @@ pub fn bonds_outside<const D: usize, O: Outline<D>>(
     };
     let leaves = |bond: usize, near: &[O::Facet]| {
         let slack = cloud.slack_between(bonds.ends[bond]);
-        outline.parts(bonds.ends[bond], near, slack)
+        outline.is_parted(bonds.ends[bond], near, slack)
     };
     let leaving = |point: u32| {
         let around = box_around(cloud.positions[point as usize], reach(point));
@@ -222,7 +264,7 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
             .facets_within(box_around(position, shortest))
             .collect();
         let is_seen = |other: u32, length: f64| {
-            !outline.parts([point, other], &near, cloud.tolerance(point) * length)
+            !outline.is_parted([point, other], &near, cloud.tolerance(point) * length)
         };
         tree.locate_within_distance(position, shortest * shortest)
             .filter(|other| other.data != point)

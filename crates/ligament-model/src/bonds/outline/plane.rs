@@ -71,6 +71,14 @@ impl Outline<2> for PlaneOutline {
         self.is_doubled[node as usize]
     }
 
+    fn position(&self, node: u32) -> [f64; 2] {
+        self.at(node)
+    }
+
+    fn begins_in_body(&self, node: u32, end: [f64; 2]) -> bool {
+        self.continues_in_body(node, end, 0.0)
+    }
+
     fn first_crossing(&self) -> Option<[u32; 2]> {
         let line = |edge: [u32; 2]| edge.map(|node| self.at(node));
         self.first_edge_through(|edge, ends| crosses(ends, line(edge), 0.0))

@@ -164,6 +164,14 @@ impl Outline<3> for SolidOutline {
         self.is_doubled[node as usize]
     }
 
+    fn position(&self, node: u32) -> [f64; 3] {
+        self.at(node)
+    }
+
+    fn begins_in_body(&self, node: u32, end: [f64; 3]) -> bool {
+        self.continues_in_body(node, end, 0.0)
+    }
+
     fn first_crossing(&self) -> Option<[u32; 2]> {
         self.first_edge_through(|nodes, ends| self.facet(nodes).is_crossed_by(ends))
     }
