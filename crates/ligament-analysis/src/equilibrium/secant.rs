@@ -28,9 +28,8 @@ const LARGEST_AHEAD: f64 = 0.2;
 /// belongs to the steps that are taken: with 1e-6 a run needs nearly as many corrections, and three times as long.
 const SOLVED: f64 = 0.3;
 
-/// Number of corrections for which the growth with the load is solved for once, by an iterative solver and by a factor: the motion reaches its
-/// value along any growth near the right one.
-const GROWTH_EVERY: [usize; 2] = [5, 20];
+/// Number of corrections for which an iterative solver solves for the growth with the load once.
+const GROWTH_EVERY: usize = 5;
 
 /// Largest number of iterations of a solve.
 const ITERATION_LIMIT: usize = 1000;
@@ -200,7 +199,8 @@ impl<'a> Secant<'a> {
         self.growth = None;
     }
 
-    /// Correction for a residual force (n_unknowns) by the stiffness with the recorded curvature.
+    /// Correction for a residual force (n_unknowns) by the stiffness with the recorded curvature. The growth with the load of an earlier
+    /// correction is near enough for an iterative solver: the motion reaches its value along any growth.
     fn search_direction(
         &mut self,
         equations: &mut Equations,
@@ -210,13 +210,9 @@ impl<'a> Secant<'a> {
         let mut step = self.solved(equations, state, &force)?;
         let mut load_change = 0.0;
         if let Some(target) = self.target {
-            let [iterative, by_factor] = GROWTH_EVERY;
-            let every = match equations.solver.tolerance() {
-                Some(_) => iterative,
-                None => by_factor,
-            };
+            let is_iterative = equations.solver.tolerance().is_some();
             let mut growth = match self.growth.take() {
-                Some(recent) if recent.used < every => recent,
+                Some(recent) if is_iterative && recent.used < GROWTH_EVERY => recent,
                 _ => self.grown(equations, state, target)?,
             };
             growth.used += 1;
