@@ -91,7 +91,7 @@ pub fn parse_any_with(bytes: &[u8], plane: CoordinatePlane) -> Result<AnyMesh, G
         None => plane::assemble(&cursor, records, plane).map(AnyMesh::Plane),
         Some(record) if plane != CoordinatePlane::Xy => Err(GmshError::SolidInPlane {
             place: cursor.place(record.offset),
-            plane: plane,
+            plane,
         }),
         Some(_) => solid::assemble(&cursor, records).map(AnyMesh::Solid),
     }
