@@ -66,12 +66,12 @@ fn faults_name_the_key() {
     for (keys, expected) in [
         (
             "ends = \"included\"",
-            "19:1: precrack.0: needs exactly one of `points`, `centre`; found none",
+            "19:1: precrack.0: needs exactly one of `points`, `centre`, `group`; found none",
         ),
         (
             "points = [[0, 0], [1, 0]]\nangle = 0.5",
             "21:9: precrack.0.angle: `angle` does not apply with `points`: a pre-crack has the corners of a polyline, or \
-             `centre`, `length` and `angle` of a straight line; remove it",
+             `centre`, `length` and `angle` of a straight line, or a group of curves; remove it",
         ),
         (
             "centre = [0, 0]\nlength = 0.03",

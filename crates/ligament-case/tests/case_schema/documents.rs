@@ -115,9 +115,6 @@ shear_modulus = 1e8
 group = "top"
 young = 1e9
 poisson = 0.2
-[[interface]]
-between = ["fibre", "matrix"]
-tensile_strength = 1e6
 [model]
 law = "orthotropic"
 horizon = 0.3
@@ -285,6 +282,24 @@ load = [{ group = "top", force = { y = 1 } }]
 fracture = { steps = 4, criterion = [{ kind = "bond-rankine" }] }
 "#;
 
+const JOINT: &str = r#"
+mesh = { file = "disk.msh" }
+interface = [{ between = ["brick", "mortar"], tensile_strength = 1e5 }]
+model = { law = "nhpd", horizon_factor = 3 }
+load = [{ group = "top", force = { y = 1 } }]
+fracture = { steps = 4, criterion = [{ kind = "bond-rankine" }] }
+[material.brick]
+group = "brick"
+young = 1e9
+poisson = 0.2
+tensile_strength = 1e6
+[material.mortar]
+group = "mortar"
+young = 1e9
+poisson = 0.2
+tensile_strength = 1e6
+"#;
+
 /// The mesh has strengths for all of its criteria.
 pub(super) fn documents() -> Vec<Value> {
     let mesh = MESH.replace(
@@ -304,6 +319,7 @@ pub(super) fn documents() -> Vec<Value> {
         mesh.as_str(),
         FAR_FIELD,
         REFINED,
+        JOINT,
         LATTICE,
         SOLID,
         MODAL,

@@ -11,7 +11,7 @@ use ligament_plot::picture::{Target, draw_groups};
 use ligament_study::meshing::Coordinates;
 use ligament_study::meshing::cad::{is_cad, label};
 use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
-use ligament_study::meshing::input_deck::{DeckRequest, convert_deck, is_deck};
+use ligament_study::meshing::input_deck::{DeckRequest, convert_deck, is_read};
 use ligament_study::meshing::via_meshio::{Conversion, ConversionRequest, convert, default_out};
 
 use super::argument_parsers::{number, output_file, positive_number};
@@ -90,7 +90,7 @@ impl MeshArgs {
     pub(super) fn execute(self) -> anyhow::Result<()> {
         match (self.via_meshio.clone(), self.geometry.clone()) {
             (Some(source), _) => self.convert(source),
-            (None, Some(deck)) if is_deck(&deck) => self.read_deck(deck),
+            (None, Some(deck)) if is_read(&deck) => self.read_deck(deck),
             (None, Some(geometry)) => self.mesh(geometry),
             (None, None) => Ok(()),
         }

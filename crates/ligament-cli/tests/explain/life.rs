@@ -166,7 +166,7 @@ fn a_hole_parts_its_sides() {
     let said = explain(&results, &["--bond", &left, &right]);
     assert!(said.contains("distance is 20.00 mm"), "{said}");
     assert!(
-        said.contains("a hole, slot or notch of the body lies between them"),
+        said.contains("a hole, slot, notch or crack of the mesh lies between them"),
         "{said}"
     );
     let family = explain(&results, &["--point", &left]);

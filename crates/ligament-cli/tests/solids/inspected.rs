@@ -31,9 +31,9 @@ fn sizes_groups_and_quality_are_told() {
         "  edges         shortest 0.3333 m, longest 0.5774 m, ratio 1.73\n",
         "  spacing       0.3333 m from a node to the next, mean 0.3333 m\n",
         &quality,
-        "    left   surface       1        16  1.000 m^2\n",
-        "    right  surface       2        16  1.000 m^2\n",
-        "    body   volume        3       112  2.000 m^3\n",
+        "    left   surface       1        16  1.000 m^2  (0, 0.5000, 0.5000) m\n",
+        "    right  surface       2        16  1.000 m^2  (2.000, 0.5000, 0.5000) m\n",
+        "    body   volume        3       112  2.000 m^3  (1.000, 0.5000, 0.5000) m\n",
     ] {
         assert!(said.contains(line), "{line} in\n{said}");
     }

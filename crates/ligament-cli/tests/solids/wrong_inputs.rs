@@ -140,7 +140,10 @@ fn millimetres_are_warned_of() {
     assert!(is_good, "{said}");
     assert_contains(
         &said,
-        &["warning: the body is 2000.0 m across", "scale it by 0.001"],
+        &[
+            "warning: the body is 2000.0 m across",
+            "`mesh.scale = 1e-3`",
+        ],
     );
 }
 

@@ -13,7 +13,7 @@ use super::via_meshio::{Conversion, write_converted};
 use super::{Coordinates, is_same_file};
 
 /// Endings of the names of input decks and of Gmsh meshes.
-const ENDINGS: [&str; 2] = ["inp", GMSH];
+const DECK: &str = "inp";
 const GMSH: &str = "msh";
 
 /// Request for the mesh of an input deck or of another mesh.
@@ -29,9 +29,14 @@ pub struct DeckRequest {
     pub coordinates: Coordinates,
 }
 
-/// Whether a file is an input deck or a Gmsh mesh, by its name.
+/// Whether a file is an input deck, by its name.
 pub fn is_deck(path: &Path) -> bool {
-    ENDINGS.iter().any(|it| ends_in(path, it))
+    ends_in(path, DECK)
+}
+
+/// Whether a file is an input deck or a Gmsh mesh, by its name.
+pub fn is_read(path: &Path) -> bool {
+    is_deck(path) || ends_in(path, GMSH)
 }
 
 fn ends_in(path: &Path, ending: &str) -> bool {
