@@ -14,7 +14,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-case", 79_979),
     ("ligament-cli", 59_158),
     ("ligament-linalg", 22_578),
-    ("ligament-mesh", 84_879),
+    ("ligament-mesh", 84_877),
     ("ligament-model", 224_895),
     ("ligament-output", 74_703),
     ("ligament-petsc", 2_978),
@@ -23,7 +23,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-python", 14_227),
     ("ligament-report", 20_363),
     ("ligament-run", 31_827),
-    ("ligament-study", 89_106),
+    ("ligament-study", 89_110),
     ("ligament-verify", 80_888),
 ];
 
