@@ -181,7 +181,9 @@ impl Setup {
 
     fn check_sides(&self, field: Field, interface: &Interface) -> Checked {
         let names = |it: &MaterialRegion| [Some(it.material.name.clone()), it.group.clone()];
-        let candidates: Vec<String> = self.materials.iter().flat_map(names).flatten().collect();
+        let all = self.materials.iter().flat_map(names).flatten();
+        let mut candidates: Vec<String> = all.collect();
+        candidates.dedup();
         for name in &interface.between {
             if !candidates.contains(name) {
                 return Err(field.error(Fault::UnknownName {
