@@ -742,6 +742,14 @@ fn bonds_between_materials_take_the_weaker_one() {
     }
 }
 
+/// A critical stretch that is given is the limit of every bond, and needs no fracture energy.
+#[test]
+fn a_critical_stretch_may_be_given() {
+    let bench = patch("kind = \"critical-stretch\", limit = 1e-3", &[]);
+    let limits = &bench.model.criteria.list[0].limit;
+    assert!(limits.len() > 100 && limits.iter().all(|it| *it == 1e-3));
+}
+
 /// Friction under central forces is made with their Poisson's ratio 1/3: a = s_t (1 + nu)(1 + sin phi)/(2 cos phi) and
 /// tan(beta) = (1 + nu) tan(phi) (MPPD eqs 55, 56) with sin(phi) = 1/2 for F_c = 3 F_t. 1e-14: rounding.
 #[test]

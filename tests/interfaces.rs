@@ -128,21 +128,11 @@ fn halves_of_a_mesh_at_any_ratio() {
 /// halves give, which is 2.2 % too stiff for `mbb-pd` because its elements at the ends are wider than the bar. Measured 1.3 and 0.8 %.
 #[test]
 fn halves_of_a_lattice_at_any_ratio() {
-    let n = 40_u32;
-    let side = LENGTH / f64::from(n);
-    let sets = [
-        ("left", CellSet::left(1)),
-        ("right", CellSet::right(1)),
-        ("left-half", CellSet::left(n / 2)),
-        ("right-half", CellSet::right(n / 2)),
-    ];
-    let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
+    let side = LENGTH / 40.0;
     let full = Law::MBB_PD;
     for law in [full, Law::NHPD] {
         let off = |ratio: f64| {
-            let body =
-                LatticeBody::new([n, n / 2], [side; 2], [0.5 * side; 2], &[], &sets).unwrap();
-            let mut setup = halved(body, law, 0.2, ratio);
+            let mut setup = halved(meshes::halved_lattice(LENGTH), law, 0.2, ratio);
             if law == Law::NHPD {
                 setup.correction.surface = Surface::Patch(Settings::default());
             }

@@ -59,19 +59,6 @@ fn joint(strength: f64, energy: f64) -> Vec<Interface> {
     }]
 }
 
-fn lattice() -> LatticeBody {
-    let n = 40_u32;
-    let side = SIZE[0] / f64::from(n);
-    let sets = [
-        ("left", CellSet::left(1)),
-        ("right", CellSet::right(1)),
-        ("left-half", CellSet::left(n / 2)),
-        ("right-half", CellSet::right(n / 2)),
-    ];
-    let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
-    LatticeBody::new([n, n / 2], [side; 2], [0.5 * side; 2], &[], &sets).unwrap()
-}
-
 /// A block of 8 by 3 by 3 hexahedra of unit size.
 fn solid() -> SolidMesh {
     let grid = block([8, 3, 3], 0.0);
@@ -139,7 +126,12 @@ fn a_bar_breaks_at_the_weakest_of_its_halves_and_its_joint() {
         for (ratio, tolerance) in [(1.0, 0.02), (4.0, 0.09)] {
             let mesh = MeshBody::from(meshes::read("meshes/bimaterial.msh"));
             let bodies: [(&str, AnyBody, f64, f64); 3] = [
-                ("lattice", lattice().into(), SIZE[1], SIZE[0]),
+                (
+                    "lattice",
+                    meshes::halved_lattice(SIZE[0]).into(),
+                    SIZE[1],
+                    SIZE[0],
+                ),
                 ("mesh", mesh.into(), SIZE[1], SIZE[0]),
                 ("solid", SolidMeshBody::from(solid()).into(), 9.0, 8.0),
             ];
@@ -176,7 +168,7 @@ fn parting_a_joint_takes_its_fracture_energy() {
     let (pulled, steps) = (6e-4, 60_u32);
     for (kind, ratio, tolerances) in cases {
         let mesh = MeshBody::from(meshes::read("meshes/bimaterial.msh"));
-        let bodies = [AnyBody::from(lattice()), mesh.into()];
+        let bodies = [AnyBody::from(meshes::halved_lattice(SIZE[0])), mesh.into()];
         for (body, tolerance) in bodies.into_iter().zip(tolerances) {
             let mut setup = bar(body, ratio, pulled);
             setup.criteria = vec![Choice {

@@ -11,6 +11,7 @@ use ligament_model::bonds::outline::{
 };
 use ligament_model::bonds::precrack::Ends;
 use ligament_model::{BondSet, Horizons, PointCloud};
+use verification::meshes;
 
 /// Cells along each side of the body, which have unit size; the crack lies at half height, from one side to the middle.
 const N: u32 = 6;
@@ -190,4 +191,20 @@ fn a_pre_crack_along_curves_is_one_along_their_corners() {
     let corners = [[0.0, 2.0], [1.0, 2.0], [2.0, 2.0], [3.0, 3.0]];
     assert!(along.len() > 20, "{}", along.len());
     assert_eq!(along, absent(PreCrack::along(corners.to_vec())));
+}
+
+/// A message tells of bonds along the outline that an end of a pre-crack touches, where it begins on the outline; a tip inside, which bonds touch as
+/// well, and a crack that begins before the outline are silent.
+#[test]
+fn an_end_on_the_outline_is_told_and_a_tip_inside_is_not() {
+    let told = |from: f64| {
+        let body = MeshBody::from(meshes::lattice(6, 1.0, [0.0; 2]));
+        let mut setup = Setup::new(body, Material::isotropic(1.0, 0.2), Law::NHPD);
+        setup.precracks = vec![PreCrack::along(vec![[from, 3.0], [3.0, 3.0]])];
+        let warnings = Model::build(setup, &mut ()).unwrap().warnings;
+        let mut words = warnings.iter().map(ToString::to_string);
+        words.any(|it| it.contains("only touch an end of a pre-crack"))
+    };
+    assert!(told(0.0));
+    assert!(!told(-0.5));
 }

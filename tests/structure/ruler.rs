@@ -11,11 +11,11 @@ use super::trees;
 const TOKENS: [(&str, usize); 16] = [
     ("ligament", 115_673),
     ("ligament-analysis", 201_973),
-    ("ligament-case", 79_979),
+    ("ligament-case", 79_965),
     ("ligament-cli", 59_158),
     ("ligament-linalg", 22_578),
     ("ligament-mesh", 84_877),
-    ("ligament-model", 224_895),
+    ("ligament-model", 224_908),
     ("ligament-output", 74_703),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 58_419),

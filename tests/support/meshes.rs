@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
+use ligament::body::{CellSet, LatticeBody};
 use ligament_mesh::{Cell, Group, Mesh, gmsh};
 
 /// All mesh files of the repository, sorted.
@@ -26,6 +27,20 @@ pub fn read(path: impl AsRef<Path>) -> Mesh {
     let path = crate::repository().join(path);
     let bytes = std::fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     gmsh::parse(&bytes).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// A lattice of 40 by 20 square cells, `length` (m) wide, with the sets "left-half" and "right-half", and "left" and "right" of one column each.
+pub fn halved_lattice(length: f64) -> LatticeBody {
+    let n = 40_u32;
+    let side = length / f64::from(n);
+    let sets = [
+        ("left", CellSet::left(1)),
+        ("right", CellSet::right(1)),
+        ("left-half", CellSet::left(n / 2)),
+        ("right-half", CellSet::right(n / 2)),
+    ];
+    let sets = sets.map(|(name, set)| (name.to_owned(), set)).into();
+    LatticeBody::new([n, n / 2], [side; 2], [0.5 * side; 2], &[], &sets).unwrap()
 }
 
 /// The directed edges of the cells that have a cell on one side only.

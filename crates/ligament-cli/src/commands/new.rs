@@ -101,7 +101,7 @@ impl NewArgs {
 }
 
 impl NewArgs {
-    /// The case of a deck, whose mesh and tables are written beside it.
+    /// Case of an input deck; its mesh and tables are written beside the case file.
     fn deck(&self, source: &Path, folder: &Path) -> anyhow::Result<Starter> {
         let mut deck = read_deck(source, CoordinatePlane::Xy)?;
         let name = source.file_name().unwrap_or_default().to_string_lossy();

@@ -80,7 +80,7 @@ fn faces_without_names_are_numbered() {
     assert!(picture.starts_with(b"\x89PNG"));
 }
 
-/// Two boxes of 10 and 20 m that touch, in a file in metres, of which one has a name: they share the nodes of their common face.
+/// Two boxes of 10 and 20 m in a file in metres touch, and one has a name: they share the nodes of their common face.
 #[test]
 #[ignore = "needs LIGAMENT_PYTHON; run by tools/test"]
 fn names_of_parts_are_groups_and_parts_are_joined() {

@@ -263,7 +263,7 @@ fn decks_without_a_body_are_refused() {
     assert!(message.contains("mm-N-MPa"), "{message}");
 }
 
-/// Without units numbers that look like those of millimetres are warned of; the message counts what is not carried out.
+/// A warning tells of numbers that look like millimetres where no units are given; the message counts what is not carried out.
 #[test]
 fn numbers_of_other_units_are_warned_of() {
     let folder = TempDir::new().unwrap();

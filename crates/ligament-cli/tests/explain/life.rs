@@ -3,6 +3,7 @@
 use ligament_output::quantity::quantity;
 
 use super::*;
+use crate::support::{ligament_in, stderr, stdout};
 
 /// Stretches, utilisations and steps of breaking of a bar under uniform strain, for bonds in three directions.
 ///
@@ -327,6 +328,49 @@ fn deformations_are_told_beyond_the_expansion() {
         assert!(
             (largest * limit / (2e-5 * change) - 1.0).abs() < 1e-6,
             "{largest}"
+        );
+    }
+}
+
+/// A joint is named by `check`, with the number of its bonds, and by `explain`. Bonds of the offsets (p, q) that cross a line between two rows of 20
+/// cells: q (20 - |p|), and within three spacings 94 for q = 1, 188 for q = 2 and 60 for q = 3.
+#[test]
+fn an_interface_is_named_with_its_bonds() {
+    const JOINT: &str = include_str!("../../../../cases/brick-joint/case.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let results = run(folder.path(), JOINT, &["fracture.steps=1"]);
+    let said = stdout(&ligament_in(
+        folder.path(),
+        &["check", "case.toml", "--model-only"],
+    ));
+    assert!(
+        said.contains("interface brick-mortar 342 bonds; tensile_strength = 4e5"),
+        "{said}"
+    );
+    // Cells 390 and 410 are on both sides of the joint, 370 and 390 in the brick.
+    assert!(explain(&results, &["--bond", "390", "410"]).contains("crosses brick-mortar"));
+    assert!(!explain(&results, &["--bond", "370", "390"]).contains("brick-mortar"));
+    for (setting, expected) in [
+        (
+            "interface.0.between=['brick','mortr']",
+            "did you mean `mortar`?",
+        ),
+        ("interface.0.between=['brick','brick']", "both are this one"),
+        (
+            "fracture.criterion=[{kind='tension',limit=1e-4}]",
+            "no criterion takes a property that it has",
+        ),
+        (
+            "interface.0.tensile_strength=-1",
+            "must be greater than 0, found -1.0",
+        ),
+    ] {
+        let refused = ligament_in(folder.path(), &["check", "case.toml", "--set", setting]);
+        assert_eq!(refused.status.code(), Some(1), "{setting}");
+        assert!(
+            stderr(&refused).contains(expected),
+            "{setting}: {}",
+            stderr(&refused)
         );
     }
 }

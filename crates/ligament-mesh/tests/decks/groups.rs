@@ -208,7 +208,7 @@ fn sides_and_surfaces_that_are_none_are_told_or_refused() {
     );
 }
 
-/// Sides under `*DLOAD` are groups: those of a set by side, single elements by pressure. Lines without a side are none.
+/// Sides under `*DLOAD` are groups: one for each side of a set, and one for single elements under one pressure. Lines without a side make no group.
 #[test]
 fn pressed_sides_are_groups() {
     let deck = with_squares(

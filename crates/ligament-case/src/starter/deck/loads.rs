@@ -8,6 +8,14 @@ use super::load::Load;
 use super::translation::{AXES, Row, Translation, rows};
 use crate::starter::text::quoted;
 
+/// Word behind the name of a set in a line of distributed loads, such as `GRAV`, and the numbers behind it.
+fn kind_and_numbers(row: Row<'_>) -> (String, Vec<f64>) {
+    let fields = row.line.fields();
+    let numbers = fields.iter().skip(2).map_while(|it| number(it));
+    let kind = fields.get(1).map(|it| it.to_uppercase());
+    (kind.unwrap_or_default(), numbers.collect())
+}
+
 impl Translation<'_> {
     /// Forces at nodes.
     pub(super) fn read_forces(&mut self, keyword: &Keyword) {
@@ -82,12 +90,7 @@ impl Translation<'_> {
     pub(super) fn read_distributed(&mut self, keyword: &Keyword) {
         let mut pressed: Vec<String> = Vec::new();
         for (row, sides) in rows(keyword).zip(keyword.pressed_sides()) {
-            let fields = row.line.fields();
-            let numbers: Vec<f64> = fields.iter().skip(2).map_while(|it| number(it)).collect();
-            let kind = fields
-                .get(1)
-                .map(|it| it.to_uppercase())
-                .unwrap_or_default();
+            let (kind, numbers) = kind_and_numbers(row);
             let load = match (kind.as_str(), numbers.as_slice(), sides) {
                 (_, [pressure, ..], Some(sides)) => {
                     if pressed.contains(&sides) {
@@ -116,11 +119,7 @@ impl Translation<'_> {
     pub(super) fn read_on_surfaces(&mut self, keyword: &Keyword) {
         for row in rows(keyword) {
             let fields = row.line.fields();
-            let numbers: Vec<f64> = fields.iter().skip(2).map_while(|it| number(it)).collect();
-            let kind = fields
-                .get(1)
-                .map(|it| it.to_uppercase())
-                .unwrap_or_default();
+            let (kind, numbers) = kind_and_numbers(row);
             let load = match (kind.as_str(), numbers.as_slice()) {
                 ("P", [pressure, ..]) => self.pressure(row, &fields[0], *pressure),
                 ("TRVEC", [size, direction @ ..]) if direction.len() >= 2 => {

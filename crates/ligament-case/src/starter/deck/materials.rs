@@ -142,7 +142,7 @@ impl Translation<'_> {
         text + "#tensile_strength = 3e6 # Pa, EXAMPLE\n"
     }
 
-    /// The warning that the numbers look like those of other units, where no system was chosen.
+    /// Warning about numbers that other units would explain, where no system of units was chosen.
     pub(super) fn doubt(&self, is_chosen: bool) -> Option<String> {
         let looks_other = |it: &&Material| {
             it.elastic

@@ -58,8 +58,8 @@ pub struct DeckCase {
     pub left_out: usize,
 }
 
-/// The case of a deck, whose mesh gets the groups that the case needs. `names` are those of the deck and of the file for its mesh, from the
-/// folder of the case; without `units` the deck is in SI units.
+/// Case of an input deck; the mesh of the deck gets the groups that the case needs. The two names are the name of the deck and the path of the
+/// mesh file from the folder of the case; without `units` the deck is in SI units.
 ///
 /// # Errors
 ///

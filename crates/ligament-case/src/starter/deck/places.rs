@@ -22,7 +22,7 @@ pub(super) struct Places<'a> {
     pub(super) deck: &'a Deck,
     /// Nodes of the mesh by their numbers.
     nodes: HashMap<u64, u32>,
-    /// Groups in addition to those of the mesh.
+    /// Groups that the mesh gets for places of the case.
     pub(super) added: Vec<Group>,
     volumes: OnceCell<Vec<f64>>,
 }
