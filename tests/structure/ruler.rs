@@ -23,7 +23,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-python", 14_227),
     ("ligament-report", 20_363),
     ("ligament-run", 31_827),
-    ("ligament-study", 89_110),
+    ("ligament-study", 89_082),
     ("ligament-verify", 80_888),
 ];
 

@@ -4,6 +4,8 @@ use std::path::Path;
 
 use ligament_mesh::{AnyMesh, Group};
 
+use super::ends_in;
+
 /// Endings of the names of CAD files, with what makes their lengths those in metres: OpenCASCADE reads IGES in mm whatever the file's unit,
 /// and BREP has no unit.
 const UNITS: [(&str, &str); 5] = [
@@ -29,11 +31,6 @@ const CELLS: f64 = 5000.0;
 /// Whether a file is a CAD file, by its name.
 pub fn is_cad(path: &Path) -> bool {
     UNITS.iter().any(|(ending, _)| ends_in(path, ending))
-}
-
-fn ends_in(path: &Path, ending: &str) -> bool {
-    path.extension()
-        .is_some_and(|it| it.eq_ignore_ascii_case(ending))
 }
 
 /// A script that reads a CAD file in metres, joins its parts where they touch, and makes a group of each shape with its number and its name.

@@ -10,7 +10,7 @@ use ligament_output::check_file;
 
 use super::error::MeshingError;
 use super::via_meshio::{Conversion, write_converted};
-use super::{Coordinates, is_same_file};
+use super::{Coordinates, ends_in, is_same_file};
 
 /// Endings of the names of input decks and of Gmsh meshes.
 const DECK: &str = "inp";
@@ -37,11 +37,6 @@ pub fn is_deck(path: &Path) -> bool {
 /// Whether a file is an input deck or a Gmsh mesh, by its name.
 pub fn is_read(path: &Path) -> bool {
     is_deck(path) || ends_in(path, GMSH)
-}
-
-fn ends_in(path: &Path, ending: &str) -> bool {
-    path.extension()
-        .is_some_and(|it| it.eq_ignore_ascii_case(ending))
 }
 
 /// Reads a Gmsh mesh, or an input deck with the files that it includes, from its folder, and returns the mesh written to `request.out` in

@@ -44,6 +44,12 @@ impl Default for Coordinates {
 /// Number of last lines of a program in an error.
 const LAST_LINES: usize = 5;
 
+/// Whether the name of a file has an ending, in small or capital letters.
+fn ends_in(path: &Path, ending: &str) -> bool {
+    path.extension()
+        .is_some_and(|it| it.eq_ignore_ascii_case(ending))
+}
+
 /// Whether two paths are the same existing file.
 fn is_same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
