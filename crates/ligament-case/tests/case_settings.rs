@@ -30,6 +30,19 @@ fn set(setting: &str) -> Result<CaseFile, String> {
     with(TEXT, &[setting])
 }
 
+/// Groups of other programs may have names that cannot head a column of a table.
+#[test]
+fn a_group_that_cannot_name_a_column_is_loaded_as_it_is() {
+    for group in ["a#b, [c] $Nodes", " top edge ", "the \\\"top\\\"", "-x"] {
+        let text = SMALL.replace("group = \"top\"", &format!("group = \"{group}\""));
+        assert_ne!(text, SMALL);
+        let load = &with(&text, &[]).unwrap().case.loads[1];
+        let names = (load.name.as_deref(), load.group.as_deref());
+        let group = group.replace('\\', "");
+        assert_eq!(names, (Some("load-2"), Some(group.as_str())));
+    }
+}
+
 #[test]
 fn defaults_are_filled_in() {
     let case = with(SMALL, &[]).unwrap().case;

@@ -169,23 +169,35 @@ impl fmt::Display for FileLine {
 impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Remark::HigherOrderCells { cells, nodes } => write!(
-                f,
-                "{cells} cells of higher order were read by their corner nodes; \
-                 their {nodes} other nodes were dropped"
-            ),
+            Remark::HigherOrderCells { cells, nodes } => {
+                let cells = counted(
+                    *cells,
+                    "cell of higher order was",
+                    "cells of higher order were",
+                );
+                let nodes = counted(*nodes, "other node was", "other nodes were");
+                write!(f, "{cells} read by corner nodes alone; {nodes} dropped")
+            }
             Remark::UnusedNodes { nodes } => {
-                write!(f, "{nodes} nodes that no cell uses were dropped")
+                let nodes = counted(
+                    *nodes,
+                    "node that no cell uses was",
+                    "nodes that no cell uses were",
+                );
+                write!(f, "{nodes} dropped")
             }
             Remark::EmptyGroup { name, dimension } => write!(
                 f,
                 "the physical group \"{name}\" of dimension {dimension} contains no node of a cell and was ignored"
             ),
-            Remark::UndescribedEntities { elements } => write!(
-                f,
-                "{elements} elements belong to entities that $Entities does not describe, \
-                 so to no physical group"
-            ),
+            Remark::UndescribedEntities { elements } => {
+                let elements = counted(*elements, "element belongs", "elements belong");
+                write!(
+                    f,
+                    "{elements} to entities that $Entities does not describe, \
+                     so to no physical group"
+                )
+            }
             Remark::IgnoredSections { sections, others } => {
                 let named = sections.iter();
                 let named = named.map(|(name, place)| format!("${name} ({place})"));
@@ -202,10 +214,14 @@ impl fmt::Display for Remark {
                     ),
                 }
             }
-            Remark::CollapsedCells { cells } => write!(
-                f,
-                "{cells} cells with a repeated corner were read as the cells with fewer corners that they are"
-            ),
+            Remark::CollapsedCells { cells } => {
+                let cells = counted(
+                    *cells,
+                    "cell with a repeated corner was",
+                    "cells with a repeated corner were",
+                );
+                write!(f, "{cells} read as what remains without it")
+            }
             Remark::Crack { faces } => write!(
                 f,
                 "a crack is in the mesh: {faces} pairs of outer sides of cells with nodes of their own are at one place, and no bond crosses them; cells that should hold together there are joined by `Coherence Mesh;` in the geometry"
@@ -227,22 +243,27 @@ impl fmt::Display for DeckRemark {
                 elements,
                 in_groups,
             } => {
-                write!(
-                    f,
-                    "{elements} elements of type {kind} are no part of the body and were left out"
-                )?;
+                let elements = counted(*elements, "element", "elements");
+                write!(f, "{elements} of type {kind} left out: no part of the body")?;
                 match in_groups {
                     0 => Ok(()),
                     _ => write!(
                         f,
-                        "; {in_groups} of them remain as edges or faces in groups"
+                        "; {in_groups} of them stay in groups, by their edges or faces"
                     ),
                 }
             }
-            DeckRemark::ShellsAsCells { elements } => write!(
-                f,
-                "without plane or solid elements, {elements} shells or membranes were read as plane cells, which do not bend"
-            ),
+            DeckRemark::ShellsAsCells { elements } => {
+                let elements = counted(
+                    *elements,
+                    "shell or membrane was",
+                    "shells or membranes were",
+                );
+                write!(
+                    f,
+                    "without plane or solid elements, {elements} read as plane cells, which do not bend"
+                )
+            }
             DeckRemark::Redefined { items, count } => write!(
                 f,
                 "{count} {items} are defined again, differently; the last definition counts"
@@ -252,11 +273,14 @@ impl fmt::Display for DeckRemark {
                 surface,
                 sides,
                 is_group,
-            } => write!(
-                f,
-                "{sides} sides in the surface {surface} are edges or faces of no cell and were left out{}",
-                end(*is_group)
-            ),
+            } => {
+                let sides = counted(*sides, "side", "sides");
+                write!(
+                    f,
+                    "{sides} of the surface {surface} left out: edges or faces of no cell{}",
+                    end(*is_group)
+                )
+            }
             DeckRemark::LeftOutSurface { surface, kind } => write!(
                 f,
                 "the surface {surface} of type {kind} has no sides of elements and was left out"
@@ -265,10 +289,13 @@ impl fmt::Display for DeckRemark {
                 f,
                 "node n of the instance {instance} has the number {shift} + n in the mesh"
             ),
-            DeckRemark::PartWithoutInstance { part, elements } => write!(
-                f,
-                "the part {part} with {elements} elements has no instance and was left out"
-            ),
+            DeckRemark::PartWithoutInstance { part, elements } => {
+                let elements = counted(*elements, "element", "elements");
+                write!(
+                    f,
+                    "the part {part} with {elements} has no instance and was left out"
+                )
+            }
         }
     }
 }
@@ -296,7 +323,12 @@ impl DeckRemark {
     }
 }
 
-/// What becomes of a group of which something was left out.
+/// A count before its noun, in the singular or plural.
+fn counted(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
+}
+
+/// What becomes of a group from which something was left out.
 fn end(is_group: bool) -> &'static str {
     match is_group {
         true => "",

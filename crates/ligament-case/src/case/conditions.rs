@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use ligament::setup::{
-    self, Action, Axis, Displacement, Position, SpringStiffness, TemperatureChange,
-    begins_as_formula,
+    self, Action, Axis, Displacement, Position, SpringStiffness, TemperatureChange, is_column_name,
 };
 use ligament_analysis::load_program::{self, Amplitude as Factor};
 use schemars::{JsonSchema, Schema};
@@ -175,7 +174,7 @@ pub(super) const ACTIONS: [&str; 11] = [
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&ACTIONS)))]
 pub struct Load {
-    /// Heads its column in `history.csv`; without it the name of the group.
+    /// Heads its column in `history.csv`; without it the name of the group, or `load-1` and so on where that cannot head a column.
     #[schemars(length(min = 1))]
     pub name: Option<String>,
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
@@ -291,12 +290,11 @@ impl Load {
         if let Some(amplitude) = &mut self.amplitude {
             amplitude.complete(&key.child("amplitude"), folder)?;
         }
-        let named_by = if self.name.is_some() { "name" } else { "group" };
-        // A group of a mesh may have a name such as `-x`, which is not a valid column name.
-        let of_group = || self.group.clone().filter(|it| !begins_as_formula(it));
+        // A group of a mesh may have a name such as `-x` or `a, b`, which is not a valid column name.
+        let of_group = || self.group.clone().filter(|it| is_column_name(it));
         let name = self.name.take().or_else(of_group);
         let name = name.unwrap_or_else(|| format!("load-{number}"));
-        require_column_name(|| key.child(named_by), &name)?;
+        require_column_name(|| key.child("name"), &name)?;
         self.name = Some(name);
         Ok(())
     }

@@ -9,7 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 use super::fault::{Fault, KeyFault};
 use super::key_path::KeyPath;
-use ligament::setup::begins_as_formula;
+use ligament::setup::{begins_as_formula, is_column_name, is_unseen};
 
 /// A point in the plane, m.
 pub type Point = [f64; 2];
@@ -138,9 +138,8 @@ pub fn require_column_name(key: impl Fn() -> KeyPath, name: &str) -> Result<(), 
     let is_seen = !name.contains(is_unseen);
     let expected = "a name without invisible characters, such as control characters";
     require(is_seen, &key, expected, name)?;
-    let fits = !name.is_empty() && name.trim() == name && !name.contains([',', '"']);
     let expected = "a name without commas, quotes or surrounding blanks";
-    require(fits, key, expected, name)
+    require(is_column_name(name), key, expected, name)
 }
 
 /// Refuses a name, label or other text of a table that begins as a formula, which a spreadsheet would compute.
@@ -153,13 +152,6 @@ pub fn require_no_formula(
         "a {what} that does not begin with =, +, - or @, by which a spreadsheet knows a formula"
     );
     require(!begins_as_formula(text), key, &expected, text)
-}
-
-/// Whether a character is invisible: a control character, a line or paragraph separator, a mark of text direction, or a character without
-/// width.
-pub(crate) fn is_unseen(character: char) -> bool {
-    character.is_control()
-        || matches!(character, '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
 
 /// Fails where a name repeats an earlier one; `advice` is appended to the error.

@@ -368,6 +368,50 @@ fn what_is_read_in_another_way_is_told() {
     assert_eq!(names, [("side-1-curve", 1), ("side-1", 2)]);
 }
 
+/// A row of two cells of VTK of size 1 with corners in the order of images: x varies fastest, then y, then z.
+fn image(cell_type: u8, depth: usize) -> String {
+    let nodes = (0..depth).flat_map(|z| (0..2).flat_map(move |y| (0..3).map(move |x| [x, y, z])));
+    let nodes: Vec<String> = nodes.map(|[x, y, z]| format!("{x} {y} {z}")).collect();
+    let corners = |cell: usize| {
+        (0..depth).flat_map(move |z| [0, 1, 3, 4].map(|it| (6 * z + cell + it).to_string()))
+    };
+    let corners: Vec<String> = (0..2).flat_map(corners).collect();
+    let (n_nodes, n_corners) = (nodes.len(), 4 * depth);
+    format!(
+        "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\"><UnstructuredGrid>\
+         <Piece NumberOfPoints=\"{n_nodes}\" NumberOfCells=\"2\">\
+         <Points><DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n{}\n</DataArray></Points><Cells>\
+         <DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n{}\n</DataArray>\
+         <DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n{n_corners} {}\n</DataArray>\
+         <DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n{cell_type} {cell_type}\n</DataArray>\
+         </Cells></Piece></UnstructuredGrid></VTKFile>",
+        nodes.join("\n"),
+        corners.join(" "),
+        2 * n_corners
+    )
+}
+
+/// Cells of images are quadrangles and hexahedra whose corners have another order: two squares and two cubes of size 1.
+#[test]
+#[ignore = "needs LIGAMENT_PYTHON; run by tools/test"]
+fn pixels_and_voxels_are_quadrangles_and_hexahedra() {
+    let folder = tempfile::tempdir().unwrap();
+    for (file, text, size) in [
+        ("pixels.vtu", image(8, 1), "area          2.000 m^2"),
+        ("voxels.vtu", image(11, 2), "volume        2.000 m^3"),
+    ] {
+        fs::write(folder.path().join(file), text).unwrap();
+        let output = convert(folder.path(), file, "out.msh");
+        let said = crate::support::text(&output.stdout);
+        assert!(
+            said.contains(size),
+            "{said}{}",
+            crate::support::text(&output.stderr)
+        );
+        assert!(said.contains("cells         2"), "{said}");
+    }
+}
+
 #[test]
 fn without_python_it_says_where_to_get_it() {
     let folder = tempfile::tempdir().unwrap();

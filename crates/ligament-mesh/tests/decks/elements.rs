@@ -188,7 +188,7 @@ fn elements_that_are_no_cells_are_counted_by_type() {
     assert_eq!(group(&deck, "Bars").edges, [[0, 1]]);
     let text = deck.mesh.remarks()[1].to_string();
     assert!(
-        text.starts_with("line 19: 1 elements of type MASS are no part of the body"),
+        text.starts_with("line 19: 1 element of type MASS left out: no part of the body"),
         "{text}"
     );
 }

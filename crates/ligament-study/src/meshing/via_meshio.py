@@ -36,7 +36,7 @@ KIND = ("points", "curve", "surface", "volume")
 # Cells by the beginning of their names in meshio: dimension and corners, which stand first.
 SHAPES = {
     "vertex": (0, 1), "line": (1, 2), "triangle": (2, 3), "quad": (2, 4), "tetra": (3, 4), "pyramid": (3, 5), "wedge": (3, 6),
-    "hexahedron": (3, 8),
+    "hexahedron": (3, 8), "pixel": (2, 4), "voxel": (3, 8),
 }
 # Sides of solid cells by their numbers of corners: Abaqus, User's Manual, "Solid elements"; Exodus II manual, "Side sets".
 SIDES_OF_ABAQUS = {
@@ -51,6 +51,8 @@ SIDES_OF_EXODUS = {
     6: ("1254", "2365", "1463", "132", "456"),
     8: ("1265", "2376", "3487", "1584", "1432", "5678"),
 }
+# Corners of the cells of images in the order of quadrangles and hexahedra, and their numbers in VTK.
+IMAGE_CELLS = {"pixel": (8, [0, 1, 3, 2]), "voxel": (11, [0, 1, 3, 2, 4, 5, 7, 6])}
 
 
 class Unfit(Exception):
@@ -107,6 +109,14 @@ def know_more_elements_of_abaqus(meshio):
             known.setdefault(f"C3D{nodes}{variant}", kind)
 
 
+def know_cells_of_images(meshio):
+    """Pixels and voxels of VTK, which meshio names but cannot read."""
+    for name, (number, corners) in IMAGE_CELLS.items():
+        meshio._vtk_common.vtk_to_meshio_type[number] = name
+        meshio._common.num_nodes_per_cell.setdefault(name, len(corners))
+        meshio._mesh.topological_dimension.setdefault(name, SHAPES[name][0])
+
+
 class Elements:
     """The elements of a mesh by dimension: corners, and where they stand in the blocks of meshio."""
 
@@ -128,7 +138,8 @@ class Elements:
                 higher += len(block.data)
             into = self.nodes[dimension]
             self.places.append((dimension, range(len(into), len(into) + len(block.data))))
-            into.extend(block.data[:, :corners].tolist())
+            _, order = IMAGE_CELLS.get(block.type, (None, slice(corners)))
+            into.extend(block.data[:, order].tolist())
         if foreign:
             kinds = ", ".join(f"{counted(count, kind)}" for kind, count in foreign.items())
             raise Unfit("foreign-cells", kinds)
@@ -551,6 +562,7 @@ def main(path, plane, file_format):
         know_more_elements_of_abaqus(meshio)
         mesh, said = read(meshio, io.StringIO("\n".join(abaqus.geometry)), "abaqus")
     else:
+        know_cells_of_images(meshio)
         mesh, said = read(meshio, path, file_format)
     remarks = Remarks(said)
     elements = Elements(mesh, remarks)

@@ -278,13 +278,26 @@ impl Support {
         all.filter(move |it| self.held.contains(it) || along == Some(*it))
     }
 
-    /// Name in the history of the support with this index: the name of its group, unless that begins as a formula.
+    /// Name in the history of the support with this index: the name of its group, if that may head a column.
     pub fn name(&self, index: usize) -> String {
         match &self.place {
-            Place::Group(group) if !begins_as_formula(group) => group.clone(),
+            Place::Group(group) if is_column_name(group) => group.clone(),
             _ => format!("support-{}", index + 1),
         }
     }
+}
+
+/// Whether a name may head a column of comma-separated values.
+pub fn is_column_name(name: &str) -> bool {
+    let is_plain = !name.contains([',', '"']) && !name.contains(is_unseen);
+    is_plain && !name.is_empty() && name.trim() == name && !begins_as_formula(name)
+}
+
+/// Whether a character is invisible: a control character, a line or paragraph separator, a mark of text direction, or a character without
+/// width.
+pub fn is_unseen(character: char) -> bool {
+    character.is_control()
+        || matches!(character, '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }
 
 /// Whether a spreadsheet would read a name as a formula.

@@ -31,6 +31,7 @@ pub use analysis::{Analysis, ELASTIC_ENERGY_TOLERANCE, event, stepped};
 pub use conditions::{
     Action, Axis, Couple, Displacement, FarField, InitialVelocity, Load, Place, Position, Profile,
     QuietEdge, Sample, SpringStiffness, Support, Temperature, TemperatureChange, begins_as_formula,
+    is_column_name, is_unseen,
 };
 pub use contact::{ContactLaw, Rigid, RigidForm, SurfaceContact};
 pub use correction::{Alpha, Correction, CorrectionDomain, Iteration, Surface};

@@ -1,10 +1,9 @@
 //! The body of a starter case, and numbers and strings in the form of a case.
 
+use ligament::setup::is_unseen;
 use ligament_mesh::Group;
 use ligament_mesh::gmsh::CoordinatePlane;
 use toml_edit::Value;
-
-use crate::case::values::is_unseen;
 
 /// Body of a starter case.
 pub(in crate::starter) struct Body<const D: usize> {

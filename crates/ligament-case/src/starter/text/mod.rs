@@ -8,12 +8,11 @@ use std::fmt::Write;
 use toml_edit::{Key, Value};
 
 use super::groups::{LoadPlace, SupportAndLoad};
-use crate::case::key_path::KeyPath;
-use crate::case::values::{is_unseen, require_column_name};
 pub(super) use body::{Body, Section};
 use body::{coordinates, size};
 pub(super) use body::{digits, exact, quoted};
 use ligament::setup::Law;
+use ligament::setup::is_unseen;
 use ligament_model::law::{BondLaw, LAWS, Materials, PaperCorrection};
 use ligament_model::material::Space;
 use section::{precrack, section};
@@ -258,12 +257,6 @@ fn conditions<const D: usize>(body: &Body<D>, ends: &SupportAndLoad<D>) -> Strin
         },
     );
     let held: Vec<String> = AXES[..D].iter().map(|it| format!("{it} = 0.0")).collect();
-    let name = match &ends.load {
-        LoadPlace::Group(group) if require_column_name(KeyPath::default, group).is_err() => {
-            "name = \"load\"\n"
-        }
-        _ => "",
-    };
     let roller = |place: &LoadPlace<D>| {
         let place = spot(place, body);
         format!("\n[[support]]\n{place}displacement = {{ {axis} = 0.0 }} # m, free to slide\n")
@@ -282,7 +275,7 @@ fn conditions<const D: usize>(body: &Body<D>, ends: &SupportAndLoad<D>) -> Strin
 # What loads it, as it is at load factor 1. Its displacement and the force for it are the curve in history.csv. In the place of
 # `displacement`: {actions} and others.
 [[load]]
-{name}{}displacement = {{ {axis} = {displacement} }} # m, {how}; EXAMPLE
+{}displacement = {{ {axis} = {displacement} }} # m, {how}; EXAMPLE
 ",
         ends.found,
         spot(&ends.support, body),
