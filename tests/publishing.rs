@@ -46,16 +46,31 @@ fn published_crates_say_what_they_are() {
 #[test]
 fn the_version_is_the_same_everywhere() {
     let version = env!("CARGO_PKG_VERSION");
+    let citation = fs::read_to_string(repository().join("CITATION.cff")).unwrap();
+    let (_, rest) = citation.split_once("\ndate-released: ").unwrap();
+    let date = rest.lines().next().unwrap();
     for (file, line) in [
-        ("CITATION.cff", format!("version: {version}\n")),
+        ("CITATION.cff", format!("\nversion: {version}\n")),
         ("codemeta.json", format!("\"version\": \"{version}\"")),
         (
             "tools/packaging/conda/recipe.yaml",
             format!("  version: {version}\n"),
         ),
+        ("CHANGELOG.md", format!("\n## {version} - {date}\n")),
     ] {
         let text = fs::read_to_string(repository().join(file)).unwrap();
         assert!(text.contains(&line), "{file} is of another version");
+    }
+}
+
+/// Users read the notes of a version on one screen; details are in a page of their own.
+#[test]
+fn notes_of_a_version_are_short() {
+    let text = fs::read_to_string(repository().join("CHANGELOG.md")).unwrap();
+    let versions: Vec<_> = text.split("\n## ").skip(1).collect();
+    assert_eq!(versions[0].lines().next(), Some("Unreleased"));
+    for notes in &versions[1..] {
+        assert!(notes.lines().count() <= 40, "{}", &notes[..20]);
     }
 }
 
