@@ -74,6 +74,24 @@ fn notes_of_a_version_are_short() {
     }
 }
 
+/// A container is built where there is a daemon; here its recipe names files that exist and the oldest compiler that is supported.
+#[test]
+fn the_container_copies_what_there_is() {
+    let recipe = repository().join("tools/packaging/Dockerfile");
+    let text = fs::read_to_string(recipe).unwrap();
+    let compiler = env!("CARGO_PKG_RUST_VERSION");
+    assert!(text.contains(&format!("FROM rust:{compiler}-")));
+    let copied: Vec<_> = (text.lines())
+        .filter_map(|line| line.strip_prefix("COPY --from=build "))
+        .flat_map(|line| line.split_whitespace().rev().skip(1))
+        .map(|path| path.strip_prefix("/sources/").unwrap())
+        .collect();
+    assert!(copied.contains(&"target/release/ligament"));
+    for path in copied.iter().filter(|path| !path.starts_with("target/")) {
+        assert!(repository().join(path).exists(), "{path}");
+    }
+}
+
 /// Files that published crates compile in are below their folder, so that they are packed.
 #[test]
 fn no_file_comes_from_outside_of_a_package() {
