@@ -46,16 +46,49 @@ fn published_crates_say_what_they_are() {
 #[test]
 fn the_version_is_the_same_everywhere() {
     let version = env!("CARGO_PKG_VERSION");
+    let citation = fs::read_to_string(repository().join("CITATION.cff")).unwrap();
+    let (_, rest) = citation.split_once("\ndate-released: ").unwrap();
+    let date = rest.lines().next().unwrap();
     for (file, line) in [
-        ("CITATION.cff", format!("version: {version}\n")),
+        ("CITATION.cff", format!("\nversion: {version}\n")),
         ("codemeta.json", format!("\"version\": \"{version}\"")),
         (
             "tools/packaging/conda/recipe.yaml",
             format!("  version: {version}\n"),
         ),
+        ("CHANGELOG.md", format!("\n## {version} - {date}\n")),
     ] {
         let text = fs::read_to_string(repository().join(file)).unwrap();
         assert!(text.contains(&line), "{file} is of another version");
+    }
+}
+
+/// Users read the notes of a version on one screen; details are in a page of their own.
+#[test]
+fn notes_of_a_version_are_short() {
+    let text = fs::read_to_string(repository().join("CHANGELOG.md")).unwrap();
+    let versions: Vec<_> = text.split("\n## ").skip(1).collect();
+    assert_eq!(versions[0].lines().next(), Some("Unreleased"));
+    for notes in &versions[1..] {
+        assert!(notes.lines().count() <= 40, "{}", &notes[..20]);
+    }
+}
+
+/// A container is built where there is a daemon; here its recipe names files that exist and the oldest compiler that is supported.
+#[test]
+fn the_container_copies_what_there_is() {
+    let recipe = repository().join("tools/packaging/Dockerfile");
+    let text = fs::read_to_string(recipe).unwrap();
+    let compiler = env!("CARGO_PKG_RUST_VERSION");
+    assert!(text.contains(&format!("FROM rust:{compiler}-")));
+    let copied: Vec<_> = (text.lines())
+        .filter_map(|line| line.strip_prefix("COPY --from=build "))
+        .flat_map(|line| line.split_whitespace().rev().skip(1))
+        .map(|path| path.strip_prefix("/sources/").unwrap())
+        .collect();
+    assert!(copied.contains(&"target/release/ligament"));
+    for path in copied.iter().filter(|path| !path.starts_with("target/")) {
+        assert!(repository().join(path).exists(), "{path}");
     }
 }
 

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks in Chromium the site that `tools/site` made, from its folder.
 
-The search finds a page, formulas are set, a button of a tutorial leads to its body in the playground, nothing comes from elsewhere.
+The search finds a page, formulas are set, a button of a tutorial leads to its body in the playground, the pages of live results open, nothing comes
+from elsewhere. A site without the playground opens at the overview.
 """
 
 import time
@@ -28,8 +29,11 @@ def main():
         print("there is no Chromium: the site was not looked at")
         return
     began = time.monotonic()
+    has_playground = "data-mesh" in (SITE / "index.html").read_text()
+    live = sorted((SITE / "docs" / "guide" / "live-results").glob("*.html"))
     with browser.Browser() as page:
-        page.open(SITE / "overview.html", LOADED)
+        page.open(SITE / ("overview.html" if has_playground else "index.html"), LOADED)
+        assert page.value("document.querySelector('article h1').innerText").startswith("Ligament")
         page.value(TYPE)
         page.until(f"{FOUND}.length > 0")
         found = page.value(FOUND)
@@ -39,15 +43,15 @@ def main():
         assert (count := page.value("document.querySelectorAll('article math').length")) > 20, count
         assert page.value(FONT), "the font of the formulas is not loaded"
         page.until("document.querySelector('article') && !document.querySelector('article').innerText.includes('$')")
-        page.open(SITE / "docs" / "guide" / "l-panel.html", f"{LOADED} && location.href.includes('l-panel')")
-        page.value("document.querySelector('article .md-button').click()")
-        if "data-mesh" in (SITE / "index.html").read_text():
+        if has_playground:
+            page.open(SITE / "docs" / "guide" / "l-panel.html", f"{LOADED} && location.href.includes('l-panel')")
+            page.value("document.querySelector('article .md-button').click()")
             page.until("document.querySelector('.choice[aria-pressed=true]')?.dataset.body === 'l-panel'")
             assert page.value("document.querySelectorAll('header nav a').length") > 5
-        else:
-            page.until("location.hash === '#l-panel'")
+        for result in live:
+            page.open(result, f"location.href.includes('{result.name}') && document.documentElement?.dataset.ready === 'true'")
         assert not (complaints := page.complaints()), complaints
-    print(f"the site in a browser: {len(found)} results of a search, {count} formulas, {time.monotonic() - began:.1f} s")
+    print(f"the site in a browser: {len(found)} results of a search, {count} formulas, {len(live)} live results, {time.monotonic() - began:.1f} s")
 
 
 if __name__ == "__main__":

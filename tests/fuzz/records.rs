@@ -80,7 +80,7 @@ fn finish_study(study: &Path, out: &Path) {
         let results = out.join("runs").join(&it.name);
         run(&it.case, &results, false, ProgressMode::Quiet).unwrap();
         let record = json!({
-            "version": "0.1.0",
+            "version": env!("CARGO_PKG_VERSION"),
             "settings": it.overrides,
             "inputs": it.inputs.text(),
             "failed": null,

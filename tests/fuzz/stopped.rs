@@ -23,7 +23,7 @@ impl Checkpoints {
     pub(crate) fn new() -> Self {
         let folder = tempfile::tempdir().unwrap();
         let checkpoint = Checkpoint {
-            version: "0.1.0".to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
             inputs: "lattice.cells = [8, 4]".to_owned(),
             results: vec![7; 90],
             messages: vec![Message::new("parts-detached", "3 points came loose")],
