@@ -100,6 +100,81 @@ pub fn largest_eigenpairs(
     }
 }
 
+/// Estimate of the largest eigenvalue of an operator of dimension n.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LargestEigenvalue {
+    /// Largest Rayleigh quotient v^T A v of a unit vector of the Krylov space, from below.
+    pub value: f64,
+    /// Residual |A v - value v|: an eigenvalue lies within it from the value.
+    pub residual: f64,
+    /// The unit vector v in single precision, shape (n).
+    pub vector: Vec<f32>,
+    /// Number of products with the operator.
+    pub products: usize,
+}
+
+/// Estimates the algebraically largest eigenvalue of a symmetric operator by Lanczos' recurrence of three terms, until the residual is below the
+/// tolerance times the value or the number of products reaches its limit. `None` where a product is not finite.
+///
+/// The value plus the residual is an upper bound in practice (Zhou and Li 2011, Linear Algebra and its Applications 435, eq. 10). The vectors of
+/// the recurrence lose orthogonality only once the value has converged (Paige 1971), which leaves the value right.
+///
+/// Everything runs on one thread in a fixed order.
+pub fn largest_eigenvalue(
+    n: usize,
+    tolerance: f64,
+    limit: usize,
+    mut product: impl FnMut(&[f64], &mut [f64]),
+) -> Option<LargestEigenvalue> {
+    let mut random = Random(1);
+    let mut vector: Vec<f64> = (0..n).map(|_| random.uniform()).collect();
+    let norm = dot(&vector, &vector).sqrt();
+    vector.iter_mut().for_each(|it| *it /= norm);
+    let (mut previous, mut image) = (vec![0.0; n], vec![0.0; n]);
+    // Diagonal and subdiagonal of the projected operator, and the vectors on which it is projected.
+    let (mut diagonal, mut below) = (Vec::new(), Vec::new());
+    let mut basis: Vec<Vec<f32>> = Vec::new();
+    loop {
+        basis.push(vector.iter().map(|it| *it as f32).collect());
+        product(&vector, &mut image);
+        let along = dot(&vector, &image);
+        subtract(along, &vector, &mut image);
+        if let Some(coupling) = below.last() {
+            subtract(*coupling, &previous, &mut image);
+        }
+        diagonal.push(along);
+        let coupling = dot(&image, &image).sqrt();
+        let products = diagonal.len();
+        let (values, vectors) = decomposed(products, |row, column| match row.abs_diff(column) {
+            0 => diagonal[row],
+            1 => below[row.min(column)],
+            _ => 0.0,
+        })?;
+        let coefficients = vectors.col_as_slice(0);
+        let (value, residual) = (values[0], coupling * coefficients[products - 1].abs());
+        if !residual.is_finite() {
+            return None;
+        }
+        if residual <= tolerance * value.abs() || products == limit.min(n) {
+            let mut vector = vec![0.0; n];
+            for (part, coefficient) in basis.iter().zip(coefficients) {
+                let sums = vector.iter_mut().zip(part);
+                sums.for_each(|(sum, it)| *sum += *coefficient as f32 * it);
+            }
+            return Some(LargestEigenvalue {
+                value,
+                residual,
+                vector,
+                products,
+            });
+        }
+        below.push(coupling);
+        image.iter_mut().for_each(|it| *it /= coupling);
+        std::mem::swap(&mut previous, &mut vector);
+        std::mem::swap(&mut vector, &mut image);
+    }
+}
+
 /// An orthonormal basis, the operator projected on it, and the next block.
 struct Basis {
     n: usize,
@@ -253,30 +328,8 @@ impl Basis {
     /// Eigenpairs of the projection, largest first, with the residuals of the approximations; none where products are not finite.
     fn ritz(&self) -> Option<Ritz> {
         let m = self.n_projected;
-        // The decomposition reads the lower triangle and sorts ascending; the decomposition of -A gives A's eigenvalues descending.
-        let lower = Mat::from_fn(m, m, |row, column| {
-            -self.projected[(row.min(column), row.max(column))]
-        });
-        if !lower.is_all_finite() {
-            return None;
-        }
-        let mut values = Diag::<f64>::zeros(m);
-        let mut vectors = Mat::<f64>::zeros(m, m);
-        // Divide and conquer, faer's choice from 128 on, gives wrong small last entries of the vectors, from which the residuals follow.
-        let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
-        parameters.recursion_threshold = usize::MAX;
-        let request =
-            self_adjoint_evd_scratch::<f64>(m, ComputeEigenvectors::Yes, Par::Seq, parameters);
-        let mut memory = MemBuffer::new(request);
-        self_adjoint_evd(
-            lower.as_ref(),
-            values.as_mut(),
-            Some(vectors.as_mut()),
-            Par::Seq,
-            MemStack::new(&mut memory),
-            parameters,
-        )
-        .ok()?;
+        let upper = |row: usize, column: usize| self.projected[(row.min(column), row.max(column))];
+        let (values, vectors) = decomposed(m, upper)?;
         let residual = |pair: usize| {
             let last = m - self.n_last;
             let along = |row: &[f64; BLOCK]| -> f64 {
@@ -287,7 +340,7 @@ impl Basis {
             squares.sum::<f64>().sqrt()
         };
         Some(Ritz {
-            values: values.column_vector().iter().map(|value| -value).collect(),
+            values,
             residuals: (0..m).map(residual).collect(),
             vectors,
         })
@@ -329,6 +382,34 @@ impl Basis {
         }
         self.n_projected = keep;
     }
+}
+
+/// Eigenvalues of a symmetric matrix of order m, largest first, and its eigenvectors as columns; `None` where an entry is not finite.
+fn decomposed(m: usize, entry: impl Fn(usize, usize) -> f64) -> Option<(Vec<f64>, Mat<f64>)> {
+    // The decomposition reads the lower triangle and sorts ascending; the decomposition of -A gives A's eigenvalues descending.
+    let lower = Mat::from_fn(m, m, |row, column| -entry(row, column));
+    if !lower.is_all_finite() {
+        return None;
+    }
+    let mut values = Diag::<f64>::zeros(m);
+    let mut vectors = Mat::<f64>::zeros(m, m);
+    // Divide and conquer, faer's choice from 128 on, gives wrong small last entries of the vectors, from which the residuals follow.
+    let mut parameters = Spec::<SelfAdjointEvdParams, f64>::default();
+    parameters.recursion_threshold = usize::MAX;
+    let request =
+        self_adjoint_evd_scratch::<f64>(m, ComputeEigenvectors::Yes, Par::Seq, parameters);
+    let mut memory = MemBuffer::new(request);
+    self_adjoint_evd(
+        lower.as_ref(),
+        values.as_mut(),
+        Some(vectors.as_mut()),
+        Par::Seq,
+        MemStack::new(&mut memory),
+        parameters,
+    )
+    .ok()?;
+    let values = values.column_vector().iter().map(|value| -value).collect();
+    Some((values, vectors))
 }
 
 fn dot(one: &[f64], other: &[f64]) -> f64 {

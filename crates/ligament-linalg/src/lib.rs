@@ -27,7 +27,7 @@ mod supernodes;
 mod symbolic;
 
 pub use digest::digest;
-pub use eigen::{Eigenpairs, Search, largest_eigenpairs};
+pub use eigen::{Eigenpairs, LargestEigenvalue, Search, largest_eigenpairs, largest_eigenvalue};
 pub use factorisation::{FactorError, Factorisation, ForwardSubstituted, Inertia, RankOne};
 pub use general::GeneralMatrix;
 pub use lu::Lu;

@@ -1,7 +1,7 @@
 //! Largest eigenvalues against spectra that are known.
 #![allow(clippy::unwrap_used)]
 
-use ligament_linalg::{Eigenpairs, Search, largest_eigenpairs};
+use ligament_linalg::{Eigenpairs, Search, largest_eigenpairs, largest_eigenvalue};
 use nalgebra::{DMatrix, DVector};
 
 const SEARCH: Search = Search {
@@ -165,4 +165,43 @@ fn an_operator_without_numbers_does_not_converge() {
     };
     let found = largest_eigenpairs(100, search, |_, output| output.fill(f64::NAN));
     assert!(!found.converged);
+}
+
+/// The largest eigenvalue lies between the estimate and the estimate with its residual, within 30 products: far from the others, as where few
+/// springs are stiffest, it is found to the tolerance; at the end of a band, as of a regular chain (4 sin^2), to 2 %; also if it occurs twice.
+#[test]
+fn largest_eigenvalue_is_enclosed() {
+    let band = |k: u32| 4.0 * (f64::from(k) * std::f64::consts::PI / 6000.0).sin().powi(2);
+    let chain: Vec<f64> = (1..=3000).map(band).collect();
+    let twice: Vec<f64> = chain.iter().flat_map(|it| [*it, *it]).collect();
+    let mut stiffest = chain.clone();
+    stiffest[700] = 6.0;
+    for (spectrum, accuracy) in [(chain, 0.02), (twice, 0.02), (stiffest, 1e-3)] {
+        let largest = spectrum.iter().copied().fold(0.0, f64::max);
+        let found = largest_eigenvalue(spectrum.len(), 1e-3, 30, reflected(&spectrum)).unwrap();
+        let above = found.value + found.residual;
+        assert!(
+            found.value <= largest * (1.0 + 1e-14) && largest <= above,
+            "{largest}: {found:?}"
+        );
+        assert!(above - largest < accuracy * largest, "{largest}: {above}");
+        assert!(found.products <= 30);
+        let norm: f64 = found.vector.iter().map(|it| f64::from(it * it)).sum();
+        // Single precision, and vectors that are orthogonal to it.
+        assert!((norm - 1.0).abs() < 1e-4, "{norm}");
+    }
+}
+
+/// Operators whose Krylov spaces end early: a number, nothing, and a multiple of the identity.
+#[test]
+fn largest_eigenvalue_of_a_small_space() {
+    for spectrum in [vec![3.0], vec![0.0; 5], vec![2.0; 5]] {
+        let found = largest_eigenvalue(spectrum.len(), 1e-3, 30, reflected(&spectrum)).unwrap();
+        // Rounding of the reflections.
+        assert!((found.value - spectrum[0]).abs() < 1e-14 && found.residual < 1e-14);
+    }
+    assert_eq!(
+        largest_eigenvalue(3, 1e-3, 30, |_, image| image.fill(f64::NAN)),
+        None
+    );
 }
