@@ -16,7 +16,6 @@ pub mod connectivity;
 pub mod contact;
 pub mod costs;
 pub mod critical_step;
-pub mod dissection;
 pub mod distributed_matrix;
 pub mod driver;
 pub mod energy_release;

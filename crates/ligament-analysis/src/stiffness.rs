@@ -52,8 +52,7 @@ impl Stiffness {
         let ordering = settings
             .ordering
             .unwrap_or(Ordering::suited_to(system.n_points()));
-        let elimination = ordering.elimination(&**system, &unknowns);
-        let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
+        let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), ordering.into())?);
         // Without positive stiffnesses the matrix may not be positive definite. Cells hold what bonds without shear stiffness leave.
         let (rigidities, subdomain) = (system.rigidities(), &system.subdomain);
         let is_held = system.has_volumetric_cells && !rigidities.some_negative(subdomain);
@@ -95,7 +94,7 @@ impl Stiffness {
             .restrained_by(&Arc::new(restraints));
         let pattern = assembly::pattern(&*self.system, &unknowns);
         let pattern = Arc::new(pattern.expect("the points of a pattern ascend"));
-        let elimination = self.choice.ordering.elimination(&*self.system, &unknowns);
+        let elimination = self.choice.ordering.into();
         let symbolic = Arc::new(Symbolic::analyse(pattern.clone(), elimination)?);
         let n_components = self.system.layout.components.len();
         Ok(Self {
@@ -162,8 +161,7 @@ impl Stiffness {
 
     /// Symbolic factor for another elimination order.
     pub fn analysed_with(&self, ordering: Ordering) -> Result<Symbolic, SetupError> {
-        let elimination = ordering.elimination(&*self.system, &self.unknowns);
-        Ok(Symbolic::analyse(self.pattern.clone(), elimination)?)
+        Ok(Symbolic::analyse(self.pattern.clone(), ordering.into())?)
     }
 
     /// Matrix of some bonds; unknowns in `held` (n_degrees_of_freedom) are decoupled.
@@ -188,8 +186,7 @@ impl Stiffness {
         let alone: Vec<bool> = (0..state.held.len()).map(is_alone).collect();
         let pattern = Arc::new(assembly::pattern(&*self.system, &rotations)?);
         let block = assembly::assemble(&*self.system, &rotations, &pattern, state.bonds(), &alone);
-        let elimination = self.choice.ordering.elimination(&*self.system, &rotations);
-        let symbolic = Arc::new(Symbolic::analyse(pattern, elimination)?);
+        let symbolic = Arc::new(Symbolic::analyse(pattern, self.choice.ordering.into())?);
         let factor = FactorKind::Ldlt.factorise(&symbolic, &block)?;
         Ok(factor.inertia().negative)
     }

@@ -10,6 +10,7 @@ mod branches;
 mod cholesky;
 mod dense;
 mod digest;
+mod dissection;
 mod eigen;
 mod factor_kind;
 mod factorisation;

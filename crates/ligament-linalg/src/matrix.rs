@@ -65,6 +65,11 @@ impl Pattern {
         &self.column_starts
     }
 
+    /// Rows of a column, ascending; the last one is the diagonal.
+    pub(crate) fn column(&self, column: usize) -> &[usize] {
+        &self.rows[self.column_starts[column]..self.column_starts[column + 1]]
+    }
+
     /// Row of each entry, shape (n_entries).
     pub fn rows(&self) -> &[usize] {
         &self.rows

@@ -11,6 +11,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{FaerError, SymbolicSparseColMatRef};
 
 use crate::branches::Branch;
+use crate::dissection::nested_dissection;
 use crate::factorisation::FactorError;
 use crate::matrix::Pattern;
 use crate::parts::Part;
@@ -26,6 +27,8 @@ const ALWAYS_SUPERNODAL: SupernodalThreshold = SupernodalThreshold(-1.0);
 pub enum Elimination {
     /// Approximate minimum degree.
     MinimumDegree,
+    /// Nested dissection of the graph of the matrix.
+    NestedDissection,
     /// Given order: a permutation of the unknowns.
     Given(Vec<usize>),
 }
@@ -62,13 +65,18 @@ impl Symbolic {
                     },
                 })
         };
-        let (cholesky, sources) = match elimination {
-            Elimination::MinimumDegree => {
+        let order = match elimination {
+            Elimination::MinimumDegree => None,
+            Elimination::NestedDissection => Some(nested_dissection(&pattern)),
+            Elimination::Given(order) => Some(order),
+        };
+        let (cholesky, sources) = match order {
+            None => {
                 let cholesky = analyse(SymmetricOrdering::Amd)?;
                 let sources = Sources::new(&pattern, permutation(&cholesky).1)?;
                 (cholesky, sources)
             }
-            Elimination::Given(order) => {
+            Some(order) => {
                 let places = inverse(&order);
                 let checked =
                     Perm::new_checked(order.into(), places.clone().into(), pattern.dimension());

@@ -218,7 +218,7 @@ fn an_indefinite_matrix_is_changed() {
         let mut system = System::new(&Graph::lattice(5, 2.0), 3, &mut random);
         let n = system.n();
         let pairs = system.terms_of_pairs();
-        let [_, order] = orders(n, &mut random);
+        let [.., order] = orders(n, &mut random);
         let symbolic = system.symbolic(order);
         for _ in 0..n / 2 {
             system.add(pairs.start + random.below(pairs.len()), -2.0);

@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod changes;
+mod dissection;
 mod failures;
 mod solving;
 mod systems;

@@ -76,7 +76,8 @@ impl Graph {
             let dy = (a / side) as f64 - (b / side) as f64;
             dx.hypot(dy)
         };
-        let pairs = (0..side * side).flat_map(|b| (0..b).map(move |a| (a, b)));
+        let first = |b: usize| b.saturating_sub(reach as usize * (side + 1));
+        let pairs = (0..side * side).flat_map(|b| (first(b)..b).map(move |a| (a, b)));
         Self::new(side * side, pairs.filter(|&(a, b)| distance(a, b) <= reach))
     }
 
@@ -207,10 +208,11 @@ impl System {
 
 pub(crate) const KINDS: [FactorKind; 2] = [FactorKind::Llt, FactorKind::Ldlt];
 
-/// Both ways of ordering; the given one is random.
-pub(crate) fn orders(n: usize, random: &mut Random) -> [Elimination; 2] {
+/// All ways of ordering; the given one is random.
+pub(crate) fn orders(n: usize, random: &mut Random) -> [Elimination; 3] {
     [
         Elimination::MinimumDegree,
+        Elimination::NestedDissection,
         Elimination::Given(random.permutation(n)),
     ]
 }

@@ -76,7 +76,7 @@ fn awkward(random: &mut Random) -> Vec<(&'static str, Graph, usize, Vec<usize>)>
 }
 
 /// Points of a square lattice by nested dissection with separators of three columns or rows.
-fn halves(side: usize) -> Vec<usize> {
+pub(super) fn halves(side: usize) -> Vec<usize> {
     fn cut(points: Vec<[usize; 2]>, order: &mut Vec<[usize; 2]>) {
         let extent = |axis: usize| {
             let of_axis = points.iter().map(|point| point[axis]);
