@@ -4,6 +4,7 @@ mod correction;
 mod criteria;
 mod platen;
 mod refinement;
+mod tips;
 mod volumetric;
 
 use ligament_analysis::Message;
@@ -88,6 +89,9 @@ pub(crate) fn of_model(
     }
     if setup.probes.iter().any(|it| it.reading.is_stress()) {
         warnings.extend(of_virial_stress(&setup.body.origin()));
+    }
+    if subdomain.is_whole() {
+        warnings.extend(tips::of_rings(setup, body, fixed));
     }
     warnings.extend(scatter_below_spacing(setup, points));
     let mut laws = setup.criteria.iter().map(|it| &it.after);
