@@ -145,6 +145,11 @@ impl StoredCracks {
         sides_of_cells(&self.cells, self.is_separated(step))
     }
 
+    /// Positions of the points, shape (n_points), m.
+    pub(super) fn positions(&self) -> &[[f64; 2]] {
+        &self.positions
+    }
+
     /// The cells between the points of the body, in the order of the files; empty for a lattice.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
