@@ -3,6 +3,8 @@
 
 use std::f64::consts::PI;
 
+use ligament_analysis::Component;
+use ligament_post::crack::openings;
 use verification::bench::{Bench, error_of};
 
 const YOUNG: f64 = 70e9;
@@ -222,5 +224,35 @@ fn tips_are_refused_where_nothing_can_be_read() {
             &[],
         );
         assert!(error.contains(expected), "{error}");
+    }
+}
+
+/// The central crack of a/h = 20 in a plate of a/W = 0.4 opens as an ellipse with 4 sigma a V/E in its middle, V = 1.111 for the width (Tada, Paris and Irwin
+/// 2000, section 2.1): to 1.5 % of that from four spacings off the tips on, to 4 % nearer.
+#[test]
+fn a_central_crack_opens_as_an_ellipse() {
+    let a: f64 = 0.02;
+    let text = plate([100, 200], [-0.05, -0.1], [[-a, 0.0], [a, 0.0]]);
+    let bench = Bench::new(&text, &[]);
+    let run = bench.solve();
+    let layout = bench.model.plane().topology().layout;
+    let moved = |point: u32| {
+        [Component::X, Component::Y].map(|axis| layout.value(point, axis, run.displacement()))
+    };
+    let points = bench.positions();
+    let displacements: Vec<[f64; 2]> = (0..points.len() as u32).map(moved).collect();
+    let x: f64 = 0.4;
+    // V = -0.071 - 0.535 x + 0.169 x^2 + 0.020 x^3 - 1.071/x ln(1 - x).
+    let width =
+        -0.071 - 0.535 * x + 0.169 * x.powi(2) + 0.02 * x.powi(3) - 1.071 / x * (1.0 - x).ln();
+    let middle = 4.0 * STRESS * a / YOUNG * width;
+    let found = openings([points, &displacements], [[a, 0.0], [-a, 0.0]], 41, 3e-3);
+    for it in &found[1..40] {
+        let expected = middle * (1.0 - (it.place[0] / a).powi(2)).sqrt();
+        let [opening, sliding] = it.jump.unwrap();
+        let near = it.along.min(2.0 * a - it.along) < 3.5e-3;
+        let allowed = if near { 0.04 } else { 0.015 } * middle;
+        assert!((opening - expected).abs() < allowed, "{it:?} {expected}");
+        assert!(sliding.abs() < 1e-3 * middle, "{it:?}");
     }
 }

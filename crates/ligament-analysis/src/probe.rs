@@ -477,55 +477,14 @@ impl Reading {
     /// Value in an equilibrium state; on a divided body the share of this process.
     fn value(&self, solution: Solution<'_>) -> f64 {
         let (system, state, balanced) = (solution.system, solution.state, solution.balanced);
-        let rate = |point: u32, component: Component, of: fn(Rates<'_>) -> &[f64]| {
-            let rates = solution.motion;
-            rates.map_or(f64::NAN, |it| system.layout.value(point, component, of(it)))
-        };
-        let motion = |point: u32, component: Component| {
-            system.layout.value(point, component, &state.displacement)
-        };
         match self {
             Self::RelativeDisplacement { places, component } => {
-                let [first, second] =
-                    (places.each_ref()).map(|it| mean(it, |point| motion(point, *component)));
+                let displacement = &state.displacement;
+                let motion = |point: u32| system.layout.value(point, *component, displacement);
+                let [first, second] = places.each_ref().map(|it| mean(it, motion));
                 second - first
             }
-            Self::Field { place, field } => mean(place, |point| match field.reading {
-                PointReading::Motion(component) => motion(point, component),
-                PointReading::Velocity(component) => rate(point, component, |it| it.velocity),
-                PointReading::Acceleration(component) => {
-                    rate(point, component, |it| it.acceleration)
-                }
-                PointReading::MaterialStress {
-                    of,
-                    read,
-                    component,
-                    ..
-                } => {
-                    let of_point = |it: StrainReading<'_>| system.stress_by_material(it, point);
-                    let stress = of.with_strains(state, balanced, solution.loads, of_point);
-                    match stress[0].is_nan() {
-                        true => f64::NAN,
-                        false => read(&stress)[component],
-                    }
-                }
-                PointReading::Stress(component) => {
-                    let deformations = &balanced.deformations;
-                    let mut stress = system.stress(state.bonds(), deformations, point);
-                    faces::add_virial(system, &balanced.closed, point, &mut stress);
-                    stress.get(component as usize).copied().unwrap_or(0.0)
-                }
-                PointReading::Strain(component) => {
-                    let motion = Motion {
-                        intact: &state.intact,
-                        displacement: &state.displacement,
-                        expansion: solution.loads.thermal_strain(state.load_factor),
-                    };
-                    let strain = system.whole_strain(motion, point);
-                    strain.get(component as usize).copied().unwrap_or(0.0)
-                }
-                PointReading::Scalar(at) => at(solution, point),
-            }),
+            Self::Field { place, field } => mean(place, |point| field.at(solution, point)),
             Self::Force { points, component } => {
                 let forces = forces_on_points(solution);
                 let owned = points.iter().filter(|it| system.subdomain.owns(**it));
@@ -550,6 +509,53 @@ impl Reading {
                 }
                 force + faces::force_through(&balanced.closed, bonds, *component)
             }
+        }
+    }
+}
+
+impl PointField {
+    /// Value at a point in an equilibrium state.
+    fn at(&self, solution: Solution<'_>, point: u32) -> f64 {
+        let (system, state, balanced) = (solution.system, solution.state, solution.balanced);
+        let rate = |component: Component, of: fn(Rates<'_>) -> &[f64]| {
+            let rates = solution.motion;
+            rates.map_or(f64::NAN, |it| system.layout.value(point, component, of(it)))
+        };
+        match self.reading {
+            PointReading::Motion(component) => {
+                system.layout.value(point, component, &state.displacement)
+            }
+            PointReading::Velocity(component) => rate(component, |it| it.velocity),
+            PointReading::Acceleration(component) => rate(component, |it| it.acceleration),
+            PointReading::MaterialStress {
+                of,
+                read,
+                component,
+                ..
+            } => {
+                let of_point = |it: StrainReading<'_>| system.stress_by_material(it, point);
+                let stress = of.with_strains(state, balanced, solution.loads, of_point);
+                match stress[0].is_nan() {
+                    true => f64::NAN,
+                    false => read(&stress)[component],
+                }
+            }
+            PointReading::Stress(component) => {
+                let deformations = &balanced.deformations;
+                let mut stress = system.stress(state.bonds(), deformations, point);
+                faces::add_virial(system, &balanced.closed, point, &mut stress);
+                stress.get(component as usize).copied().unwrap_or(0.0)
+            }
+            PointReading::Strain(component) => {
+                let motion = Motion {
+                    intact: &state.intact,
+                    displacement: &state.displacement,
+                    expansion: solution.loads.thermal_strain(state.load_factor),
+                };
+                let strain = system.whole_strain(motion, point);
+                strain.get(component as usize).copied().unwrap_or(0.0)
+            }
+            PointReading::Scalar(at) => at(solution, point),
         }
     }
 }

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use ligament_output::csv::{Value, line};
+use ligament_output::results::cracks::stored_openings;
 use ligament_output::results::outputs::Outputs;
 use ligament_output::results::steps::StepChoice;
-use ligament_output::results::stored_openings;
 use ligament_output::{check_file, write_file};
 use ligament_plot::picture::profile::{ProfileRequest, profile};
 

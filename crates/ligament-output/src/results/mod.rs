@@ -20,7 +20,6 @@ pub mod bond_arrays;
 mod checkpoint_state;
 pub mod columns;
 mod crack_growth;
-mod crack_openings;
 mod crack_tables;
 pub mod cracks;
 mod first_field;
@@ -58,7 +57,6 @@ use crate::pvd::Collection;
 use crate::vtu::{self, Field};
 
 pub use checkpoint_state::OutputState;
-pub use crack_openings::stored_openings;
 pub use crack_tables::{CRACK_FILES, write_cracks};
 pub use first_field::{BondOutcome, first_field, first_field_of};
 use grid::BondLines;
