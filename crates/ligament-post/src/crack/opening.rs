@@ -80,6 +80,8 @@ fn fitted(values: impl Iterator<Item = (f64, [f64; 2], [f64; 2])>) -> Option<[f6
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
+
     use super::*;
 
     /// Two halves of irregular points beside an inclined line, each with a linear motion: their jump is exact, positive where the left side moves to the left

@@ -1,3 +1,5 @@
+#![allow(clippy::unwrap_used)]
+
 use super::*;
 
 const MODULI: PlaneModuli = PlaneModuli {
