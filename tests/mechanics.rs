@@ -47,6 +47,7 @@ mod solid_shapes;
 mod solids_elastic;
 mod space_bonds;
 mod stress;
+mod stress_intensity;
 mod surface_contact;
 mod symmetry;
 mod temperature;

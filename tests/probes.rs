@@ -88,3 +88,49 @@ probe = [{ name = \"mouth\", between = [[0.0999, 0.02], [0.1001, 0.02]], compone
     }
     assert!(bench.solve().last().probes[0] > 1e-6);
 }
+
+/// A bar under the uniform strain 1e-3 along x by the patch correction: means over a side and over the whole bar are its strains and its
+/// stress, the forces on its sides are the columns of the history, and that on the whole bar is zero. 1e-2 is what the correction leaves on a bar of 80
+/// points at single sides.
+#[test]
+fn means_over_groups_are_those_of_a_uniform_strain() {
+    let mut text = "
+mesh = { file = \"../meshes/plate-coarse.msh\", thickness = 0.02 }
+material = { young = 15e9, poisson = 0.21 }
+model = { law = \"nhpd\", horizon_factor = 3.0 }
+correction = { surface = \"patch\" }
+support = [{ group = \"left\", displacement = { x = 0.0 } }, { group = \"corner\", displacement = { y = 0.0 } }]
+load = [{ group = \"right\", displacement = { x = 2e-4 } }]
+"
+    .to_owned();
+    let means = [
+        ("top", "strain.xx", 1e-3),
+        ("plate", "strain.xx", 1e-3),
+        ("plate", "strain.yy", -0.21e-3),
+        ("plate", "stress.xx", 15e6),
+        ("right", "displacement_x", 2e-4),
+        ("plate", "displacement_x", 1e-4),
+    ];
+    for (number, (group, field, _)) in means.iter().enumerate() {
+        text +=
+            &format!("[[probe]]\nname = \"{number}\"\ngroup = \"{group}\"\nfield = \"{field}\"\n");
+    }
+    for group in ["right", "left", "plate"] {
+        text += &format!("[[probe]]\nname = \"{group}\"\ngroup = \"{group}\"\ncomponent = \"x\"\n");
+    }
+    let run = Bench::new(&text, &[]).solve();
+    let last = run.last();
+    for ((group, field, expected), found) in means.iter().zip(&last.probes) {
+        let error = relative_error(*found, *expected);
+        assert!(
+            error < 1e-2,
+            "{field} of {group}: {found:e} for {expected:e}"
+        );
+    }
+    let [right, left, whole] = last.probes[means.len()..] else {
+        panic!("{:?}", last.probes)
+    };
+    assert!(relative_error(right, last.reaction) < 1e-12);
+    assert!(relative_error(-left, last.reaction) < 1e-8);
+    assert!(whole.abs() < 1e-8 * right);
+}

@@ -1,6 +1,8 @@
 //! Probes: quantities evaluated at every load step.
 
 use ligament_model::stress::carried::StrainReading;
+use ligament_model::stress::domain_integral::DomainIntegral;
+use ligament_model::stress::point_strain::Motion;
 
 use crate::contact::faces;
 use crate::history::Rates;
@@ -49,6 +51,15 @@ pub enum Reading {
         /// Component of the force: x or y.
         component: Component,
     },
+    /// Force of supports and loads on points, N, or the sum of their moments on them, N m.
+    Force {
+        /// Points.
+        points: Vec<u32>,
+        /// Component of the force.
+        component: Component,
+    },
+    /// Quantity at the tip of a crack.
+    Tip(DomainIntegral),
 }
 
 /// Gap of a body, whose faces its loads open or close: a notch or a slot of its mesh, or a pre-crack.
@@ -132,6 +143,8 @@ pub enum PointReading {
     Acceleration(Component),
     /// A component of the virial stress, Pa.
     Stress(StressComponent),
+    /// A component of the strain of the bonds that are left, with what the temperature gives, a shear as an angle.
+    Strain(StressComponent),
     /// A component of a function of the stress by the law of the material, Pa.
     MaterialStress {
         /// The stress.
@@ -148,7 +161,7 @@ pub enum PointReading {
 }
 
 /// Components of the vectors and tensors that a probe can read.
-const OF_VECTORS_AND_TENSORS: [PointField; 19] = [
+const OF_VECTORS_AND_TENSORS: [PointField; 25] = [
     motion("displacement_x", "Displacement along x, m.", Component::X),
     motion("displacement_y", "Displacement along y, m.", Component::Y),
     motion(
@@ -224,6 +237,28 @@ const OF_VECTORS_AND_TENSORS: [PointField; 19] = [
         "Virial stress yz of a solid, Pa.",
         StressComponent::Yz,
     ),
+    strain(
+        "strain.xx",
+        "Strain xx of the bonds that are left, with that by temperature.",
+        StressComponent::Xx,
+    ),
+    strain("strain.yy", "Strain yy.", StressComponent::Yy),
+    strain(
+        "strain.xy",
+        "Shear strain xy, as the angle by which a right one changes.",
+        StressComponent::Xy,
+    ),
+    strain("strain.zz", "Strain zz of a solid.", StressComponent::Zz),
+    strain(
+        "strain.xz",
+        "Shear strain xz of a solid.",
+        StressComponent::Xz,
+    ),
+    strain(
+        "strain.yz",
+        "Shear strain yz of a solid.",
+        StressComponent::Yz,
+    ),
 ];
 
 /// SI unit of a displacement, or of a rotation.
@@ -237,6 +272,10 @@ const fn motion(word: &'static str, meaning: &'static str, component: Component)
 
 const fn stress(word: &'static str, meaning: &'static str, it: StressComponent) -> PointField {
     point_field(word, meaning, PointReading::Stress(it))
+}
+
+const fn strain(word: &'static str, meaning: &'static str, it: StressComponent) -> PointField {
+    point_field(word, meaning, PointReading::Strain(it))
 }
 
 const fn point_field(
@@ -270,6 +309,7 @@ impl PointField {
             PointReading::Velocity(_) => "m/s",
             PointReading::Acceleration(_) => "m/s^2",
             PointReading::Stress(_) | PointReading::MaterialStress { .. } => "Pa",
+            PointReading::Strain(_) => "-",
             PointReading::Scalar(_) => unit_of(self.word),
         }
     }
@@ -349,20 +389,20 @@ const N_OF_TABLE: usize = {
     count
 };
 
-/// Component of a symmetric stress, in the order of the bond stresses: three in the plane, then three more in space.
+/// Component of a symmetric stress or strain, in the order of the bond stresses: three in the plane, then three more in space.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StressComponent {
-    /// Component sigma_xx.
+    /// Component xx.
     Xx,
-    /// Component sigma_yy.
+    /// Component yy.
     Yy,
-    /// Component sigma_xy.
+    /// Component xy.
     Xy,
-    /// Component sigma_zz.
+    /// Component zz.
     Zz,
-    /// Component sigma_xz.
+    /// Component xz.
     Xz,
-    /// Component sigma_yz.
+    /// Component yz.
     Yz,
 }
 
@@ -423,7 +463,9 @@ impl Reading {
                         ..
                     },
             } => (place.clone(), *component),
-            Self::Field { .. } | Self::SectionForce { .. } => return None,
+            Self::Field { .. } | Self::SectionForce { .. } | Self::Force { .. } | Self::Tip(_) => {
+                return None;
+            }
         };
         let weight = |(point, weight): (u32, f64)| {
             let dof = layout.degree_of_freedom(point, component)?;
@@ -435,46 +477,26 @@ impl Reading {
     /// Value in an equilibrium state; on a divided body the share of this process.
     fn value(&self, solution: Solution<'_>) -> f64 {
         let (system, state, balanced) = (solution.system, solution.state, solution.balanced);
-        let rate = |point: u32, component: Component, of: fn(Rates<'_>) -> &[f64]| {
-            let rates = solution.motion;
-            rates.map_or(f64::NAN, |it| system.layout.value(point, component, of(it)))
-        };
-        let motion = |point: u32, component: Component| {
-            system.layout.value(point, component, &state.displacement)
-        };
         match self {
             Self::RelativeDisplacement { places, component } => {
-                let [first, second] =
-                    (places.each_ref()).map(|it| mean(it, |point| motion(point, *component)));
+                let displacement = &state.displacement;
+                let motion = |point: u32| system.layout.value(point, *component, displacement);
+                let [first, second] = places.each_ref().map(|it| mean(it, motion));
                 second - first
             }
-            Self::Field { place, field } => mean(place, |point| match field.reading {
-                PointReading::Motion(component) => motion(point, component),
-                PointReading::Velocity(component) => rate(point, component, |it| it.velocity),
-                PointReading::Acceleration(component) => {
-                    rate(point, component, |it| it.acceleration)
-                }
-                PointReading::MaterialStress {
-                    of,
-                    read,
-                    component,
-                    ..
-                } => {
-                    let of_point = |it: StrainReading<'_>| system.stress_by_material(it, point);
-                    let stress = of.with_strains(state, balanced, solution.loads, of_point);
-                    match stress[0].is_nan() {
-                        true => f64::NAN,
-                        false => read(&stress)[component],
-                    }
-                }
-                PointReading::Stress(component) => {
-                    let deformations = &balanced.deformations;
-                    let mut stress = system.stress(state.bonds(), deformations, point);
-                    faces::add_virial(system, &balanced.closed, point, &mut stress);
-                    stress.get(component as usize).copied().unwrap_or(0.0)
-                }
-                PointReading::Scalar(at) => at(solution, point),
-            }),
+            Self::Field { place, field } => mean(place, |point| field.at(solution, point)),
+            Self::Force { points, component } => {
+                let forces = forces_on_points(solution);
+                let owned = points.iter().filter(|it| system.subdomain.owns(**it));
+                owned
+                    .map(|point| system.layout.value(*point, *component, &forces))
+                    .sum()
+            }
+            Self::Tip(integral) => {
+                let forces = forces_on_points(solution);
+                let of_tip = |it: StrainReading<'_>| system.domain_integral(integral, it, &forces);
+                MaterialStress::Carried.with_strains(state, balanced, solution.loads, of_tip)
+            }
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;
                 // Bonds cut by pre-cracks are numbered after the others.
@@ -489,6 +511,67 @@ impl Reading {
             }
         }
     }
+}
+
+impl PointField {
+    /// Value at a point in an equilibrium state.
+    fn at(&self, solution: Solution<'_>, point: u32) -> f64 {
+        let (system, state, balanced) = (solution.system, solution.state, solution.balanced);
+        let rate = |component: Component, of: fn(Rates<'_>) -> &[f64]| {
+            let rates = solution.motion;
+            rates.map_or(f64::NAN, |it| system.layout.value(point, component, of(it)))
+        };
+        match self.reading {
+            PointReading::Motion(component) => {
+                system.layout.value(point, component, &state.displacement)
+            }
+            PointReading::Velocity(component) => rate(component, |it| it.velocity),
+            PointReading::Acceleration(component) => rate(component, |it| it.acceleration),
+            PointReading::MaterialStress {
+                of,
+                read,
+                component,
+                ..
+            } => {
+                let of_point = |it: StrainReading<'_>| system.stress_by_material(it, point);
+                let stress = of.with_strains(state, balanced, solution.loads, of_point);
+                match stress[0].is_nan() {
+                    true => f64::NAN,
+                    false => read(&stress)[component],
+                }
+            }
+            PointReading::Stress(component) => {
+                let deformations = &balanced.deformations;
+                let mut stress = system.stress(state.bonds(), deformations, point);
+                faces::add_virial(system, &balanced.closed, point, &mut stress);
+                stress.get(component as usize).copied().unwrap_or(0.0)
+            }
+            PointReading::Strain(component) => {
+                let motion = Motion {
+                    intact: &state.intact,
+                    displacement: &state.displacement,
+                    expansion: solution.loads.thermal_strain(state.load_factor),
+                };
+                let strain = system.whole_strain(motion, point);
+                strain.get(component as usize).copied().unwrap_or(0.0)
+            }
+            PointReading::Scalar(at) => at(solution, point),
+        }
+    }
+}
+
+/// Forces of supports and loads on all points (n_degrees_of_freedom), N and N m.
+fn forces_on_points(solution: Solution<'_>) -> Vec<f64> {
+    let (state, loads) = (solution.state, solution.loads);
+    let all: Vec<u32> = (0..state.displacement.len() as u32).collect();
+    let mut forces = loads.forces(state.load_factor, &all);
+    let internal = solution.balanced.internal.values.iter();
+    for (dof, (force, internal)) in forces.iter_mut().zip(internal).enumerate() {
+        if loads.reacts_at(dof) {
+            *force = *internal;
+        }
+    }
+    forces
 }
 
 /// Weighted mean of values at the points of a location.

@@ -18,6 +18,7 @@ use crate::layout::Component;
 use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::carried::StrainReading;
+use crate::stress::domain_integral::DomainIntegral;
 use crate::stress::point_strain::Motion;
 use crate::stress::stored::StoredMotions;
 use crate::subdomain::Subdomain;
@@ -216,6 +217,19 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
 
     /// Components of the stress of one point by the stiffness of its material, Pa; not a number where its bonds do not span the space.
     fn stress_by_material(&self, reading: StrainReading<'_>, point: u32) -> Vec<f64>;
+
+    /// Components of the strain of one point with what the temperature gives it, shears as angles, in the order of its stress; not a number
+    /// where its bonds do not span the space.
+    fn whole_strain(&self, motion: Motion<'_>, point: u32) -> Vec<f64>;
+
+    /// Integral around the tip of a crack of a body in the plane with forces of supports and loads on the points (n_degrees_of_freedom), N;
+    /// its part of the owned points. Not a number where the bonds of a point do not span the space.
+    fn domain_integral(
+        &self,
+        integral: &DomainIntegral,
+        reading: StrainReading<'_>,
+        forces: &[f64],
+    ) -> f64;
 
     /// Stress on the plane across each bond in a motion with its deformations (n_bonds), from the moduli of a bond by its number, shape
     /// (n_bonds); of a bar where the bonds of neither end span the space.

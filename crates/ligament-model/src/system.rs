@@ -168,7 +168,7 @@ impl<const D: usize> BondSystem<D> {
     }
 
     /// Stiffness of each material, that of bonds and cells together, shape (n_materials), Pa.
-    fn whole_materials(&self) -> Vec<Stiffness> {
+    pub fn whole_materials(&self) -> Vec<Stiffness> {
         let mut materials = self.materials.clone();
         let moduli = self.volumetric.iter().flat_map(|it| it.moduli());
         for (stiffness, modulus) in materials.iter_mut().zip(moduli) {

@@ -75,7 +75,11 @@ fn probes(case: &toml::Table) -> BTreeMap<String, &'static str> {
     let unit = |probe: &toml::Value| {
         let word = |key: &str| probe.get(key).and_then(toml::Value::as_str);
         let component = word("component").unwrap_or_default();
-        let unit = unit_of_probe(word("field"), component, probe.get("section").is_some());
+        let is_force = ["section", "group"]
+            .iter()
+            .any(|key| probe.get(key).is_some());
+        let read = word("field").or(word("quantity"));
+        let unit = unit_of_probe(read, component, is_force);
         Some((word("name")?.to_owned(), unit))
     };
     all.into_iter().flatten().filter_map(unit).collect()

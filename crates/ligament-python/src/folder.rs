@@ -11,7 +11,7 @@ use ligament_output::csv::read::CsvTable;
 use ligament_output::folder::{REPORT, copy_results};
 use ligament_output::results::bond_arrays::{BondArrays, positions_of_fields};
 use ligament_output::results::columns::is_count;
-use ligament_output::results::cracks::StoredCracks;
+use ligament_output::results::cracks::{StoredCracks, stored_openings};
 use ligament_output::results::fields::{self, FieldReading, ResultField};
 use ligament_output::results::location;
 use ligament_output::results::outputs::{OutputKind, Outputs, kind_of, require_results};
@@ -205,6 +205,29 @@ impl Folder {
                 Ok((rows(py, line.places.into_flattened(), 2)?, ends, length))
             })
             .collect()
+    }
+
+    /// Openings along a line in a step: distances from its start, openings and slidings, not a number where a side has too few points.
+    fn openings<'py>(
+        &self,
+        py: Python<'py>,
+        step: usize,
+        ends: [[f64; 2]; 2],
+        samples: usize,
+    ) -> PyResult<Bound<'py, PyDict>> {
+        let found = py.detach(|| stored_openings(&self.path, step, ends, samples));
+        let found = found.map_err(folder_error(py))?;
+        let jump = |axis: usize| {
+            found
+                .iter()
+                .map(move |it| it.jump.map_or(f64::NAN, |it| it[axis]))
+        };
+        let named = PyDict::new(py);
+        let along = found.iter().map(|it| it.along).collect();
+        named.set_item("along", array::<f64>(py, along))?;
+        named.set_item("opening", array::<f64>(py, jump(0).collect()))?;
+        named.set_item("sliding", array::<f64>(py, jump(1).collect()))?;
+        Ok(named)
     }
 
     /// The crack surface of a solid in the state of a step.

@@ -20,7 +20,7 @@ use self::criteria::{below_strength, rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
 use crate::described::Described;
 use crate::plausibility::corners;
-use crate::setup::{Horizon, MaterialRegion, Setup};
+use crate::setup::{Horizon, MaterialRegion, Reading, Setup};
 
 pub use criteria::few_bonds;
 pub(crate) use refinement::of_refinement;
@@ -40,6 +40,12 @@ const SUSPICIOUSLY_LARGE: f64 = 20.0;
 
 /// Tolerance of the Poisson's ratio that a law fixes: users write 0.333.
 const POISSON_TOLERANCE: f64 = 1e-3;
+
+/// Horizons around a tip within which bonds smear its field.
+const SMEARED: f64 = 2.0;
+
+/// Relative rounding of a radius that is meant to be two horizons.
+const ROUNDING: f64 = 1e-9;
 
 /// A position (m) as text for warnings.
 fn place(position: &[f64]) -> String {
@@ -89,6 +95,9 @@ pub(crate) fn of_model(
     if setup.probes.iter().any(|it| it.reading.is_stress()) {
         warnings.extend(of_virial_stress(&setup.body.origin()));
     }
+    if subdomain.is_whole() {
+        warnings.extend(of_rings(setup, body, fixed));
+    }
     warnings.extend(scatter_below_spacing(setup, points));
     let mut laws = setup.criteria.iter().map(|it| &it.after);
     if laws.any(|law| *law == linear::BILINEAR) {
@@ -103,6 +112,36 @@ pub(crate) fn of_model(
     warnings.extend(platen::early_at_platen(setup, factor));
     warnings.extend(curve_of_another_material(setup));
     warnings
+}
+
+/// Warning about the first ring that begins within two horizons from its tip; on one process.
+fn of_rings(setup: &Setup, body: &dyn Body, fixed: &ConstantFields) -> Option<Message> {
+    setup.probes.iter().find_map(|probe| {
+        let Reading::Tip {
+            position,
+            radii: Some([inner, _]),
+            ..
+        } = probe.reading
+        else {
+            return None;
+        };
+        let distance = |point: usize| {
+            let place = body.position(point as u32);
+            let squares = place.iter().zip(position).map(|(a, b)| (a - b).powi(2));
+            squares.sum::<f64>()
+        };
+        let points = 0..fixed.horizon.len();
+        let nearest = points.min_by(|a, b| distance(*a).total_cmp(&distance(*b)))?;
+        let smeared = SMEARED * fixed.horizon[nearest];
+        (inner < smeared * (1.0 - ROUNDING)).then(|| {
+            let text = format!(
+                "the ring of the probe `{}` begins {inner:e} m from the tip, within two horizons ({smeared:e} m), where the bonds smear the field",
+                probe.name
+            );
+            let advice = "take larger `radii` or a smaller horizon, or compare with another ring";
+            Message::new("ring-near-tip", text).with_advice(advice)
+        })
+    })
 }
 
 /// Warning where a curve of softening in m and Pa has another strength or area than a material.

@@ -10,11 +10,12 @@ use super::values::{exactly_one, one_of, require_column_name, required_key};
 use ligament::setup::{self, Axis, Reading};
 use ligament_analysis::Component;
 use ligament_analysis::probe::PointField;
+use ligament_model::stress::domain_integral::TipQuantity;
 
 /// A column of the history.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-#[schemars(extend("oneOf" = exactly_one(&["between", "at", "section"])))]
+#[schemars(extend("oneOf" = exactly_one(&["between", "at", "section", "group", "tip"])))]
 pub struct Probe {
     /// Heads its column in `history.csv`; each name once.
     #[schemars(length(min = 1))]
@@ -26,10 +27,19 @@ pub struct Probe {
     /// A line, m, through which the bonds carry a force, N; in a solid a point of a plane and one before it along its normal; with
     /// `component`.
     pub section: Option<[Coordinates; 2]>,
-    /// The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
+    /// A group: with `field` the mean of the field over the volume of its points, with `component` the force that supports and loads exert
+    /// on them.
+    pub group: Option<String>,
+    /// The end of a straight pre-crack in the plane, m; with `quantity`.
+    pub tip: Option<Coordinates>,
+    /// The component that `between` (m or rad), `section` (N; `x`, `y`, or `z` in a solid) or `group` (N or N m) reads.
     pub component: Option<Component>,
-    /// The field that is read `at` the position.
+    /// The field that is read `at` the position or in the `group`.
     pub field: Option<PointField>,
+    /// The quantity that is read at the `tip`.
+    pub quantity: Option<TipQuantity>,
+    /// The inner and the outer radius of the ring around the `tip` over which the quantity is integrated, m; without it two and four horizons.
+    pub radii: Option<[f64; 2]>,
 }
 
 impl Probe {
@@ -54,10 +64,31 @@ impl Probe {
                 component: self.axis(key)?,
             })
         };
+        let group = |group: String| {
+            Ok(match self.component {
+                Some(component) if self.field.is_none() => Reading::Force { group, component },
+                _ => Reading::Mean {
+                    group,
+                    field: self.field(key)?,
+                },
+            })
+        };
+        let tip = |position: Coordinates| {
+            Ok(Reading::Tip {
+                position: position.position(),
+                quantity: self.quantity.ok_or_else(|| {
+                    required_key(key, "quantity", "with `tip`, to say what to read")
+                })?,
+                radii: self.radii,
+            })
+        };
+        self.require_keys_of_tip(key)?;
         let readings = [
             ("between", self.between.map(between)),
             ("at", self.at.map(at)),
             ("section", self.section.map(section)),
+            ("group", self.group.clone().map(group)),
+            ("tip", self.tip.map(tip)),
         ];
         Ok(setup::Probe {
             name: self.name.clone(),
@@ -65,9 +96,34 @@ impl Probe {
         })
     }
 
+    /// Refuses the keys of a tip where there is none, and those of other readings where there is one.
+    fn require_keys_of_tip(&self, key: &KeyPath) -> Result<(), KeyFault> {
+        let (of_others, of_tips) = (
+            [
+                ("component", self.component.is_some()),
+                ("field", self.field.is_some()),
+            ],
+            [
+                ("quantity", self.quantity.is_some()),
+                ("radii", self.radii.is_some()),
+            ],
+        );
+        let (refused, reason) = match self.tip {
+            Some(_) => (of_others, "a probe of a `tip` takes `quantity`"),
+            None => (
+                of_tips,
+                "only a probe of a `tip` takes `quantity` and `radii`",
+            ),
+        };
+        match refused.into_iter().find(|it| it.1) {
+            Some((word, _)) => Err(KeyFault::new(key.child(word), reason)),
+            None => Ok(()),
+        }
+    }
+
     fn component(&self, key: &KeyPath) -> Result<Component, KeyFault> {
         if self.field.is_some() {
-            let reason = "only a probe `at` a point takes `field`; this one takes `component`";
+            let reason = "only a probe `at` a point or of a `group` takes `field`; this one takes `component`";
             return Err(KeyFault::new(key.child("field"), reason));
         }
         let reason = "with `between` or `section`, to say what to read";
@@ -89,10 +145,10 @@ impl Probe {
 
     fn field(&self, key: &KeyPath) -> Result<PointField, KeyFault> {
         if self.component.is_some() {
-            let reason = "a probe `at` a point takes `field`, not `component`";
+            let reason = "a probe `at` a point takes `field`, not `component`; one of a `group` takes one of both";
             return Err(KeyFault::new(key.child("component"), reason));
         }
         self.field
-            .ok_or_else(|| required_key(key, "field", "with `at`, to say what to read"))
+            .ok_or_else(|| required_key(key, "field", "with `at` or `group`, to say what to read"))
     }
 }

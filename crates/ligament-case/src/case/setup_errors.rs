@@ -20,7 +20,7 @@ const PARTS: [(&str, &[&str]); 5] = [
     ("place", &["box", "at", "group"]),
     ("action", &ACTIONS),
     ("change", &["change", "file", "mesh_field"]),
-    ("reading", &["between", "at", "section"]),
+    ("reading", &["between", "at", "section", "tip"]),
     ("surface", &["points", "centre", "group"]),
 ];
 

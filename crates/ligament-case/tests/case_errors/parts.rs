@@ -68,7 +68,7 @@ fn probes_take_the_keys_of_their_kind() {
     );
     assert_eq!(
         error_with("field = \"damage\"", "component = \"x\""),
-        "46:13: probe.1.component: a probe `at` a point takes `field`, not `component`"
+        "46:13: probe.1.component: a probe `at` a point takes `field`, not `component`; one of a `group` takes one of both"
     );
 }
 

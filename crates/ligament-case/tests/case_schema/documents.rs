@@ -83,6 +83,15 @@ name = "damage"
 at = [0, 0]
 field = "damage"
 [[probe]]
+name = "mean"
+group = "top"
+field = "strain.xx"
+[[probe]]
+name = "J"
+tip = [0, 0]
+quantity = "J"
+radii = [0.1, 0.2]
+[[probe]]
 name = "force"
 section = [[0, 0], [1, 0]]
 component = "y"

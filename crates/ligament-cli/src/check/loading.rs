@@ -143,6 +143,9 @@ pub(super) fn write_boundary(
             }
             (Reading::Field { place, .. }, Given::At { position, .. }) => words((place, position)),
             (Reading::SectionForce { bonds, .. }, _) => format!("{} bonds", bonds.len()),
+            (Reading::Field { place, .. }, _) => format!("mean over {} points", place.len()),
+            (Reading::Force { points, .. }, _) => format!("force on {} points", points.len()),
+            (Reading::Tip(integral), _) => format!("ring with {} points", integral.n_points()),
             _ => continue,
         };
         report.entry(&format!("probe {}", probe.name), reads)?;

@@ -4,6 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use clap::Args;
+use ligament_output::csv::{Value, line};
+use ligament_output::results::cracks::stored_openings;
+use ligament_output::results::outputs::Outputs;
 use ligament_output::results::steps::StepChoice;
 use ligament_output::{check_file, write_file};
 use ligament_plot::picture::profile::{ProfileRequest, profile};
@@ -14,6 +17,7 @@ use crate::terminal;
 pub(super) const EXAMPLES: &str = "\
 Examples:
   ligament profile results/plate --from 0,-0.1 --to 0,0.1 --field displacement.y
+  ligament profile results/plate --from 0.0152,0 --to -0.0152,0 --opening    how far a pre-crack opens, from its tip
   ligament profile results/disk --from 0,-0.05 --to 0,0.05 --field damage stress_virial.xx --step peak --out axis.csv
 
 The line lies in the body without load, in the coordinates of the case. Between the nodes of a mesh values are linear in
@@ -32,8 +36,11 @@ pub struct ProfileArgs {
     #[arg(long, value_name = "X,Y", value_parser = position, allow_hyphen_values = true)]
     pub to: [f64; 2],
     /// Fields, one column each: those of `ligament plot`
-    #[arg(long, value_name = "NAME", num_args = 1.., required = true)]
+    #[arg(long, value_name = "NAME", num_args = 1.., required_unless_present = "opening")]
     pub field: Vec<String>,
+    /// In place of fields the opening and sliding of a straight crack along the line, from the points within a horizon on both sides
+    #[arg(long, conflicts_with = "field")]
+    pub opening: bool,
     /// Step: a number, first (breakage), peak, last or all
     #[arg(long, value_name = "STEP", default_value = "last")]
     pub step: StepChoice,
@@ -49,6 +56,27 @@ pub struct ProfileArgs {
 }
 
 impl ProfileArgs {
+    /// The table of the openings along the line.
+    fn openings(&self) -> anyhow::Result<String> {
+        let outputs = Outputs::list(&self.results)?;
+        let stored: Vec<usize> = outputs.files.keys().copied().collect();
+        let names = ["step", "along", "x", "y", "opening", "sliding"];
+        let mut text = line(&names.map(Value::from));
+        for step in self.step.steps(&self.results, &stored)? {
+            let ends = [self.from, self.to];
+            let samples = self.samples as usize;
+            for it in stored_openings(&self.results, step.step, ends, samples)? {
+                let [x, y] = it.place;
+                let place = [step.step.into(), it.along.into(), x.into(), y.into()];
+                let jump = it
+                    .jump
+                    .map_or([Value::Missing, Value::Missing], |it| it.map(Value::from));
+                text += &line(&place.into_iter().chain(jump).collect::<Vec<_>>());
+            }
+        }
+        Ok(text)
+    }
+
     /// Executes the command.
     pub(super) fn execute(self) -> anyhow::Result<()> {
         anyhow::ensure!(
@@ -58,13 +86,16 @@ impl ProfileArgs {
         if let Some(path) = &self.out {
             check_file(path, self.force)?;
         }
-        let table = profile(&ProfileRequest {
-            folder: self.results,
-            fields: self.field,
-            step: self.step,
-            ends: [self.from, self.to],
-            samples: self.samples as usize,
-        })?;
+        let table = match self.opening {
+            true => self.openings()?,
+            false => profile(&ProfileRequest {
+                folder: self.results,
+                fields: self.field,
+                step: self.step,
+                ends: [self.from, self.to],
+                samples: self.samples as usize,
+            })?,
+        };
         match self.out {
             None => Ok(write!(terminal::stdout(), "{table}")?),
             Some(path) => {

@@ -12,6 +12,7 @@
 mod across;
 pub mod by_material;
 pub mod carried;
+pub mod domain_integral;
 mod of_elements;
 pub mod point_strain;
 pub mod principal;

@@ -81,12 +81,17 @@ impl<const D: usize> Fit<D> {
     /// Strain of the point with all that its motion has; None where its bonds do not span the space.
     #[inline]
     pub fn strain(&self) -> Option<SymTensor<D>> {
-        let Span { factor, per_trace } = self.span()?;
-        // G^T = K^-1 M^T.
-        let gradient = factor.solve(&self.slopes.transpose()) * per_trace;
+        let gradient = self.transposed_gradient()?;
         Some(SymTensor::from_fn(|row, column| {
             0.5 * (gradient[(row, column)] + gradient[(column, row)])
         }))
+    }
+
+    /// G^T = K^-1 M^T; None where the bonds do not span the space.
+    #[inline]
+    pub(super) fn transposed_gradient(&self) -> Option<SMatrix<f64, D, D>> {
+        let Span { factor, per_trace } = self.span()?;
+        Some(factor.solve(&self.slopes.transpose()) * per_trace)
     }
 
     /// The factor of K; None where the bonds do not span the space.
@@ -192,7 +197,7 @@ impl<const D: usize> BondSystem<D> {
         motion: Motion<'_>,
         point: u32,
     ) -> Option<SymTensor<D>> {
-        let strain = self.fitted_strain(layout, motion, point)?;
+        let strain = self.fit_of_motion(layout, motion, point).strain()?;
         if motion.expansion.is_none() {
             return Some(strain);
         }
@@ -200,20 +205,15 @@ impl<const D: usize> BondSystem<D> {
         Some(strain.plus(&free.scaled(-1.0)))
     }
 
-    /// Strain of a point with all that its motion has.
-    fn fitted_strain(
-        &self,
-        layout: Layout,
-        motion: Motion<'_>,
-        point: u32,
-    ) -> Option<SymTensor<D>> {
+    /// Sums over the bonds that a point has left, and over its elements.
+    pub(crate) fn fit_of_motion(&self, layout: Layout, motion: Motion<'_>, point: u32) -> Fit<D> {
         let mut fit = self.fit_of_elements(layout, motion, point);
         let family = self.bonds.incidence.at(point).iter();
         for &bond in family.filter(|&&bond| motion.intact[bond as usize]) {
             let it = self.neighbour(layout, motion, point, bond);
             fit.add(it.n, it.moved, it.length, it.weight_per_length);
         }
-        fit.strain()
+        fit
     }
 
     /// Neighbour of a point by a bond.

@@ -15,6 +15,7 @@ use crate::layout::Component;
 use crate::product::NearLimits;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::carried::StrainReading;
+use crate::stress::domain_integral::DomainIntegral;
 use crate::stress::point_strain::Motion;
 use crate::stress::stored::StoredMotions;
 use crate::stress::traction;
@@ -336,6 +337,27 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         let strain = self.system.strain_by(layout, reading, point);
         self.system
             .stress_components(layout, reading, point, strain)
+    }
+
+    fn whole_strain(&self, motion: Motion<'_>, point: u32) -> Vec<f64> {
+        let fit = self
+            .system
+            .fit_of_motion(self.topology.layout, motion, point);
+        match fit.strain() {
+            Some(strain) => strain.engineering().collect(),
+            None => vec![f64::NAN; SymTensor::<D>::COMPONENTS.len()],
+        }
+    }
+
+    fn domain_integral(
+        &self,
+        integral: &DomainIntegral,
+        reading: StrainReading<'_>,
+        forces: &[f64],
+    ) -> f64 {
+        let layout = self.topology.layout;
+        self.system
+            .domain_integral(layout, integral, reading, forces)
     }
 
     fn stresses_across(

@@ -9,6 +9,7 @@ use ligament_analysis::contact::{ContactReading, RigidState};
 use ligament_analysis::costs::Costs;
 use ligament_analysis::history::{BreakRecord, ContactAtRest, InMotion, StepRecord};
 use ligament_analysis::probe::{PointField, motion_unit};
+use ligament_model::stress::domain_integral::TipQuantity;
 
 use crate::csv::Value;
 
@@ -155,7 +156,7 @@ columns! { "Columns of a history for each probe."
     PROBES:
     "PROBE" "" ANY
         "reading of a probe: a motion m or rad, a stress Pa ([not that of the continuum](results.md#stresses) at single points of a \
-         mesh), an energy density J/m^3, a force N";
+         mesh), an energy density J/m^3, a force N, a moment N m, an energy release rate J/m^2, a stress intensity factor Pa m^0.5";
 }
 
 columns! { "First columns of the table of broken bonds."
@@ -371,12 +372,18 @@ pub(super) fn readings<R, V>(
     columns.iter().filter(move |it| it.0.spaces[spaces])
 }
 
-/// SI unit of a probe, by the field that it reads at a point, or by the component of the motion or of the force through a section.
-pub fn unit_of_probe(field: Option<&str>, component: &str, is_section: bool) -> &'static str {
-    match field {
-        Some(field) => PointField::named(field).map_or("-", |it| it.unit()),
-        None if is_section => "N",
-        None => motion_unit(component.starts_with("rotation")),
+/// SI unit of a probe, by the field or the quantity that it reads, or by the component of a motion or of a force.
+pub fn unit_of_probe(read: Option<&str>, component: &str, is_force: bool) -> &'static str {
+    let is_rotation = component.starts_with("rotation");
+    let tips = || TipQuantity::ALL.into_iter();
+    match read {
+        Some(read) => match tips().find(|it| it.symbol()[0] == read) {
+            Some(quantity) => quantity.unit(),
+            None => PointField::named(read).map_or("-", |it| it.unit()),
+        },
+        None if is_force && is_rotation => "N m",
+        None if is_force => "N",
+        None => motion_unit(is_rotation),
     }
 }
 

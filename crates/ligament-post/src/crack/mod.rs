@@ -16,12 +16,15 @@
 //! Open faces also put the corners of cells on sides of the crack ([`sides_of_cells`]), and cut the cells into pieces that move apart
 //! ([`opened_cells`]).
 //!
+//! The jump of the displacement across a line is its opening and sliding ([`openings`]).
+//!
 //! A tip has an error of one cell, the length of a line of some per cent (`tests/crack_lines.rs`).
 
 mod bridges;
 mod faces;
 mod lines;
 mod opened;
+mod opening;
 mod paths;
 mod smooth;
 mod tips;
@@ -29,3 +32,4 @@ mod tips;
 pub use faces::{FaceState, Faces};
 pub use lines::{CrackEnd, CrackLine, crack_lines};
 pub use opened::{opened_cells, sides_of_cells};
+pub use opening::{CrackOpening, openings};

@@ -31,7 +31,7 @@ from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, N
 from ligament._keys import Key, Keys, keys
 from ligament._modes import Modes
 from ligament._native import VERSION as __version__
-from ligament._result import CrackLine, CrackSurface, Result, open, report
+from ligament._result import CrackLine, CrackOpening, CrackSurface, Result, open, report
 from ligament._studies import Calibration, Sweep, calibrate, modal, run, sweep
 
 if TYPE_CHECKING:
@@ -54,6 +54,7 @@ __all__ = [
     "CaseError",
     "Convergence",
     "CrackLine",
+    "CrackOpening",
     "CrackSurface",
     "Ensemble",
     "Interrupted",

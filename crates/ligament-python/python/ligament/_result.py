@@ -45,6 +45,19 @@ class CrackLine:
 
 
 @dataclass(frozen=True)
+class CrackOpening:
+    """How far a straight crack opens along a line.
+
+    At the distances `along` (n) from its start `opening` and `sliding` (n) are the displacement of its left side less that of its right one,
+    along the normal to the left and along the line, all in m; not a number where a side has too few points.
+    """
+
+    along: Floats
+    opening: Floats
+    sliding: Floats
+
+
+@dataclass(frozen=True)
 class CrackSurface:
     """The crack of a solid as triangles.
 
@@ -267,6 +280,23 @@ class Result(Stored):
             raise LigamentError(f"lines of cracks are those of a body in the plane, and this one is a solid; {hint}", hint=hint)
         lines = self._run.cracks(self._run.step(_meant(step, time), False))
         return [CrackLine(points, (ends[0], ends[1]), length) for points, ends, length in lines]
+
+    def crack_opening(
+        self,
+        start: tuple[float, float],
+        end: tuple[float, float],
+        step: Step | None = None,
+        *,
+        time: float | None = None,
+        samples: int = 101,
+    ) -> CrackOpening:
+        """How far a straight crack of a body in the plane opens along a line between two places in m, in a step with fields.
+
+        The displacement of a side is that of its points within a horizon of the place.
+        """
+        if samples < 2:
+            raise LigamentError(f"a line has two samples or more, not {samples}")
+        return CrackOpening(**self._run.openings(self._step(step, time), [list(start), list(end)], samples))
 
     def crack_surface(self, step: Step | None = None, *, time: float | None = None) -> CrackSurface:
         """The crack of a solid in a step, or at a time of a motion, as a surface, the last step where none is said.

@@ -823,8 +823,13 @@ class Probe(TypedDict, total=False):
     section: Sequence[Numbers]
     """A line, m, through which the bonds carry a force, N; in a solid a point of a plane and one before it along its normal; with
 `component`."""
+    group: str
+    """A group: with `field` the mean of the field over the volume of its points, with `component` the force that supports and loads exert
+on them."""
+    tip: Numbers
+    """The end of a straight pre-crack in the plane, m; with `quantity`."""
     component: Literal["x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z"]
-    """The component that `between` (m or rad) or `section` (N; `x`, `y`, or `z` in a solid) reads.
+    """The component that `between` (m or rad), `section` (N; `x`, `y`, or `z` in a solid) or `group` (N or N m) reads.
 
 - `x`: Displacement along x, m.
 - `y`: Displacement along y, m.
@@ -833,8 +838,8 @@ class Probe(TypedDict, total=False):
 - `rotation_x`: Rotation about x in a solid, rad, right-handed.
 - `rotation_y`: Rotation about y in a solid, rad, right-handed.
 - `rotation_z`: Rotation about z in a solid, rad, right-handed."""
-    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "stress_effective.xx", "stress_effective.yy", "stress_effective.xy", "stress_effective.zz", "stress_effective.xz", "stress_effective.yz", "stress_effective_principal.1", "stress_effective_principal.2", "stress_effective_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "velocity_x", "velocity_y", "velocity_z", "acceleration_x", "acceleration_y", "acceleration_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz"]
-    """The field that is read `at` the position.
+    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "stress_effective.xx", "stress_effective.yy", "stress_effective.xy", "stress_effective.zz", "stress_effective.xz", "stress_effective.yz", "stress_effective_principal.1", "stress_effective_principal.2", "stress_effective_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "velocity_x", "velocity_y", "velocity_z", "acceleration_x", "acceleration_y", "acceleration_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz", "strain.xx", "strain.yy", "strain.xy", "strain.zz", "strain.xz", "strain.yz"]
+    """The field that is read `at` the position or in the `group`.
 
 - `damage`: Share of the point's bonds that are broken, weighted with volumes, 0 to 1.
 - `strain_energy_density`: Strain energy density, J/m^3: energy stored in the point's bonds, half of each.
@@ -877,7 +882,21 @@ class Probe(TypedDict, total=False):
 - `stress_xy`: Virial stress xy, Pa.
 - `stress_zz`: Virial stress zz of a solid, Pa.
 - `stress_xz`: Virial stress xz of a solid, Pa.
-- `stress_yz`: Virial stress yz of a solid, Pa."""
+- `stress_yz`: Virial stress yz of a solid, Pa.
+- `strain.xx`: Strain xx of the bonds that are left, with that by temperature.
+- `strain.yy`: Strain yy.
+- `strain.xy`: Shear strain xy, as the angle by which a right one changes.
+- `strain.zz`: Strain zz of a solid.
+- `strain.xz`: Shear strain xz of a solid.
+- `strain.yz`: Shear strain yz of a solid."""
+    quantity: Literal["J", "K_I", "K_II"]
+    """The quantity that is read at the `tip`.
+
+- `J`: Energy release rate, J/m^2.
+- `K_I`: Stress intensity factor of opening, Pa m^0.5.
+- `K_II`: Stress intensity factor of sliding, Pa m^0.5: positive where the left side of the crack, seen towards its tip, slides towards the tip."""
+    radii: Numbers
+    """The inner and the outer radius of the ring around the `tip` over which the quantity is integrated, m; without it two and four horizons."""
 
 
 class FractureStop(TypedDict, total=False):

@@ -18,7 +18,7 @@ class Charts {
     this.curve = chart("curve", "Force over displacement");
     this.size = chart("size", "Size of the cracks");
     this.speed = chart("speed", "Growth of the cracks over the time");
-    this.probes = chart("probes", "Probes over the time");
+    this.probes = chart("probes", "Probes over the steps");
     this.spent = chart("spent", "Energy spent on the cracks");
     this.energies = chart("energies", "Energies over the steps");
     this.broken = chart("broken", "Broken bonds over the steps");
@@ -148,7 +148,7 @@ class Charts {
     this.convergence.show({ series: residuals, xLabel, yLabel: "last residual", logarithmic: true, pick });
     const iterations = isStatic ? [] : over(told(["iterations", "rounds"]));
     this.iterations.show({ series: iterations, xLabel, yLabel: "in a step", pick });
-    const probes = [...run.history.values()].filter((it) => it.isProbe && run.time);
+    const probes = isStatic ? [] : [...run.history.values()].filter((it) => it.isProbe);
     const units = [...new Set(probes.map((it) => it.si))];
     options(this.probed, units.map((unit) => [unit, probes.filter((it) => it.si === unit).map((it) => inWords(it.name)).join(", ")]));
     document.getElementById("probed-label").hidden = units.length < 2;
@@ -162,7 +162,7 @@ class Charts {
 
   // Probes of one unit over the time.
   showProbes(run) {
-    const probes = [...run.history.values()].filter((it) => it.isProbe && run.time && it.si === this.probed.value);
+    const probes = [...run.history.values()].filter((it) => it.isProbe && it.si === this.probed.value);
     const largest = Math.min(...probes.map((it) => it.shift));
     const { unit } = probes.find((it) => it.shift === largest) ?? {};
     const { x, label: xLabel } = run.axis;

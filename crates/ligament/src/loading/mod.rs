@@ -10,6 +10,7 @@ mod programme;
 mod restraints;
 mod samples;
 mod temperature;
+mod tips;
 mod vibration;
 
 use std::sync::Arc;
@@ -79,8 +80,9 @@ impl Loading {
         require_rotational_stiffness::<D>(setup, &boundary, system)?;
         let places = Places { setup, cloud };
         places.require_probes_on_body()?;
-        let probes = (setup.probes.iter()).map(|it| probes::on(it, setup, system));
-        let probes: Arc<[Probe]> = probes.collect();
+        let numbered = setup.probes.iter().enumerate();
+        let probes = numbered.map(|it| probes::on(it, places, system));
+        let probes: Arc<[Probe]> = probes.collect::<Result<_, _>>()?;
         require_crossed_sections(setup, &probes, system)?;
         let staged = staged(setup, system, &probes)?;
         let (in_time, inertia) = match setup.analysis.is_motion() {

@@ -4,7 +4,7 @@ use ligament_model::PointCloud;
 
 use crate::coordinates::{in_dimensions, narrowed};
 use crate::error::{Fault, Field, SetupError};
-use crate::setup::{CrackShape, Place, Reading, Setup};
+use crate::setup::{CrackShape, Place, Setup};
 
 /// A setup and the points of its body, which resolve places.
 #[derive(Clone, Copy)]
@@ -43,12 +43,7 @@ impl<const D: usize> Places<'_, D> {
     pub(super) fn require_probes_on_body(&self) -> Result<(), SetupError> {
         for (index, probe) in self.setup.probes.iter().enumerate() {
             let field = Field::element("probes", index).part("reading");
-            let positions = match &probe.reading {
-                Reading::At { position, .. } => std::slice::from_ref(position),
-                Reading::Between { positions, .. } => positions,
-                Reading::Section { .. } => &[],
-            };
-            for position in positions {
+            for position in probe.reading.positions() {
                 let position = narrowed(*position);
                 let nearest = self.cloud.nearest_point(position);
                 self.require_on_body(field, position, nearest)?;
@@ -104,11 +99,13 @@ pub(crate) fn points_known_to_all<const D: usize>(
     for (index, load) in setup.loads.iter().enumerate() {
         known.extend(places.points(Field::element("loads", index), &load.place)?);
     }
-    let positions = setup.probes.iter().flat_map(|probe| match &probe.reading {
-        Reading::At { position, .. } => std::slice::from_ref(position),
-        Reading::Between { positions, .. } => positions,
-        Reading::Section { .. } => &[],
-    });
+    for (index, probe) in setup.probes.iter().enumerate() {
+        if let Some(group) = probe.reading.group() {
+            let place = Place::Group(group.clone());
+            known.extend(places.points(Field::element("probes", index), &place)?);
+        }
+    }
+    let positions = setup.probes.iter().flat_map(|it| it.reading.positions());
     for position in positions.map(|it| narrowed(*it)) {
         known.push(cloud.nearest_point(position));
         let around = body.interpolation_weights(position).unwrap_or_default();

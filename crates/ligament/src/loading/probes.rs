@@ -7,40 +7,75 @@ use ligament_model::tensor::{dot, minus};
 use ligament_model::{BondSet, BondSystem, Horizons, PointCloud, System};
 
 use crate::coordinates::{in_dimensions, narrowed};
+use crate::error::{Field, SetupError};
 use crate::precracks::cracks;
-use crate::setup::{Position, Probe, Reading, Setup};
+use crate::setup::{Place, Position, Probe, Reading, Setup};
+
+use super::places::Places;
+use super::tips;
 
 /// A horizon larger than the coordinates of any mesh, m.
 const EVERYWHERE: f64 = 1e120;
 
-/// A probe on the points and bonds of the model of a setup.
+/// A probe with its number on the points and bonds of the model of a setup.
+///
+/// # Errors
+///
+/// If the body has no group of its name, or nothing can be read at its tip.
 pub(super) fn on<const D: usize>(
-    probe: &Probe,
-    setup: &Setup,
+    (index, probe): (usize, &Probe),
+    places: Places<'_, D>,
     system: &dyn System<D>,
-) -> probe::Probe {
+) -> Result<probe::Probe, SetupError> {
+    let (setup, field) = (places.setup, Field::element("probes", index));
     let shares = |position: Position| shares(narrowed(position), setup, &system.cloud);
-    let reading = match probe.reading {
-        Reading::Between {
+    let points = |group: &String| places.points(field, &Place::Group(group.clone()));
+    let reading = match &probe.reading {
+        &Reading::Between {
             positions,
             component,
         } => probe::Reading::RelativeDisplacement {
             places: positions.map(shares),
             component,
         },
-        Reading::At { position, field } => probe::Reading::Field {
+        &Reading::At { position, field } => probe::Reading::Field {
             place: shares(position),
             field,
         },
-        Reading::Section { line, component } => probe::Reading::SectionForce {
+        &Reading::Section { line, component } => probe::Reading::SectionForce {
             bonds: crossing(system, line.map(narrowed)),
             component: component.displacement(),
         },
+        Reading::Mean { group, field } => probe::Reading::Field {
+            place: by_volume(points(group)?, &system.cloud),
+            field: *field,
+        },
+        Reading::Force { group, component } => probe::Reading::Force {
+            points: points(group)?,
+            component: *component,
+        },
+        &Reading::Tip {
+            position,
+            quantity,
+            radii,
+        } => {
+            let integral = tips::integral(narrowed(position), quantity, radii, setup, system);
+            probe::Reading::Tip(integral.map_err(|fault| field.part("reading").error(fault))?)
+        }
     };
-    probe::Probe {
+    Ok(probe::Probe {
         name: probe.name.clone(),
         reading,
-    }
+    })
+}
+
+/// Points with their shares of the volume of all of them; collective.
+fn by_volume<const D: usize>(points: Vec<u32>, cloud: &PointCloud<D>) -> Vec<(u32, f64)> {
+    let volume = |point: &u32| cloud.volumes[*point as usize];
+    let owned = points.iter().filter(|it| cloud.subdomain.owns(**it));
+    let whole = cloud.subdomain.sum(owned.map(volume).sum());
+    let share = |point: u32| (point, volume(&point) / whole);
+    points.into_iter().map(share).collect()
 }
 
 /// Points and their weights in a reading at a position (m): the points of the cell around it, or the nearest point outside of the cells.

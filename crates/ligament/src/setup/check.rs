@@ -327,6 +327,16 @@ impl Setup {
                 let found = ends.map(|it| it[..self.body.dimensions()].to_vec());
                 require(ends[0] != ends[1], field, "two different points", found)?;
             }
+            if let Reading::Tip {
+                radii: Some([inner, outer]),
+                ..
+            } = probe.reading
+            {
+                let radii = Field::element("probes", index).part("radii");
+                let expected = "an inner radius above 0 and a larger outer one";
+                let grows = 0.0 < inner && inner < outer && outer.is_finite();
+                require(grows, radii, expected, [inner, outer])?;
+            }
         }
         Ok(())
     }

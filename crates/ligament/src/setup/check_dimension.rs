@@ -1,7 +1,7 @@
 //! Checks that the settings of a setup exist in the dimension of its body and suit its law.
 
 use ligament_analysis::Component;
-use ligament_analysis::probe::{PointField, PointReading};
+use ligament_analysis::probe::PointReading;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::law::{BondLaw, listed, orthotropic, suited};
@@ -26,6 +26,9 @@ const ACROSS_PLANE: usize = SymTensor::<2>::NAMES.len();
 
 /// Message about a component of the stress that bodies in the plane do not have.
 const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress; zz is known in plane strain, of isotropic materials";
+
+/// Message about tips of cracks in a solid.
+const NO_TIPS_OF_SOLIDS: &str = "tips of cracks are read in bodies in the plane alone";
 
 /// Message about a component of motion that points in a space do not have.
 fn no_motion(space: Space) -> &'static str {
@@ -176,38 +179,37 @@ impl Setup {
                     return contradiction(probed.part("component"), NO_Z);
                 }
                 Reading::Between { component, .. } => (component, "component"),
-                Reading::At {
-                    field:
-                        PointField {
-                            reading: PointReading::Motion(component),
-                            ..
-                        },
-                    ..
-                } => (component, "field"),
-                Reading::At {
-                    field:
-                        PointField {
-                            reading:
-                                PointReading::MaterialStress {
-                                    in_plane: false,
-                                    component,
-                                    ..
-                                },
-                            ..
-                        },
-                    ..
-                } if self.dimensions() == 2
-                    && !(component == ACROSS_PLANE && self.has_stress_across_plane()) =>
-                {
-                    return contradiction(probed.part("field"), ONLY_OF_SOLIDS);
+                Reading::Force { component, .. } => (component, "component"),
+                Reading::Tip { .. } if self.dimensions() > 2 => {
+                    return contradiction(probed.part("reading"), NO_TIPS_OF_SOLIDS);
                 }
-                Reading::At { .. } | Reading::Section { .. } => continue,
+                Reading::At { field, .. } | Reading::Mean { field, .. } => match field.reading {
+                    PointReading::Motion(component) => (component, "field"),
+                    _ if self.dimensions() == 2 && self.lacks(&field.reading) => {
+                        return contradiction(probed.part("field"), ONLY_OF_SOLIDS);
+                    }
+                    _ => continue,
+                },
+                Reading::Section { .. } | Reading::Tip { .. } => continue,
             };
             if !components.contains(&component) {
                 return contradiction(probed.part(part), no_motion(self.space()));
             }
         }
         Ok(())
+    }
+
+    /// Whether a body in the plane lacks what a probe reads: a stress or a strain out of the plane.
+    fn lacks(&self, reading: &PointReading) -> bool {
+        match *reading {
+            PointReading::MaterialStress {
+                in_plane: false,
+                component,
+                ..
+            } => !(component == ACROSS_PLANE && self.has_stress_across_plane()),
+            PointReading::Strain(component) => component as usize >= ACROSS_PLANE,
+            _ => false,
+        }
     }
 
     /// Whether a vector or a position of a body in the plane has a z coordinate other than zero.
@@ -232,9 +234,9 @@ impl Setup {
         }
         for (index, probe) in self.probes.iter().enumerate() {
             let positions = match &probe.reading {
-                Reading::At { position, .. } => std::slice::from_ref(position),
-                Reading::Between { positions, .. } => positions,
                 Reading::Section { line, .. } => line,
+                Reading::Tip { position, .. } => std::slice::from_ref(position),
+                reading => reading.positions(),
             };
             if positions.iter().any(|it| self.leaves_plane(it)) {
                 return contradiction(Field::element("probes", index).part("reading"), NO_Z);

@@ -9,7 +9,9 @@ use ligament_model::material::Space;
 use ligament_model::scatter::Scattered;
 
 use super::check::{Checked, contradiction};
-use super::{Action, Analysis, ContactLaw, Horizon, Load, Quantity, Rigid, Setup, Support};
+use super::{
+    Action, Analysis, ContactLaw, Horizon, Load, Probe, Quantity, Reading, Rigid, Setup, Support,
+};
 use crate::body::Origin;
 use crate::error::Field;
 use crate::plausibility::singular_place;
@@ -168,6 +170,10 @@ features! {
     CONTROL_BY_ENERGY = "control by the dissipated energy", |it| {
         control(it, |it| matches!(it, Quantity::DissipatedEnergy))
     };
+    TIPS = "probes of a tip", |it| {
+        let is_tip = |it: &Probe| matches!(it.reading, Reading::Tip { .. });
+        Some(first("probes", &it.probes, is_tip)?.part("reading"))
+    };
     TEMPERATURES = "changes of temperature", |it| when(!it.temperatures.is_empty(), "temperatures");
     AMPLITUDES = "amplitudes of loads", |it| {
         Some(first("loads", &it.loads, |it| it.amplitude.is_some())?.part("amplitude"))
@@ -315,6 +321,9 @@ pub static NOT_TOGETHER: &[Exclusion] = pairs! {
         wherever the mesh is coarse: give a pre-crack, or a criterion of stress";
     GROWING_NEAR_FIELD, NO_BREAKAGE, "far-field.md", "nothing breaks in this analysis, so that elements need not become bonds: remove it, and give places in \
         `near`";
+    TIPS, MOTION, "cracks.md", "the integral around the tip is that of equilibria, without inertia: read stresses or energies instead";
+    TIPS, TEMPERATURES, "cracks.md", "the integral around the tip is that of a body without strains by temperature: read stresses or energies instead";
+    TIPS, FRICTION_OF_FACES, "cracks.md", "the integral around the tip is that of faces without friction: remove it";
     STAGES, MOTION, "motion.md", "a motion has no stages: let each load follow its `amplitude`";
     TEMPERATURES, MOTION, "motion.md", "a motion takes no changes of temperature, which would act at once at time zero";
     INCLINED_ROLLERS, EXPLICIT_STEPS, "motion.md", "an inclined roller is held by springs so stiff that explicit steps would be a thousand times \

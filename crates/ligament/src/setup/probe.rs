@@ -2,6 +2,7 @@
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{PointField, PointReading};
+use ligament_model::stress::domain_integral::TipQuantity;
 
 use super::conditions::{Axis, Position};
 
@@ -15,7 +16,7 @@ pub struct Probe {
 }
 
 /// Quantity that a probe reads.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Reading {
     /// Displacement of one point relative to another.
     Between {
@@ -40,21 +41,61 @@ pub enum Reading {
         /// Component read, N.
         component: Axis,
     },
+    /// The mean of a field over the volume of a group.
+    Mean {
+        /// Name of the group.
+        group: String,
+        /// Field read.
+        field: PointField,
+    },
+    /// The force of supports and loads on a group.
+    Force {
+        /// Name of the group.
+        group: String,
+        /// Component read: a force, N, or the sum of the moments on the points, N m.
+        component: Component,
+    },
+    /// A quantity at the tip of a straight pre-crack in the plane.
+    Tip {
+        /// Position of the tip, an end of a pre-crack, m.
+        position: Position,
+        /// Quantity read.
+        quantity: TipQuantity,
+        /// Radii of the ring around the tip over which the quantity is integrated, m; without them two and four horizons.
+        radii: Option<[f64; 2]>,
+    },
 }
 
 impl Reading {
     /// Whether the quantity is a virial stress.
     pub(crate) fn is_stress(&self) -> bool {
         let is_stress = |it: &PointField| matches!(it.reading, PointReading::Stress(_));
-        matches!(self, Self::At { field, .. } if is_stress(field))
+        matches!(self, Self::At { field, .. } | Self::Mean { field, .. } if is_stress(field))
     }
 
     /// Whether the quantity is a motion of points, or a difference of motions.
     pub(crate) fn is_motion(&self) -> bool {
         match self {
             Self::Between { .. } => true,
-            Self::At { field, .. } => field.is_motion(),
-            Self::Section { .. } => false,
+            Self::At { field, .. } | Self::Mean { field, .. } => field.is_motion(),
+            Self::Section { .. } | Self::Force { .. } | Self::Tip { .. } => false,
+        }
+    }
+
+    /// Positions between whose points the quantity is read, m.
+    pub(crate) fn positions(&self) -> &[Position] {
+        match self {
+            Self::At { position, .. } => std::slice::from_ref(position),
+            Self::Between { positions, .. } => positions,
+            _ => &[],
+        }
+    }
+
+    /// Group over which the quantity is read.
+    pub(crate) fn group(&self) -> Option<&String> {
+        match self {
+            Self::Mean { group, .. } | Self::Force { group, .. } => Some(group),
+            _ => None,
         }
     }
 }
