@@ -13,7 +13,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-analysis", 201_973),
     ("ligament-case", 79_965),
     ("ligament-cli", 59_158),
-    ("ligament-linalg", 22_578),
+    ("ligament-linalg", 23_706),
     ("ligament-mesh", 84_877),
     ("ligament-model", 224_908),
     ("ligament-output", 74_703),
