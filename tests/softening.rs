@@ -124,6 +124,61 @@ fn a_bond_follows_its_law() {
     }
 }
 
+/// Points on a line, with a rod that softens along a straight line between neighbours and an elastic rod beside each pair of them. While all
+/// soft rods are loaded further, the forces are linear in the displacements, and so a correction by the tangents of the rods is exact. A step
+/// much longer than the one before is not extrapolated: its first correction only brings the motion of the support to the other points.
+#[test]
+fn a_correction_on_straight_branches_is_exact() {
+    let n = 8;
+    let soft = (0..n - 1).map(|near| Rod {
+        ends: [near, near + 1],
+        stiffness: 6.0 + f64::from(near),
+        critical_elongation: 0.5 * LIMIT,
+    });
+    let elastic = (0..n - 2).map(|near| Rod {
+        ends: [near, near + 2],
+        stiffness: 9.0 - f64::from(near),
+        critical_elongation: f64::INFINITY,
+    });
+    let rods: Vec<Rod> = soft.chain(elastic).collect();
+    let places: Vec<f64> = (0..n).map(f64::from).collect();
+    let mut truss = Truss::new(&places, &rods, ControlKind::Displacement, n - 1);
+    truss.hold(&[0, n - 1]);
+    truss.boundary.prescribed[3 * (n - 1) as usize] = Some(1.0);
+    let inner: Vec<u32> = (1..n - 1).collect();
+    for component in [Component::Y, Component::Rotation] {
+        truss.boundary.prescribe(&inner, component, 0.0).unwrap();
+    }
+    let end = 9.0;
+    truss.criteria.list[0].after = AfterLimit::new(linear::LAW, vec![end; rods.len()]);
+    let (outcome, _) = truss.step(&settings(vec![1.0, 1.01, 1.2]));
+    let [.., before, last] = outcome.history.as_slice() else {
+        panic!("{outcome:?}");
+    };
+    assert!(last.solves <= 2, "{}", last.solves);
+    // Softening by straight lines: the reaction is linear in the motion, with the stiffness of the tangents of the rods.
+    let mut stiffness = nalgebra::DMatrix::<f64>::zeros(n as usize, n as usize);
+    for rod in &rods {
+        let falls = rod.critical_elongation.is_finite();
+        let tangent = if falls {
+            -rod.stiffness / (end - 1.0)
+        } else {
+            rod.stiffness
+        };
+        let [a, b] = rod.ends.map(|end| end as usize);
+        for (row, column, sign) in [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)] {
+            stiffness[(row, column)] += sign * tangent;
+        }
+    }
+    let (first, m) = (0, n as usize - 1);
+    let inner = stiffness.view((1, 1), (m - 1, m - 1)).into_owned();
+    let coupling = stiffness.view((1, m), (m - 1, 1)).into_owned();
+    let moved = inner.lu().solve(&coupling).unwrap();
+    let whole = stiffness[(m, m)] - (coupling.transpose() * moved)[(first, first)];
+    let slope = (last.reaction - before.reaction) / (last.displacement - before.displacement);
+    assert!((slope / whole - 1.0).abs() < 1e-7, "{slope} {whole}");
+}
+
 /// What the whole life of the bond takes: areas under the laws, 1/2 k e_0^2 r and k e_0^2 (1/2 + f (1 - last force)).
 #[test]
 fn the_whole_life_takes_the_area_under_the_law() {

@@ -8,6 +8,7 @@ mod dissipating;
 mod earlier_equilibria;
 mod equations;
 mod external;
+mod falling;
 mod intact;
 mod iteration;
 mod line;

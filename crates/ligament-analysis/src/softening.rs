@@ -20,6 +20,9 @@ use crate::serial::{Serial, Sink};
 /// Relative difference from its extreme below which a bond counts as at its extreme.
 const SAME: f64 = 1e-9;
 
+/// Relative increase of a deformation over which the slope of a law of softening is taken.
+const NEXT: f64 = 1e-6;
+
 /// State of bonds beyond their limits; empty where no bond softens.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Softening {
@@ -226,6 +229,31 @@ impl Softening {
         let own = &criteria.list[place];
         let variables = self.variables.get(place);
         variables.map_or(&own.after, |it| it.after(own))
+    }
+
+    /// Criterion that weakens a bond most, and the change of its secant with ln(e) in further loading; None for a bond that is within its
+    /// largest deformation.
+    pub(crate) fn fall(
+        &self,
+        criteria: &CriteriaInState<'_>,
+        bond: usize,
+        deformation: &BondDeformation,
+    ) -> Option<(usize, f64)> {
+        let trial = self.trial.iter().enumerate();
+        let beyond = trial.filter_map(|(place, trial)| {
+            let largest = trial.get(bond).filter(|it| **it > 1.0)?;
+            Some((
+                place,
+                *largest,
+                criteria.after(place).at(bond, *largest).secant,
+            ))
+        });
+        let (place, largest, secant) = beyond.min_by(|one, other| one.2.total_cmp(&other.2))?;
+        let after = criteria.after(place);
+        let now = criteria.utilisation_by(place, bond, deformation);
+        let is_loaded = after.extreme(bond, now)? >= largest * (1.0 - SAME);
+        let next = after.extreme(bond, largest * (1.0 + NEXT))?;
+        is_loaded.then(|| (place, (after.at(bond, next).secant - secant) / NEXT))
     }
 
     /// Softening of a bond under a criterion, by its extreme in equilibrium; undamaged for a criterion that does not soften.

@@ -18,6 +18,7 @@ use crate::contact::resisting::Resisting;
 use crate::costs::Costs;
 use crate::serial::Sink;
 use crate::state::State;
+use ligament_model::element::Term;
 use ligament_model::thermal::ThermalStrain;
 
 /// Share of its diagonal that an added support adds where faces close: enough to make a detached part definite, and little enough
@@ -93,6 +94,12 @@ pub(crate) trait TangentSolver {
     /// Updates the solver for the softening of bonds.
     fn update_for_softening(&mut self, state: &State, costs: &mut Costs);
 
+    /// Adds to K the [falling stiffness](crate::equilibrium::falling) of softening bonds, with their local numbers, in place of that added
+    /// before, for a solver whose factor can have it. Returns whether K changes.
+    fn fall(&mut self, _falling: Vec<(u32, Term)>) -> bool {
+        false
+    }
+
     /// Updates the solver for the motions that contacts resist, in the order of the keys; does nothing where there can be no contact.
     fn close(&mut self, resisting: Vec<Resisting>, costs: &mut Costs);
 
@@ -116,6 +123,22 @@ pub(crate) trait TangentSolver {
         left: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved>;
+
+    /// Corrections for two residual forces, like [`TangentSolver::solve`].
+    ///
+    /// # Errors
+    ///
+    /// As in [`TangentSolver::solve`].
+    fn solve_both(
+        &mut self,
+        state: &State,
+        [one, other]: [Vec<f64>; 2],
+        left: AllowedResidual,
+        costs: &mut Costs,
+    ) -> Result<[Vec<f64>; 2], Unsolved> {
+        let one = self.solve(state, one, left.clone(), costs)?;
+        Ok([one, self.solve(state, other, left, costs)?])
+    }
 
     /// Relative residual to which an iterative solver solves after a breakage; none for a direct one.
     fn tolerance(&self) -> Option<f64>;

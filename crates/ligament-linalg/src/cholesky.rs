@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::digest::digest;
 use crate::factorisation::{FactorError, Factorisation, ForwardSubstituted, Inertia, RankOne};
 use crate::left_looking::LeftLooking;
@@ -20,6 +22,9 @@ pub(crate) struct Cholesky {
     /// Diagonal of the matrix in the order of elimination, shape (n).
     diagonal: Vec<DiagonalEntry>,
     negative_pivots: usize,
+    /// Digest of the entries of the matrix in the columns of each supernode from which its panel was computed, shape (n_supernodes); None
+    /// for a panel that was changed since, or was not computed.
+    made_from: Vec<Option<u64>>,
     /// Working memory of updates in place, made at the first update.
     modification: Option<Modification>,
 }
@@ -30,6 +35,7 @@ impl Cholesky {
         Ok(Self {
             kind,
             values: zeros(symbolic.cholesky.len_val())?,
+            made_from: vec![None; symbolic.supernodes().len()],
             symbolic,
             diagonal: Vec::new(),
             negative_pivots: 0,
@@ -55,6 +61,50 @@ impl Cholesky {
         self.negative_pivots = diagonal.iter().filter(|pivot| **pivot < 0.0).count();
     }
 
+    /// Supernodes whose panels differ from those of a matrix, shape (n_supernodes): those with other entries, those changed in place, and
+    /// all on the paths from these to the root. Their panels are to be computed from the matrix.
+    fn outdated(&mut self, matrix: &SymmetricMatrix) -> Vec<bool> {
+        let supernodes = self.symbolic.supernodes();
+        let of_row = supernodes.supernode_of_rows();
+        let entries = |supernode: usize| {
+            let columns = supernodes.columns(supernode);
+            let entries = columns.flat_map(|it| self.symbolic.sources().column_entries(it));
+            let values = entries.map(|&[_, place]| matrix.values[place as usize]);
+            Some(digest(&values.collect::<Vec<f64>>()))
+        };
+        let numbers = (0..supernodes.len()).into_par_iter();
+        let digests: Vec<Option<u64>> = numbers.map(entries).collect();
+        let both = digests.iter().zip(&self.made_from);
+        let mut outdated: Vec<bool> = both.map(|(one, other)| one != other).collect();
+        for supernode in 0..supernodes.len() {
+            if let (true, Some(&parent_row)) = (
+                outdated[supernode],
+                supernodes.rows_below(supernode).first(),
+            ) {
+                outdated[of_row[parent_row] as usize] = true;
+            }
+        }
+        self.made_from = digests;
+        outdated
+    }
+
+    /// Solves A x = b in place for N right-hand sides b of shape (n) in one pass over the factor.
+    fn solve_all<const N: usize>(&self, right_hand_sides: [&mut [f64]; N]) {
+        let unknowns = self.symbolic.unknown_of_row();
+        let in_order = |it: &&mut [f64]| unknowns.iter().map(|&i| it[i]).collect::<Vec<f64>>();
+        let mut vectors = right_hand_sides.each_ref().map(in_order);
+        let branch = self.symbolic.branch();
+        let all = vectors.each_mut().map(Vec::as_mut_slice);
+        solve_forward(self.panels(), branch, all);
+        let all = vectors.each_mut().map(Vec::as_mut_slice);
+        solve_backward(self.panels(), branch, all);
+        for (right_hand_side, vector) in right_hand_sides.into_iter().zip(vectors) {
+            for (&unknown, value) in unknowns.iter().zip(vector) {
+                right_hand_side[unknown] = value;
+            }
+        }
+    }
+
     fn panels(&self) -> Panels<'_> {
         Panels {
             kind: self.kind,
@@ -67,13 +117,20 @@ impl Cholesky {
 impl Factorisation for Cholesky {
     fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError> {
         debug_assert_eq!(matrix.pattern(), self.symbolic.pattern());
+        let outdated = self.outdated(matrix);
         let left_looking = LeftLooking {
             kind: self.kind,
             symbolic: &self.symbolic,
             matrix: &matrix.values,
+            outdated: &outdated,
         };
         let factorised = left_looking.factorise(&mut self.values);
-        factorised.map_err(|row| self.invalid_pivot_error(row))?;
+        if let Err(row) = factorised {
+            let both = self.made_from.iter_mut().zip(outdated);
+            both.filter(|(_, outdated)| *outdated)
+                .for_each(|(made_from, _)| *made_from = None);
+            return Err(self.invalid_pivot_error(row));
+        }
         self.finish_factorisation(matrix);
         Ok(())
     }
@@ -102,6 +159,7 @@ impl Factorisation for Cholesky {
             values: self.values.clone(),
             diagonal: self.diagonal.clone(),
             negative_pivots: self.negative_pivots,
+            made_from: self.made_from.clone(),
             modification: None,
         })
     }
@@ -111,13 +169,11 @@ impl Factorisation for Cholesky {
     }
 
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]) {
-        let unknowns = self.symbolic.unknown_of_row();
-        let mut vector: Vec<f64> = unknowns.iter().map(|&i| right_hand_side[i]).collect();
-        solve_forward(self.panels(), self.symbolic.branch(), &mut vector);
-        solve_backward(self.panels(), self.symbolic.branch(), &mut vector);
-        for (&unknown, value) in unknowns.iter().zip(vector) {
-            right_hand_side[unknown] = value;
-        }
+        self.solve_all([right_hand_side]);
+    }
+
+    fn solve_both_in_place(&mut self, right_hand_sides: [&mut [f64]; 2]) {
+        self.solve_all(right_hand_sides);
     }
 
     fn change(
@@ -141,6 +197,7 @@ impl Factorisation for Cholesky {
             values: &mut self.values,
             diagonal: &mut self.diagonal,
             negative_pivots: &mut self.negative_pivots,
+            made_from: &mut self.made_from,
         };
         modification
             .apply(&mut target, terms, rows, &mut vector, &rows_of_b)
@@ -149,13 +206,13 @@ impl Factorisation for Cholesky {
     }
 
     fn finish(&self, ForwardSubstituted(mut vector): ForwardSubstituted) -> Vec<f64> {
-        solve_backward(self.panels(), self.symbolic.branch(), &mut vector);
+        solve_backward(self.panels(), self.symbolic.branch(), [&mut vector]);
         let rows = self.symbolic.row_of_unknown();
         rows.iter().map(|&row| vector[row]).collect()
     }
 
     fn solve_backward_part(&self, part: &Part, vector: &mut [f64]) {
-        solve_backward_in(self.panels(), part.supernodes.clone(), vector);
+        solve_backward_in(self.panels(), part.supernodes.clone(), [vector]);
     }
 }
 

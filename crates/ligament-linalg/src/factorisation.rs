@@ -8,11 +8,18 @@ use crate::parts::Part;
 
 /// A factorised symmetric matrix.
 pub trait Factorisation: Send + Sync {
-    /// Factorises a matrix with other values over the same pattern. After an error the factor must not be used before another call succeeds.
+    /// Factorises a matrix with other values over the same pattern. Only the columns of the factor that differ are computed: those on the
+    /// paths of the elimination tree from changed columns of the matrix to the root. They have the bits of a new factor.
+    ///
+    /// After an error the factor must not be used before another call succeeds.
     fn refactorise(&mut self, matrix: &SymmetricMatrix) -> Result<(), FactorError>;
 
     /// Solves A x = b in place, b of shape (n).
     fn solve_in_place(&mut self, right_hand_side: &mut [f64]);
+
+    /// Solves A x = b in place for two b of shape (n) in one pass over the factor, to the bits of
+    /// [`solve_in_place`](Factorisation::solve_in_place). A pass takes its time to read the factor, so the second solution costs little.
+    fn solve_both_in_place(&mut self, right_hand_sides: [&mut [f64]; 2]);
 
     /// Adds the terms c w w^T to the matrix A by updating its factor in place, and does the forward substitution of A' x = b for a sparse b,
     /// given as (unknown, value).

@@ -22,6 +22,8 @@ pub(crate) struct LeftLooking<'a> {
     pub(crate) symbolic: &'a Symbolic,
     /// Values of the matrix in the order of its pattern.
     pub(crate) matrix: &'a [f64],
+    /// Supernodes whose panels are computed, with all that they update, shape (n_supernodes); the other panels are those of the matrix.
+    pub(crate) outdated: &'a [bool],
 }
 
 impl LeftLooking<'_> {
@@ -49,8 +51,9 @@ impl LeftLooking<'_> {
             .map(|(part, values)| self.branch(part, values))
             .collect();
         made.into_iter().collect::<Result<(), usize>>()?;
-        let mut place_of_row = vec![0; self.symbolic.pattern().dimension()];
-        for supernode in branch.stem.clone() {
+        let mut place_of_row = Vec::new();
+        for supernode in (branch.stem.clone()).filter(|it| self.outdated[*it]) {
+            place_of_row.resize(self.symbolic.pattern().dimension(), 0);
             let (before, rest) =
                 values.split_at_mut(supernodes.values_before(supernode) - first_value);
             let panel = &mut rest[..supernodes.panel(supernode).len()];

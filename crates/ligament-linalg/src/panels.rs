@@ -30,16 +30,17 @@ impl Panels<'_> {
         start..end
     }
 
-    /// Divides a vector into the rows of each of some consecutive branches; the vector begins with the rows of the first.
-    pub(crate) fn split<'a>(
+    /// Divides vectors into the rows of each of some consecutive branches; the vectors begin with the rows of the first.
+    pub(crate) fn split<'a, const N: usize>(
         self,
         branches: &[Branch],
-        vector: &'a mut [f64],
-    ) -> Vec<&'a mut [f64]> {
-        let mut rest = vector;
+        vectors: [&'a mut [f64]; N],
+    ) -> Vec<[&'a mut [f64]; N]> {
+        let mut rest = vectors;
         let mut split = |branch: &Branch| {
             let n_rows = self.rows(branch.supernodes()).len();
-            rest.split_off_mut(..n_rows).unwrap_or_default()
+            let rows = rest.each_mut();
+            rows.map(|it| it.split_off_mut(..n_rows).unwrap_or_default())
         };
         branches.iter().map(&mut split).collect()
     }

@@ -26,30 +26,33 @@ pub(super) struct Curvature {
 }
 
 impl Curvature {
-    /// Correction H r for a residual force r, both of shape (n_unknowns).
+    /// Corrections H r for N residual forces r, all of shape (n_unknowns).
     ///
     /// `dot` is the scalar product over all unknowns, and `solve` multiplies by the inverse of a stiffness near the tangent. H is
     /// that inverse after the BFGS updates by all recorded steps; it is positive definite if the stiffness is, and maps the change
     /// of the newest step to that step.
-    pub(super) fn correction(
+    pub(super) fn corrections<const N: usize>(
         &self,
-        force: &[f64],
+        mut forces: [Vec<f64>; N],
         dot: &dyn Fn(&[f64], &[f64]) -> f64,
-        solve: impl FnOnce(Vec<f64>) -> Result<Vec<f64>, Unbalanced>,
-    ) -> Result<Vec<f64>, Unbalanced> {
-        let mut force = force.to_vec();
+        solve: impl FnOnce([Vec<f64>; N]) -> Result<[Vec<f64>; N], Unbalanced>,
+    ) -> Result<[Vec<f64>; N], Unbalanced> {
         let mut shares = Vec::with_capacity(self.pairs.len());
         for pair in &self.pairs {
-            let share = dot(&pair.step, &force) / pair.work;
-            add(&mut force, -share, &pair.change);
-            shares.push(share);
+            shares.push(forces.each_mut().map(|force| {
+                let share = dot(&pair.step, force) / pair.work;
+                add(force, -share, &pair.change);
+                share
+            }));
         }
-        let mut correction = solve(force)?;
-        for (pair, share) in self.pairs.iter().zip(shares).rev() {
-            let given = dot(&pair.change, &correction) / pair.work;
-            add(&mut correction, share - given, &pair.step);
+        let mut corrections = solve(forces)?;
+        for (pair, shares) in self.pairs.iter().zip(shares).rev() {
+            for (correction, share) in corrections.iter_mut().zip(shares) {
+                let given = dot(&pair.change, correction) / pair.work;
+                add(correction, share - given, &pair.step);
+            }
         }
-        Ok(correction)
+        Ok(corrections)
     }
 
     /// Records a step, the change of the residual force (n_unknowns) and their scalar product. Steps of negative curvature are left
@@ -124,9 +127,9 @@ mod tests {
         let (mut u, mut force) = (vec![0.0; 3], vec![1.0, -2.0, 0.7]);
         for step in 0..3 {
             assert!(dot(&force, &force) > 1e-4, "too early: {step}");
-            let near = |it: Vec<f64>| Ok(vec![it[0], 0.3 * it[1], 2.0 * it[2]]);
-            let correction = curvature
-                .correction(&force, &dot, near)
+            let near = |[it]: [Vec<f64>; 1]| Ok([vec![it[0], 0.3 * it[1], 2.0 * it[2]]]);
+            let [correction] = curvature
+                .corrections([force.clone()], &dot, near)
                 .expect("a solution");
             let change = times_stiffness(&correction);
             let part = dot(&force, &correction) / dot(&correction, &change);
@@ -151,18 +154,18 @@ mod tests {
         let mut curvature = Curvature::default();
         curvature.learn(vec![1.0, 0.0], vec![-1.0, 0.5], -1.0);
         assert_eq!(
-            curvature.correction(&[3.0, 4.0], &dot, Ok),
-            Ok(vec![3.0, 4.0])
+            curvature.corrections([vec![3.0, 4.0]], &dot, Ok),
+            Ok([vec![3.0, 4.0]])
         );
         curvature.learn(vec![1.0, 0.0], vec![2.0, 0.0], 2.0);
         assert_eq!(
-            curvature.correction(&[3.0, 4.0], &dot, Ok),
-            Ok(vec![1.5, 4.0])
+            curvature.corrections([vec![3.0, 4.0]], &dot, Ok),
+            Ok([vec![1.5, 4.0]])
         );
         curvature.discard();
         assert_eq!(
-            curvature.correction(&[3.0, 4.0], &dot, Ok),
-            Ok(vec![3.0, 4.0])
+            curvature.corrections([vec![3.0, 4.0]], &dot, Ok),
+            Ok([vec![3.0, 4.0]])
         );
     }
 }

@@ -126,9 +126,18 @@ impl EarlierEquilibria {
         }
     }
 
-    /// Records an equilibrium; an equilibrium after a breakage replaces the one before it.
-    pub(super) fn learn(&mut self, state: &State, is_after_breakage: bool) {
-        if is_after_breakage {
+    /// Whether the last equilibrium has the load of a state, or the target value of a motion: then only bonds have changed since.
+    pub(super) fn has_load(&self, state: &State, target: Option<&Target>) -> bool {
+        let last = self.equilibria.last();
+        last.is_some_and(|last| match target {
+            None => last.load_factor == state.load_factor,
+            Some(target) => target.is_met(&last.displacement),
+        })
+    }
+
+    /// Records an equilibrium; one whose load is not new replaces the one before it.
+    pub(super) fn learn(&mut self, state: &State, is_new: bool) {
+        if !is_new {
             self.equilibria.pop();
         } else if self.equilibria.len() == 2 {
             self.equilibria.remove(0);

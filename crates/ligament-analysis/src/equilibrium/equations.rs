@@ -331,6 +331,22 @@ impl Equations {
         }
     }
 
+    /// Displacements K^-1 f for two forces f by a direct solver, see [`solve`](Self::solve).
+    pub(super) fn solve_both(
+        &mut self,
+        state: &State,
+        forces: [Vec<f64>; 2],
+        left: AllowedResidual,
+    ) -> Result<[Vec<f64>; 2], Unbalanced> {
+        let [one, other] = forces;
+        if self.solver.tolerance().is_some() {
+            let one = self.solve(state, one, left.clone())?;
+            return Ok([one, self.solve(state, other, left)?]);
+        }
+        let both = (self.solver).solve_both(state, [one, other], left, &mut self.costs);
+        both.map_err(|_| Unbalanced::NegativeCurvature)
+    }
+
     /// Measures the deformations, forces, residual and energy of a state.
     pub(super) fn measure(&mut self, state: &State) -> Iterate {
         let start = Instant::now();

@@ -35,6 +35,7 @@ pub(super) fn growth(
     state: &mut State,
     loads: &dyn LoadProgram,
 ) -> Result<Vec<f64>, Unbalanced> {
+    equations.solver.fall(Vec::new());
     equations.prepare_solver(state)?;
     let (prescribed, force) = rate(equations, state, loads);
     let mut line = at_one(state, prescribed);

@@ -2,6 +2,7 @@
 
 use super::earlier_equilibria::EarlierEquilibria;
 use super::equations::{Equations, Iterate};
+use super::falling;
 use super::iteration::{Iteration, Method};
 use super::line;
 use super::line_search;
@@ -31,6 +32,10 @@ const SOLVED: f64 = 0.3;
 /// Number of corrections for which an iterative solver solves for the growth with the load once.
 const GROWTH_EVERY: usize = 5;
 
+/// Number of corrections after which the falling stiffness is taken anew. A beam of 1,728 points took 761 corrections with 6 and 765 with
+/// 15, and 162 and 98 factorisations.
+const FALLING_FOR: usize = 15;
+
 /// Largest number of iterations of a solve.
 const ITERATION_LIMIT: usize = 1000;
 
@@ -56,20 +61,27 @@ const DIVERGING: (usize, f64) = (20, 1e6);
 /// Every iterate determines the remaining stiffness of the bonds. The secants are positive, so that the secant stiffness K_s is
 /// positive definite where the elastic one is; and since the energy of a bond is concave in the square of its deformation, the
 /// energy with the secants lies above the true one. A correction by K_s therefore lowers the potential energy, but is too short.
-/// Two measures lengthen it: the curvature along the last steps ([`Curvature`](super::curvature::Curvature)), including steps of
-/// earlier equilibria, and a line search ([`line_search`]). Both lower the energy and end in a stable equilibrium. The factor may
-/// differ from the secants, because both need only an approximate stiffness.
+/// Three measures lengthen it: the [falling stiffness](super::falling) of bonds that are loaded further, where the stiffness is still
+/// positive definite with it; the curvature along the last steps ([`Curvature`](super::curvature::Curvature)), including steps of
+/// earlier equilibria; and a line search ([`line_search`]). All lower the energy and end in a stable equilibrium. The factor may
+/// differ from the stiffness, because the last two need only an approximate one.
 ///
 /// A load step begins at the extrapolation of the last one if that has the smaller residual. Where faces close, nothing is used
-/// from earlier equilibria, and after a breakage no curvature. Otherwise the first correction takes the bonds of the last
-/// equilibrium, because bonds next to prescribed motions deform too much until their surroundings follow. The iteration ends by
-/// NHPD's energy rule (eq. 21) with a residual below 1e-8, or with a residual below 1e-10. Extremes of iterates do not count unless
+/// from earlier equilibria, and at the load of the last equilibrium, where bonds broke or began to soften, no curvature. Otherwise the
+/// first correction takes the bonds of the last equilibrium, because bonds next to prescribed motions deform too much until their
+/// surroundings follow. The iteration ends by NHPD's energy rule (eq. 21) with a residual below 1e-8, or with a residual below 1e-10. Extremes of iterates do not count unless
 /// equilibrium is reached ([`Softening::follow`](crate::softening::Softening::follow)).
 pub(super) struct Secant<'a> {
     target: Option<&'a Target>,
     earlier: EarlierEquilibria,
+    /// Whether the load differs from that of the last equilibrium.
+    is_new: bool,
     /// Growth of the state by which an earlier correction brought the motion to its value.
     growth: Option<Growth>,
+    /// Whether the next correction is the first one after a change of the load or of the bonds that soften.
+    begins: bool,
+    /// Number of corrections since the last change of the falling stiffness.
+    used: usize,
 }
 
 /// Growth of a state with the load factor.
@@ -93,21 +105,27 @@ struct Direction {
 
 impl Method for Secant<'_> {
     fn begin(&mut self, at: &mut Iteration<'_>) -> Iterate {
-        let is_new = at.breakage.bonds.is_empty();
         self.earlier = std::mem::take(&mut at.equations.earlier);
+        // Bonds that break or begin to soften do so at the load of the last equilibrium.
+        self.is_new = at.breakage.bonds.is_empty() && !self.earlier.has_load(at.state, self.target);
         // Pairs that close and open change the stiffness at once; and where one breakage causes another, curvature from before it would
         // affect where the drop ends.
         if at.equations.problem.may_press() {
             self.earlier = EarlierEquilibria::default();
-        } else if !is_new {
+        } else if !self.is_new {
             self.earlier.curvature.discard();
         }
         let iterate = at.begin();
         let is_small = at.is_small(&iterate, RESIDUAL_TOLERANCE);
-        if at.number > 0 || (is_small && self.target.is_none()) {
+        self.begins = at.breakage.bonds.is_empty();
+        // Bonds that begin to soften leave the forces as they are.
+        let is_beginning = self.begins && !self.is_new;
+        if at.number > 0 || is_beginning || (is_small && self.target.is_none()) {
             return softened(at.equations, at.state, false);
         }
-        let ahead = is_new.then(|| self.earlier.ahead(at.state, self.target));
+        let ahead = self
+            .is_new
+            .then(|| self.earlier.ahead(at.state, self.target));
         let Some(mut ahead) = ahead.flatten() else {
             return iterate;
         };
@@ -138,7 +156,7 @@ impl Method for Secant<'_> {
     fn settle(&mut self, at: &mut Iteration<'_>) {
         at.state.softening.settle();
         let mut earlier = std::mem::take(&mut self.earlier);
-        earlier.learn(at.state, !at.breakage.bonds.is_empty());
+        earlier.learn(at.state, self.is_new);
         at.equations.earlier = earlier;
     }
 
@@ -156,6 +174,7 @@ impl Method for Secant<'_> {
         iterate: &Iterate,
     ) -> Result<Iterate, Unbalanced> {
         let (equations, state) = (&mut *at.equations, &mut *at.state);
+        self.fall(equations, state, iterate);
         equations
             .solver
             .update_for_softening(state, &mut equations.costs);
@@ -184,13 +203,29 @@ impl<'a> Secant<'a> {
         Self {
             target,
             earlier: EarlierEquilibria::default(),
+            is_new: true,
             growth: None,
+            begins: false,
+            used: 0,
         }
     }
 
     /// Whether the prescribed motion has its value in a state.
     fn has_value(&self, state: &State) -> bool {
         (self.target).is_none_or(|it| it.is_met(&state.displacement))
+    }
+
+    /// Lets the stiffness of the bonds that are loaded further fall in the factor, at the beginning and where the iteration is slow.
+    fn fall(&mut self, equations: &mut Equations, state: &State, iterate: &Iterate) {
+        if equations.problem.may_press() || !(self.begins || self.used >= FALLING_FOR) {
+            self.used += 1;
+            return;
+        }
+        (self.begins, self.used) = (false, 1);
+        let falling = falling::terms(&equations.problem, state, &iterate.deformations);
+        if equations.solver.fall(falling) {
+            self.forget();
+        }
     }
 
     /// Discards the stiffness recorded by earlier corrections.
@@ -207,14 +242,34 @@ impl<'a> Secant<'a> {
         state: &State,
         mut force: Vec<f64>,
     ) -> Result<Direction, Unbalanced> {
-        let mut step = self.solved(equations, state, &force)?;
+        let subdomain = equations.subdomain().clone();
+        let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
+        let curvature = &self.earlier.curvature;
+        let left = AllowedResidual::Share(SOLVED);
+        let is_iterative = equations.solver.tolerance().is_some();
+        let mut recent = (self.growth.take()).filter(|it| is_iterative && it.used < GROWTH_EVERY);
+        let mut step;
         let mut load_change = 0.0;
-        if let Some(target) = self.target {
-            let is_iterative = equations.solver.tolerance().is_some();
-            let mut growth = match self.growth.take() {
-                Some(recent) if is_iterative && recent.used < GROWTH_EVERY => recent,
-                _ => self.grown(equations, state, target)?,
-            };
+        if let (Some(target), None) = (self.target, &recent) {
+            // Growth of the state with the load factor, for the bonds of the state.
+            let (mut motion, rate) = line::rate(equations, state, &*target.rate);
+            let both = [force.clone(), rate.clone()];
+            let solve = |both| equations.solve_both(state, both, left);
+            let grown;
+            [step, grown] = curvature.corrections(both, &dot, solve)?;
+            for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
+                motion[dof as usize] = *value;
+            }
+            recent = Some(Growth {
+                force: rate,
+                motion,
+                used: 0,
+            });
+        } else {
+            let solve = |[it]: [Vec<f64>; 1]| Ok([equations.solve(state, it, left)?]);
+            [step] = curvature.corrections([force.clone()], &dot, solve)?;
+        }
+        if let (Some(target), Some(mut growth)) = (self.target, recent) {
             growth.used += 1;
             load_change = equations.constrain(&mut step, state, &growth.motion, target)?;
             for (value, rate) in force.iter_mut().zip(&growth.force) {
@@ -227,38 +282,6 @@ impl<'a> Secant<'a> {
             step,
             load_change,
         })
-    }
-
-    /// Growth of a state with the load factor, for the bonds of the state.
-    fn grown(
-        &self,
-        equations: &mut Equations,
-        state: &State,
-        target: &Target,
-    ) -> Result<Growth, Unbalanced> {
-        let (mut motion, force) = line::rate(equations, state, &*target.rate);
-        let grown = self.solved(equations, state, &force)?;
-        for (&dof, value) in equations.degrees_of_freedom().iter().zip(&grown) {
-            motion[dof as usize] = *value;
-        }
-        Ok(Growth {
-            force,
-            motion,
-            used: 0,
-        })
-    }
-
-    /// Change of the unknowns for a residual force, both of shape (n_unknowns).
-    fn solved(
-        &self,
-        equations: &mut Equations,
-        state: &State,
-        force: &[f64],
-    ) -> Result<Vec<f64>, Unbalanced> {
-        let subdomain = equations.subdomain().clone();
-        let dot = |one: &[f64], other: &[f64]| dot_of_all(&subdomain, one, other);
-        let solve = |it| equations.solve(state, it, AllowedResidual::Share(SOLVED));
-        self.earlier.curvature.correction(force, &dot, solve)
     }
 
     /// Corrects the load factor, moves the state along the direction as far as that lowers the energy, and records the curvature. Where the

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use ligament_linalg::{
-    FactorError, Factorisation, Inertia, RankOne, SymmetricMatrix, VANISHING_PIVOT,
+    FactorError, FactorKind, Factorisation, Inertia, RankOne, SymmetricMatrix, VANISHING_PIVOT,
 };
-use ligament_model::element::StiffnessFactors;
+use ligament_model::element::{StiffnessFactors, Term};
 
 use super::factor_record::FactorRecord;
 use super::iterative;
-use super::terms::{Coupled, due_bonds};
+use super::terms::{Coupled, due_bonds, fits};
 use super::{AllowedResidual, HalfUpdated, IntactSolver, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -23,6 +23,9 @@ use crate::state::State;
 use crate::stiffness::Stiffness;
 use ligament_model::thermal::ThermalStrain;
 
+/// Number of times that the secants of softening bonds are factorised after a factor of their tangents was not definite.
+const REFUSED: usize = 10;
+
 /// A direct solver for symmetric stiffnesses.
 pub(crate) struct DirectSolver {
     stiffness: Arc<Stiffness>,
@@ -33,6 +36,10 @@ pub(crate) struct DirectSolver {
     making: FactorRecord,
     /// Remaining stiffness of softening bonds in the factor, shape (n_bonds); empty where none softens.
     remaining: Vec<StiffnessFactors>,
+    /// Falling stiffness of bonds in the factor, with their numbers.
+    falling: Vec<(u32, Term)>,
+    /// Number of next falling stiffnesses that are not added, because the body was not stable with the last one.
+    refused: usize,
     /// Closed pairs across cracks, which are in the factor if there is one.
     closed: Vec<Resisting>,
     /// Whether faces may be pressed against each other.
@@ -57,6 +64,8 @@ impl DirectSolver {
             stale: None,
             making: FactorRecord::default(),
             remaining: Vec::new(),
+            falling: Vec::new(),
+            refused: 0,
             closed: Vec::new(),
             n_changed: 0,
         }
@@ -70,6 +79,8 @@ impl DirectSolver {
             stale: None,
             making: self.making.clone(),
             remaining: self.remaining.clone(),
+            falling: self.falling.clone(),
+            refused: self.refused,
             closed: self.closed.clone(),
             presses: self.presses,
             coupled_by_contact: self.coupled_by_contact.clone(),
@@ -119,18 +130,18 @@ impl DirectSolver {
 
     /// Bonds and supports of a state for a new factor.
     fn begun(&self, state: &State) -> FactorRecord {
-        if !self.supports_are_soft() {
-            return FactorRecord::begun(state, state.held.clone(), Vec::new());
-        }
-        let cut_off = vec![false; state.held.len()];
+        let is_soft = self.supports_are_soft();
+        let is_held = |&dof: &usize| state.held[dof];
+        let dofs = 0..state.held.len();
+        let cut_off: Vec<bool> = dofs.clone().map(|dof| !is_soft && is_held(&dof)).collect();
         let coupled = Coupled {
             system: self.stiffness.system(),
             unknowns: self.stiffness.unknowns(),
             cut_off: &cut_off,
             hold_share: self.hold_share(),
         };
-        let held = (0..state.held.len()).filter(|&dof| state.held[dof]);
-        let mut beside = coupled.of_holds(held);
+        let mut beside = coupled.of_falling(&self.falling, 1.0);
+        beside.extend(coupled.of_holds(dofs.filter(|dof| is_soft && is_held(dof))));
         beside.extend(coupled.of_contact(&self.closed, 1.0));
         FactorRecord::begun(state, cut_off, beside)
     }
@@ -174,6 +185,33 @@ impl DirectSolver {
         update == Update::Incremental
             && self.n_changed / rebuild_every == (self.n_changed + n_elements) / rebuild_every
             && n_elements <= most_bonds_in_place
+    }
+
+    /// Replaces N residual forces (n_unknowns) by their corrections.
+    fn solve_with<const N: usize>(
+        &mut self,
+        state: &State,
+        mut forces: [&mut [f64]; N],
+        costs: &mut Costs,
+        solve: impl FnOnce(&mut dyn Factorisation, [&mut [f64]; N]),
+    ) {
+        let start = Instant::now();
+        let dofs = self.stiffness.unknowns().degrees_of_freedom();
+        for force in &mut forces {
+            for (value, &dof) in force.iter_mut().zip(dofs) {
+                if self.making.held[dof as usize] {
+                    *value = 0.0;
+                }
+            }
+        }
+        if let Some(factor) = &mut self.factor {
+            solve(&mut **factor, forces.each_mut().map(|it| &mut **it));
+        }
+        for force in forces {
+            self.keep_held(state, force);
+        }
+        costs.solves += N;
+        costs.solve += start.elapsed();
     }
 
     /// Sets the correction at fixed degrees of freedom of the state to zero, removing its rounding.
@@ -234,8 +272,11 @@ impl TangentSolver for DirectSolver {
         self.forget_unless_in_place(breakage.n_elements());
         let mut factor = self.factor.take()?;
         let start = Instant::now();
+        let is_broken = |(bond, _): &mut (u32, Term)| breakage.bonds.contains(bond);
+        let of_broken: Vec<(u32, Term)> = self.falling.extract_if(.., is_broken).collect();
         let coupled = self.coupled();
-        let terms = coupled.of_breakage(breakage);
+        let mut terms = coupled.of_falling(&of_broken, -1.0);
+        terms.extend(coupled.of_breakage(breakage));
         // An added support carries no force in equilibrium, so that the size of its term does not matter and du is zero there up to
         // rounding, which is removed later. For this the right-hand side must contain the forces at the added supports.
         let force = breakage.unbalanced_force(&state.displacement, expansion);
@@ -255,8 +296,22 @@ impl TangentSolver for DirectSolver {
         Some(HalfUpdated { factor, correction })
     }
 
+    fn fall(&mut self, falling: Vec<(u32, Term)>) -> bool {
+        let is_definite = self.stiffness.choice().factorisation == FactorKind::Llt;
+        let changes = !(falling.is_empty() && self.falling.is_empty());
+        if self.refused > 0 && !falling.is_empty() {
+            self.refused -= 1;
+            return false;
+        }
+        if is_definite && changes {
+            self.falling = falling;
+            self.discard();
+        }
+        is_definite && changes
+    }
+
     fn update_for_softening(&mut self, state: &State, costs: &mut Costs) {
-        if self.factor.is_none() {
+        if self.factor.is_none() || !self.falling.is_empty() {
             return;
         }
         // A factor of the elastic body has the whole stiffness of every bond.
@@ -309,7 +364,13 @@ impl TangentSolver for DirectSolver {
         costs.assembly += start.elapsed();
         let start = Instant::now();
         let factor = match self.stale.take() {
-            Some(mut stale) => stale.refactorise(&matrix).map(|()| stale),
+            Some(mut stale) => match stale.refactorise(&matrix) {
+                Ok(()) => Ok(stale),
+                Err(error) => {
+                    self.stale = Some(stale);
+                    Err(error)
+                }
+            },
             None => {
                 let kind = self.stiffness.choice().factorisation;
                 kind.factorise(self.stiffness.symbolic(), &matrix)
@@ -324,6 +385,13 @@ impl TangentSolver for DirectSolver {
             ) => vec![*unknown],
             Err(other) => return Err(other.clone()),
         };
+        if !(vanishing.is_empty() || self.falling.is_empty()) {
+            // Along its motion the body is not stable at these loads, as after a peak: secants are.
+            self.falling.clear();
+            self.refused = REFUSED;
+            self.stale = factor.ok().or(self.stale.take());
+            return self.prepare(state, costs);
+        }
         if vanishing.is_empty() {
             self.factor = factor.ok();
             self.making = making;
@@ -340,20 +408,24 @@ impl TangentSolver for DirectSolver {
         _: AllowedResidual,
         costs: &mut Costs,
     ) -> Result<Vec<f64>, Unsolved> {
-        let start = Instant::now();
-        let dofs = self.stiffness.unknowns().degrees_of_freedom().iter();
-        for (value, &dof) in force.iter_mut().zip(dofs) {
-            if self.making.held[dof as usize] {
-                *value = 0.0;
-            }
-        }
-        if let Some(factor) = &mut self.factor {
-            factor.solve_in_place(&mut force);
-        }
-        self.keep_held(state, &mut force);
-        costs.solves += 1;
-        costs.solve += start.elapsed();
+        self.solve_with(state, [&mut force], costs, |factor, [force]| {
+            factor.solve_in_place(force);
+        });
         Ok(force)
+    }
+
+    fn solve_both(
+        &mut self,
+        state: &State,
+        mut forces: [Vec<f64>; 2],
+        _: AllowedResidual,
+        costs: &mut Costs,
+    ) -> Result<[Vec<f64>; 2], Unsolved> {
+        let both = forces.each_mut().map(Vec::as_mut_slice);
+        self.solve_with(state, both, costs, |factor, both| {
+            factor.solve_both_in_place(both)
+        });
+        Ok(forces)
     }
 
     fn tolerance(&self) -> Option<f64> {
@@ -379,6 +451,8 @@ impl TangentSolver for DirectSolver {
     fn write(&self, out: &mut dyn Sink) {
         self.n_changed.write(out);
         self.coupled_by_contact.write(out);
+        self.falling.write(out);
+        self.refused.write(out);
         let factor = self.factor.as_ref().map(|factor| factor.digest());
         factor.write(out);
         if factor.is_some() {
@@ -395,8 +469,11 @@ impl TangentSolver for DirectSolver {
         }
         self.n_changed = first.try_into().map_err(|_| Damaged)?;
         self.coupled_by_contact = Serial::read(from)?;
+        self.falling = Serial::read(from)?;
+        self.refused = Serial::read(from)?;
+        let system = self.stiffness.system();
         let mut points = self.coupled_by_contact.iter().flatten();
-        if points.any(|it| *it as usize >= self.stiffness.system().n_points()) {
+        if points.any(|it| *it as usize >= system.n_points()) || !fits(&self.falling, system) {
             return Err(CheckpointError::OtherModel);
         }
         if !self.coupled_by_contact.is_empty() {

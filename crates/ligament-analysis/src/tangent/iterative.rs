@@ -33,7 +33,7 @@ use self::conjugate::{Found, Limit, TwoLevels};
 use self::operator::Operator;
 use self::point_blocks::PointBlocks;
 use super::factor_record::FactorRecord;
-use super::terms::{Coupled, due_bonds};
+use super::terms::{self, Coupled, due_bonds};
 use super::{AllowedResidual, SOFT_HOLD, TangentSolver, Unsolved};
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
@@ -76,6 +76,8 @@ pub(crate) struct IterativeSolver {
     pace: Option<f64>,
     /// Iterations in excess of that rate since then.
     excess: f64,
+    /// Falling stiffness of bonds, with their numbers; in no preconditioner.
+    falling: Vec<(u32, Term)>,
     /// Closed pairs across cracks.
     closed: Vec<Resisting>,
     /// Whether faces may be pressed against each other.
@@ -109,6 +111,7 @@ impl IterativeSolver {
             is_due: true,
             pace: None,
             excess: 0.0,
+            falling: Vec::new(),
             closed: Vec::new(),
         }
     }
@@ -279,11 +282,19 @@ impl TangentSolver for IterativeSolver {
         self.stale_at(dofs.into_iter());
         // The rigid motions of a detached part are among the softest motions.
         self.is_due |= !breakage.holds.is_empty();
+        self.falling
+            .retain(|(bond, _)| !breakage.bonds.contains(bond));
         if self.is_changed_in_place(breakage.n_elements()) {
             self.change_coarse(self.coupled().of_breakage(breakage));
         }
         costs.change += start.elapsed();
         None
+    }
+
+    fn fall(&mut self, falling: Vec<(u32, Term)>) -> bool {
+        let changes = !(falling.is_empty() && self.falling.is_empty());
+        self.falling = falling;
+        changes
     }
 
     fn update_for_softening(&mut self, state: &State, costs: &mut Costs) {
@@ -349,7 +360,9 @@ impl TangentSolver for IterativeSolver {
             return Err(Unsolved::Indefinite(vec![0.0; force.len()]));
         };
         let dofs = self.unknowns.degrees_of_freedom();
-        let moment = self.moment(&self.blocks_of);
+        let mut moment = self.moment(&self.blocks_of);
+        let falling = self.falling.iter().map(|(_, term)| term.clone());
+        moment.beside.extend(falling);
         let at_dofs = |values: &[f64], other: f64| {
             let mut all = vec![other; moment.free.len()];
             for (&dof, value) in dofs.iter().zip(values) {
@@ -360,14 +373,21 @@ impl TangentSolver for IterativeSolver {
             all
         };
         let given = at_dofs(&force, 0.0);
-        let limit = match left {
+        let limit = match &left {
             AllowedResidual::Share(share) => {
                 Limit::Norm(share * dot_of_chunks(&given, &given).sqrt())
             }
-            AllowedResidual::AtMost(sizes) => Limit::Sizes(at_dofs(&sizes, f64::INFINITY)),
+            AllowedResidual::AtMost(sizes) => Limit::Sizes(at_dofs(sizes, f64::INFINITY)),
         };
         let operator = self.operator(&moment, state.bonds());
         let mut found = conjugate::solve(&operator, &mut levels, given, &limit);
+        if !(found.is_definite || self.falling.is_empty()) {
+            // The body is not stable at these loads, as after a peak, and its secants are.
+            self.falling.clear();
+            self.levels = Some(levels);
+            costs.solve += start.elapsed();
+            return self.solve(state, force, left, costs);
+        }
         if found.is_stalled {
             let given = at_dofs(&force, 0.0);
             if let Some(motion) = unresisted::motion(&operator, &levels.blocks, &given) {
@@ -412,6 +432,7 @@ impl TangentSolver for IterativeSolver {
         self.excess.write(out);
         self.stale.iter().copied().collect::<Vec<u32>>().write(out);
         self.closed.write(out);
+        self.falling.write(out);
         if self.levels.is_some() {
             self.coarse_of.write(out);
             self.in_coarse.write(out);
@@ -429,7 +450,11 @@ impl TangentSolver for IterativeSolver {
         self.excess = Serial::read(from)?;
         let stale: Vec<u32> = Serial::read(from)?;
         self.closed = Serial::read(from)?;
+        self.falling = Serial::read(from)?;
         self.stale = stale.into_iter().collect();
+        if !terms::fits(&self.falling, &*self.system) {
+            return Err(CheckpointError::OtherModel);
+        }
         if !has_levels {
             return Ok(());
         }

@@ -67,6 +67,14 @@ impl Coupled<'_> {
         terms
     }
 
+    /// Terms of the falling stiffness of bonds, multiplied by `sign`.
+    pub(super) fn of_falling(self, falling: &[(u32, Term)], sign: f64) -> Vec<RankOne> {
+        let terms = falling.iter().map(|(_, term)| term.clone());
+        terms
+            .filter_map(|term| self.at_unknowns(term, sign))
+            .collect()
+    }
+
     /// Terms of added supports. They precede the terms of broken bonds, so that no pivot vanishes in between.
     pub(super) fn of_holds(self, held: impl Iterator<Item = usize>) -> Vec<RankOne> {
         let holds = held.filter_map(|dof| {
@@ -112,6 +120,13 @@ impl Coupled<'_> {
             })
             .sum()
     }
+}
+
+/// Whether the terms of the falling stiffness of bonds are at the degrees of freedom of a body.
+pub(super) fn fits(falling: &[(u32, Term)], system: &dyn Bonds) -> bool {
+    let n = system.layout.n_degrees_of_freedom();
+    let mut entries = falling.iter().flat_map(|(_, (_, entries))| entries);
+    entries.all(|(dof, _)| *dof < n)
 }
 
 /// Intact bonds whose secants differ too much from the secants in a factor (n_bonds), ascending.

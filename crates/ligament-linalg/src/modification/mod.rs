@@ -45,6 +45,8 @@ pub(crate) struct Target<'a> {
     pub(crate) diagonal: &'a mut [DiagonalEntry],
     /// Number of negative pivots; updated with the factor.
     pub(crate) negative_pivots: &'a mut usize,
+    /// Digest of the entries from which each panel was computed, shape (n_supernodes); None after an update.
+    pub(crate) made_from: &'a mut [Option<u64>],
 }
 
 impl Target<'_> {
@@ -213,6 +215,7 @@ fn change_panel(
             right_hand_side,
         },
     };
+    target.made_from[supernode] = None;
     let more_negative = panel.change();
     let more_negative = more_negative.map_err(|column| VanishingPivot(columns.start + column))?;
     *target.negative_pivots = target.negative_pivots.wrapping_add_signed(more_negative);

@@ -91,6 +91,46 @@ fn random_changes_give_the_factor_of_the_changed_matrix() {
     }
 }
 
+/// A factor of a matrix that differs in a few terms, of which only the paths to the root are computed, has the bits of a new one: after
+/// terms that changed in the matrix alone, terms that were also applied in place, and a matrix that was refused on the way.
+#[test]
+fn a_factor_computed_along_its_paths_has_the_bits_of_a_new_one() {
+    let mut random = Random(15);
+    for (graph, components) in [
+        (Graph::new(1, []), 1),
+        (Graph::chain(40), 2),
+        (Graph::lattice(12, 2.0), 3),
+        (Graph::chain(9).beside(&Graph::lattice(6, 1.5)), 3),
+    ] {
+        let original = System::new(&graph, components, &mut random);
+        for elimination in orders(original.n(), &mut random) {
+            let symbolic = original.symbolic(elimination);
+            for kind in KINDS {
+                let mut system = original.clone();
+                let mut factor = system.factor(kind, &symbolic);
+                for count in [1, 2, 0, 5, 1, 1] {
+                    let terms = random_terms(&mut system, count, &mut random);
+                    if random.below(2) == 0 {
+                        factor.change(&terms, &[]).unwrap();
+                        random_terms(&mut system, 1, &mut random);
+                    }
+                    let mut refused = system.matrix();
+                    let unknown = random.below(system.n());
+                    refused.values[system.pattern.column_starts()[unknown + 1] - 1] = -1.0;
+                    if kind == FactorKind::Llt && random.below(2) == 0 {
+                        assert!(factor.refactorise(&refused).is_err());
+                    }
+                    factor.refactorise(&system.matrix()).unwrap();
+                    let anew = system.factor(kind, &symbolic);
+                    assert_eq!(factor.digest(), anew.digest(), "{kind:?} {graph:?}");
+                    assert_eq!(bits(&factor.pivots()), bits(&anew.pivots()));
+                    assert_eq!(factor.inertia(), anew.inertia());
+                }
+            }
+        }
+    }
+}
+
 /// The right-hand side of a change may be nonzero where no term is.
 #[test]
 fn a_right_hand_side_away_from_the_terms_is_solved_for() {

@@ -170,7 +170,7 @@ fn on<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {
     pool.build().unwrap().install(work)
 }
 
-/// Factor, changes in sequence with what they leave, and solutions, each as its bits.
+/// Factor, changes in sequence with what they leave, and solutions, each as its bits; two solutions together have the same.
 fn follow(
     original: &System,
     order: &[usize],
@@ -189,7 +189,12 @@ fn follow(
         let half_solved = factor.change(terms, &listed(b)[..20]).unwrap();
         found.extend(bits(&factor.finish(half_solved)));
         found.push(factor.digest());
-        found.extend(bits(&solve(factor.as_mut(), b)));
+        let alone = bits(&solve(factor.as_mut(), b));
+        let [mut one, mut other] = [b.clone(), b.iter().rev().copied().collect()];
+        let alone_too = bits(&solve(factor.as_mut(), &other));
+        factor.solve_both_in_place([&mut one, &mut other]);
+        assert_eq!([bits(&one), bits(&other)], [alone.clone(), alone_too]);
+        found.extend(alone);
     }
     found
 }
