@@ -37,7 +37,7 @@ load = [{ group = \"right\", displacement = { x = 1e-5 } }]
             "[[probe]]\nname = \"gauge-{number}\"\nbetween = [{first:?}, {second:?}]\ncomponent = \"x\"\n"
         );
     }
-    text += "[[probe]]\nname = \"across\"\nat = [0.0911, 0.0333]\nfield = \"displacement_x\"\n";
+    text += "[[probe]]\nname = \"across\"\nat = [0.0911, 0.0333]\nfield = \"displacement.x\"\n";
     let bench = Bench::new(&text, &[]);
     let run = bench.solve();
     let expected = gauges.map(|[first, second]| (second[0] - first[0]) * end / length);

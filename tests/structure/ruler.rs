@@ -9,19 +9,19 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 115_673),
-    ("ligament-analysis", 201_973),
-    ("ligament-case", 79_965),
-    ("ligament-cli", 59_158),
+    ("ligament", 118_019),
+    ("ligament-analysis", 202_584),
+    ("ligament-case", 80_062),
+    ("ligament-cli", 60_133),
     ("ligament-linalg", 22_578),
     ("ligament-mesh", 84_877),
-    ("ligament-model", 224_908),
-    ("ligament-output", 74_703),
+    ("ligament-model", 225_130),
+    ("ligament-output", 76_773),
     ("ligament-petsc", 2_978),
-    ("ligament-plot", 58_419),
-    ("ligament-post", 27_060),
-    ("ligament-python", 14_227),
-    ("ligament-report", 20_363),
+    ("ligament-plot", 59_880),
+    ("ligament-post", 27_096),
+    ("ligament-python", 14_231),
+    ("ligament-report", 20_761),
     ("ligament-run", 31_827),
     ("ligament-study", 89_082),
     ("ligament-verify", 80_888),
@@ -29,7 +29,7 @@ const TOKENS: [(&str, usize); 16] = [
 
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
-    ("ligament", 20),
+    ("ligament", 18),
     ("ligament-analysis", 14),
     ("ligament-case", 2),
     ("ligament-cli", 9),

@@ -6,8 +6,7 @@ use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::law::{BondLaw, listed, orthotropic, suited};
 use ligament_model::material::Space;
-use ligament_model::tensor::SymTensor;
-use ligament_model::{Advice, ElementKind};
+use ligament_model::{Advice, ElementKind, StressAcrossPlane};
 
 use super::check::{Checked, contradiction, positive, require, within};
 use super::setting::Setting;
@@ -21,11 +20,11 @@ use crate::error::Field;
 /// Message about a z axis in the plane.
 pub(super) const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
-/// Place of zz among the components of a stress: behind those in the plane.
-const ACROSS_PLANE: usize = SymTensor::<2>::NAMES.len();
-
 /// Message about a component of the stress that bodies in the plane do not have.
-const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress; zz is known in plane strain, of isotropic materials";
+const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress: xx, yy, zz and xy, and the principal values 1 and 2";
+
+/// Message about what follows from the stress across a plane.
+const UNKNOWN_ACROSS: &str = "in plane strain the stress across the plane is known of isotropic materials alone: take stress.xx, .yy, .xy or stress_principal";
 
 /// Message about a component of motion that points in a space do not have.
 fn no_motion(space: Space) -> &'static str {
@@ -189,17 +188,23 @@ impl Setup {
                         PointField {
                             reading:
                                 PointReading::MaterialStress {
-                                    in_plane: false,
+                                    in_plane,
+                                    read,
                                     component,
                                     ..
                                 },
                             ..
                         },
                     ..
-                } if self.dimensions() == 2
-                    && !(component == ACROSS_PLANE && self.has_stress_across_plane()) =>
-                {
-                    return contradiction(probed.part("field"), ONLY_OF_SOLIDS);
+                } if self.dimensions() == 2 => {
+                    if !in_plane {
+                        return contradiction(probed.part("field"), ONLY_OF_SOLIDS);
+                    }
+                    let is_unknown = self.stress_across_plane() == StressAcrossPlane::Unknown;
+                    if is_unknown && read(&[0.0, 0.0, 0.0, f64::NAN])[component].is_nan() {
+                        return contradiction(probed.part("field"), UNKNOWN_ACROSS);
+                    }
+                    continue;
                 }
                 Reading::At { .. } | Reading::Section { .. } => continue,
             };
