@@ -9,6 +9,7 @@ use ligament::{Loading, Model};
 use ligament_analysis::driver::Outcome;
 use ligament_analysis::history::Termination;
 use ligament_model::surface::Touch;
+use ligament_model::tensor::{cross, minus, norm};
 use verification::bench::{case, missing_energy, solved};
 use verification::recorder::checkpoints_of_the_same_bits;
 
@@ -205,4 +206,61 @@ fn contact_goes_on_to_the_same_bits() {
         println!("{name}: {moments} moments");
         assert!(moments > 20);
     }
+}
+
+/// Surfaces by which rigid bodies are drawn have the areas of their shapes: a circle and a sphere those of polygons of 96 corners, smaller by
+/// 2 pi^2/(3 96^2) = 7e-4 and by less than 5e-3; a wall lies behind its surface, beside the body.
+#[test]
+fn rigid_bodies_have_surfaces_of_their_shapes() {
+    const SOLID: &str = r#"
+solid_lattice = { cells = [5, 5, 5], spacing = [0.001, 0.001, 0.001], corner = [0.0, 0.0, 0.0], set = { bottom = { bottom = 1 } } }
+material = { young = 70e9, poisson = 0.25 }
+model = { law = "bbpd", horizon_factor = 2.5 }
+support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0, z = 0.0 } }]
+rigid = [
+    { name = "ball", shape = "sphere", centre = [0.0025, 0.0025, 0.011], radius = 0.003, displacement = { z = -1e-3 } },
+    { name = "block", shape = "box", centre = [0.02, 0.0, 0.0], size = [0.01, 0.02, 0.03] },
+]
+"#;
+    let surfaces = |text: &str| {
+        let setup = case(text, &[]).setup(&mut ()).unwrap();
+        let model = Model::build(setup, &mut ()).unwrap();
+        let contact = ligament::loading::contact_problem(&model).unwrap();
+        contact
+            .rigid_bodies
+            .into_iter()
+            .map(|it| (it.gap, it.surface))
+            .collect::<Vec<_>>()
+    };
+    let area = |surface: &ligament_analysis::contact::RigidSurface| {
+        let triangle = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|it| surface.places[it as usize]);
+            0.5 * norm(cross(minus(b, a), minus(c, a)))
+        };
+        surface.triangles.iter().map(triangle).sum::<f64>()
+    };
+    let [(gap, punch)] = &surfaces(CIRCLE)[..] else {
+        panic!("one body");
+    };
+    // The lattice is 16 mm high, and cells of points meet the circle.
+    assert!((0.0..1e-5).contains(gap), "{gap}");
+    let share = area(punch) / (PI * 0.01);
+    assert!(share < 1.0 && share > 1.0 - 1e-3, "{share}");
+    let solid = surfaces(SOLID);
+    assert!((solid[0].0 - 0.003).abs() < 1e-12, "{}", solid[0].0);
+    let share = area(&solid[0].1) / (4.0 * PI * 9e-6);
+    assert!(share < 1.0 && share > 1.0 - 5e-3, "{share}");
+    assert!((area(&solid[1].1) / 2.2e-3 - 1.0).abs() < 1e-12);
+    let [(_, floor)] = &surfaces(&format!("{BLOCK}{BY_FORCES}"))[..] else {
+        panic!("one body");
+    };
+    let heights = floor.places.iter().map(|it| it[1]);
+    let [low, high] = [
+        heights.clone().fold(0.0, f64::min),
+        heights.fold(-1.0, f64::max),
+    ];
+    assert!(
+        high.abs() < 1e-15 && (-1e-3..0.0).contains(&low),
+        "{low} {high}"
+    );
 }

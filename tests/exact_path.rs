@@ -234,7 +234,9 @@ fn bundle(kind: ControlKind, size: f64) -> Truss {
     match kind {
         ControlKind::Displacement => boundary.prescribe(&[6], Component::X, size).unwrap(),
         ControlKind::Force => boundary.add_force(6, Component::X, size),
-        ControlKind::Temperature | ControlKind::RigidBody(_) => panic!("not a load of the bundle"),
+        ControlKind::Temperature | ControlKind::RigidBody(_) | ControlKind::FreeBody(_) => {
+            panic!("not a load of the bundle")
+        }
     }
     boundary.control.magnitude = size;
     truss

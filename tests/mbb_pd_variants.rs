@@ -21,8 +21,8 @@ support = [
 ]
 load = [{ group = "end", displacement = { x = 3e-4 } }]
 probe = [
-    { name = "top", at = [0.001, 0.049], field = "displacement_y" },
-    { name = "bottom", at = [0.001, -0.049], field = "displacement_y" },
+    { name = "top", at = [0.001, 0.049], field = "displacement.y" },
+    { name = "bottom", at = [0.001, -0.049], field = "displacement.y" },
 ]
 "#;
 

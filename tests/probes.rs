@@ -37,7 +37,7 @@ load = [{ group = \"right\", displacement = { x = 1e-5 } }]
             "[[probe]]\nname = \"gauge-{number}\"\nbetween = [{first:?}, {second:?}]\ncomponent = \"x\"\n"
         );
     }
-    text += "[[probe]]\nname = \"across\"\nat = [0.0911, 0.0333]\nfield = \"displacement_x\"\n";
+    text += "[[probe]]\nname = \"across\"\nat = [0.0911, 0.0333]\nfield = \"displacement.x\"\n";
     let bench = Bench::new(&text, &[]);
     let run = bench.solve();
     let expected = gauges.map(|[first, second]| (second[0] - first[0]) * end / length);
@@ -108,8 +108,8 @@ load = [{ group = \"right\", displacement = { x = 2e-4 } }]
         ("plate", "strain.xx", 1e-3),
         ("plate", "strain.yy", -0.21e-3),
         ("plate", "stress.xx", 15e6),
-        ("right", "displacement_x", 2e-4),
-        ("plate", "displacement_x", 1e-4),
+        ("right", "displacement.x", 2e-4),
+        ("plate", "displacement.x", 1e-4),
     ];
     for (number, (group, field, _)) in means.iter().enumerate() {
         text +=

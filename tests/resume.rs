@@ -259,7 +259,7 @@ precrack = [{ points = [[-0.001, 0.0121], [0.0081, 0.0121]] }]
 support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
 load = [{ group = "top", displacement = { y = 1e-5 } }]
 fracture = { steps = 40, stop = { load_fraction = 0.3 } }
-probe = [{ name = "side", at = [0.0, 0.012], field = "displacement_x" }]
+probe = [{ name = "side", at = [0.0, 0.012], field = "displacement.x" }]
 "#;
 
 fn plate(settings: &[&str]) -> Bench {

@@ -37,7 +37,7 @@ material = { young = 30e9, poisson = 0.2, fracture_energy = 50.0 }
 model = { law = "nhpd", horizon_factor = 2.0 }
 support = [{ group = "left", displacement = { x = 0.0, y = 0.0, z = 0.0 } }]
 load = [{ group = "right", displacement = { x = 1e-3, y = 2e-4 } }]
-probe = [{ name = "stress", at = [0.035, 0.025, 0.02], field = "stress_xx" }, { name = "damage", at = [0.035, 0.025, 0.02], field = "damage" }, { name = "by-material", at = [0.035, 0.025, 0.02], field = "stress_principal.1" }]
+probe = [{ name = "stress", at = [0.035, 0.025, 0.02], field = "stress_virial.xx" }, { name = "damage", at = [0.035, 0.025, 0.02], field = "damage" }, { name = "by-material", at = [0.035, 0.025, 0.02], field = "stress_principal.1" }]
 [fracture]
 control = "event"
 tie_tolerance = 1e-6

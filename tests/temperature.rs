@@ -430,7 +430,7 @@ lattice = { cells = [120, 16], spacing = 0.001, thickness = 0.001, set = { base 
 model = { law = "mppd", horizon_factor = 3.0 }
 support = [{ group = "base", displacement = { x = 0.0, y = 0.0 } }]
 temperature = [{ change = 50.0 }]
-probe = [{ name = "near", at = [0.0305, 0.0005], field = "displacement_y" }, { name = "middle", at = [0.0705, 0.0005], field = "displacement_y" }, { name = "far", at = [0.1105, 0.0005], field = "displacement_y" }]
+probe = [{ name = "near", at = [0.0305, 0.0005], field = "displacement.y" }, { name = "middle", at = [0.0705, 0.0005], field = "displacement.y" }, { name = "far", at = [0.1105, 0.0005], field = "displacement.y" }]
 [material.low]
 group = "below"
 young = 65.8e9

@@ -221,6 +221,14 @@ impl<'a> PointFields<'a> {
         for (name, ratio) in names.iter().zip(&fixed.energy_ratios) {
             self.reals(name, ratio.at_points.iter().copied());
         }
+        if !fixed.material_of_cell.is_empty() {
+            let place = Place {
+                part: "cell",
+                ..self.place("material")
+            };
+            let materials = fixed.material_of_cell.iter().copied();
+            self.expected.integers(place, materials);
+        }
         for scatter in &fixed.scatter {
             self.reals("strength_factor", scatter.at_points.iter().copied());
         }

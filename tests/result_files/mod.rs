@@ -259,7 +259,7 @@ component = "x"
 [[probe]]
 name = "stress"
 at = [0.05, 0.04]
-field = "stress_xx"
+field = "stress_virial.xx"
 [[probe]]
 name = "stress by material"
 at = [0.05, 0.04]

@@ -10,6 +10,7 @@ use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::{Component, fields};
 use ligament_case::case::StressField;
 use ligament_model::interface::StressReading;
+use ligament_model::stress::principal::{tresca, von_mises};
 use ligament_model::thermal::StressFreeStrains;
 use ligament_run::model::Model;
 use verification::numbers::{by_point, damages};
@@ -49,6 +50,15 @@ pub(crate) struct Recorder<'a> {
     largest: Vec<(f32, i64, i64)>,
     /// Energies that the bonds dissipated up to the last step, J.
     dissipated: Vec<f64>,
+}
+
+/// Names of the components of symmetric tensors.
+const TENSOR: [&str; 6] = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"];
+
+/// Components of a tensor in a plane without stress across it.
+fn in_space(&[xx, yy, xy]: &[f64; 3]) -> [f64; 6] {
+    let zero = if xx.is_nan() { xx } else { 0.0 };
+    [xx, yy, zero, xy, zero, zero]
 }
 
 /// A criterion's name, with a number from the second of its kind on.
@@ -249,7 +259,7 @@ impl<'a> Recorder<'a> {
             let strain = view.loads.thermal_strain(state.load_factor);
             let of_points = StressFreeStrains::new(points.clone().map(|it| strain.of_point(it)));
             let strains = stresses::free(&of_points);
-            fields_of.components("thermal_strain", ["xx", "yy", "xy"], strains);
+            fields_of.components("thermal_strain", ["XX", "YY", "XY"], strains);
         }
         let principal = |&[xx, yy, xy]: &[f64; 3]| {
             let radius = (0.5 * (xx - yy)).hypot(xy);
@@ -257,7 +267,9 @@ impl<'a> Recorder<'a> {
         };
         if self.stress.contains(&StressField::Material) {
             let stresses = view.solution().material_stresses(MaterialStress::Carried);
-            let stresses = stresses.values.as_chunks::<3>().0;
+            let all = stresses.values.as_chunks::<4>().0;
+            let in_plane = all.iter().map(|&[xx, yy, xy, _]| [xx, yy, xy]);
+            let stresses: Vec<[f64; 3]> = in_plane.collect();
             let direction = |&[xx, yy, xy]: &[f64; 3]| {
                 let (sine, cosine) = (0.5 * (2.0 * xy).atan2(xx - yy)).sin_cos();
                 [cosine, sine, 0.0].map(|it| if xx.is_nan() { f64::NAN } else { it })
@@ -268,13 +280,16 @@ impl<'a> Recorder<'a> {
             );
             fields_of.components("stress_principal", ["1", "2"], values);
             fields_of.components("stress_direction", ["", "", ""], directions);
-            fields_of.components("stress", ["xx", "yy", "xy"], stresses.iter().copied());
+            let equivalent = |of: fn(&[f64]) -> Vec<f64>| all.iter().map(move |it| of(it)[0]);
+            fields_of.reals("stress_von_mises", equivalent(von_mises));
+            fields_of.reals("stress_tresca", equivalent(tresca));
+            fields_of.components("stress", TENSOR, stresses.iter().map(in_space));
         }
         if self.stress.contains(&StressField::Effective) {
             let stresses = stresses::by_material(system, state, view.loads);
             let values = stresses.iter().map(principal);
             fields_of.components("stress_effective_principal", ["1", "2"], values);
-            fields_of.components("stress_effective", ["xx", "yy", "xy"], stresses);
+            fields_of.components("stress_effective", TENSOR, stresses.iter().map(in_space));
         }
         if self.stress.contains(&StressField::Virial) {
             let stress = stresses::of_reading::<3>(
@@ -283,7 +298,7 @@ impl<'a> Recorder<'a> {
                 state.bonds(),
                 &balanced.deformations,
             );
-            fields_of.components("stress_virial", ["xx", "yy", "xy"], stress);
+            fields_of.components("stress_virial", TENSOR, stress.iter().map(in_space));
         }
         if self.stress.contains(&StressField::Traction) {
             let stress = stresses::of_reading::<4>(
@@ -292,7 +307,8 @@ impl<'a> Recorder<'a> {
                 state.bonds(),
                 &balanced.deformations,
             );
-            fields_of.components("stress_traction", ["xx", "yx", "yy", "xy"], stress);
+            let by_rows = stress.iter().map(|&[xx, yx, yy, xy]| [xx, xy, yx, yy]);
+            fields_of.components("stress_traction", ["XX", "XY", "YX", "YY"], by_rows);
         }
         fields_of.fixed(self.model);
     }

@@ -9,19 +9,19 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 118_286),
-    ("ligament-analysis", 202_527),
-    ("ligament-case", 80_342),
-    ("ligament-cli", 59_585),
+    ("ligament", 118_019),
+    ("ligament-analysis", 202_584),
+    ("ligament-case", 80_062),
+    ("ligament-cli", 60_133),
     ("ligament-linalg", 22_578),
     ("ligament-mesh", 84_877),
-    ("ligament-model", 227_302),
-    ("ligament-output", 75_017),
+    ("ligament-model", 225_130),
+    ("ligament-output", 76_773),
     ("ligament-petsc", 2_978),
-    ("ligament-plot", 58_453),
-    ("ligament-post", 27_772),
-    ("ligament-python", 14_470),
-    ("ligament-report", 20_363),
+    ("ligament-plot", 59_880),
+    ("ligament-post", 27_096),
+    ("ligament-python", 14_231),
+    ("ligament-report", 20_761),
     ("ligament-run", 31_827),
     ("ligament-study", 89_082),
     ("ligament-verify", 80_888),
@@ -29,7 +29,7 @@ const TOKENS: [(&str, usize); 16] = [
 
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
-    ("ligament", 20),
+    ("ligament", 18),
     ("ligament-analysis", 14),
     ("ligament-case", 2),
     ("ligament-cli", 9),

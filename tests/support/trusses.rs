@@ -14,7 +14,7 @@ use ligament_model::element::ElementKind;
 use ligament_model::element::Rigidities;
 use ligament_model::failure::{Criteria, Criterion, Measure};
 use ligament_model::subdomain::Subdomain;
-use ligament_model::{BondSet, BondSystem, Horizons, PointCloud};
+use ligament_model::{BondSet, BondSystem, Horizons, PointCloud, StressAcrossPlane};
 
 use crate::bench::Watch;
 
@@ -121,7 +121,7 @@ impl Truss {
                 },
                 element: ElementKind::Beam,
                 beyond_correction: Vec::new(),
-                has_stress_across_plane: false,
+                stress_across_plane: StressAcrossPlane::Zero,
                 materials: Vec::new(),
                 faces: Faces::default(),
                 far: None,

@@ -218,6 +218,8 @@ pub enum ControlKind {
     Temperature,
     /// Motion of a rigid body, by its index.
     RigidBody(usize),
+    /// Nothing: a rigid body with a mass, by its index, moves freely, and the rows have its displacement.
+    FreeBody(usize),
 }
 
 impl Control {
@@ -228,6 +230,7 @@ impl Control {
             ControlKind::Displacement | ControlKind::Temperature | ControlKind::RigidBody(_) => {
                 self.magnitude * factor
             }
+            ControlKind::FreeBody(_) => 0.0,
         }
     }
 
@@ -243,7 +246,7 @@ impl Control {
             ControlKind::Force => self.magnitude * factor,
             ControlKind::Temperature => internal.thermal / self.magnitude,
             ControlKind::Displacement => self.along(layout, reaction),
-            ControlKind::RigidBody(body) => {
+            ControlKind::RigidBody(body) | ControlKind::FreeBody(body) => {
                 let forces = internal.on_rigid_bodies.get(body).into_iter().flatten();
                 let along = forces.zip(&self.shape);
                 along.fold(0.0, |sum, (force, cosine)| sum - force * cosine)

@@ -162,78 +162,90 @@ pub enum PointReading {
 
 /// Components of the vectors and tensors that a probe can read.
 const OF_VECTORS_AND_TENSORS: [PointField; 25] = [
-    motion("displacement_x", "Displacement along x, m.", Component::X),
-    motion("displacement_y", "Displacement along y, m.", Component::Y),
+    motion("displacement.x", "Displacement along x, m.", Component::X),
+    motion("displacement.y", "Displacement along y, m.", Component::Y),
     motion(
         "rotation",
         "Rotation in the plane, rad, counter-clockwise.",
         Component::Rotation,
     ),
     motion(
-        "displacement_z",
+        "displacement.z",
         "Displacement along z of a solid, m.",
         Component::Z,
     ),
     motion(
-        "rotation_x",
+        "rotation.x",
         "Rotation about x in a solid, rad, right-handed.",
         Component::RotationX,
     ),
     motion(
-        "rotation_y",
+        "rotation.y",
         "Rotation about y in a solid, rad, right-handed.",
         Component::RotationY,
     ),
     motion(
-        "rotation_z",
+        "rotation.z",
         "Rotation about z in a solid, rad, right-handed.",
         Component::RotationZ,
     ),
     point_field(
-        "velocity_x",
+        "velocity.x",
         "Velocity along x in a motion, m/s.",
         PointReading::Velocity(Component::X),
     ),
     point_field(
-        "velocity_y",
+        "velocity.y",
         "Velocity along y in a motion, m/s.",
         PointReading::Velocity(Component::Y),
     ),
     point_field(
-        "velocity_z",
+        "velocity.z",
         "Velocity along z of a solid in a motion, m/s.",
         PointReading::Velocity(Component::Z),
     ),
     point_field(
-        "acceleration_x",
+        "acceleration.x",
         "Acceleration along x in a motion, m/s^2.",
         PointReading::Acceleration(Component::X),
     ),
     point_field(
-        "acceleration_y",
+        "acceleration.y",
         "Acceleration along y in a motion, m/s^2.",
         PointReading::Acceleration(Component::Y),
     ),
     point_field(
-        "acceleration_z",
+        "acceleration.z",
         "Acceleration along z of a solid in a motion, m/s^2.",
         PointReading::Acceleration(Component::Z),
     ),
-    stress("stress_xx", "Virial stress xx, Pa.", StressComponent::Xx),
-    stress("stress_yy", "Virial stress yy, Pa.", StressComponent::Yy),
-    stress("stress_xy", "Virial stress xy, Pa.", StressComponent::Xy),
     stress(
-        "stress_zz",
+        "stress_virial.xx",
+        "Virial stress xx, Pa.",
+        StressComponent::Xx,
+    ),
+    stress(
+        "stress_virial.yy",
+        "Virial stress yy, Pa.",
+        StressComponent::Yy,
+    ),
+    stress(
+        "stress_virial.xy",
+        "Virial stress xy, Pa.",
+        StressComponent::Xy,
+    ),
+    stress(
+        "stress_virial.zz",
         "Virial stress zz of a solid, Pa.",
         StressComponent::Zz,
     ),
     stress(
-        "stress_xz",
+        "stress_virial.xz",
         "Virial stress xz of a solid, Pa.",
         StressComponent::Xz,
     ),
     stress(
-        "stress_yz",
+        "stress_virial.yz",
         "Virial stress yz of a solid, Pa.",
         StressComponent::Yz,
     ),
@@ -339,7 +351,7 @@ impl PointField {
                                 of,
                                 read,
                                 component: part,
-                                in_plane: part < FIELDS[row].components[0].count(),
+                                in_plane: is_in_plane(parts[part][0]),
                             },
                         };
                         (part, place) = (part + 1, place + 1);
@@ -373,6 +385,11 @@ impl PointField {
     pub fn is_motion(&self) -> bool {
         matches!(self.reading, PointReading::Motion(_))
     }
+}
+
+/// Whether bodies in the plane have the component at the end of a name.
+const fn is_in_plane(name: &str) -> bool {
+    !matches!(name.as_bytes(), [.., b'x' | b'y', b'z'] | [.., b'.', b'3'])
 }
 
 /// Number of scalars and components of the table of fields that a probe can read.

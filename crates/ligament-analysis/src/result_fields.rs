@@ -18,8 +18,8 @@ use crate::material_stress::MaterialStress::{self, Carried, Effective};
 use crate::state::State;
 use crate::unknowns::{Component, Layout};
 use FieldReading::{
-    CrackSurface, EnergyRatios, MaterialStress as ByMaterial, Model, Probed, ScatterFactors,
-    State as InState, Stress,
+    CrackSurface, EnergyRatios, MaterialOfCell, MaterialStress as ByMaterial, Model, Probed,
+    ScatterFactors, State as InState, Stress,
 };
 use Interest::{Low, Main};
 
@@ -83,6 +83,8 @@ pub enum FieldReading {
     ),
     /// Field of the model, which does not change; empty where the model has no such field.
     Model(for<'a> fn(ModelPoints<'a>) -> &'a [f64]),
+    /// Number of the material of each cell, a field of cells in place of points; none where the body has one material.
+    MaterialOfCell,
     /// Family of fields: ratios of the energies of uniform strains.
     EnergyRatios,
     /// Family of fields: factors of the property that varies at random.
@@ -133,18 +135,15 @@ const SCALAR: [Components; 2] = [Components::Scalar; 2];
 const VECTOR: [Components; 2] = [Components::Vector; 2];
 /// Rotation angle in the plane, or rotations about three axes in space.
 const TURN: [Components; 2] = [Components::Scalar, Components::Vector];
-const SYMMETRIC: [Components; 2] = [
-    Components::Named(&["xx", "yy", "xy"]),
-    Components::Named(&["xx", "yy", "xy", "zz", "xz", "yz"]),
-];
+/// Symmetric tensor in VTK's order, in the plane with zeros for the last two, so that tools for tensors find all six.
+const TENSOR: Components = Components::Named(&["xx", "yy", "zz", "xy", "yz", "xz"]);
+const SYMMETRIC: [Components; 2] = [TENSOR; 2];
+/// Tensor by rows, VTK's order: direction of the force, then normal of the plane.
 const TRACTION: [Components; 2] = [
-    Components::Named(&["xx", "yx", "yy", "xy"]),
-    Components::Named(&["xx", "yx", "zx", "yy", "xy", "zy", "zz", "xz", "yz"]),
+    Components::Named(&["xx", "xy", "yx", "yy"]),
+    Components::Named(&["xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"]),
 ];
-const STRAIN: [Components; 2] = [
-    Components::Named(&["xx", "yy", "xy"]),
-    Components::Named(&["xx", "yy", "zz", "xy", "xz", "yz"]),
-];
+const STRAIN: [Components; 2] = [Components::Named(&["xx", "yy", "xy"]), TENSOR];
 const PRINCIPAL: [Components; 2] = [
     Components::Named(&["1", "2"]),
     Components::Named(&["1", "2", "3"]),
@@ -214,14 +213,18 @@ result_fields! {
         => InState(|view| present(thermal_strain(view)));
     STRESS "stress" ["Pa"] SYMMETRIC Main(2),
         "Stress that the material of the point carries, by its law and with what its bonds have left, if asked for."
-        => ByMaterial(Carried, <[f64]>::to_vec, probed!("stress" "Stress that the material carries": "xx" "yy" "xy" "zz" "xz" "yz"));
+        => ByMaterial(Carried, tensor, probed!("stress" "Stress that the material carries": "xx" "yy" "zz" "xy" "yz" "xz"));
     STRESS_PRINCIPAL "stress_principal" ["Pa"] PRINCIPAL Main(2), "Principal values of `stress`, the largest first."
         => ByMaterial(Carried, principal::values, probed!("stress_principal" "Principal value of that stress": "1" "2" "3"));
+    STRESS_VON_MISES "stress_von_mises" ["Pa"] SCALAR Main(2), "Equivalent stress of von Mises of `stress`, where all of it is known."
+        => ByMaterial(Carried, principal::von_mises, &[["stress_von_mises", "Equivalent stress of von Mises, Pa."]]);
+    STRESS_TRESCA "stress_tresca" ["Pa"] SCALAR Main(2), "Equivalent stress of Tresca of `stress`, twice its largest shear, where all of it is known."
+        => ByMaterial(Carried, principal::tresca, &[["stress_tresca", "Equivalent stress of Tresca, Pa."]]);
     STRESS_DIRECTION "stress_direction" ["-"] VECTOR Low, "Unit vector along the largest principal value of `stress`."
         => ByMaterial(Carried, principal::direction_of_largest, &[]);
     STRESS_EFFECTIVE "stress_effective" ["Pa"] SYMMETRIC Low,
         "Stress that the strain of the bonds which neither broke nor soften would have in sound material, if asked for."
-        => ByMaterial(Effective, <[f64]>::to_vec, probed!("stress_effective" "Effective stress": "xx" "yy" "xy" "zz" "xz" "yz"));
+        => ByMaterial(Effective, tensor, probed!("stress_effective" "Effective stress": "xx" "yy" "zz" "xy" "yz" "xz"));
     STRESS_EFFECTIVE_PRINCIPAL "stress_effective_principal" ["Pa"] PRINCIPAL Low,
         "Principal values of `stress_effective`, the largest first."
         => ByMaterial(Effective, principal::values, probed!("stress_effective_principal" "Principal value of the effective stress": "1" "2" "3"));
@@ -245,6 +248,9 @@ result_fields! {
     SCATTER_FACTOR "_factor" ["-"] SCALAR Low,
         "Factor of a property that varies at random: `strength_factor` or `fracture_energy_factor`."
         => ScatterFactors;
+    MATERIAL "material" ["-"] INTEGER Low,
+        "Number of the material of the cell in the order of the case, from 1, on the cells of a body with several materials."
+        => MaterialOfCell;
     PATCH_RESIDUAL "patch_residual" ["-"] SCALAR Low,
         "Forces that the patch correction leaves at the point, over the size of their terms."
         => Model(|it| &it.fixed.patch_residual);
@@ -265,19 +271,20 @@ impl ResultField {
         FIELDS.iter().find(is_it).copied()
     }
 
+    /// Word of the stress in `output.stress` with which results have the field; None for fields that need none.
+    pub fn requested_by(&self) -> Option<&'static str> {
+        match self.reading {
+            ByMaterial(Carried, ..) => Some("material"),
+            ByMaterial(Effective, ..) => Some("effective"),
+            Stress(StressReading::Virial) => Some("virial"),
+            Stress(StressReading::Traction) => Some("traction"),
+            _ => None,
+        }
+    }
+
     /// Components in the plane or in space.
     pub fn components(&self, in_space: bool) -> Components {
         self.components[usize::from(in_space)]
-    }
-
-    /// Components in the results of a body: stresses by the law of the material have one across the plane where it is known.
-    pub fn components_of_body(&self, system: &dyn Bonds) -> Components {
-        match self.reading {
-            ByMaterial(..) if self.components == SYMMETRIC && system.has_stress_across_plane => {
-                Components::Named(SymTensor::<2>::NAMES_WITH_NORMAL)
-            }
-            _ => self.components(system.layout.is_in_space()),
-        }
     }
 
     /// Values of the field in a state of a run; None where the run has no such field or the field does not depend on the state.
@@ -285,12 +292,15 @@ impl ResultField {
         match self.reading {
             InState(read) => read(view),
             Probed(read, _) => read(view.solution()).map(FieldValues::Numbers),
-            Stress(reading) => numbers(stresses(view, reading)),
+            Stress(reading) => {
+                let components = self.components(view.system.layout.is_in_space());
+                numbers(in_order(components.names(), &stresses(view, reading)))
+            }
             ByMaterial(of, read, _) => {
-                let count = self.components_of_body(view.system).count();
+                let count = self.components(view.system.layout.is_in_space()).count();
                 numbers(material_stresses(view.solution(), of, read, count))
             }
-            Model(_) | EnergyRatios | ScatterFactors | CrackSurface => None,
+            Model(_) | EnergyRatios | ScatterFactors | MaterialOfCell | CrackSurface => None,
         }
     }
 }
@@ -364,7 +374,8 @@ impl<'a> ModelPoints<'a> {
                 ScatterFactors => (fixed.scatter.iter())
                     .map(|it| (it.of.field(), &*it.at_points))
                     .collect(),
-                InState(_) | Probed(..) | Stress(_) | ByMaterial(..) | CrackSurface => Vec::new(),
+                InState(_) | Probed(..) | Stress(_) | ByMaterial(..) | MaterialOfCell
+                | CrackSurface => Vec::new(),
             }
         };
         let all = FIELDS.iter().flat_map(values);
@@ -468,26 +479,44 @@ fn dissipated_energy_density(view: &View<'_>) -> Option<FieldValues> {
 /// Stress-free strains due to the temperature, shape (n_points, n_components); empty where the temperature does not change.
 fn thermal_strain(view: &View<'_>) -> Vec<f64> {
     let strain = view.loads.thermal_strain(view.state.load_factor);
-    let places = thermal_strain_places(view.system.layout.is_in_space());
+    let components = THERMAL_STRAIN.components(view.system.layout.is_in_space());
     let of_points = (0..view.system.n_points()).filter(|_| !strain.is_none());
-    let of_point = |point: usize| {
-        let strains: Vec<f64> = strain.of_point(point).engineering().collect();
-        places.clone().map(move |place| strains[place])
+    let values =
+        of_points.flat_map(|point| strain.of_point(point).engineering().collect::<Vec<_>>());
+    let strains = Stresses {
+        names: SymTensor::<3>::NAMES,
+        values: values.collect(),
     };
-    of_points.flat_map(of_point).collect()
+    in_order(components.names(), &strains)
 }
 
-/// Indices of the components of [`THERMAL_STRAIN`] among the components of a strain in space.
-pub fn thermal_strain_places(in_space: bool) -> impl Iterator<Item = usize> + Clone {
-    let names = THERMAL_STRAIN.components(in_space).names().iter();
-    names.filter_map(|name| SymTensor::<3>::NAMES.iter().position(|it| it == name))
+/// Values in the order of other names of components, zero where a name is not among those of the values.
+fn in_order(names: &[&str], of: &Stresses) -> Vec<f64> {
+    let place = |name: &&str| of.names.iter().position(|it| it == name);
+    let places: Vec<Option<usize>> = names.iter().map(place).collect();
+    let of_points = of.values.chunks_exact(of.names.len());
+    let in_order = |of_point: &[f64]| {
+        let value = |place: &Option<usize>| place.map_or(0.0, |it| of_point[it]);
+        places.iter().map(value).collect::<Vec<_>>()
+    };
+    of_points.flat_map(in_order).collect()
 }
 
-fn stresses(view: &View<'_>, reading: StressReading) -> Vec<f64> {
+/// The components of a stress in the order of the files.
+fn tensor(stress: &[f64]) -> Vec<f64> {
+    let in_space = SymTensor::<3>::from_first_components(stress);
+    let stress = Stresses {
+        names: SymTensor::<3>::NAMES,
+        values: in_space.components().collect(),
+    };
+    in_order(TENSOR.names(), &stress)
+}
+
+fn stresses(view: &View<'_>, reading: StressReading) -> Stresses {
     let (system, balanced) = (view.system, view.balanced);
     let mut stresses = system.stresses(reading, view.state.bonds(), &balanced.deformations);
     system.add_contact_stresses(reading, &balanced.closed, &mut stresses);
-    stresses.values
+    stresses
 }
 
 /// Values at all points, `count` at each, of a function of their stresses by the laws of their materials; not a number where a point has

@@ -141,17 +141,17 @@ fn stresses_are_asked_for_by_name() {
         message("true"),
         "--set output.stress=true: output.stress: expected a list, found true"
     );
-    let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_xy\"\n";
+    let probe = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_virial.xy\"\n";
     let case = CaseFile::parse(Path::new("case.toml"), format!("{TEXT}{probe}"), &[]).unwrap();
     let at = [0.0, 0.0].into();
-    let field = PointField::named("stress_xy").unwrap();
+    let field = PointField::named("stress_virial.xy").unwrap();
     let probe = case.case.probes.last().unwrap();
     assert_eq!((probe.at, probe.field), (Some(at), Some(field)));
     let of_solids = "\n[[probe]]\nname = \"s\"\nat = [0.0, 0.0]\nfield = \"stress_principal.3\"\n";
     let error = error_of(&format!("{TEXT}{of_solids}"));
-    let reason = "a body in the plane has no such component of the stress; zz is known in plane strain, of isotropic materials";
+    let reason = "a body in the plane has no such component of the stress: xx, yy, zz and xy, and the principal values 1 and 2";
     assert!(error.ends_with(reason), "{error}");
-    let across = of_solids.replace("stress_principal.3", "stress.zz");
+    let across = of_solids.replace("stress_principal.3", "stress.yz");
     let error = error_of(&format!("{TEXT}{across}"));
     assert!(error.ends_with(reason), "{error}");
 }

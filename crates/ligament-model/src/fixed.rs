@@ -19,6 +19,8 @@ pub struct ConstantFields {
     pub patch_residual: Vec<f64>,
     /// Points whose bonds never fail, shape (n_points).
     pub no_fail: Vec<bool>,
+    /// Number of the material of each cell in the order of the case, from 1, shape (n_cells); empty where the body has one material.
+    pub material_of_cell: Vec<i64>,
     /// Name of each interface between materials, and whether each bond crosses it, shape (n_bonds).
     pub interfaces: Vec<(String, Vec<bool>)>,
     /// Random factors of each property that varies; empty where none does.

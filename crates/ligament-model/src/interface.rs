@@ -45,6 +45,9 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Diagonal of the box around all points of the body, m; collective.
     fn extent(&self) -> f64;
 
+    /// Sorts points so that the first half lies before the second along the longest side of their box; ties are broken by number.
+    fn halve(&self, points: &mut [u32]);
+
     /// Stiffness of each point with all its bonds, shape (n_points).
     fn point_stiffness(&self) -> Vec<PointStiffness>;
 

@@ -82,5 +82,5 @@ pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orth
 pub use scatter::Scatter;
 pub use shape::Shape;
 pub use system::elements::System;
-pub use system::{BondSystem, UnbrokenBonds};
+pub use system::{BondSystem, StressAcrossPlane, UnbrokenBonds};
 pub use topology::{CoupledPoints, Topology};

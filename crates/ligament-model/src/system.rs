@@ -27,6 +27,17 @@ pub use crate::topology::UnbrokenBonds;
 use crate::topology::{CoupledPoints, Topology};
 use crate::volumetric::{VolumetricCells, VolumetricTerms};
 
+/// Stress across the plane of a body in the plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StressAcrossPlane {
+    /// Plane stress.
+    Zero,
+    /// Plane strain of isotropic materials: by Hooke's law.
+    OfIsotropic,
+    /// Plane strain of other materials, whose constants across the plane are not given.
+    Unknown,
+}
+
 /// Points and bonds in D dimensions with their rigidities; constant after construction.
 #[derive(Debug, Clone)]
 pub struct BondSystem<const D: usize = 2> {
@@ -46,8 +57,8 @@ pub struct BondSystem<const D: usize = 2> {
     /// Stiffness of each material with the effective constants of the law, shape (n_materials), Pa; empty where no stress is
     /// evaluated from it.
     pub materials: Vec<Stiffness>,
-    /// Whether the stress across the plane is known: of isotropic materials in plane strain.
-    pub has_stress_across_plane: bool,
+    /// Stress across the plane.
+    pub stress_across_plane: StressAcrossPlane,
     /// Crack faces.
     pub faces: Faces<D>,
     /// Elements in place of bonds where nothing breaks; none without a far field.
@@ -111,7 +122,7 @@ impl<const D: usize> BondSystem<D> {
             bonds,
             cloud,
             materials: Vec::new(),
-            has_stress_across_plane: false,
+            stress_across_plane: StressAcrossPlane::Zero,
             faces: Faces::default(),
             far: None,
             volumetric: None,
@@ -125,10 +136,10 @@ impl<const D: usize> BondSystem<D> {
         Self { materials, ..self }
     }
 
-    /// The system in plane strain with isotropic materials, whose stress across the plane is known.
-    pub fn with_stress_across_plane(self) -> Self {
+    /// The system with another stress across its plane than none.
+    pub fn with_stress_across_plane(self, stress_across_plane: StressAcrossPlane) -> Self {
         Self {
-            has_stress_across_plane: true,
+            stress_across_plane,
             ..self
         }
     }
@@ -243,7 +254,6 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             coupled_points,
             far_field: system.far.as_ref().map(|it| it.neighbours.clone()),
             has_volumetric_cells: system.volumetric.is_some(),
-            has_stress_across_plane: system.has_stress_across_plane,
             faces_close: system.faces.close(),
         };
         Self {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
-/// Components of a symmetric tensor as row and column, in the order of all files and names: those of the plane come first, so that the plane
+/// Components of a symmetric tensor as row and column, in the order of calculations: those of the plane come first, so that the plane
 /// is a part of space.
 pub(crate) const ORDER: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [2, 2], [0, 2], [1, 2]];
 
@@ -102,6 +102,12 @@ impl<const D: usize> SymTensor<D> {
         _ => Self::NAMES,
     };
 
+    /// The tensor with components in order, zero where some of the last are missing: in space that of a plane with its normal component.
+    pub fn from_first_components(components: &[f64]) -> Self {
+        let mut values = components.iter();
+        Self::from_fn(|_, _| *values.next().unwrap_or(&0.0))
+    }
+
     /// The tensor whose components a function gives by row and column (row <= column).
     #[inline]
     pub fn from_fn(mut component: impl FnMut(usize, usize) -> f64) -> Self {
@@ -117,8 +123,7 @@ impl<const D: usize> SymTensor<D> {
     /// The tensor with components in order, of which there must be D (D + 1)/2.
     pub fn from_components(components: &[f64]) -> Self {
         assert_eq!(components.len(), Self::COMPONENTS.len());
-        let mut values = components.iter();
-        Self::from_fn(|_, _| *values.next().unwrap_or(&0.0))
+        Self::from_first_components(components)
     }
 
     /// The unit tensor times a value.

@@ -40,8 +40,6 @@ pub struct Topology {
     pub far_field: Option<CoupledPoints>,
     /// Whether cells have a stiffness against changes of volume.
     pub has_volumetric_cells: bool,
-    /// Whether the stress across the plane is known: of isotropic materials in plane strain.
-    pub has_stress_across_plane: bool,
     /// Whether crack faces carry pressure where they close.
     pub faces_close: bool,
 }

@@ -69,6 +69,7 @@ fn request(folder: PathBuf, step: &str, wanted: Wanted) -> Result<FieldRequest, 
         crack,
         solid: SolidRequest {
             view: wanted.view.map(|it| it.parse()).transpose()?,
+            up: None,
             section: wanted.section.map(|it| it.parse()).transpose()?,
             level: wanted.level,
         },

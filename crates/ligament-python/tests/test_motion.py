@@ -15,7 +15,7 @@ BAR: dict[str, Any] = {
     "motion": {"duration": 8e-6, "rows": 80},
     "load": [{"group": "left", "velocity": {"x": SPEED}, "amplitude": {"shape": "sine", "duration": 2e-6}}],
     "quiet": [{"group": "right"}],
-    "probe": [{"name": "middle", "at": [0.015, 0.001], "field": "velocity_x"}],
+    "probe": [{"name": "middle", "at": [0.015, 0.001], "field": "velocity.x"}],
     "output": {"fields_every": 20},
 }
 

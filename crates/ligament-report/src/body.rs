@@ -2,14 +2,17 @@
 
 use std::collections::HashMap;
 
-use ligament_output::results::location;
 use ligament_output::results::solid_body::is_solid;
+use ligament_output::results::{location, sides_between_materials};
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
 
 /// Bits of the raster along a side for the order of the points.
 const BITS: u32 = 16;
+
+/// Number of corners of the cell of a point of a lattice in the plane.
+const CORNERS: usize = 4;
 
 /// A body for drawing, in the plane or a solid.
 #[derive(Debug)]
@@ -30,6 +33,8 @@ pub(crate) struct Body {
     pub(crate) simplices: Vec<u32>,
     /// Indices of the points in the files, in the order of the page.
     pub(crate) order: Vec<u32>,
+    /// Ends of the sides between materials in the plane, two after each other: the points that they follow, and their places, m.
+    pub(crate) interfaces: (Vec<u32>, Vec<[f64; 2]>),
 }
 
 impl Body {
@@ -56,6 +61,17 @@ impl Body {
             FieldLocation::Point => simplices(&cells, &places),
             FieldLocation::Cell => Vec::new(),
         };
+        let sides = sides_between_materials(file)?;
+        let ends: Vec<u32> = sides.into_iter().flatten().collect();
+        let point = |corner: &u32| match location {
+            FieldLocation::Point => places[*corner as usize],
+            FieldLocation::Cell => places[*corner as usize / CORNERS],
+        };
+        let grid = file.points_in_plane()?;
+        let interfaces = (
+            ends.iter().map(point).collect(),
+            ends.iter().map(|it| grid[*it as usize]).collect(),
+        );
         let halves = match halves.is_empty() {
             true => halves,
             false => ordered(&halves, &order),
@@ -69,6 +85,7 @@ impl Body {
             halves,
             simplices,
             order,
+            interfaces,
         })
     }
 

@@ -101,6 +101,8 @@ fn begin(file: &VtuFile, body: &Body, digits: u32) -> Vec<IncompleteField> {
                 .map(|it| (*it).to_owned())
                 .collect(),
             (_, []) => (0..stride).map(|it| it.to_string()).collect(),
+            // So are the last two of a symmetric tensor.
+            (6, names) if body.dimension == 2 => names[..4].to_vec(),
             _ => names.to_vec(),
         };
         let known = ResultField::named(name);

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 use ligament_output::csv::read::CsvTable;
 use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::fields::DISPLACEMENT;
-use ligament_output::results::first_field_of;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::stored::StoredRun;
+use ligament_output::results::{first_field_of, stored_rigid_bodies};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, read_text};
 use ligament_plot::picture::stored_precracks;
@@ -160,9 +160,38 @@ impl DrawnOutputs<'_> {
             "bonds": bonds,
             "cracks": cracks,
             "precracks": precracks,
+            "rigid": rigid_bodies(self.files)?,
+            "interfaces": {
+                "points": body.interfaces.0,
+                "places": body.interfaces.1.as_flattened(),
+            },
             "sketch": sketch,
         }))
     }
+}
+
+/// Rigid bodies of a run: places and triangles, and the displacements of the places in each step of the page; null where it has none.
+fn rigid_bodies(files: &BTreeMap<usize, PathBuf>) -> Result<Value, Error> {
+    let mut ways = Vec::new();
+    let mut first = None;
+    for path in files.values() {
+        let Some(rigid) = stored_rigid_bodies(path)? else {
+            return Ok(Value::Null);
+        };
+        ways.push(rounded(&rigid.displacement));
+        first.get_or_insert(rigid);
+    }
+    let bodies = first.unwrap_or_default();
+    Ok(json!({
+        "places": rounded(&bodies.places),
+        "triangles": bodies.triangles.as_flattened(),
+        "displacements": ways,
+    }))
+}
+
+/// Coordinates of places one after the other in single precision.
+fn rounded(places: &[[f64; 3]]) -> Vec<f32> {
+    places.iter().flatten().map(|it| *it as f32).collect()
 }
 
 /// The step with fields under the largest load that the body carries; none for modes and for a run without a history.

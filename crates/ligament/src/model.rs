@@ -176,11 +176,11 @@ impl Model {
             )?,
             Some(near) => Bonded::of_near_field(near, &*body, &material_of_cell, watcher)?,
         };
-        fixed.no_fail = no_fail;
-        fixed.interfaces = setup.crossed_interfaces(&system);
+        (fixed.no_fail, fixed.interfaces) = (no_fail, setup.crossed_interfaces(&system));
+        fixed.material_of_cell = numbers_of_materials(&setup, &material_of_cell);
         fixed.scatter = scatter::factors(&setup.scatter, &body.positions(), &body.numbering());
         let limits = || formulation::criteria(&setup, &system, &fixed);
-        let criteria = stage(watcher, "criteria", limits)?;
+        let criteria = Arc::new(stage(watcher, "criteria", limits)?);
         let report = correction.report.as_ref();
         Ok(Self {
             warnings: warnings(described, &system.cloud, report, &fixed, &criteria, crossed)
@@ -196,7 +196,7 @@ impl Model {
             setup,
             system: AnySystem::new(system.with_elements()),
             fixed,
-            criteria: Arc::new(criteria),
+            criteria,
             refined: None,
         })
     }
@@ -394,10 +394,7 @@ fn bond_system<const D: usize>(
     require_finite_rigidities(names, &system)?;
     let materials = formulation::stiffness_of_materials(setup);
     let system = system.with_faces(faces).with_materials(materials);
-    Ok(match setup.has_stress_across_plane() {
-        true => system.with_stress_across_plane(),
-        false => system,
-    })
+    Ok(system.with_stress_across_plane(setup.stress_across_plane()))
 }
 
 /// The system with the stiffness of the cells against changes of volume, where bonds do not make up the whole materials.
@@ -509,6 +506,17 @@ fn of_bonds<const D: usize>(formulation: &Formulation<'_, D>, bonds: BondSet<D>)
     }
 }
 
+/// Numbers from 1 of the materials of the cells (n_cells) of a body with several; none for a body of one.
+fn numbers_of_materials(setup: &Setup, material_of_cell: &[u32]) -> Vec<i64> {
+    match setup.materials.len() {
+        0 | 1 => Vec::new(),
+        _ => material_of_cell
+            .iter()
+            .map(|it| i64::from(*it) + 1)
+            .collect(),
+    }
+}
+
 /// Fixed fields of a correction; the other fields are empty.
 fn of_correction(correction: &Correction) -> ConstantFields {
     ConstantFields {
@@ -519,6 +527,7 @@ fn of_correction(correction: &Correction) -> ConstantFields {
         shear_ratio: correction.shear_ratio.clone(),
         patch_residual: correction.patch_residual().to_vec(),
         interfaces: Vec::new(),
+        material_of_cell: Vec::new(),
         no_fail: Vec::new(),
         scatter: Vec::new(),
         absent: Vec::new(),

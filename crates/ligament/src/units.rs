@@ -41,7 +41,7 @@ impl Setup {
         match self.curve_axis() {
             CurveAxis::Load(load) => self.loads[load].action.units(),
             CurveAxis::Temperature => Units::TEMPERATURE,
-            CurveAxis::RigidBody(_) | CurveAxis::Nothing => Units::FORCE,
+            CurveAxis::RigidBody(_) | CurveAxis::FreeBody(_) | CurveAxis::Nothing => Units::FORCE,
         }
     }
 }
@@ -66,9 +66,11 @@ impl Setup {
 }
 
 impl Setup {
-    /// Whether the curve is of a rigid body with a prescribed velocity.
+    /// Whether the curve is of a rigid body with a velocity.
     fn is_driven_in_time(&self) -> bool {
-        self.analysis.is_motion() && matches!(self.curve_axis(), CurveAxis::RigidBody(_))
+        let axis = self.curve_axis();
+        self.analysis.is_motion()
+            && matches!(axis, CurveAxis::RigidBody(_) | CurveAxis::FreeBody(_))
     }
 }
 

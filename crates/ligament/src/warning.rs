@@ -207,7 +207,7 @@ fn of_constants(setup: &Setup) -> Vec<Message> {
 pub fn of_virial_stress(origin: &Origin<'_>) -> Option<Message> {
     let is_regular = matches!(origin, Origin::Lattice(_) | Origin::SolidLattice(_));
     (!is_regular).then(|| {
-        let text = "virial stresses (output.stress, probes of stress_xx and so on) are right only in the mean over the body: at single points of an \
+        let text = "virial stresses (output.stress, probes of stress_virial.xx and so on) are right only in the mean over the body: at single points of an \
                     irregular mesh their error is 10 to 25 % inside the body and 30 % or more at its edges, also with the patch correction";
         let advice = "take output.stress = [\"material\"] and probes of stress.xx instead";
         Message::new("virial-stress", text).with_advice(advice)

@@ -16,7 +16,7 @@ mod surfaces;
 pub use energy_bound::{Drag, PairContacts};
 pub use friction::Friction;
 pub use problem::{ContactProblem, ContactReading, ContactStiffness, SurfaceContact};
-pub use rigid_body::{RigidBody, RigidMotion, RigidRates, RigidState};
+pub use rigid_body::{RigidBody, RigidMotion, RigidRates, RigidState, RigidSurface};
 pub use steps::{SurfaceEnergy, SurfaceWork};
 pub use surfaces::{ContactStep, LastTouching, SurfaceSearch, Touching};
 

@@ -17,6 +17,34 @@ pub struct RigidBody {
     pub name: String,
     /// Motion of the body.
     pub motion: RigidMotion,
+    /// Distance at the start to what it meets, m.
+    pub gap: f64,
+    /// Surface by which it is drawn.
+    pub surface: RigidSurface,
+}
+
+/// Surface of a rigid body by which it is drawn: in the plane its area.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RigidSurface {
+    /// Middle, about which the body turns, m.
+    pub middle: Vector,
+    /// Places at the start, shape (n_places), m; in the plane z = 0.
+    pub places: Vec<Vector>,
+    /// Triangles by their corners, shape (n_triangles).
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl RigidSurface {
+    /// Displacements of the places in a state of the body, m. In space only balls turn, whose surface stays the same.
+    pub fn displacements(&self, state: &RigidState) -> Vec<Vector> {
+        let (sine, cosine) = state.rotation[2].sin_cos();
+        let of_place = |place: &Vector| {
+            let [x, y] = [0, 1].map(|axis| place[axis] - self.middle[axis]);
+            let turned = [cosine * x - sine * y - x, sine * x + cosine * y - y, 0.0];
+            std::array::from_fn(|axis| state.displacement[axis] + turned[axis])
+        };
+        self.places.iter().map(of_place).collect()
+    }
 }
 
 /// Motion of a rigid body.

@@ -8,12 +8,28 @@ use super::overrides::as_option;
 use ligament::error::Fault as SetupFault;
 use ligament::suggestion::hint;
 
+/// The tail of an error about a word: the nearest valid one, or all of them, however many.
+fn hint_of_values(found: &str, valid: &[String]) -> String {
+    match hint(found, valid, "valid values", '"') {
+        nothing if nothing.is_empty() => format!("; valid values: \"{}\"", valid.join("\", \"")),
+        text => text,
+    }
+}
+
+/// Place of what a key of other programs means, for an error.
+fn of_other_programs(key: &str) -> Option<&'static str> {
+    ["critical_stretch", "epsilon_c"].contains(&key).then_some(
+        "; a critical stretch is the `limit` of a [[fracture.criterion]] with kind = \"critical-stretch\"",
+    )
+}
+
 /// Fault of a key or its value.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Fault {
     /// The table has no such key.
     #[error(
-        "unknown key `{key}` in {table}{}",
+        "unknown key `{key}` in {table}{}{}",
+        of_other_programs(key).unwrap_or_default(),
         hint(key, valid, "valid keys", '`')
     )]
     UnknownKey {
@@ -87,7 +103,7 @@ pub enum Fault {
         section: String,
     },
     /// The value is not one of the key's words.
-    #[error("unknown value \"{found}\"{}", hint(found, valid, "valid values", '"'))]
+    #[error("unknown value \"{found}\"{}", hint_of_values(found, valid))]
     UnknownValue {
         /// The word as given.
         found: String,

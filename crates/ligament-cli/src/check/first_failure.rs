@@ -3,7 +3,7 @@
 use std::io;
 
 use ligament::Message;
-use ligament::foresight::predict;
+use ligament::foresight::{of_no_fail, predict};
 use ligament_analysis::Equilibrium;
 use ligament_analysis::driver::{FirstFailure, Prediction, Problem};
 use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
@@ -62,7 +62,12 @@ pub(super) fn write(
     let prediction = stages.time("first solution", || {
         predict(problem, analysis, &mut messages)
     });
-    let refused = match prediction.map_err(|it| case.error_in_case_terms(it))? {
+    let prediction = prediction.map_err(|it| case.error_in_case_terms(it))?;
+    let no_fail = match &prediction {
+        Some(Prediction::FirstFailure(first)) => of_no_fail(model, first.bond),
+        _ => None,
+    };
+    let refused = match prediction {
         Some(Prediction::Refused(end)) => {
             Some(stages.time("stability", || stability::end_text(&end, model)))
         }
@@ -75,6 +80,7 @@ pub(super) fn write(
     // Free rigid motions are reported with the supports.
     let shown = messages.0.into_iter().filter(|it| it.kind != "free-body");
     let shown = shown.map(|it| with_point_names(it, model.body(), &model.setup));
+    let shown = shown.chain(no_fail);
     Ok(PredictedRun {
         messages: shown.collect(),
         refused,

@@ -6,12 +6,13 @@ use std::path::Path;
 use ligament::Loading;
 use ligament::foresight::refuse;
 use ligament::setup::{
-    Analysis, ELASTIC_ENERGY_TOLERANCE, Load, Position, Reading as Given, Setup, Support,
+    Analysis, ELASTIC_ENERGY_TOLERANCE, Load, Position, Reading as Given, RigidForm, Setup, Support,
 };
 use ligament::units::Units;
 use ligament_analysis::probe::{Reading, Shares};
 use ligament_analysis::{ControlKind, Equilibrium, gauges};
 use ligament_case::case::CaseFile;
+use ligament_model::tensor::norm;
 use ligament_output::quantity::quantity;
 use ligament_run::disk::{self, FieldsOnDisk};
 use ligament_run::memory;
@@ -108,6 +109,7 @@ pub(super) fn write_boundary(
         write_group(report, body, &group.name, &group.points)?;
     }
     write_restraints(report, &model.setup)?;
+    write_rigid_bodies(report, model, loading)?;
     if let Some(changes) = temperature_change(&loading.boundary) {
         report.entry("temperature change", spread(changes, "K"))?;
     }
@@ -121,9 +123,16 @@ pub(super) fn write_boundary(
         ControlKind::RigidBody(body) => {
             format!("`{}`, moved by", model.setup.rigid_bodies[body].name)
         }
+        ControlKind::FreeBody(body) => {
+            let name = &model.setup.rigid_bodies[body].name;
+            format!("nothing; the curve is of `{name}`, which starts with")
+        }
     };
     let unit = model.setup.control_unit();
-    let words = format!("{what} {}", quantity(control.magnitude, unit));
+    let words = match control.kind {
+        ControlKind::Force if points == 0 => "nothing, so that the curve is zero".to_owned(),
+        _ => format!("{what} {}", quantity(control.magnitude, unit)),
+    };
     report.entry("controlled by", words)?;
     if control.kind == ControlKind::Force && units == Units::COUPLE {
         let words =
@@ -149,6 +158,39 @@ pub(super) fn write_boundary(
             _ => continue,
         };
         report.entry(&format!("probe {}", probe.name), reads)?;
+    }
+    Ok(())
+}
+
+/// Writes shape, gap and motion of each rigid body.
+fn write_rigid_bodies(report: &mut Report<'_>, model: &Model, loading: &Loading) -> io::Result<()> {
+    let setup = &model.setup;
+    for (body, given) in loading.contact.rigid_bodies.iter().zip(&setup.rigid_bodies) {
+        let shape = match given.form {
+            RigidForm::Ball { .. } if setup.body.dimensions() == 3 => "sphere",
+            RigidForm::Ball { .. } => "circle",
+            RigidForm::Wall { .. } => "wall",
+            RigidForm::Box { .. } => "box",
+        };
+        let size = norm(given.motion());
+        let unit = match setup.analysis.is_motion() {
+            true => "m/s",
+            false => "m",
+        };
+        let motion = match given.mass {
+            Some(mass) => format!(
+                "{}, {} at the start",
+                quantity(mass, "kg"),
+                quantity(size, unit)
+            ),
+            None if size == 0.0 => "at rest".to_owned(),
+            None => format!("moved by {}", quantity(size, unit)),
+        };
+        let words = format!(
+            "{shape}, {} from the body, {motion}",
+            quantity(body.gap, "m")
+        );
+        report.entry(&format!("rigid {}", body.name), words)?;
     }
     Ok(())
 }

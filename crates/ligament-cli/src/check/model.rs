@@ -125,7 +125,7 @@ fn write_bonds(report: &mut Report<'_>, model: &Model) -> io::Result<()> {
         report.entry("cells", format!("{cells} carry volumetric stiffness"))?;
     }
     if model.no_fail_points() > 0 {
-        report.entry("points with no_fail", model.no_fail_points())?;
+        report.entry("points with no_fail", no_fail_words(model))?;
     }
     report.detail("nearest distance", spread(over(&system.spacing), "m"))?;
     report.entry("horizon", spread(over(&fixed.horizon), "m"))?;
@@ -150,4 +150,25 @@ fn write_energy_ratios(report: &mut Report<'_>, model: &Model) -> io::Result<()>
         )?;
     }
     Ok(())
+}
+
+/// Number of the points with `no_fail`, and how far bonds that never fail reach beyond them.
+fn no_fail_words(model: &Model) -> String {
+    let marked = &model.fixed.no_fail;
+    let mut reached = vec![false; marked.len()];
+    for &[a, b] in model.system.ends.iter() {
+        for (from, to) in [(a as usize, b as usize), (b as usize, a as usize)] {
+            reached[to] |= marked[from] && !marked[to];
+        }
+    }
+    let horizons = model.fixed.horizon.iter().zip(marked);
+    let farthest = horizons
+        .filter(|it| *it.1)
+        .fold(0.0, |most: f64, it| most.max(*it.0));
+    let others = reached.iter().filter(|it| **it).count();
+    format!(
+        "{}, and {others} others up to {} from them have bonds that never fail",
+        model.no_fail_points(),
+        quantity(farthest, "m")
+    )
 }

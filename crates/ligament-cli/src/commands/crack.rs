@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use ligament_output::csv::read::CsvTable;
 use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
@@ -101,6 +102,7 @@ impl CrackArgs {
                 quantity(line.length(), "m")
             )?;
         }
+        write_speeds(&mut out, &self.results, step)?;
         Ok(writeln!(
             out,
             "{} in {}",
@@ -108,6 +110,28 @@ impl CrackArgs {
             self.results.display()
         )?)
     }
+}
+
+/// Writes the speed of each tip of a motion up to a step.
+fn write_speeds(out: &mut dyn Write, folder: &Path, step: usize) -> anyhow::Result<()> {
+    let table = CsvTable::read(folder.join(CRACK_FILES[2]))?;
+    if !table.columns().iter().any(|it| it == "speed") {
+        return Ok(());
+    }
+    let tips = table.rows(|row| {
+        let at = [row.value("x")?, row.value("y")?];
+        Ok((row.value("step")?, at, row.value::<String>("speed")?))
+    })?;
+    let until = tips.iter().map(|it: &(usize, _, _)| it.0);
+    let last = until.filter(|it| *it <= step).max();
+    for (_, at, speed) in tips.iter().filter(|it| Some(it.0) == last) {
+        // A new tip has no speed.
+        if let Ok(speed) = speed.parse::<f64>() {
+            let speed = quantity(speed, "m/s");
+            writeln!(out, "  the tip at {} moves at {speed}", place(at))?;
+        }
+    }
+    Ok(())
 }
 
 /// The step, or the time of a motion, in words.

@@ -10,7 +10,7 @@ use ligament_plot::picture::colour_map::ColourMap;
 use ligament_plot::picture::curve::{CurveRequest, draw_curves};
 use ligament_plot::picture::select::Choice;
 use ligament_plot::picture::{
-    CrackDrawing, FieldRequest, Format, Magnification, Section, SolidRequest, Target, View,
+    CrackDrawing, FieldRequest, Format, Magnification, Section, SolidRequest, Target, Upward, View,
     animate, draw_crack_paths, draw_each, draw_fields,
 };
 use ligament_study::sweep::completed_runs;
@@ -67,7 +67,7 @@ pub struct PlotArgs {
     /// `lines`, the crack surface by its opening [without a value: bonds]
     #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true, default_missing_value = "bonds", value_parser = crack_drawings())]
     pub crack: Option<CrackDrawing>,
-    /// Draw the lines of a CSV file x,y in m over the undeformed body; empty rows part lines
+    /// Draw the lines of a CSV file x,y in m over the undeformed body; empty rows part lines. Of crack.csv of another run its cracks
     #[arg(long = "with-lines", value_name = "FILE")]
     pub lines: Vec<PathBuf>,
     /// Draw only this part of the deformed body, m
@@ -76,6 +76,9 @@ pub struct PlotArgs {
     /// See a solid from x, y, z, iso, or AZIMUTH,ELEVATION in degrees [default: iso; a section from its normal]
     #[arg(long, value_name = "VIEW", allow_hyphen_values = true)]
     pub view: Option<View>,
+    /// Axis of a solid that points up
+    #[arg(long, value_name = "AXIS", value_parser = upwards())]
+    pub up: Option<Upward>,
     /// Draw the section of a solid by a plane: x=0.05, y=.. or z=.. in m, or a point and a normal PX,PY,PZ,NX,NY,NZ
     #[arg(long, value_name = "PLANE", allow_hyphen_values = true)]
     pub section: Option<Section>,
@@ -95,7 +98,7 @@ pub struct PlotArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100))]
     pub columns: Option<u32>,
     /// Draw curves over the load history in place of bodies: reaction over displacement, of a motion over time
-    #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "lines", "window", "levels", "range", "map", "columns", "view", "section", "iso"])]
+    #[arg(long, conflicts_with_all = ["field", "step", "strip", "displacements", "scale", "crack", "lines", "window", "levels", "range", "map", "columns", "view", "up", "section", "iso"])]
     pub curve: bool,
     /// Column along x [default: displacement, of a motion time]
     #[arg(long, value_name = "COLUMN", requires = "curve")]
@@ -190,6 +193,7 @@ impl PlotArgs {
             ("with-lines", !self.lines.is_empty()),
             ("box", self.window.is_some()),
             ("view", self.view.is_some()),
+            ("up", self.up.is_some()),
             ("section", self.section.is_some()),
             ("iso", self.iso.is_some()),
             ("animate", self.animate.is_some()),
@@ -238,6 +242,7 @@ impl PlotArgs {
                 columns: self.columns.map(|it| it as usize),
                 solid: SolidRequest {
                     view: self.view,
+                    up: self.up,
                     section: self.section,
                     level: self.iso,
                 },
@@ -254,6 +259,15 @@ impl PlotArgs {
         }
         Ok(())
     }
+}
+
+/// Parser of the axis that points up.
+fn upwards() -> impl TypedValueParser<Value = Upward> {
+    let names = PossibleValuesParser::new(["y", "z"]);
+    names.map(|name| match name.as_str() {
+        "y" => Upward::Y,
+        _ => Upward::Z,
+    })
 }
 
 /// The completed runs of the study whose folder is the only result; None for results of runs.

@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use crate::support::{assert_success, ligament, stderr, stdout};
+use crate::support::{assert_success, ligament, ligament_in, stderr, stdout};
 
 #[cfg(unix)]
 mod meshing;
@@ -302,5 +302,44 @@ fn a_file_that_is_no_mesh_is_refused() {
         stderr(&output).contains("\n  because: "),
         "{}",
         stderr(&output)
+    );
+}
+
+/// A strip of 40 x 20 cells with a slit up to its middle, so that the ligament is 10 mm long. Above the slit the two upper rows may not fail:
+/// bonds that end there do not either: a fifth of those across the ligament, most of them in its upper half. At the ends of the strip they are no part of it.
+#[test]
+fn the_reach_of_no_fail_into_the_ligament_is_told() {
+    const STRIP: &str = r#"
+lattice = { cells = [40, 20], spacing = 1e-3, thickness = 0.01, plane = "stress", set = { left = { left = 3 }, right = { right = 3 } } }
+material = { young = 20e9, poisson = 0.2, fracture_energy = 50.0 }
+model = { law = "nhpd", horizon_factor = 3.0 }
+precrack = [{ points = [[0.02, -1e-3], [0.02, 0.01]] }]
+support = [{ group = "left", displacement = { x = 0.0, y = 0.0 } }]
+load = [{ group = "right", displacement = { x = 3e-5 } }]
+fracture = { steps = 10, criterion = [{ kind = "bond-energy" }] }
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    let told = |no_fail: &str| {
+        let case = format!("{STRIP}no_fail = [{no_fail}]\n");
+        std::fs::write(folder.path().join("case.toml"), case).unwrap();
+        let output = ligament_in(folder.path(), &["check", "case.toml"]);
+        assert_success(&output);
+        stdout(&output)
+    };
+    let above = told("{ box = [[0.015, 0.018], [0.025, 0.02]] }");
+    assert!(
+        above.contains("points with no_fail   20, and 50 others up to 3.000 mm from them"),
+        "{above}"
+    );
+    let share = above
+        .split(" % of the bonds across the smallest section")
+        .next()
+        .unwrap();
+    let share: f64 = share.rsplit(' ').next().unwrap().parse().unwrap();
+    assert!((15.0..40.0).contains(&share), "{share}");
+    let beside = told("{ group = \"left\" }, { group = \"right\" }");
+    assert!(
+        !beside.contains("of the bonds across the smallest section"),
+        "{beside}"
     );
 }

@@ -208,8 +208,8 @@ fn names_in_cases_lead_nowhere() {
     let case = SMALL_BAR
         .replace("left = { left", "\"../../evil\" = { left")
         .replace("group = \"left\"", "group = \"../../evil\"");
-    let probes = "[[probe]]\nname = \"../../evil\"\nat = [0.0, 0.0]\nfield = \"displacement_x\"\n\
-                  [[probe]]\nname = \"/evil\"\nat = [0.0, 0.0]\nfield = \"displacement_x\"\n";
+    let probes = "[[probe]]\nname = \"../../evil\"\nat = [0.0, 0.0]\nfield = \"displacement.x\"\n\
+                  [[probe]]\nname = \"/evil\"\nat = [0.0, 0.0]\nfield = \"displacement.x\"\n";
     fs::write(place.path("case.toml"), case + probes).unwrap();
     fs::create_dir_all(place.path("a/b")).unwrap();
     assert_success(&place.ligament(["run", "case.toml", "--out", "a/b/out"]));
@@ -313,7 +313,7 @@ fn escape_sequences_in_results_are_not_sent() {
     let place = stopped();
     let resolved = place.path("out/case.resolved.toml");
     let probe = format!(
-        "{case}[[probe]]\nname = \"{in_text}\"\nat = [0.0, 0.0]\nfield = \"displacement_x\"\n"
+        "{case}[[probe]]\nname = \"{in_text}\"\nat = [0.0, 0.0]\nfield = \"displacement.x\"\n"
     );
     fs::write(&resolved, probe).unwrap();
     shown(&place, &resume);

@@ -214,7 +214,7 @@ fn keys_of_the_plane_are_refused() {
         ),
         (
             [head, support, load, &*turn_at],
-            ["probe.0.field", "rotation_x"],
+            ["probe.0.field", "rotation.x"],
         ),
         (
             [head, support, load, &*section],
@@ -247,7 +247,7 @@ fn keys_of_solids_are_refused_in_the_plane() {
     let box_in_space = "box = [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0]]\ndisplacement = { x = 1e-6 }";
     let disk = "[[precrack]]\ncentre = [0.04, 0.02]\nnormal = [1.0, 0.0]\nradius = 0.01";
     let probe = "[[probe]]\nname = \"a\"\nbetween = [[0, 0], [1, 0]]\ncomponent = \"z\"";
-    let turn = "[[probe]]\nname = \"a\"\nat = [0, 0]\nfield = \"rotation_x\"";
+    let turn = "[[probe]]\nname = \"a\"\nat = [0, 0]\nfield = \"rotation.x\"";
     for (parts, words) in [
         (
             [plate, held_along_z, pulled, ""],

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::interface::Stresses;
 use crate::layout::Layout;
 use crate::material::stress_component;
-use crate::system::{BondSystem, UnbrokenBonds};
+use crate::system::{BondSystem, StressAcrossPlane, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
 use super::carried::StrainReading;
@@ -34,7 +34,7 @@ impl<const D: usize> BondSystem<D> {
         let of_point =
             |(point, strain)| self.stress_components(layout, reading, point as u32, strain);
         Stresses {
-            names: self.stress_names(),
+            names: SymTensor::<D>::NAMES_WITH_NORMAL,
             values: numbered.flat_map_iter(of_point).collect(),
         }
     }
@@ -71,8 +71,8 @@ impl<const D: usize> BondSystem<D> {
         Some(stress.plus(&SymTensor::isotropic(of_cells)))
     }
 
-    /// Components of the stress of a point with a strain in a reading, Pa, with that across the plane where it is known; not a number without
-    /// a strain or without the stiffnesses of the materials.
+    /// Components of the stress of a point with a strain in a reading, Pa, in the plane with that across it, not a number where it is unknown; none is a
+    /// number without a strain or without the stiffnesses of the materials.
     pub(crate) fn stress_components(
         &self,
         layout: Layout,
@@ -82,21 +82,19 @@ impl<const D: usize> BondSystem<D> {
     ) -> Vec<f64> {
         let stress = strain.and_then(|it| self.stress_in(layout, reading, point, &it));
         let (Some(strain), Some(stress)) = (strain, stress) else {
-            return vec![f64::NAN; self.stress_names().len()];
+            return vec![f64::NAN; SymTensor::<D>::NAMES_WITH_NORMAL.len()];
         };
         let mut components: Vec<f64> = stress.components().collect();
-        if self.has_stress_across_plane {
-            components.push(self.stress_across_plane(reading, point, &strain, &stress));
+        if D == 2 {
+            components.push(match self.stress_across_plane {
+                StressAcrossPlane::Zero => 0.0,
+                StressAcrossPlane::OfIsotropic => {
+                    self.stress_across_plane(reading, point, &strain, &stress)
+                }
+                StressAcrossPlane::Unknown => f64::NAN,
+            });
         }
         components
-    }
-
-    /// Names of the [components of a stress](Self::stress_components).
-    pub(crate) fn stress_names(&self) -> &'static [&'static str] {
-        match self.has_stress_across_plane {
-            true => SymTensor::<D>::NAMES_WITH_NORMAL,
-            false => SymTensor::<D>::NAMES,
-        }
     }
 
     /// Stress across the plane of a point without strain across it, Pa, from its stress in the plane and its strain less what the temperature

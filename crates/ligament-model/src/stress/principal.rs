@@ -1,4 +1,4 @@
-//! Principal stresses: of a point, and those around a bond at which it begins to soften.
+//! Principal stresses: of a point, with the equivalent stresses that follow from them, and those around a bond at which it begins to soften.
 
 use rayon::prelude::*;
 
@@ -133,5 +133,61 @@ pub fn direction_of_largest(stress: &[f64]) -> Vec<f64> {
         None => SymTensor::<3>::from_components(stress)
             .principal_direction()
             .to_vec(),
+    }
+}
+
+/// Equivalent stress of von Mises (1913), Pa, of a stress with these components, in the plane with that across it: with its principal values
+///
+/// sigma_v = sqrt(((sigma_1 - sigma_2)^2 + (sigma_2 - sigma_3)^2 + (sigma_3 - sigma_1)^2)/2).
+pub fn von_mises(stress: &[f64]) -> Vec<f64> {
+    let [one, two, three] = in_space(stress);
+    let squares = [one - two, two - three, three - one].map(|it| it * it);
+    vec![(0.5 * squares.iter().sum::<f64>()).sqrt()]
+}
+
+/// Equivalent stress of Tresca (1864), Pa, of a stress with these components, in the plane with that across it: twice the largest shear
+/// stress, sigma_1 - sigma_3.
+pub fn tresca(stress: &[f64]) -> Vec<f64> {
+    let [largest, _, least] = in_space(stress);
+    vec![largest - least]
+}
+
+/// The three principal values, the largest first; none is a number where a component is none.
+fn in_space(stress: &[f64]) -> [f64; 3] {
+    match stress.iter().any(|it| it.is_nan()) {
+        true => [f64::NAN; 3],
+        false => SymTensor::<3>::from_first_components(stress).principal_values(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Textbook states of stress, Pa: a bar, a plane in pure shear (tau sqrt 3 and 2 tau), pressure from all sides (none), plane strain of an
+    /// incompressible material (sigma_zz is the mean of the others), and an axle with sigma = 80, tau = 30 (sqrt(80^2 + 3 30^2), sqrt(80^2 + 4 30^2)).
+    #[test]
+    fn equivalent_stresses_are_those_of_textbooks() {
+        let cases: [(&[f64], [f64; 2]); 6] = [
+            (&[-100.0, 0.0, 0.0, 0.0], [100.0, 100.0]),
+            (&[0.0, 0.0, 40.0, 0.0], [40.0 * 3.0_f64.sqrt(), 80.0]),
+            (&[-7.0, -7.0, 0.0, -7.0, 0.0, 0.0], [0.0, 0.0]),
+            (&[100.0, 0.0, 0.0, 50.0], [50.0 * 3.0_f64.sqrt(), 100.0]),
+            (
+                &[0.0, 0.0, 0.0, 80.0, 0.0, 30.0],
+                [9100.0_f64.sqrt(), 100.0],
+            ),
+            (&[80.0, 0.0, 30.0, 0.0], [9100.0_f64.sqrt(), 100.0]),
+        ];
+        for (stress, expected) in cases {
+            let found = [von_mises(stress)[0], tresca(stress)[0]];
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!(
+                    (found - expected).abs() < 1e-12,
+                    "{stress:?}: {found} {expected}"
+                );
+            }
+        }
+        assert!(von_mises(&[1.0, 2.0, 3.0, f64::NAN])[0].is_nan());
     }
 }

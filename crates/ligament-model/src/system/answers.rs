@@ -38,6 +38,10 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         self.system.cloud.extent()
     }
 
+    fn halve(&self, points: &mut [u32]) {
+        self.system.cloud.halve(points);
+    }
+
     fn point_stiffness(&self) -> Vec<PointStiffness> {
         let BondSystem {
             rigidities, bonds, ..

@@ -18,7 +18,7 @@ pub(super) const LOCK: &str = ".lock";
 pub(super) const REPLACED: &str = ".replaced";
 
 /// Files of a run with fixed names.
-const OF_A_RUN: [&str; 15] = [
+const OF_A_RUN: [&str; 16] = [
     RESOLVED_CASE,
     "breaks.csv",
     "criteria.csv",
@@ -34,6 +34,7 @@ const OF_A_RUN: [&str; 15] = [
     "fields.pvd",
     "bonds.pvd",
     "modes.pvd",
+    "rigid.pvd",
 ];
 
 /// Beginning of the names of copies of inputs.
@@ -46,7 +47,7 @@ const SECTIONS_WITH_FILES: [&str; 4] = ["mesh", "temperature", "load", "refine"]
 const MODEL_STEM: &str = "model";
 
 /// Prefixes of the numbered files of a run.
-const NUMBERED: [&str; 3] = ["fields_", "bonds_", "mode_"];
+const NUMBERED: [&str; 4] = ["fields_", "bonds_", "mode_", "rigid_"];
 
 /// Files of cracks and other surfaces, which are derived from the results of a run later, and prefixes of the numbered ones.
 const OF_SURFACES: [&str; 10] = [

@@ -314,8 +314,8 @@ columns! { "Columns of the growth of cracks."
 columns! { "Columns of the growth of cracks in a motion."
     GROWTH_RATE:
     "time" "s" ANY "time, in a motion";
-    "length_rate" "m/s" PLANE "in a motion, in the plane: what all lines together grew since the row before, over the time between";
-    "area_rate" "m^2/s" ANY "in a motion: what the area grew since the row before, over the time between";
+    "length_rate" "m/s" PLANE "in a motion, in the plane: growth of all lines together over the last five rows of the table; what does not last counts as none";
+    "area_rate" "m^2/s" ANY "in a motion: growth of the area over the last five rows of the table; what does not last counts as none";
 }
 
 columns! { "The first column of the table of times."

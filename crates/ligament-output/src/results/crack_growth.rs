@@ -9,6 +9,9 @@ use super::cracks::CrackRecord;
 use crate::Error;
 use crate::csv::{Table, Value};
 
+/// Number of rows over which rates are taken: single rows jump by the length of a cell.
+pub(super) const ROWS: usize = 5;
+
 /// A record of the history with the size of all cracks.
 pub(super) struct CrackSize<'a> {
     pub(super) record: &'a CrackRecord,
@@ -44,8 +47,8 @@ pub(super) fn write_growth(
         dissipated_energy: it.record.dissipated_energy,
     };
     let states: Vec<GrowthState> = grown.iter().map(state).collect();
-    let before = std::iter::once(None).chain(grown.iter().map(Some));
-    for ((it, before), rates) in grown.iter().zip(before).zip(release_rates(&states, least)) {
+    let lasting = Lasting::new(grown);
+    for ((place, it), rates) in grown.iter().enumerate().zip(release_rates(&states, least)) {
         let rate = |of: fn(&ReleaseRates) -> f64| {
             rates.as_ref().map_or(Value::Missing, |it| of(it).into())
         };
@@ -64,25 +67,45 @@ pub(super) fn write_growth(
         ]);
         if in_time {
             row.push(it.record.load_factor.into());
-            row.extend(it.rates_since(before));
+            row.extend(lasting.rates(grown, place));
         }
         table.append(&row)?;
     }
     Ok(())
 }
 
-impl CrackSize<'_> {
-    /// Rates of the length, in the plane, and of the area since the record before, m/s and m^2/s.
-    fn rates_since(&self, before: Option<&Self>) -> Vec<Value<'static>> {
-        let rate = |of: fn(&Self) -> Option<f64>| {
-            let before = before?;
-            let time = self.record.load_factor - before.record.load_factor;
-            Some((of(self)? - of(before)?) / time)
+/// Sizes of the cracks that last: a broken bond stays broken, so that what later rows no longer have was no crack, such as a short branch that
+/// is traced in one row and not in the next.
+struct Lasting {
+    /// Lengths of the lines, shape (n_records), m; empty for a solid.
+    lengths: Vec<f64>,
+    /// Areas, shape (n_records), m^2.
+    areas: Vec<f64>,
+}
+
+impl Lasting {
+    fn new(grown: &[CrackSize<'_>]) -> Self {
+        let least_from = |mut sizes: Vec<f64>| {
+            for place in (1..sizes.len()).rev() {
+                sizes[place - 1] = sizes[place - 1].min(sizes[place]);
+            }
+            sizes
         };
-        let in_plane = self.length.map(|_| rate(|it| it.length));
-        let rates = in_plane.into_iter().chain([rate(|it| Some(it.area))]);
-        rates
-            .map(|it| it.map_or(Value::Missing, Value::from))
-            .collect()
+        Self {
+            lengths: least_from(grown.iter().filter_map(|it| it.length).collect()),
+            areas: least_from(grown.iter().map(|it| it.area).collect()),
+        }
+    }
+
+    /// Rates of the length, in the plane, and of the area of a record over the rows up to it, m/s and m^2/s.
+    fn rates(&self, grown: &[CrackSize<'_>], place: usize) -> Vec<Value<'static>> {
+        let first = place.saturating_sub(ROWS);
+        let time = |place: usize| grown[place].record.load_factor;
+        let rate = |sizes: &Vec<f64>| match place {
+            0 => Value::Missing,
+            _ => ((sizes[place] - sizes[first]) / (time(place) - time(first))).into(),
+        };
+        let sizes = [&self.lengths, &self.areas].into_iter();
+        sizes.filter(|it| !it.is_empty()).map(rate).collect()
     }
 }

@@ -13,7 +13,7 @@ use ligament_model::raised;
 use ligament_post::crack::CrackLine;
 
 use super::columns::{CRACK, CRACK_TIPS, TIP_SPEED, names};
-use super::crack_growth::{CrackSize, write_growth};
+use super::crack_growth::{CrackSize, ROWS, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
 use super::opened_files::{OPENED, write_opened_plane_cells};
 use super::surface_files::fields_until;
@@ -134,13 +134,18 @@ fn write_tips(
     }
     let mut table = Table::create(path, &columns)?;
     let reach = cracks.mean_horizon();
-    let (mut earlier, mut time) = (Vec::new(), f64::NAN);
+    let mut earlier: Vec<[f64; 2]> = Vec::new();
+    // Times (s) and ways (m) of each earlier tip over the last rows.
+    let mut courses: Vec<Vec<[f64; 2]>> = Vec::new();
     for RecordWithLines { record, lines } in grown {
         let tips: Vec<[f64; 2]> = lines.iter().flat_map(CrackLine::tips).collect();
+        let mut new_courses = Vec::new();
         for (number, line) in (1_u32..).zip(lines) {
             let ways = line.advances_of_tips(&earlier, reach);
             for ([x, y], way) in line.tips().zip(ways) {
-                let speed = way.map(|it| it / (record.load_factor - time));
+                let course = continued(&courses, way, record.load_factor);
+                let speed = speed(&course);
+                new_courses.push(course);
                 let mut row = vec![
                     record.step.into(),
                     record.load_factor.into(),
@@ -155,9 +160,29 @@ fn write_tips(
                 table.append(&row)?;
             }
         }
-        (earlier, time) = (tips, record.load_factor);
+        (earlier, courses) = (tips, new_courses);
     }
     Ok(())
+}
+
+/// The course of a tip at a time (s): that of an earlier tip, given by its index, with a way (m) more; of a new tip its beginning.
+fn continued(courses: &[Vec<[f64; 2]>], way: Option<(usize, f64)>, time: f64) -> Vec<[f64; 2]> {
+    let (before, way) = match way {
+        Some((tip, way)) => (courses[tip].as_slice(), way),
+        None => (&[][..], 0.0),
+    };
+    let so_far = before.last().map_or(0.0, |it| it[1]);
+    let kept = before.len().saturating_sub(ROWS);
+    let with_now = before[kept..].iter().copied();
+    with_now.chain([[time, so_far + way]]).collect()
+}
+
+/// Mean speed of a tip over its course, m/s; none at its beginning.
+fn speed(course: &[[f64; 2]]) -> Option<f64> {
+    let [first, .., last] = course else {
+        return None;
+    };
+    Some((last[1] - first[1]) / (last[0] - first[0]))
 }
 
 /// Sizes of the cracks at the records.

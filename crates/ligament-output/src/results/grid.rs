@@ -3,7 +3,7 @@
 use std::iter::repeat_n;
 use std::path::Path;
 
-use ligament_analysis::result_fields::{DISPLACEMENT, ModelPoints};
+use ligament_analysis::result_fields::{DISPLACEMENT, MATERIAL, ModelPoints};
 use ligament_mesh::SolidCell;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::{BodyGrid, Canvas, box_corners, raised};
@@ -19,7 +19,18 @@ pub(super) fn fixed_fields(model: ModelPoints<'_>) -> impl Iterator<Item = Field
 
 /// Writes only the fields of a model, for `check`.
 pub fn point_grid(path: &Path, grid: &BodyGrid, model: ModelPoints<'_>) -> Result<(), Error> {
-    write_points(path, grid, &fixed_fields(model).collect::<Vec<_>>())
+    let tags = Field::integer(grid.tagged, &grid.tags);
+    let fields: Vec<Field<'_>> = fixed_fields(model).chain([tags]).collect();
+    let subdomain = Subdomain::whole(grid.positions.len());
+    let of_cells = material_of_cells(model);
+    write_grid(path, grid, [&fields, &of_cells], (&subdomain, &[]))
+}
+
+/// Field of the cells with the numbers of their materials, where there are several.
+pub(super) fn material_of_cells(model: ModelPoints<'_>) -> Vec<Field<'_>> {
+    let numbers = &model.fixed.material_of_cell;
+    let field = (!numbers.is_empty()).then(|| Field::integer(MATERIAL.name, numbers));
+    field.into_iter().collect()
 }
 
 /// Writes fields of the points (n_points) of an unloaded body, with the tags of the points.
@@ -27,7 +38,7 @@ pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Resul
     let tags = Field::integer(grid.tagged, &grid.tags);
     let all: Vec<Field<'_>> = fields.iter().copied().chain([tags]).collect();
     let subdomain = Subdomain::whole(grid.positions.len());
-    write_grid(path, grid, &all, (&subdomain, &[]))
+    write_grid(path, grid, [&all, &[]], (&subdomain, &[]))
 }
 
 /// Bonds as lines between the points of a body, in the order of the file.
@@ -100,16 +111,18 @@ impl BondLines {
     }
 }
 
-/// Writes fields of the points of a body, and field data; in pieces where the body is divided between processes. Readers warp the grid by
-/// its first vector, the displacement.
+/// Writes fields of the points and of the cells of a body, and field data; in pieces where the body is divided between processes. Readers
+/// warp the grid by its first vector, the displacement.
 pub(super) fn write_grid(
     path: &Path,
     body: &BodyGrid,
-    fields: &[Field<'_>],
+    [fields, of_cells]: [&[Field<'_>]; 2],
     (subdomain, field_data): (&Subdomain, &[(&str, f64)]),
 ) -> Result<(), Error> {
     if matches!(body.canvas, Canvas::Around(_) | Canvas::Boxes(_)) {
-        return write_point_cells(path, body, fields, (subdomain, field_data));
+        // Each cell has one point.
+        let fields = [fields, of_cells].concat();
+        return write_point_cells(path, body, &fields, (subdomain, field_data));
     }
     let order = body.numbering.order_of_file();
     let (numbering, numbers) = (&body.numbering, numbers_in_order(body));
@@ -130,7 +143,7 @@ pub(super) fn write_grid(
         points: &body.positions,
         cells: &cells,
         point_fields: &all,
-        cell_fields: &[],
+        cell_fields: of_cells,
         field_data,
     };
     vtu::write_shared(path, &grid, shared)
@@ -251,7 +264,7 @@ mod tests {
             Field::integer(grid.tagged, &grid.tags),
         ];
         let whole = Subdomain::whole(grid.positions.len());
-        write_grid(&path, &grid, &fields, (&whole, &[])).unwrap();
+        write_grid(&path, &grid, [&fields, &[]], (&whole, &[])).unwrap();
         let DataSet::UnstructuredGrid { pieces, .. } = Vtk::import(&path).unwrap().data else {
             panic!("not an unstructured grid");
         };

@@ -9,6 +9,7 @@
 //! | `criteria.csv` | one row per failure criterion: its measure and its law after the limit |
 //! | `model.vtu` | points and bonds at the start, limits of the bonds; at the end their largest utilisations and dissipated energies |
 //! | `timings.csv` | the time of each load step, in a file of its own, so that histories can be compared bitwise |
+//! | `rigid_NNNN.vtu`, `rigid.pvd` | surfaces of the rigid bodies, as in the state of the fields with this number |
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if requested |
 //!
@@ -32,6 +33,7 @@ pub mod outputs;
 pub mod passes;
 mod pieces;
 mod point_fields;
+mod rigid_files;
 mod rule;
 mod softening_table;
 pub mod solid_body;
@@ -65,7 +67,8 @@ pub use isosurface_files::write_level_set;
 pub use modes::write_modes;
 use outputs::remove_others;
 pub use pieces::PieceWriter;
-pub use point_fields::location;
+pub use point_fields::{location, sides_between_materials};
+pub use rigid_files::{StoredRigidBodies, stored_rigid_bodies};
 pub use rule::WriteRule;
 pub use softening_table::CrackedBelow;
 use softening_table::SofteningTable;
@@ -87,6 +90,7 @@ pub struct ResultWriter<'a> {
     first: FirstBonds,
     fields_collection: Collection,
     bonds_collection: Collection,
+    rigid_collection: Collection,
     /// Ends of the broken bonds, with the steps.
     breaks: Vec<([u32; 2], u32)>,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
@@ -126,6 +130,7 @@ impl<'a> ResultWriter<'a> {
             first: FirstBonds::default(),
             fields_collection: Collection::new(folder.file("fields.pvd")),
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
+            rigid_collection: Collection::new(folder.file("rigid.pvd")),
             breaks: Vec::new(),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
             whole: Vec::new(),
@@ -165,6 +170,10 @@ impl<'a> ResultWriter<'a> {
         }
         remove_others(folder, "fields", &fields)?;
         remove_others(folder, "bonds", &bonds)?;
+        let is_rigid = !problem.contact.rigid_bodies.is_empty();
+        let beside = |(time, name): &(f64, String)| (*time, rigid_files::name_beside(name));
+        let rigid: Vec<(f64, String)> = fields.iter().filter(|_| is_rigid).map(beside).collect();
+        remove_others(folder, rigid_files::STEM, &rigid)?;
         let mut step_of_breaking = vec![-1; fixed.domain_factor.len()];
         set_steps_of_breaking(&mut step_of_breaking, problem, &breaks);
         Ok(Self {
@@ -181,6 +190,7 @@ impl<'a> ResultWriter<'a> {
             first,
             fields_collection: Collection::with_outputs(folder.file("fields.pvd"), fields)?,
             bonds_collection: Collection::with_outputs(folder.file("bonds.pvd"), bonds)?,
+            rigid_collection: Collection::with_outputs(folder.file("rigid.pvd"), rigid)?,
             breaks,
             step_of_breaking,
             whole,
@@ -237,6 +247,15 @@ impl<'a> ResultWriter<'a> {
             (record, view),
         )?;
         self.record_file(&name)?;
+        let bodies = &self.problem.contact.rigid_bodies;
+        if !bodies.is_empty() {
+            let name = rigid_files::name_beside(&name);
+            let field_data = rule::field_data(record);
+            let states = &record.rigid_bodies;
+            rigid_files::write(&self.folder.file(&name), bodies, states, &field_data)?;
+            self.record_file(&name)?;
+            self.rigid_collection.append(rule::time(record), name)?;
+        }
         self.fields_collection.append(rule::time(record), name)
     }
 

@@ -13,7 +13,7 @@ use ligament_analysis::result_fields::{
 use ligament_model::{BodyGrid, ConstantFields};
 
 use super::columns::{MODES, names};
-use super::grid::{fixed_fields, write_grid};
+use super::grid::{fixed_fields, material_of_cells, write_grid};
 use super::point_fields::vtu_field;
 use crate::Error;
 use crate::csv::{Table, Value};
@@ -73,7 +73,8 @@ pub fn write_modes(
         let time = f64::from(number);
         let field_data = [(TIME_VALUE, time), ("frequency_hz", mode.frequency())];
         let whole = (&system.subdomain, &field_data[..]);
-        write_grid(&folder.file(&name), grid, &fields, whole)?;
+        let of_cells = material_of_cells(model);
+        write_grid(&folder.file(&name), grid, [&fields, &of_cells], whole)?;
         collection.append(time, name)?;
     }
     Ok(())

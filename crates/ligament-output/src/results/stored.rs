@@ -3,9 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use ligament_analysis::result_fields::{
-    DISPLACEMENT, HORIZON, ROTATION, THERMAL_STRAIN, VOLUME, thermal_strain_places,
-};
+use ligament_analysis::result_fields::{DISPLACEMENT, HORIZON, ROTATION, THERMAL_STRAIN, VOLUME};
 use ligament_analysis::{BondDeformation, ElementKind};
 use ligament_model::Absence;
 use ligament_model::tensor::SymTensor;
@@ -217,9 +215,10 @@ impl StoredRun {
                 .collect(),
         };
         let n_points = self.model.positions.len();
-        let thermal = match file.components(location, THERMAL_STRAIN.name) {
-            Some(_) => file.finite_numbers(location, THERMAL_STRAIN.name)?,
-            None => Vec::new(),
+        let components = file.component_names(location, THERMAL_STRAIN.name);
+        let thermal = match components.is_empty() {
+            true => Vec::new(),
+            false => file.finite_numbers(location, THERMAL_STRAIN.name)?,
         };
         if rotation.len() != n_points {
             return Err(file.malformed(format!(
@@ -229,22 +228,22 @@ impl StoredRun {
         Ok(Some(Motions {
             displacement: displacement.as_chunks().0.to_vec(),
             rotation,
-            thermal_strain: free_strains(self.model.in_space, &thermal),
+            thermal_strain: free_strains(&components, &thermal),
         }))
     }
 }
 
-/// Free strains of the points from the values of their components in a file.
-fn free_strains(in_space: bool, values: &[f64]) -> StressFreeStrains {
+/// Free strains of the points from the values of their components in a file, by the names of the components.
+fn free_strains(components: &[String], values: &[f64]) -> StressFreeStrains {
     let of_point = |values: &[f64]| {
-        let mut strains = [0.0; 6];
-        for (place, value) in thermal_strain_places(in_space).zip(values) {
-            strains[place] = *value;
-        }
+        let strain = |name: &&str| {
+            let place = components.iter().position(|it| it == name);
+            place.map_or(0.0, |it| values[it])
+        };
+        let strains: Vec<f64> = SymTensor::<3>::NAMES.iter().map(strain).collect();
         SymTensor::<3>::from_engineering(&strains)
     };
-    let count = THERMAL_STRAIN.components(in_space).count();
-    StressFreeStrains::new(values.chunks(count).map(of_point))
+    StressFreeStrains::new(values.chunks(components.len().max(1)).map(of_point))
 }
 
 fn require_run(folder: &Path) -> Result<(), Error> {

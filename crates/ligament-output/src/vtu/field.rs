@@ -204,8 +204,9 @@ impl<'a> Field<'a> {
         if self.n_components > 1 {
             attributes.push_str(&format!(" NumberOfComponents=\"{}\"", self.n_components));
         }
+        // Capitals, as VTK names the components of vectors and tensors itself.
         for (number, name) in self.component_names.iter().enumerate() {
-            let name = escape_attribute(name);
+            let name = escape_attribute(&name.to_uppercase());
             attributes.push_str(&format!(" ComponentName{number}=\"{name}\""));
         }
         attributes

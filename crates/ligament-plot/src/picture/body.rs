@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::DISPLACEMENT;
-use ligament_output::results::location;
+use ligament_output::results::{location, sides_between_materials};
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
@@ -30,6 +30,8 @@ pub(super) struct Body {
     tagged: FieldLocation,
     /// Indices of the points by their tags.
     places: HashMap<i64, usize>,
+    /// Sides of cells along which other materials begin: reference and displacement of their ends, m.
+    interfaces: Vec<[([f64; 2], [f64; 2]); 2]>,
 }
 
 impl Body {
@@ -46,6 +48,7 @@ impl Body {
             cells,
             tagged,
             places: HashMap::new(),
+            interfaces: Vec::new(),
         }
     }
 
@@ -54,13 +57,24 @@ impl Body {
         let moved = file.finite_numbers(FieldLocation::Point, DISPLACEMENT.name)?;
         let tagged = location(file);
         let (_, tags) = file.tags(tagged)?;
+        let reference = file.points_in_plane()?;
+        let displacement: Vec<[f64; 2]> = moved.chunks_exact(3).map(|v| [v[0], v[1]]).collect();
+        let end = |corner: u32| (reference[corner as usize], displacement[corner as usize]);
+        let sides = sides_between_materials(file)?;
         Ok(Self {
-            reference: file.points_in_plane()?,
-            displacement: moved.chunks_exact(3).map(|v| [v[0], v[1]]).collect(),
+            interfaces: sides.into_iter().map(|side| side.map(end)).collect(),
+            reference,
+            displacement,
             cells: file.cells()?,
             tagged,
             places: tags.into_iter().zip(0..).collect(),
         })
+    }
+
+    /// The sides along which other materials begin, with the displacement times a scale, m.
+    pub(super) fn interfaces(&self, scale: f64) -> Vec<[[f64; 2]; 2]> {
+        let moved = |(p, u): ([f64; 2], [f64; 2])| [0, 1].map(|axis| p[axis] + scale * u[axis]);
+        self.interfaces.iter().map(|side| side.map(moved)).collect()
     }
 
     /// Cuts the cells of a mesh along the cracks in the state of a step, so that they open with the displacement, and gives the new
@@ -171,6 +185,7 @@ mod tests {
             cells: vec![Cell::Quad([0, 1, 2, 3])],
             tagged,
             places: HashMap::from([(7, 0)]),
+            interfaces: Vec::new(),
         }
     }
 

@@ -145,7 +145,7 @@ impl<'a> Tables<'a> {
         let points: Vec<[f64; 2]> = of_x.into_iter().zip(of_y).map(|(x, y)| [x, y]).collect();
         let steps = sheet.values::<usize>("step")?;
         Ok(Curve {
-            name: name_in_words(y),
+            name: name_in_words(y, ""),
             at_rest: at_rest(sheet, points.len())?,
             is_scattered: place == 2,
             first: first_failure(self.folder, &steps, &points).filter(|_| place < 2),
@@ -184,8 +184,13 @@ impl<'a> Tables<'a> {
 }
 
 /// Name of a column in words.
-pub(super) fn name_in_words(column: &str) -> String {
-    column.replace('_', " ")
+pub(super) fn name_in_words(column: &str, unit: &str) -> String {
+    match (column, unit) {
+        // A temperature alone is a load whose size is its change.
+        ("displacement", "K") => "temperature change".to_owned(),
+        ("reaction", "J/K") => "work of the thermal forces per kelvin".to_owned(),
+        _ => column.replace(['_', '.'], " "),
+    }
 }
 
 /// Common name of several columns with one unit.

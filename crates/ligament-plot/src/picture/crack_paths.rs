@@ -134,6 +134,8 @@ fn drawn_panel(panel: &PathPanel, colour: &dyn Fn(&str) -> Rgb) -> Result<Panel,
         body,
         field: None,
         broken: Vec::new(),
+        interfaces: Vec::new(),
+        rigid: None,
         lines,
         solid: None,
     })

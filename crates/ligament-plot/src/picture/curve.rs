@@ -143,10 +143,10 @@ impl Axes {
         }
         let x = x.unwrap_or_default();
         let y = match columns.as_slice() {
-            [only] => name_in_words(only),
+            [only] => name_in_words(only, &curves[0].curve.units[1]),
             _ => common_name(&curves[0].curve.units[1]).to_owned(),
         };
-        let names = [name_in_words(&x), y];
+        let names = [name_in_words(&x, &curves[0].curve.units[0]), y];
         let shown = [
             axis_unit(&curves, 0, &names[0])?,
             axis_unit(&curves, 1, &names[1])?,

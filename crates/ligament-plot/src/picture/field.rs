@@ -1,7 +1,7 @@
 //! A field of an output by its name, with one number per point or cell.
 
 use ligament_output::FieldLocation;
-use ligament_output::results::fields::unit_of;
+use ligament_output::results::fields::{ResultField, unit_of};
 use ligament_output::vtu::read::VtuFile;
 
 use super::PictureError;
@@ -104,8 +104,12 @@ fn unknown(file: &VtuFile, name: &str) -> PictureError {
             known.extend(drawable);
         }
     }
+    let base = name.split('.').next().and_then(ResultField::named);
+    let requested_by = base.and_then(ResultField::requested_by);
+    let suggestion = nearest(name, &known).filter(|_| requested_by.is_none());
     PictureError::UnknownField {
-        suggestion: nearest(name, &known).map(str::to_owned),
+        suggestion: suggestion.map(str::to_owned),
+        requested_by,
         name: name.to_owned(),
         known,
     }
@@ -188,6 +192,11 @@ mod tests {
         assert!(error("damge").contains("did you mean `damage`?"));
         assert!(error("quux").contains("stress_virial.xx, stress_virial.yy"));
         assert!(error("stress_virial").contains("stress_virial.xx"));
+        let request =
+            "; write stress = [\"material\"] under [output] in the case and run it anew; there are";
+        assert!(
+            error("stress.xx").contains(request) && error("stress_von_mises").contains(request)
+        );
         assert!(error("displacement.q").contains("displacement.magnitude"));
     }
 }

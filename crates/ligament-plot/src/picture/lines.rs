@@ -1,7 +1,9 @@
 //! Lines over a body: its cracks, the pre-cracks of its case, and lines of a table, such as the cracks of an experiment.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
+use ligament_output::csv::read::CsvTable;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::{Error, read_text};
 
@@ -16,6 +18,9 @@ const CUT: Rgb = [0x8c; 3];
 /// Widths of lines, pixels: of the cracks and of all others.
 const CRACK_WIDTH: f64 = 1.4;
 const WIDTH: f64 = 1.0;
+
+/// First columns of the table of cracks of a run.
+const CRACK_COLUMNS: [&str; 4] = ["step", "line", "x", "y"];
 
 /// Radius of the mark of a tip, pixels.
 const TIP: f64 = 2.2;
@@ -75,17 +80,24 @@ impl Lines {
         })
     }
 
-    /// The lines of a table `x,y` (m) without quotes, separated by empty lines; a first row of words is its header.
+    /// The lines of a table `x,y` (m) without quotes, separated by empty lines; a first row of words is its header. Of the table of cracks
+    /// of another run, the last ones, with the name of its folder.
     pub(super) fn from_table(path: &Path, place: usize) -> Result<Self, PictureError> {
         let text = read_text(path)?;
-        let name = path.file_stem().unwrap_or_default();
+        let is_of_run = text.starts_with(&CRACK_COLUMNS.join(","));
+        let polylines = match is_of_run {
+            true => last_cracks(path)?,
+            false => polylines(path, &text)?,
+        };
+        let folder = path.parent().and_then(Path::file_name);
+        let name = folder.filter(|_| is_of_run).or(path.file_stem());
         let colours = [Colour::Blue, Colour::Green, Colour::Purple, Colour::Orange];
         Ok(Self {
-            name: name.to_string_lossy().into_owned(),
+            name: name.unwrap_or_default().to_string_lossy().into_owned(),
             detail: String::new(),
             colour: colours[place % colours.len()].rgb(),
             width: WIDTH,
-            polylines: polylines(path, &text)?,
+            polylines,
             tips: Vec::new(),
         })
     }
@@ -134,6 +146,22 @@ fn corners(precrack: &toml::Value) -> Option<Vec<[f64; 2]>> {
     Some(vec![[x - along, y - up], [x + along, y + up]])
 }
 
+/// The cracks of the last step in the table of a run.
+fn last_cracks(path: &Path) -> Result<Vec<Vec<[f64; 2]>>, PictureError> {
+    let table = CsvTable::read(path.to_path_buf())?;
+    let [step, line, x, y] = CRACK_COLUMNS;
+    let (steps, lines) = (table.values::<usize>(step)?, table.values::<usize>(line)?);
+    let (x, y) = (table.values::<f64>(x)?, table.values::<f64>(y)?);
+    let last = steps.iter().max();
+    let mut found: BTreeMap<usize, Vec<[f64; 2]>> = BTreeMap::new();
+    for (row, step) in steps.iter().enumerate() {
+        if Some(step) == last {
+            found.entry(lines[row]).or_default().push([x[row], y[row]]);
+        }
+    }
+    Ok(found.into_values().collect())
+}
+
 /// The lines of a text of rows `x,y`.
 fn polylines(path: &Path, text: &str) -> Result<Vec<Vec<[f64; 2]>>, PictureError> {
     let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
@@ -180,6 +208,24 @@ mod tests {
         assert!(error("0,1\n0.1,abc\n").contains("row 2, `0.1,abc`"));
         assert!(error("0,1\n0.1\n").contains("row 2"));
         assert!(error("x,y\n0,1\n").contains("no two places"));
+    }
+
+    /// The cracks of a run at its last step, two of them, under the name of its folder.
+    #[test]
+    fn the_table_of_cracks_of_another_run_is_one_of_lines() {
+        let folder = tempfile::tempdir().unwrap();
+        let run = folder.path().join("coarse");
+        std::fs::create_dir(&run).unwrap();
+        let path = run.join("crack.csv");
+        let rows = "step,line,x,y,along,end\n3,1,0,0,0,tip\n3,1,1,0,1,tip\n4,1,0,0,0,tip\n4,1,2,0.5,2,\n4,1,3,1,3,tip\n4,2,5,5,0,tip\n4,2,6,5,1,tip\n";
+        std::fs::write(&path, rows).unwrap();
+        let lines = Lines::from_table(&path, 0).unwrap();
+        assert_eq!(lines.name, "coarse");
+        let expected = [
+            vec![[0.0, 0.0], [2.0, 0.5], [3.0, 1.0]],
+            vec![[5.0, 5.0], [6.0, 5.0]],
+        ];
+        assert_eq!(lines.polylines, expected);
     }
 
     #[test]

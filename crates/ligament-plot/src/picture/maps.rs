@@ -133,6 +133,8 @@ impl Maps {
                 body: it.body.clone(),
                 field: Some(field),
                 broken: Vec::new(),
+                interfaces: Vec::new(),
+                rigid: None,
                 lines: Vec::new(),
             }
         };

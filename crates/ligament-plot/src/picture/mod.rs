@@ -46,7 +46,7 @@ pub use lines::stored_precracks;
 pub use request::{CrackDrawing, FieldRequest, Magnification, SolidRequest};
 pub use run_pictures::{asks_for_pictures, draw_run};
 pub use series::{animate, draw_each};
-pub use solid::{Section, View, draw_groups};
+pub use solid::{Section, Upward, View, draw_groups};
 pub use target::{Format, Target};
 
 use crate::drawing::gif::GifError;
@@ -61,13 +61,16 @@ pub enum PictureError {
     Results(#[from] ligament_output::Error),
     /// No field has the name.
     #[error(
-        "there is no field `{name}`;{} there are {}",
+        "there is no field `{name}`;{}{} there are {}",
+        requested_by.map(|it| format!(" write stress = [\"{it}\"] under [output] in the case and run it anew;")).unwrap_or_default(),
         suggestion.as_ref().map(|it| format!(" did you mean `{it}`?")).unwrap_or_default(),
         known.join(", ")
     )]
     UnknownField {
         /// Name of a field that does not exist.
         name: String,
+        /// Word of `output.stress` with which results have the field.
+        requested_by: Option<&'static str>,
         /// The nearest name.
         suggestion: Option<String>,
         /// Names of all fields.

@@ -1,6 +1,7 @@
 //! One body in a picture: its field as bands of colour, its outline, its broken bonds.
 
 use ligament_output::FieldLocation;
+use ligament_output::results::StoredRigidBodies;
 use ligament_output::vtu::Cell;
 
 use super::body::Body;
@@ -11,6 +12,7 @@ use super::levels::{Levels, Rule, has_both_signs};
 use super::lines::Lines;
 use super::merged_corners::MergedCorners;
 use super::solid::{Scene, View};
+use crate::drawing::frame::bounds;
 use crate::drawing::{Drawing, Frame, OUTLINE, Paint, PathData, Rgb};
 
 /// Colour of a body without a field, and of cells without a value.
@@ -19,11 +21,15 @@ const BARE: Rgb = [0xdc; 3];
 /// Colour of a body without a field below lines.
 const LIGHT: Rgb = [0xf4; 3];
 
+/// Colour of rigid bodies.
+const RIGID: Rgb = [0x8f, 0x98, 0xa3];
+
 /// Widths of lines in pixels: outlines ...
 const OUTLINE_WIDTH: f64 = 0.5;
 
-/// ... and broken bonds.
+/// ... broken bonds, and sides between materials.
 const BOND_WIDTH: f64 = 0.4;
+const INTERFACE_WIDTH: f64 = 0.9;
 
 /// A body with everything that is drawn of it.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,8 +44,12 @@ pub(super) struct Panel {
     pub(super) field: Option<Field>,
     /// Broken bonds by colour, between deformed ends.
     pub(super) broken: Vec<(Rgb, Vec<[[f64; 2]; 2]>)>,
+    /// Sides on which another material begins, between deformed ends.
+    pub(super) interfaces: Vec<[[f64; 2]; 2]>,
     /// Lines over the body.
     pub(super) lines: Vec<Lines>,
+    /// Rigid bodies beside the body, as they are drawn once it is deformed.
+    pub(super) rigid: Option<StoredRigidBodies>,
     /// The scene that is drawn of a solid, in place of the body's cells.
     pub(super) solid: Option<SolidView>,
 }
@@ -105,16 +115,40 @@ impl Panel {
             None if !self.body.is_mesh() => self.draw_cells(drawing, frame, None),
             _ => self.draw_surface(drawing, frame, field),
         }
-        for (colour, bonds) in &self.broken {
+        let mut path = PathData::default();
+        for corners in self.rigid.iter().flat_map(|it| &it.triangles) {
+            frame.add(&mut path, &corners.map(|it| self.rigid_place(it)));
+        }
+        drawing.path(path, Paint::fill(RIGID));
+        let mut draw = |segments: &[[[f64; 2]; 2]], colour: Rgb, width: f64| {
             let mut path = PathData::default();
-            for ends in bonds.iter().filter(|ends| frame.may_intersect(*ends)) {
+            for ends in segments.iter().filter(|ends| frame.may_intersect(*ends)) {
                 path.segment(ends.map(|end| frame.to_pixels(end)));
             }
-            drawing.path(path, Paint::stroke(*colour, BOND_WIDTH));
+            drawing.path(path, Paint::stroke(colour, width));
+        };
+        draw(&self.interfaces, OUTLINE, INTERFACE_WIDTH);
+        for (colour, bonds) in &self.broken {
+            draw(bonds, *colour, BOND_WIDTH);
         }
         for lines in &self.lines {
             lines.draw(drawing, |place| frame.to_pixels(place));
         }
+    }
+
+    /// Lower left and upper right corner of everything that is drawn, m.
+    pub(super) fn bounds(&self) -> Option<[[f64; 2]; 2]> {
+        let of_rigid = self.rigid.iter().flat_map(|it| 0..it.places.len() as u32);
+        let of_rigid = of_rigid.map(|it| self.rigid_place(it));
+        let places: Vec<[f64; 2]> = self.positions.iter().copied().chain(of_rigid).collect();
+        bounds(&places)
+    }
+
+    /// Place of a corner of the rigid bodies, m.
+    fn rigid_place(&self, corner: u32) -> [f64; 2] {
+        let place = self.rigid.as_ref().map(|it| it.places[corner as usize]);
+        let [x, y, _] = place.unwrap_or_default();
+        [x, y]
     }
 
     /// Colour of cells without a value.

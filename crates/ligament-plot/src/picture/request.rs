@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use super::Target;
 use super::colour_map::ColourMap;
 use super::select::Choice;
-use super::solid::{Section, View};
+use super::solid::{Section, Upward, View};
 
 /// Width of a column and of a page of a paper, mm.
 pub(super) const WIDTHS: [f64; 2] = [90.0, 180.0];
@@ -60,6 +60,8 @@ impl FieldRequest {
 pub struct SolidRequest {
     /// The side from which solids are seen; `None`: obliquely, for a section along its normal, or from the front if it is across y.
     pub view: Option<View>,
+    /// Axis that points up; `None`: z.
+    pub up: Option<Upward>,
     /// Plane of the section that is drawn.
     pub section: Option<Section>,
     /// Level of the field whose surface is drawn.
@@ -75,13 +77,15 @@ impl SolidRequest {
             false => [x, y, z],
         };
         let of_section = || self.section.map(|it| View::along(from(it.normal)));
-        self.view.or_else(of_section).unwrap_or(View::OBLIQUE)
+        let view = self.view.or_else(of_section).unwrap_or(View::OBLIQUE);
+        view.with_up(self.up.unwrap_or_default())
     }
 
     /// Name of a given option that applies to solids only, if any.
     pub(super) fn option_for_solids(&self) -> Option<&'static str> {
         let options = [
             ("view", self.view.is_some()),
+            ("up", self.up.is_some()),
             ("section", self.section.is_some()),
             ("iso", self.level.is_some()),
         ];

@@ -133,7 +133,7 @@ impl<'a> Series<'a> {
         let mut last: Option<Panel> = None;
         for output in &outputs {
             let panel = output.deformed(output.panel(&subject.field)?, magnification);
-            extents.extend(bounds(&panel.positions).into_iter().flatten());
+            extents.extend(panel.bounds().into_iter().flatten());
             last = Some(panel);
         }
         let shown = last.as_slice();

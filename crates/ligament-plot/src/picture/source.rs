@@ -9,10 +9,10 @@ use ligament_output::quantity::four_digits;
 use ligament_output::remedy::Remedy;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::{DISPLACEMENT, OPENING};
-use ligament_output::results::first_field_of;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::solid_body::is_solid;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
+use ligament_output::results::{first_field_of, stored_rigid_bodies};
 use ligament_output::vtu::read::VtuFile;
 
 use super::body::{Body, MODE_SHARE};
@@ -299,7 +299,9 @@ impl Output<'_> {
             field.iter_mut().for_each(normalise_by_quantile);
         }
         let mut body = Body::read(&file)?;
-        if let Some(cracks) = self.source.cracks.as_ref().filter(|_| !self.draws_lines()) {
+        let on_cells = |it: &Field| it.location == FieldLocation::Cell;
+        let opens = !self.draws_lines() && !field.as_ref().is_some_and(on_cells);
+        if let Some(cracks) = self.source.cracks.as_ref().filter(|_| opens) {
             let values = field.as_mut().map(|it| &mut it.values);
             body.open(cracks, self.selected.number, values);
         }
@@ -309,7 +311,9 @@ impl Output<'_> {
             body,
             field,
             broken: Vec::new(),
+            interfaces: Vec::new(),
             lines: self.lines(),
+            rigid: stored_rigid_bodies(&self.selected.path)?,
             solid: None,
         })
     }
@@ -335,7 +339,9 @@ impl Output<'_> {
             body: Body::new(reference, displacement, Vec::new(), FieldLocation::Cell),
             field,
             broken: Vec::new(),
+            interfaces: Vec::new(),
             lines: Vec::new(),
+            rigid: None,
             solid: Some(SolidView {
                 scene,
                 view,
@@ -380,7 +386,9 @@ impl Output<'_> {
                 (kind.colour, bonds.filter_map(line).collect())
             })
             .collect();
+        panel.interfaces = panel.body.interfaces(factor);
         panel.positions = positions;
+        panel.rigid = panel.rigid.map(|it| it.moved(factor));
         panel
     }
 }

@@ -3,7 +3,6 @@
 use super::colour_bar::ColourBar;
 use super::panel::{Panel, Scale};
 use crate::drawing::axes::{self, Axes};
-use crate::drawing::frame::bounds;
 use crate::drawing::{Anchor, Drawing, Frame, OUTLINE, Paint, Rgb, text_width};
 
 /// Size of the text, pixels.
@@ -132,7 +131,7 @@ impl Strip<'_> {
     /// Lower left and upper right corner of the part of a body that is drawn, m.
     fn extent(&self, panel: &Panel) -> Option<[[f64; 2]; 2]> {
         let of_series = self.room.and_then(|room| room.extent);
-        (self.window.or(of_series)).or_else(|| bounds(&panel.positions))
+        (self.window.or(of_series)).or_else(|| panel.bounds())
     }
 
     fn layout(&self, width: f64, below: f64) -> Layout {

@@ -4,12 +4,13 @@ use super::faces::distance;
 use super::lines::{CrackEnd, CrackLine};
 
 impl CrackLine {
-    /// Advances of the [tips](Self::tips) along the line since an earlier state with other tips, m, in the order of the tips.
+    /// Advances of the [tips](Self::tips) along the line since an earlier state with other tips, m, each with the index of the earlier tip, in the
+    /// order of the tips.
     ///
     /// A tip comes from the earlier tip that is nearest along the line, among those at most `reach` (m) away from it. From a tip before the
     /// junction of a branch, the path goes straight to the junction, if that is not farther than `reach` or the branch is long. `None`
     /// for a tip of a new crack, which comes from no earlier tip.
-    pub fn advances_of_tips(&self, earlier: &[[f64; 2]], reach: f64) -> Vec<Option<f64>> {
+    pub fn advances_of_tips(&self, earlier: &[[f64; 2]], reach: f64) -> Vec<Option<(usize, f64)>> {
         let backwards = || self.places.iter().rev().copied().collect();
         let from_tips: [&dyn Fn() -> Vec<[f64; 2]>; 2] = [&|| self.places.clone(), &backwards];
         let ends = self.ends.into_iter().zip(from_tips);
@@ -17,8 +18,10 @@ impl CrackLine {
         of_tips
             .map(|(_, places)| {
                 let places = places();
-                let advances = earlier.iter().filter_map(|it| advance(&places, *it, reach));
-                advances.min_by(f64::total_cmp)
+                let numbered = earlier.iter().enumerate();
+                let advances =
+                    numbered.filter_map(|(k, it)| Some((k, advance(&places, *it, reach)?)));
+                advances.min_by(|one, other| one.1.total_cmp(&other.1))
             })
             .collect()
     }
@@ -58,11 +61,14 @@ mod tests {
         }
     }
 
-    fn is_close(found: &[Option<f64>], expected: &[Option<f64>]) {
+    fn is_close(found: &[Option<(usize, f64)>], expected: &[Option<(usize, f64)>]) {
         assert_eq!(found.len(), expected.len());
         for pair in found.iter().zip(expected) {
             match pair {
-                (Some(found), Some(expected)) => assert!((found - expected).abs() < 1e-12),
+                (Some(found), Some(expected)) => {
+                    assert_eq!(found.0, expected.0);
+                    assert!((found.1 - expected.1).abs() < 1e-12);
+                }
                 (found, expected) => assert_eq!(found, expected),
             }
         }
@@ -78,11 +84,14 @@ mod tests {
         let earlier = [[1.0, 0.1], [2.5, -0.1]];
         is_close(
             &bent.advances_of_tips(&earlier, 0.5),
-            &[Some(1.0), Some(4.5)],
+            &[Some((0, 1.0)), Some((1, 4.5))],
         );
         is_close(&bent.advances_of_tips(&earlier, 0.05), &[None, None]);
         let ahead = line(&bent.places, [CrackEnd::PreCrack, CrackEnd::Tip]);
-        is_close(&ahead.advances_of_tips(&[[4.0, 3.2]], 0.5), &[Some(0.0)]);
+        is_close(
+            &ahead.advances_of_tips(&[[4.0, 3.2]], 0.5),
+            &[Some((0, 0.0))],
+        );
     }
 
     #[test]
@@ -94,7 +103,7 @@ mod tests {
         let advance = 1.0 + 2.0_f64.sqrt();
         is_close(
             &branch.advances_of_tips(&[[1.0, 0.0]], 0.5),
-            &[Some(advance)],
+            &[Some((0, advance))],
         );
         is_close(&branch.advances_of_tips(&[[0.0, 0.0]], 0.5), &[None]);
         is_close(&branch.advances_of_tips(&[], 0.5), &[None]);

@@ -848,24 +848,26 @@ on them."""
 - `damage_sliding`: Damage by sliding of bonds, d_gamma.
 - `stress.xx`: Stress that the material carries xx, Pa.
 - `stress.yy`: Stress that the material carries yy, Pa.
-- `stress.xy`: Stress that the material carries xy, Pa.
 - `stress.zz`: Stress that the material carries zz, Pa.
-- `stress.xz`: Stress that the material carries xz, Pa.
+- `stress.xy`: Stress that the material carries xy, Pa.
 - `stress.yz`: Stress that the material carries yz, Pa.
+- `stress.xz`: Stress that the material carries xz, Pa.
 - `stress_principal.1`: Principal value of that stress 1, Pa.
 - `stress_principal.2`: Principal value of that stress 2, Pa.
 - `stress_principal.3`: Principal value of that stress 3, Pa.
+- `stress_von_mises`: Equivalent stress of von Mises, Pa.
+- `stress_tresca`: Equivalent stress of Tresca, Pa.
 - `stress_effective.xx`: Effective stress xx, Pa.
 - `stress_effective.yy`: Effective stress yy, Pa.
-- `stress_effective.xy`: Effective stress xy, Pa.
 - `stress_effective.zz`: Effective stress zz, Pa.
-- `stress_effective.xz`: Effective stress xz, Pa.
+- `stress_effective.xy`: Effective stress xy, Pa.
 - `stress_effective.yz`: Effective stress yz, Pa.
+- `stress_effective.xz`: Effective stress xz, Pa.
 - `stress_effective_principal.1`: Principal value of the effective stress 1, Pa.
 - `stress_effective_principal.2`: Principal value of the effective stress 2, Pa.
 - `stress_effective_principal.3`: Principal value of the effective stress 3, Pa.
-- `displacement_x`: Displacement along x, m.
-- `displacement_y`: Displacement along y, m.
+- `displacement.x`: Displacement along x, m.
+- `displacement.y`: Displacement along y, m.
 - `rotation`: Rotation in the plane, rad, counter-clockwise.
 - `displacement_z`: Displacement along z of a solid, m.
 - `rotation_x`: Rotation about x in a solid, rad, right-handed.

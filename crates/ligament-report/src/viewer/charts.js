@@ -39,7 +39,7 @@ class Charts {
     const [first] = this.runs;
     const time = first.time ? [first.time] : [];
     const columns = [...time, ...[...first.history.values()].filter((it) => it.name === "displacement" || it.isProbe)];
-    this.columns = columns.map((it) => ({ ...it, words: inWords(it.name) }));
+    this.columns = columns.map((it) => ({ ...it, words: columnInWords(it) }));
     options(this.over, this.columns.map((it) => [it.name, it.words]));
     document.getElementById("over-label").hidden = this.columns.length < 2;
   }
@@ -82,11 +82,13 @@ class Charts {
   showCurve() {
     const [first] = this.runs;
     const [x, y] = first.isModes ? ["step", "frequency"] : [this.over.value, "reaction"];
-    document.getElementById("curve-title").textContent = first.isModes ? "Frequencies" : `Force over ${inWords(x)}`;
+    document.getElementById("curve-title").textContent = "Frequencies";
     document.querySelector("#curve-card .controls").hidden = first.isModes;
     const shown = first.history.get(x);
     const force = first.history.get(y);
     if (!shown || !force) return this.curve.show({ series: [] });
+    const [along, up] = [columnInWords(shown), first.isModes ? y : columnInWords(force)];
+    if (!first.isModes) document.getElementById("curve-title").textContent = `${up[0].toUpperCase()}${up.slice(1)} over ${along}`;
     // Curves of all results have the units of the first.
     const series = this.runs.filter((run) => run.history.has(x)).map((run) => {
       const number = this.runs.indexOf(run);
@@ -114,8 +116,8 @@ class Charts {
     this.shownRuns = series.map((it) => it.number);
     this.curve.show({
       series: [...series, ...envelopes, ...measured],
-      xLabel: first.isModes ? "mode" : labelWithUnit(inWords(x), shown.unit),
-      yLabel: labelWithUnit(first.isModes ? y : "force", force.unit),
+      xLabel: first.isModes ? "mode" : labelWithUnit(along, shown.unit),
+      yLabel: labelWithUnit(up, force.unit),
       pick: (number, place) => this.go(this.shownRuns[number], this.runs[this.shownRuns[number]].rows.indexOf(place)),
     });
     if (this.marked) this.mark(...this.marked);
@@ -178,7 +180,9 @@ class Charts {
   showSpeed(run, number) {
     const isThere = run.size?.values.some((it) => it > 0) && run.time;
     const times = isThere ? run.rows.map((row) => run.time.values[row]) : [];
-    const sizes = run.size?.values ?? [];
+    const sizes = [...(run.size?.values ?? [])];
+    // A broken bond stays broken: what later steps no longer have was no crack.
+    for (let place = sizes.length - 1; place > 0; place--) sizes[place - 1] = Math.min(sizes[place - 1], sizes[place]);
     const y = times.map((time, place) => (place ? (sizes[place] - sizes[place - 1]) / (time - times[place - 1]) : NaN));
     const series = isThere ? [{ label: run.label, colour: 1, x: run.axis.ofSteps, y, steps: [...y.keys()] }] : [];
     this.speed.show({ series, xLabel: run.axis.label, yLabel: run.isSolid ? "area rate (m²/s)" : "speed (m/s)", pick: (_, place) => this.go(number, place) });

@@ -3,6 +3,7 @@
 const CRACK = [0.9, 0.15, 0.16, 1];
 const CRACK_OVER_RED = [0.05, 0.05, 0.05, 1];
 const PRECRACK = [0.55, 0.55, 0.55, 1];
+const INTERFACE = [0.15, 0.15, 0.15, 0.8];
 const INTACT = [0.1, 0.45, 0.85, 0.9];
 const BROKEN = [0.9, 0.15, 0.16, 0.9];
 const CHOSEN = [1, 0.75, 0, 1];
@@ -10,6 +11,8 @@ const FORCE = [0.1, 0.5, 0.25, 0.95];
 // Largest length of a force, over the size of the body, and the number of forces that are drawn.
 const FORCE_LENGTH = 0.13;
 const MOST_FORCES = 60;
+// Length of a piece of a crack line over the one at the start, from which on its ends are on different fragments.
+const TORN = 3;
 
 class Lines {
   constructor(scene) {
@@ -42,7 +45,10 @@ class Lines {
       let before = null;
       for (let place = 0; place < line.length; place += 2) {
         const now = this.moved(line[place], line[place + 1]);
-        if (before) segments.push([before, now]);
+        // A piece between fragments that have parted is no longer anywhere.
+        if (before && Math.hypot(...minus3(now, before)) < TORN * Math.hypot(line[place] - line[place - 2], line[place + 1] - line[place - 1])) {
+          segments.push([before, now]);
+        }
         before = now;
       }
     }
@@ -66,6 +72,14 @@ class Lines {
       }
     }
     return segments;
+  }
+
+  // Sides of cells between two materials.
+  interfaces() {
+    const { points, places } = this.run.description.interfaces;
+    const { factor, displacement: [ux, uy] } = this.scene;
+    const at = (end) => this.scene.relative([places[2 * end] + factor * ux[points[end]], places[2 * end + 1] + factor * uy[points[end]], 0]);
+    return Array.from({ length: points.length / 2 }, (_, side) => [at(2 * side), at(2 * side + 1)]);
   }
 
   bond(ends) {
@@ -99,6 +113,7 @@ class Lines {
   layers({ step, mode, broken, family, chosen, reaction, symbols, isOverRed }) {
     const crack = isOverRed ? CRACK_OVER_RED : CRACK;
     const layers = [
+      lineLayer(this.interfaces(), INTERFACE, 1.2),
       lineLayer((broken ?? []).map((it) => this.bond(it)), [...crack.slice(0, 3), 0.6], 1),
       // Pre-cracks open as well.
       lineLayer(["none", "open"].includes(mode) ? [] : this.precracks(), PRECRACK, 3),

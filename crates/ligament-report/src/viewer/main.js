@@ -138,7 +138,8 @@ class Page {
     const auto = usual > 0 ? roundedDown((share * size) / usual) : 1;
     const factors = [...new Set([0, 1, auto, 2 * auto, 5 * auto])].sort((one, other) => one - other);
     options(element("magnification"), factors.map((it) => [it, it === 0 ? "not drawn" : `× ${shortText(it, 1)}`]));
-    element("magnification").value = auto;
+    // Fragments of a motion are where they have flown to.
+    element("magnification").value = this.run.time ? 1 : auto;
   }
 
   // What cracks can be shown as in the panes of some results.

@@ -45,6 +45,12 @@ function inWords(name) {
   return name.startsWith("stress_virial") ? `${words}, right in the mean` : words;
 }
 
+// The name of a column of the history in words: a temperature alone is a load whose size is its change.
+function columnInWords({ name, si }) {
+  if (name === "reaction") return si === "J/K" ? "work of the thermal forces per kelvin" : "force";
+  return name === "displacement" && si === "K" ? "temperature change" : inWords(name);
+}
+
 // Round numbers from low to high, about so many.
 function ticks(low, high, count) {
   const rough = (high - low) / Math.max(count, 1);

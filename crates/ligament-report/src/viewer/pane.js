@@ -52,7 +52,9 @@ class Pane {
 
   // The deformed body, cut and opened.
   place({ factor, mode, section }) {
-    this.scene.place({ displacement: this.displacement, factor, cut: this.cut, mode, section });
+    const { rigid } = this.run.description;
+    const moved = rigid && { ...rigid, displacement: rigid.displacements[this.step] };
+    this.scene.place({ displacement: this.displacement, factor, cut: this.cut, mode, section, rigid: moved });
   }
 
   colour(values, range, bytes) {

@@ -37,9 +37,11 @@ class Scene {
     this.origin = this.box.low.map((it, axis) => (it + this.box.high[axis]) / 2);
   }
 
-  // The state of a step. `cut`: where the crack is; `mode`: how it is drawn; `section`: axis and coordinate of a plane, or null.
-  place({ displacement, factor, cut, mode, section }) {
+  // The state of a step. `cut`: where the crack is; `mode`: how it is drawn; `section`: axis and coordinate of a plane, or null; `rigid`:
+  // places, displacements and triangles of rigid bodies, or null.
+  place({ displacement, factor, cut, mode, section, rigid }) {
     const { body } = this;
+    this.rigid = rigid && { triangles: rigid.triangles, vertices: rigid.places.map((it, at) => it + factor * rigid.displacement[at]) };
     Object.assign(this, { displacement, factor, section, isSurface: mode === "surface" && Boolean(cut.list.length) });
     const shown = mode === "open" ? cut : NO_CUT;
     const key = body.half ? `cells ${mode === "surface"}` : `${shown.key}/${Boolean(section)}`;
@@ -93,6 +95,10 @@ class Scene {
         triangles: this.plane.triangles,
       });
     }
+    if (this.rigid) {
+      const { vertices, triangles } = this.rigid;
+      this.drawing.setMesh("rigid", { places: places(vertices), values: none(vertices), triangles: Uint32Array.from(triangles) });
+    }
     if (this.crack) this.drawing.setMesh("crack", { places: places(this.crack.vertices), values: shares(this.values), triangles: this.crack.triangles });
   }
 
@@ -110,6 +116,7 @@ class Scene {
     const body = { name: "body", shade, side: this.hiddenSide, opacity };
     const meshes = this.isSurface ? [{ name: "crack", shade }, body] : [body];
     if (this.plane) meshes.push({ name: "section", shade: 0, opacity });
+    if (this.rigid) meshes.unshift({ name: "rigid", shade, opacity });
     this.drawing?.draw(this.camera, this.origin, meshes, layers);
   }
 

@@ -224,6 +224,14 @@ impl<const D: usize> Places<'_, D> {
                 let direction = motion.map(|it| it / magnitude).to_vec();
                 (ControlKind::RigidBody(body), direction, magnitude)
             }
+            CurveAxis::FreeBody(body) => {
+                let rigid = &setup.rigid_bodies[body];
+                let direction = rigid.direction();
+                let length = tensor::norm(direction);
+                let direction = direction.map(|it| it / length).to_vec();
+                let speed = tensor::norm(rigid.velocity);
+                (ControlKind::FreeBody(body), direction, speed)
+            }
             CurveAxis::Nothing if setup.analysis.is_motion() || !setup.rigid_bodies.is_empty() => {
                 (ControlKind::Force, Vec::new(), 0.0)
             }

@@ -11,12 +11,13 @@ use ligament_model::surface::{
 };
 
 use super::places::unknown_group;
+use super::rigid_surface::rigid_surface;
 use crate::coordinates::narrowed;
 use crate::error::{Fault, Field, SetupError};
 use crate::model::Model;
 use crate::parts::Parts;
 use crate::setup::check::contradiction;
-use crate::setup::{Analysis, ContactLaw, Rigid, RigidForm, Setup};
+use crate::setup::{Analysis, ContactLaw, Position, Rigid, RigidForm, Setup};
 use crate::system::over_dimension;
 
 /// Depth in a rigid body, over the spacing of the points, up to which surfaces count as touching at the start.
@@ -138,7 +139,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         let field = Field::element("rigid_bodies", index);
         let shape = self.shape(&body.form);
         let sides = self.sides_against(field, body)?;
-        self.require_outside(field, (body, &shape), &sides.of_facets)?;
+        let gap = self.require_outside(field, (body, &shape), &sides.of_facets)?;
         let opposite = Opposite::Rigid(shape, body.mass.is_some());
         problem.contacts.push(SurfaceContact {
             name: body.name.clone(),
@@ -148,6 +149,8 @@ impl<'a, const D: usize> Outline<'a, D> {
         problem.rigid_bodies.push(RigidBody {
             name: body.name.clone(),
             motion: motion(body),
+            gap,
+            surface: rigid_surface(&body.form, self.bounds(), D == 3),
         });
         Ok(())
     }
@@ -350,13 +353,28 @@ impl<'a, const D: usize> Outline<'a, D> {
         }
     }
 
-    /// Refuses a rigid body that begins inside its opposite: the facets with a side, and the points of their groups.
+    /// Corners of the box around the points, in the coordinates of the case, m.
+    fn bounds(&self) -> [Position; 2] {
+        let positions = (0..self.system.cloud.len() as u32).map(|it| self.setup.body.position(it));
+        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for position in positions {
+            for (axis, &along) in position.iter().enumerate() {
+                bounds[0][axis] = bounds[0][axis].min(along);
+                bounds[1][axis] = bounds[1][axis].max(along);
+            }
+        }
+        // In the plane z = 0.
+        bounds.map(|it| it.map(|along: f64| if along.is_finite() { along } else { 0.0 }))
+    }
+
+    /// Refuses a rigid body that begins inside its opposite: the facets with a side, and the points of their groups. Returns its distance from
+    /// them, m.
     fn require_outside(
         &self,
         field: Field,
         (body, shape): (&Rigid, &RigidShape<D>),
         sides: &[Option<u32>],
-    ) -> Result<(), SetupError> {
+    ) -> Result<f64, SetupError> {
         let cloud = &self.system.cloud;
         let met = self.facets.iter().zip(sides).filter(|it| it.1.is_some());
         let corners = met.flat_map(|(facet, _)| facet.corners);
@@ -374,7 +392,7 @@ impl<'a, const D: usize> Outline<'a, D> {
         let deepest = points.chain(corners).map(depth).reduce(deeper);
         let slack = |point: u32| TOUCHING * cloud.spacing[point as usize];
         match deepest.filter(|&(depth, point)| depth > slack(point)) {
-            None => Ok(()),
+            None => Ok(deepest.map_or(f64::INFINITY, |it| (-it.0).max(0.0))),
             Some((depth, point)) => Err(field.error(Fault::StartsInside {
                 depth,
                 place: self.setup.body.place(point),

@@ -8,6 +8,7 @@ mod places;
 mod probes;
 mod programme;
 mod restraints;
+mod rigid_surface;
 mod samples;
 mod temperature;
 mod tips;

@@ -60,7 +60,7 @@ pub(super) fn in_time<const D: usize>(
             amplitude: setup.rigid_bodies[body].amplitude.clone(),
             timed: Timed::Velocity,
         }),
-        CurveAxis::Temperature | CurveAxis::Nothing => None,
+        CurveAxis::Temperature | CurveAxis::FreeBody(_) | CurveAxis::Nothing => None,
     };
     Ok(LoadsInTime::new(loads.into(), courses, control))
 }

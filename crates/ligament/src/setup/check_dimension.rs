@@ -7,7 +7,7 @@ use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::law::{BondLaw, listed, orthotropic, suited};
 use ligament_model::material::Space;
 use ligament_model::tensor::SymTensor;
-use ligament_model::{Advice, ElementKind};
+use ligament_model::{Advice, ElementKind, StressAcrossPlane};
 
 use super::check::{Checked, contradiction, positive, require, within};
 use super::setting::Setting;
@@ -21,11 +21,14 @@ use crate::error::Field;
 /// Message about a z axis in the plane.
 pub(super) const NO_Z: &str = "a body in the plane has no z: give \"x\" or \"y\"";
 
-/// Place of zz among the components of a stress: behind those in the plane.
-const ACROSS_PLANE: usize = SymTensor::<2>::NAMES.len();
-
 /// Message about a component of the stress that bodies in the plane do not have.
-const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress; zz is known in plane strain, of isotropic materials";
+const ONLY_OF_SOLIDS: &str = "a body in the plane has no such component of the stress: xx, yy, zz and xy, and the principal values 1 and 2";
+
+/// Message about what follows from the stress across a plane.
+const UNKNOWN_ACROSS: &str = "in plane strain the stress across the plane is known of isotropic materials alone: take stress.xx, .yy, .xy or stress_principal";
+
+/// Message about a component of the strain that bodies in the plane do not have.
+const NO_STRAIN_ACROSS: &str = "of a body in the plane the strains xx, yy and xy are read";
 
 /// Message about tips of cracks in a solid.
 const NO_TIPS_OF_SOLIDS: &str = "tips of cracks are read in bodies in the plane alone";
@@ -185,10 +188,11 @@ impl Setup {
                 }
                 Reading::At { field, .. } | Reading::Mean { field, .. } => match field.reading {
                     PointReading::Motion(component) => (component, "field"),
-                    _ if self.dimensions() == 2 && self.lacks(&field.reading) => {
-                        return contradiction(probed.part("field"), ONLY_OF_SOLIDS);
-                    }
-                    _ => continue,
+                    _ if self.dimensions() > 2 => continue,
+                    _ => match self.unread_in_plane(&field.reading) {
+                        Some(reason) => return contradiction(probed.part("field"), reason),
+                        None => continue,
+                    },
                 },
                 Reading::Section { .. } | Reading::Tip { .. } => continue,
             };
@@ -199,16 +203,23 @@ impl Setup {
         Ok(())
     }
 
-    /// Whether a body in the plane lacks what a probe reads: a stress or a strain out of the plane.
-    fn lacks(&self, reading: &PointReading) -> bool {
+    /// Reason why a probe cannot read a stress or a strain of a body in the plane.
+    fn unread_in_plane(&self, reading: &PointReading) -> Option<&'static str> {
         match *reading {
             PointReading::MaterialStress {
-                in_plane: false,
-                component,
-                ..
-            } => !(component == ACROSS_PLANE && self.has_stress_across_plane()),
-            PointReading::Strain(component) => component as usize >= ACROSS_PLANE,
-            _ => false,
+                in_plane: false, ..
+            } => Some(ONLY_OF_SOLIDS),
+            PointReading::MaterialStress {
+                read, component, ..
+            } => {
+                let is_unknown = self.stress_across_plane() == StressAcrossPlane::Unknown;
+                let reads_across = || read(&[0.0, 0.0, 0.0, f64::NAN])[component].is_nan();
+                (is_unknown && reads_across()).then_some(UNKNOWN_ACROSS)
+            }
+            PointReading::Strain(component) => {
+                (component as usize >= SymTensor::<2>::NAMES.len()).then_some(NO_STRAIN_ACROSS)
+            }
+            _ => None,
         }
     }
 

@@ -106,6 +106,15 @@ impl Rigid {
     pub fn motion(&self) -> Position {
         std::array::from_fn(|axis| self.velocity[axis] + self.displacement[axis])
     }
+
+    /// Direction in which it moves, of any length: that of its motion, of a mass at rest that of its acceleration; zero where it does not move.
+    pub(crate) fn direction(&self) -> Position {
+        let motion = self.motion();
+        match motion.iter().any(|it| *it != 0.0) {
+            true => motion,
+            false => self.acceleration,
+        }
+    }
 }
 
 /// Shape and place of a rigid body.

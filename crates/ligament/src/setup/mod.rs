@@ -23,7 +23,9 @@ use ligament_model::case_type::Range;
 use ligament_model::failure::Choice;
 use ligament_model::law::rotational::RotationalScale;
 use ligament_model::material::Space;
-use ligament_model::{Elasticity, Horizons, Isotropic, Material, Plane, PointCloud, Scatter};
+use ligament_model::{
+    Elasticity, Horizons, Isotropic, Material, Plane, PointCloud, Scatter, StressAcrossPlane,
+};
 
 use crate::body::AnyBody;
 
@@ -259,11 +261,17 @@ impl Setup {
         self.space().plane()
     }
 
-    /// Whether the stress across the plane is known: of isotropic materials in plane strain.
-    pub fn has_stress_across_plane(&self) -> bool {
+    /// The stress across the plane: none in plane stress, and in plane strain known of isotropic materials.
+    pub fn stress_across_plane(&self) -> StressAcrossPlane {
         let is_isotropic =
             |it: &MaterialRegion| matches!(it.material.elasticity, Elasticity::Isotropic(_));
-        self.space() == Space::Plane(Plane::Strain) && self.materials.iter().all(is_isotropic)
+        match self.plane() {
+            Plane::Stress => StressAcrossPlane::Zero,
+            Plane::Strain if self.materials.iter().all(is_isotropic) => {
+                StressAcrossPlane::OfIsotropic
+            }
+            Plane::Strain => StressAcrossPlane::Unknown,
+        }
     }
 
     /// Thickness of the body, m; 1 for a solid.

@@ -15,7 +15,7 @@ fn pulled_at_a_point(action: Action, control: Option<Control>, criterion: Choice
         name: "hook".to_owned(),
         reading: Reading::At {
             position: [0.115, 0.065, 0.0],
-            field: PointField::named("displacement_x").unwrap(),
+            field: PointField::named("displacement.x").unwrap(),
         },
     }];
     setup.stages = vec![Stage {

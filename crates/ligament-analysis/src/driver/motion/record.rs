@@ -10,6 +10,7 @@ use crate::driver::record::{StepCounters, largest_ratio};
 use crate::driver::run::{Equations, Run};
 use crate::driver::way::Stop;
 use crate::history::{Rates, StepRecord, Termination};
+use crate::load_program::ControlKind;
 use crate::termination::{Growth, Verdict};
 use crate::unbalanced::Unbalanced;
 
@@ -79,6 +80,14 @@ impl<E: Equations> Run<'_, E> {
                     place.angular_velocity = rates.angular_velocity;
                 }
             }
+        }
+        let control = problem.loads.control();
+        if let ControlKind::FreeBody(body) = control.kind {
+            let way = record.rigid_bodies[body].displacement.iter();
+            record.displacement = way
+                .zip(&control.shape)
+                .map(|(it, cosine)| it * cosine)
+                .sum();
         }
         record
     }

@@ -220,7 +220,7 @@ impl ArrayEntry {
         };
         let text_of = |key: &str| array.attribute(key).map(str::to_owned);
         let count = array.attribute("NumberOfComponents").unwrap_or("1");
-        let component = |number| text_of(&format!("ComponentName{number}"));
+        let component = |number| Some(text_of(&format!("ComponentName{number}"))?.to_lowercase());
         let content = array.first_child().filter(Node::is_text);
         Ok(Self {
             section,

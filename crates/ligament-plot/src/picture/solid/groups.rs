@@ -6,7 +6,7 @@ use ligament_mesh::{AnyMesh, Group, Mesh, SolidMesh};
 
 use super::outline::{outer_faces, rim, sharp_edges};
 use super::visible::DepthBuffer;
-use super::{Scene, View};
+use super::{Scene, Upward, View};
 use crate::drawing::frame::bounds;
 use crate::drawing::{Anchor, Drawing, Frame, OUTLINE, Paint, WHITE, text_width};
 use crate::picture::{PictureError, Target};
@@ -24,6 +24,7 @@ const SIDES: [View; 2] = [
     View {
         azimuth: View::OBLIQUE.azimuth + 180.0,
         elevation: -View::OBLIQUE.elevation,
+        up: Upward::Z,
     },
 ];
 
@@ -31,6 +32,7 @@ const SIDES: [View; 2] = [
 const FRONT: View = View {
     azimuth: -90.0,
     elevation: 90.0,
+    up: Upward::Z,
 };
 
 /// A name, and the places at one of which it may stand, m.

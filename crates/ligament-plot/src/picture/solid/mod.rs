@@ -16,7 +16,7 @@ mod visible;
 
 pub use groups::draw_groups;
 pub use section::Section;
-pub use view::View;
+pub use view::{Upward, View};
 
 pub(super) use read::read;
 pub(super) use scene::Scene;
