@@ -116,7 +116,7 @@ pub struct LargestEigenvalue {
 /// Estimates the algebraically largest eigenvalue of a symmetric operator by Lanczos' recurrence of three terms, until the residual is below the
 /// tolerance times the value or the number of products reaches its limit. `None` where a product is not finite.
 ///
-/// The value plus the residual is an upper bound in practice (Zhou and Li 2011, Linear Algebra and its Applications 435, eq. 10). The vectors of
+/// The value plus the residual is an upper bound in practice (Zhou and Li 2011). The vectors of
 /// the recurrence lose orthogonality only once the value has converged (Paige 1971), which leaves the value right.
 ///
 /// Everything runs on one thread in a fixed order.

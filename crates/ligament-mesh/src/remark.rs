@@ -170,57 +170,46 @@ impl fmt::Display for Remark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Remark::HigherOrderCells { cells, nodes } => {
-                let cells = counted(
-                    *cells,
-                    "cell of higher order was",
-                    "cells of higher order were",
-                );
-                let nodes = counted(*nodes, "other node was", "other nodes were");
-                write!(f, "{cells} read by corner nodes alone; {nodes} dropped")
+                let cells = counted(*cells, "cell", "cells");
+                let nodes = counted(*nodes, "other node", "other nodes");
+                write!(
+                    f,
+                    "{cells} of higher order read by corner nodes alone; {nodes} dropped"
+                )
             }
             Remark::UnusedNodes { nodes } => {
-                let nodes = counted(
-                    *nodes,
-                    "node that no cell uses was",
-                    "nodes that no cell uses were",
-                );
-                write!(f, "{nodes} dropped")
+                write!(f, "{} of no cell dropped", counted(*nodes, "node", "nodes"))
             }
             Remark::EmptyGroup { name, dimension } => write!(
                 f,
                 "the physical group \"{name}\" of dimension {dimension} contains no node of a cell and was ignored"
             ),
             Remark::UndescribedEntities { elements } => {
-                let elements = counted(*elements, "element belongs", "elements belong");
+                let elements = counted(*elements, "element", "elements");
                 write!(
                     f,
-                    "{elements} to entities that $Entities does not describe, \
-                     so to no physical group"
+                    "{elements} of entities that $Entities does not describe, so of no physical group"
                 )
             }
             Remark::IgnoredSections { sections, others } => {
                 let named = sections.iter();
                 let named = named.map(|(name, place)| format!("${name} ({place})"));
-                let named = named.collect::<Vec<_>>().join(", ");
-                match (sections.len(), others) {
-                    (1, 0) => write!(f, "the section {named} was ignored: nothing in it is used"),
-                    (_, 0) => write!(
-                        f,
-                        "the sections {named} were ignored: nothing in them is used"
-                    ),
-                    _ => write!(
-                        f,
-                        "the sections {named} and {others} others were ignored: nothing in them is used"
-                    ),
+                let mut named: Vec<String> = named.collect();
+                if *others > 0 {
+                    named.push(counted(*others, "other", "others"));
                 }
+                let named = named.join(", ");
+                write!(
+                    f,
+                    "ignored, since nothing in them is used: the sections {named}"
+                )
             }
             Remark::CollapsedCells { cells } => {
-                let cells = counted(
-                    *cells,
-                    "cell with a repeated corner was",
-                    "cells with a repeated corner were",
-                );
-                write!(f, "{cells} read as what remains without it")
+                let cells = counted(*cells, "cell", "cells");
+                write!(
+                    f,
+                    "{cells} with a repeated corner read as what remains without it"
+                )
             }
             Remark::Crack { faces } => write!(
                 f,
@@ -254,14 +243,10 @@ impl fmt::Display for DeckRemark {
                 }
             }
             DeckRemark::ShellsAsCells { elements } => {
-                let elements = counted(
-                    *elements,
-                    "shell or membrane was",
-                    "shells or membranes were",
-                );
+                let shells = counted(*elements, "shell", "shells");
                 write!(
                     f,
-                    "without plane or solid elements, {elements} read as plane cells, which do not bend"
+                    "without plane or solid elements, {shells} or membranes read as plane cells, which do not bend"
                 )
             }
             DeckRemark::Redefined { items, count } => write!(

@@ -87,11 +87,6 @@ name = "mean"
 group = "top"
 field = "strain.xx"
 [[probe]]
-name = "J"
-tip = [0, 0]
-quantity = "J"
-radii = [0.1, 0.2]
-[[probe]]
 name = "force"
 section = [[0, 0], [1, 0]]
 component = "y"
@@ -250,6 +245,13 @@ law = "orthotropic"
 horizon = 0.3
 [correction]
 surface = "domain"
+[[precrack]]
+points = [[0, 0], [1, 0]]
+[[probe]]
+name = "J"
+tip = [0, 0]
+quantity = "J"
+radii = [0.1, 0.2]
 [[load]]
 body_couple = 1.0
 [[load]]

@@ -143,6 +143,11 @@ pub(super) fn write_boundary(
         let words = "on which all forces do work, over the size of this load: the body is free";
         report.detail("displacement is", words)?;
     }
+    write_probes(report, model, loading)
+}
+
+/// Writes what each probe reads.
+fn write_probes(report: &mut Report<'_>, model: &Model, loading: &Loading) -> io::Result<()> {
     for (probe, given) in loading.probes.iter().zip(&model.setup.probes) {
         let words = |(place, position): (&Shares, &Position)| place_words(model, place, *position);
         let reads = match (&probe.reading, &given.reading) {

@@ -17,7 +17,7 @@ const STARTS: usize = 4;
 impl Graph {
     /// Side of each vertex, or the separator between them, shape (n).
     pub(super) fn divided(&self) -> Vec<u8> {
-        let mut division = self.bisected(3 * self.total() / COARSEST as u32);
+        let mut division = self.bisected(self.total() * 3 / COARSEST as u32);
         division.separate();
         division.refine();
         division.sides

@@ -1,7 +1,7 @@
 //! Energy release rate and stress intensity factors at the tip of a straight crack in the plane, as integrals over a ring around it.
 //!
 //! With the stress sigma, the displacement u, the density W = sigma : eps/2, the direction 1 in which the crack would grow and forces f per
-//! area, the energy release rate is (Li, Shih and Needleman 1985)
+//! area, the energy release rate is (Li 1985)
 //!
 //! J = int (sigma_ij u_i,1 - W delta_1j) q,j dA - int f_i u_i,1 q dA,
 //!
@@ -10,7 +10,7 @@
 //! part in it; tractions are among the forces on the points.
 //!
 //! The same integral of the sum of two fields has a part with both of them. With the field of a tip whose only intensity is K_a = 1 as the
-//! second one (Williams 1957), its part is 2 K_a K/E', by which each of K_I and K_II is found alone (Yau, Wang and Corten 1980). E' is E in
+//! second one (Williams 1957), its part is 2 K_a K/E', by which each of K_I and K_II is found alone (Yau 1980). E' is E in
 //! plane stress and E/(1 - nu^2) in plane strain.
 
 use std::f64::consts::PI;
@@ -194,7 +194,7 @@ impl ElasticField {
     }
 
     /// A field without forces in the axes of the body, in place of those with a unit vector as their first one.
-    fn from_direction(self, [x, y]: [f64; 2]) -> Self {
+    fn turned_from(self, [x, y]: [f64; 2]) -> Self {
         let axes = [[x, -y], [y, x]];
         Self {
             stress: self.stress.rotated(axes),
@@ -250,7 +250,7 @@ impl DomainIntegral {
             let auxiliary = moduli.map(|moduli| {
                 let angle = ring.angle(from_tip);
                 let field = ElasticField::of_tip(quantity, moduli, distance, angle);
-                field.from_direction(ring.direction)
+                field.turned_from(ring.direction)
             });
             (weight > 0.0 && distance > 0.0).then(|| WeightedPoint {
                 point,

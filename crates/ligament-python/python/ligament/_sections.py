@@ -518,7 +518,7 @@ class Load(TypedDict, total=False):
     """A load, given as it is at load factor 1."""
 
     name: str
-    """Heads its column in `history.csv`; without it the name of the group."""
+    """Heads its column in `history.csv`; without it the name of the group, or `load-1` and so on where that cannot head a column."""
     group: str
     """The points of this physical group of the mesh, or of this set or hole of the lattice."""
     box: Sequence[Numbers]
@@ -838,7 +838,7 @@ on them."""
 - `rotation_x`: Rotation about x in a solid, rad, right-handed.
 - `rotation_y`: Rotation about y in a solid, rad, right-handed.
 - `rotation_z`: Rotation about z in a solid, rad, right-handed."""
-    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.xy", "stress.zz", "stress.xz", "stress.yz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "stress_effective.xx", "stress_effective.yy", "stress_effective.xy", "stress_effective.zz", "stress_effective.xz", "stress_effective.yz", "stress_effective_principal.1", "stress_effective_principal.2", "stress_effective_principal.3", "displacement_x", "displacement_y", "rotation", "displacement_z", "rotation_x", "rotation_y", "rotation_z", "velocity_x", "velocity_y", "velocity_z", "acceleration_x", "acceleration_y", "acceleration_z", "stress_xx", "stress_yy", "stress_xy", "stress_zz", "stress_xz", "stress_yz", "strain.xx", "strain.yy", "strain.xy", "strain.zz", "strain.xz", "strain.yz"]
+    field: Literal["damage", "strain_energy_density", "damage_tension", "damage_compression", "damage_sliding", "stress.xx", "stress.yy", "stress.zz", "stress.xy", "stress.yz", "stress.xz", "stress_principal.1", "stress_principal.2", "stress_principal.3", "stress_von_mises", "stress_tresca", "stress_effective.xx", "stress_effective.yy", "stress_effective.zz", "stress_effective.xy", "stress_effective.yz", "stress_effective.xz", "stress_effective_principal.1", "stress_effective_principal.2", "stress_effective_principal.3", "displacement.x", "displacement.y", "rotation", "displacement.z", "rotation.x", "rotation.y", "rotation.z", "velocity.x", "velocity.y", "velocity.z", "acceleration.x", "acceleration.y", "acceleration.z", "stress_virial.xx", "stress_virial.yy", "stress_virial.xy", "stress_virial.zz", "stress_virial.xz", "stress_virial.yz", "strain.xx", "strain.yy", "strain.xy", "strain.zz", "strain.xz", "strain.yz"]
     """The field that is read `at` the position or in the `group`.
 
 - `damage`: Share of the point's bonds that are broken, weighted with volumes, 0 to 1.
@@ -869,22 +869,22 @@ on them."""
 - `displacement.x`: Displacement along x, m.
 - `displacement.y`: Displacement along y, m.
 - `rotation`: Rotation in the plane, rad, counter-clockwise.
-- `displacement_z`: Displacement along z of a solid, m.
-- `rotation_x`: Rotation about x in a solid, rad, right-handed.
-- `rotation_y`: Rotation about y in a solid, rad, right-handed.
-- `rotation_z`: Rotation about z in a solid, rad, right-handed.
-- `velocity_x`: Velocity along x in a motion, m/s.
-- `velocity_y`: Velocity along y in a motion, m/s.
-- `velocity_z`: Velocity along z of a solid in a motion, m/s.
-- `acceleration_x`: Acceleration along x in a motion, m/s^2.
-- `acceleration_y`: Acceleration along y in a motion, m/s^2.
-- `acceleration_z`: Acceleration along z of a solid in a motion, m/s^2.
-- `stress_xx`: Virial stress xx, Pa.
-- `stress_yy`: Virial stress yy, Pa.
-- `stress_xy`: Virial stress xy, Pa.
-- `stress_zz`: Virial stress zz of a solid, Pa.
-- `stress_xz`: Virial stress xz of a solid, Pa.
-- `stress_yz`: Virial stress yz of a solid, Pa.
+- `displacement.z`: Displacement along z of a solid, m.
+- `rotation.x`: Rotation about x in a solid, rad, right-handed.
+- `rotation.y`: Rotation about y in a solid, rad, right-handed.
+- `rotation.z`: Rotation about z in a solid, rad, right-handed.
+- `velocity.x`: Velocity along x in a motion, m/s.
+- `velocity.y`: Velocity along y in a motion, m/s.
+- `velocity.z`: Velocity along z of a solid in a motion, m/s.
+- `acceleration.x`: Acceleration along x in a motion, m/s^2.
+- `acceleration.y`: Acceleration along y in a motion, m/s^2.
+- `acceleration.z`: Acceleration along z of a solid in a motion, m/s^2.
+- `stress_virial.xx`: Virial stress xx, Pa.
+- `stress_virial.yy`: Virial stress yy, Pa.
+- `stress_virial.xy`: Virial stress xy, Pa.
+- `stress_virial.zz`: Virial stress zz of a solid, Pa.
+- `stress_virial.xz`: Virial stress xz of a solid, Pa.
+- `stress_virial.yz`: Virial stress yz of a solid, Pa.
 - `strain.xx`: Strain xx of the bonds that are left, with that by temperature.
 - `strain.yy`: Strain yy.
 - `strain.xy`: Shear strain xy, as the angle by which a right one changes.

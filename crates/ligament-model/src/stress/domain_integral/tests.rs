@@ -7,7 +7,7 @@ const MODULI: PlaneModuli = PlaneModuli {
     poisson: 0.3,
 };
 
-/// Displacements near a tip in its own directions as handbooks print them (Tada, Paris and Irwin 2000, part I), m.
+/// Displacements near a tip in its own directions as handbooks print them (Tada 2000, part I), m.
 fn displacement([opening, sliding]: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
     let shear = MODULI.young / (2.0 * (1.0 + MODULI.poisson));
     let kappa = (3.0 - MODULI.poisson) / (1.0 + MODULI.poisson);
@@ -112,7 +112,7 @@ fn a_ring_finds_the_intensities_of_its_field() {
                     &mode(TipQuantity::Opening, 2.0),
                     &mode(TipQuantity::Sliding, -3.0),
                 );
-                let field = both.from_direction(direction);
+                let field = both.turned_from(direction);
                 integral.mutual(at, [&field, at.auxiliary.as_ref().unwrap_or(&field)])
             };
             integral.factor * integral.points.iter().map(part).sum::<f64>()
