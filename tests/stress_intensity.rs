@@ -55,7 +55,8 @@ fn probes(tip: [f64; 2], rings: &[[f64; 2]]) -> String {
     for (number, radii) in rings.iter().enumerate() {
         for quantity in ["J", "K_I", "K_II"] {
             text += &format!(
-                "[[probe]]\nname = \"{number}.{quantity}\"\ntip = {tip:?}\nquantity = \"{quantity}\"\nradii = {radii:?}\n"
+                "[[probe]]\nname = \"{number}.{quantity} at {}\"\ntip = {tip:?}\nquantity = \"{quantity}\"\nradii = {radii:?}\n",
+                tip[0]
             );
         }
     }
@@ -220,7 +221,7 @@ fn tips_are_refused_where_nothing_can_be_read() {
     ];
     for (case, expected) in refused {
         let error = error_of(
-            &case.replace("poisson = 0.2", "poisson = 0.2\nexpansion = 1e-5"),
+            &case.replace("poisson = 0.2", "poisson = 0.2\nthermal_expansion = 1e-5"),
             &[],
         );
         assert!(error.contains(expected), "{error}");

@@ -369,9 +369,10 @@ fn of_stored_results(place: &Place, names: &Names, wrong: &mut Vec<String>) {
     place.call(
         "profile soft --from 0,0.03 --to 0.12,0.03 --field damage displacement.x --out profile.csv",
     );
+    place.call("profile soft --from 0,0.03 --to 0.12,0.03 --opening --out opening.csv");
     compare(
         "The table of `ligament profile`",
-        &[place.header("profile.csv")],
+        &["profile.csv", "opening.csv"].map(|file| place.header(file)),
         names,
         wrong,
     );

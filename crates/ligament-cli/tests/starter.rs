@@ -265,7 +265,7 @@ fn names_are_quoted() {
     assert_eq!(case.case.loads[0].group.as_deref(), Some("top"));
     let (folder, starter) = of_text(&square(0.1, ["a", "b", "base", "top, moved"]));
     let case = self::case(&starter.unwrap(), folder.path());
-    assert_eq!(case.case.loads[0].name.as_deref(), Some("load"));
+    assert_eq!(case.case.loads[0].name.as_deref(), Some("load-1"));
 }
 
 /// Names with invisible characters, which head no column, are escaped in the case, and are loaded by another name; messages
@@ -284,7 +284,7 @@ fn names_that_are_not_seen_are_escaped() {
     let case = case(&starter, folder.path());
     assert_eq!(case.case.supports[0].group.as_deref(), Some(names[2]));
     assert_eq!(case.case.loads[0].group.as_deref(), Some(names[3]));
-    assert_eq!(case.case.loads[0].name.as_deref(), Some("load"));
+    assert_eq!(case.case.loads[0].name.as_deref(), Some("load-1"));
     checked(&case, CheckExtent::Matrix);
 }
 

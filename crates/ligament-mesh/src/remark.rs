@@ -192,17 +192,7 @@ impl fmt::Display for Remark {
                 )
             }
             Remark::IgnoredSections { sections, others } => {
-                let named = sections.iter();
-                let named = named.map(|(name, place)| format!("${name} ({place})"));
-                let mut named: Vec<String> = named.collect();
-                if *others > 0 {
-                    named.push(counted(*others, "other", "others"));
-                }
-                let named = named.join(", ");
-                write!(
-                    f,
-                    "ignored, since nothing in them is used: the sections {named}"
-                )
+                f.write_str(&ignored(sections, *others))
             }
             Remark::CollapsedCells { cells } => {
                 let cells = counted(*cells, "cell", "cells");
@@ -305,6 +295,20 @@ impl DeckRemark {
         let counts = counts.join(" and ");
         let end = end(*is_group);
         write!(f, "members of the set {set} were left out: {counts}{end}")
+    }
+}
+
+/// Names and places of sections that were ignored, and the number of others.
+fn ignored(sections: &[(String, FilePosition)], others: usize) -> String {
+    let named = sections.iter();
+    let named = named.map(|(name, place)| format!("${name} ({place})"));
+    let named = named.collect::<Vec<_>>().join(", ");
+    match (sections.len(), others) {
+        (1, 0) => format!("the section {named} was ignored: nothing in it is used"),
+        (_, 0) => format!("the sections {named} were ignored: nothing in them is used"),
+        _ => format!(
+            "the sections {named} and {others} others were ignored: nothing in them is used"
+        ),
     }
 }
 

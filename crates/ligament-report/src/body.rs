@@ -67,10 +67,14 @@ impl Body {
             FieldLocation::Point => places[*corner as usize],
             FieldLocation::Cell => places[*corner as usize / CORNERS],
         };
-        let grid = file.points_in_plane()?;
+        let grid = file.points()?;
+        let place = |corner: &u32| {
+            let [x, y, _] = grid[*corner as usize];
+            [x, y]
+        };
         let interfaces = (
             ends.iter().map(point).collect(),
-            ends.iter().map(|it| grid[*it as usize]).collect(),
+            ends.iter().map(place).collect(),
         );
         let halves = match halves.is_empty() {
             true => halves,

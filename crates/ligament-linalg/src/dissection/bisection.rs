@@ -11,13 +11,16 @@ use super::graph::Graph;
 /// Largest number of vertices that are not merged any more.
 const COARSEST: usize = 50;
 
+/// Weight of the heaviest merged vertices over the mean weight in the coarsest graph.
+const HEAVIEST: u32 = 3;
+
 /// Number of vertices from which the first side grows; the bisection with the least cost is taken.
 const STARTS: usize = 4;
 
 impl Graph {
     /// Side of each vertex, or the separator between them, shape (n).
     pub(super) fn divided(&self) -> Vec<u8> {
-        let mut division = self.bisected(self.total() * 3 / COARSEST as u32);
+        let mut division = self.bisected(HEAVIEST * self.total() / COARSEST as u32);
         division.separate();
         division.refine();
         division.sides

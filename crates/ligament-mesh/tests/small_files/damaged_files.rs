@@ -105,7 +105,7 @@ fn unknown_sections_are_ignored_with_a_remark() {
     let at = FilePosition::Byte(bytes.len());
     bytes.extend(b"$Colours\n\0$End\n$EndColours\n");
     let read = parse(&bytes).unwrap();
-    let remark = format!("ignored, since nothing in them is used: the sections $Colours ({at})");
+    let remark = format!("the section $Colours ({at}) was ignored: nothing in it is used");
     assert_eq!(read.remarks.last().unwrap().to_string(), remark);
     assert_eq!((read.cells, read.groups), (expected.cells, expected.groups));
     // Text between sections is no section.
