@@ -124,9 +124,9 @@ fn a_bond_follows_its_law() {
     }
 }
 
-/// Points on a line, with a rod that softens along a straight line between neighbours and an elastic rod beside each pair of them. Every second
-/// soft rod softens, and the rods between them stay intact. While the same rods are loaded further, the forces are linear in the
-/// displacements, and so a correction by the tangents of the rods is exact. A step much longer than the one before is not extrapolated: its
+/// Points on a line, with a rod that softens along a straight line between neighbours and an elastic rod beside each pair of them. Of the
+/// seven soft rods the last has lost its force, three soften, and the rods between them stay intact. While the same rods are loaded further, the forces
+/// are linear in the displacements, and so a correction by the tangents of the rods is exact. A step much longer than the one before is not extrapolated: its
 /// first correction only brings the motion of the support to the other points.
 #[test]
 fn a_correction_on_straight_branches_is_exact() {
@@ -134,7 +134,7 @@ fn a_correction_on_straight_branches_is_exact() {
     let soft = (0..n - 1).map(|near| Rod {
         ends: [near, near + 1],
         stiffness: 6.0 + f64::from(near),
-        critical_elongation: LIMIT,
+        critical_elongation: 0.5 * LIMIT,
     });
     let elastic = (0..n - 2).map(|near| Rod {
         ends: [near, near + 2],
@@ -160,11 +160,10 @@ fn a_correction_on_straight_branches_is_exact() {
     // Softening by straight lines: the reaction is linear in the motion, with the stiffness of the tangents of the rods.
     let mut stiffness = nalgebra::DMatrix::<f64>::zeros(n as usize, n as usize);
     for rod in &rods {
-        let falls = rod.critical_elongation.is_finite() && rod.ends[0] % 2 == 0;
-        let tangent = if falls {
-            -rod.stiffness / (end - 1.0)
-        } else {
-            rod.stiffness
+        let tangent = match rod.ends {
+            [0, 1] | [2, 3] | [4, 5] => -rod.stiffness / (end - 1.0),
+            [6, 7] => 0.0,
+            _ => rod.stiffness,
         };
         let [a, b] = rod.ends.map(|end| end as usize);
         for (row, column, sign) in [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)] {

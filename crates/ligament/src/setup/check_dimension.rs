@@ -34,12 +34,12 @@ const NO_STRAIN_ACROSS: &str = "of a body in the plane the strains xx, yy and xy
 const NO_TIPS_OF_SOLIDS: &str = "tips of cracks are read in bodies in the plane alone";
 
 /// Message about a component of motion that points in a space do not have.
-fn no_motion(space: Space, part: &str) -> &'static str {
+fn no_motion(space: Space, is_field: bool) -> &'static str {
     match space {
         Space::Plane(_) => {
             "a body in the plane moves by `x`, `y` and `rotation`: the others are those of solids"
         }
-        Space::Solid if part == "field" => {
+        Space::Solid if is_field => {
             "a solid turns about three axes: give `rotation.x`, `rotation.y` or `rotation.z`"
         }
         Space::Solid => {
@@ -200,7 +200,7 @@ impl Setup {
                 Reading::Section { .. } | Reading::Tip { .. } => continue,
             };
             if !components.contains(&component) {
-                return contradiction(probed.part(part), no_motion(self.space(), part));
+                return contradiction(probed.part(part), no_motion(self.space(), part == "field"));
             }
         }
         Ok(())
@@ -265,7 +265,7 @@ impl Setup {
 
     /// Refuses supports and loads on components that the points do not have.
     fn check_components(&self) -> Checked {
-        let (components, reason) = (self.components(), no_motion(self.space(), "displacement"));
+        let (components, reason) = (self.components(), no_motion(self.space(), false));
         let leaves = |given: &Displacement| {
             let mut given = given.components();
             given.any(|(component, _)| !components.contains(&component))
