@@ -149,17 +149,19 @@ def test_stresses_of_points_have_components_and_principal_values(plate: dict[str
     plate["probe"] = [{"name": "middle", "at": [0.03125, 0.00125], "field": "stress_principal.1"}]
     result = ligament.run(plate, progress=False)
     stress, principal, direction = (result.field(name) for name in ("stress", "stress_principal", "stress_direction"))
-    assert (stress.shape, principal.shape, direction.shape) == ((864, 3), (864, 2), (864, 3))
+    assert (stress.shape, principal.shape, direction.shape) == ((864, 6), (864, 2), (864, 3))
     # What leaves the trace and the largest component along the direction alone is the same stress.
     np.testing.assert_allclose(principal.sum(axis=1), stress[:, 0] + stress[:, 1], rtol=1e-9, atol=1.0)
     x, y = direction[:, 0], direction[:, 1]
-    along = stress[:, 0] * x**2 + stress[:, 1] * y**2 + 2 * stress[:, 2] * x * y
+    along = stress[:, 0] * x**2 + stress[:, 1] * y**2 + 2 * stress[:, 3] * x * y
     np.testing.assert_allclose(along, principal[:, 0], rtol=1e-9, atol=1.0)
     place = np.argmin(np.linalg.norm(result.points["position"] - [0.03125, 0.00125], axis=1))
     assert result.columns["middle"][-1] == principal[place, 0]
+    # Plane stress.
+    assert not stress[:, [2, 4, 5]].any()
     assert "stress.xx" in result.plot("stress.xx").svg
-    with pytest.raises(ligament.LigamentError, match="no field `stress.zz`"):
-        result.plot("stress.zz")
+    with pytest.raises(ligament.LigamentError, match="no field `stress.xw`"):
+        result.plot("stress.xw")
 
 
 def test_the_crack_goes_straight_on_from_the_notch(result: Any) -> None:
