@@ -490,7 +490,7 @@ fn thermal_strain(view: &View<'_>) -> Vec<f64> {
     in_order(components.names(), &strains)
 }
 
-/// Values in the order of other names of components, zero where a name is not among those of the values.
+/// Stresses with their components in the order of other names, zero for names that the stresses do not have.
 fn in_order(names: &[&str], of: &Stresses) -> Vec<f64> {
     let place = |name: &&str| of.names.iter().position(|it| it == name);
     let places: Vec<Option<usize>> = names.iter().map(place).collect();

@@ -157,7 +157,7 @@ fn a_run_and_its_summary_tell_times_steps_and_energies() {
     assert!(summary["first_peak"].is_null());
 }
 
-/// The rates of crack growth are those of what lasts over five rows, and each tip moved by its speed.
+/// Rates of crack growth are taken over five rows, from cracks that later rows still have, and each tip moved by its speed.
 #[test]
 fn cracks_have_speeds_over_their_ways() {
     let folder = folder();

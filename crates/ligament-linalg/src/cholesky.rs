@@ -61,8 +61,8 @@ impl Cholesky {
         self.negative_pivots = diagonal.iter().filter(|pivot| **pivot < 0.0).count();
     }
 
-    /// Supernodes whose panels differ from those of a matrix, shape (n_supernodes): those with other entries, those changed in place, and
-    /// all on the paths from these to the root. Their panels are to be computed from the matrix.
+    /// Whether the panel of each supernode must be computed anew for a matrix, shape (n_supernodes): because the matrix has other entries in its
+    /// columns, by their digests, because it was changed in place, or because a panel is outdated below it in the elimination tree.
     fn outdated(&mut self, matrix: &SymmetricMatrix) -> Vec<bool> {
         let supernodes = self.symbolic.supernodes();
         let of_row = supernodes.supernode_of_rows();

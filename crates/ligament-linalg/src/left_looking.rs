@@ -22,7 +22,7 @@ pub(crate) struct LeftLooking<'a> {
     pub(crate) symbolic: &'a Symbolic,
     /// Values of the matrix in the order of its pattern.
     pub(crate) matrix: &'a [f64],
-    /// Supernodes whose panels are computed, with all that they update, shape (n_supernodes); the other panels are those of the matrix.
+    /// Whether the panel of each supernode is computed, shape (n_supernodes); the other panels are already factors of the matrix.
     pub(crate) outdated: &'a [bool],
 }
 

@@ -331,7 +331,7 @@ impl Equations {
         }
     }
 
-    /// Displacements K^-1 f for two forces f by a direct solver, see [`solve`](Self::solve).
+    /// Displacements K^-1 f for two forces f, see [`solve`](Self::solve); a direct solver finds both in one pass over its factor.
     pub(super) fn solve_both(
         &mut self,
         state: &State,

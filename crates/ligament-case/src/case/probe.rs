@@ -96,7 +96,7 @@ impl Probe {
         })
     }
 
-    /// Refuses the keys of a tip where there is none, and those of other readings where there is one.
+    /// Refuses `quantity` and `radii` without a `tip`, and `component` and `field` beside a `tip`.
     fn require_keys_of_tip(&self, key: &KeyPath) -> Result<(), KeyFault> {
         let (of_others, of_tips) = (
             [

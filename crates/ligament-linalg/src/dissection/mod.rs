@@ -22,7 +22,8 @@ const TASK: usize = 1024;
 /// not dissected to its end.
 const DEEPEST: usize = 100;
 
-/// The unknowns of a pattern in the order of nested dissection; unknowns with the same rows, such as those of a point, stay together.
+/// Elimination order of the unknowns of a pattern by nested dissection. Unknowns with the same rows, such as the unknowns of a point, stay
+/// together.
 pub(crate) fn nested_dissection(pattern: &Pattern) -> Vec<usize> {
     let (graph, firsts) = Graph::compressed(pattern);
     let all = (0..graph.len() as u32).collect();
