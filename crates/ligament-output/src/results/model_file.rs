@@ -10,7 +10,7 @@
 //! | `interface.A-B` | 1 where the bond crosses the interface between the materials A and B |
 //! | `horizon` | H, m |
 //! | `length_factor`, `domain_factor` | alpha, Omega |
-//! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it |
+//! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it, or has not begun to soften by the stress around it |
 //! | `coefficient.NAME` | coefficient q of the criterion's measure, where it has one |
 //! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of the criterion's measure, where they differ from 1 |
 //! | `coefficient_4.NAME` to `coefficient_9.NAME` | further coefficients of a measure of stress, whose second and third have the two names above |
@@ -23,6 +23,8 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::largest_utilisation::{LargestUtilisation, LargestUtilisations};
 use ligament_analysis::load_program::BoundaryGroup;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
+use ligament_analysis::state::State;
+use ligament_model::failure::CriteriaInState;
 use ligament_model::{BodyGrid, ConstantFields};
 
 use super::grid::BondLines;
@@ -63,13 +65,14 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "coefficient_9",
 ];
 
-/// Writes the model, at the end of a run with the largest utilisations of its bonds and the energies that they dissipated (n_bonds, J).
+/// Writes the model, at the end of a run with the largest utilisations of its bonds, the energies that they dissipated (n_bonds, J), and
+/// the limits of bonds that began to soften by the stress around them.
 pub(super) fn write(
     folder: &Path,
     grid: &BodyGrid,
     fixed: &ConstantFields,
     problem: &Problem,
-    at_end: Option<(&LargestUtilisations, &[f64])>,
+    at_end: Option<(&LargestUtilisations, &State)>,
 ) -> Result<(), Error> {
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
@@ -92,9 +95,13 @@ pub(super) fn write(
         .chain(nothing)
         .collect();
     let interfaces = interfaces(fixed, n_absent);
-    let limits = limits(problem, n_absent);
+    let criteria = at_end.map_or_else(
+        || problem.criteria.without_state(),
+        |(_, state)| state.softening.criteria(&problem.criteria),
+    );
+    let limits = limits(&criteria, n_absent);
     let largest = at_end.map(|(largest, _)| UtilisationColumns::new(largest, n_absent));
-    let dissipated = at_end.map(|(_, dissipated)| with_nan_for_absent(dissipated, n_absent));
+    let dissipated = at_end.map(|(_, state)| with_nan_for_absent(&state.dissipated, n_absent));
 
     let mut cell_fields = vec![
         Field::integer("absent", &absence),
@@ -155,17 +162,16 @@ fn with_nan_for_absent(values: &[f64], n_absent: usize) -> Vec<f64> {
 }
 
 /// Fields of the limits and coefficients of each criterion for each bond, by name.
-fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
-    let criteria = &problem.criteria.list;
+fn limits(criteria: &CriteriaInState<'_>, n_absent: usize) -> Vec<(String, Vec<f64>)> {
+    let list = &criteria.criteria().list;
     let mut found = Vec::new();
-    for (criterion, label) in criteria.iter().zip(criterion_labels(
-        criteria.iter().map(|criterion| criterion.name),
-    )) {
+    let labels = criterion_labels(list.iter().map(|criterion| criterion.name));
+    for (number, (criterion, label)) in list.iter().zip(labels).enumerate() {
         let mut push = |what: &str, values: &mut dyn Iterator<Item = f64>| {
             let nothing = std::iter::repeat_n(f64::NAN, n_absent);
             found.push((format!("{what}.{label}"), values.chain(nothing).collect()));
         };
-        push("limit", &mut criterion.limit.iter().copied());
+        push("limit", &mut criteria.limits(number).iter().copied());
         let coefficients = &criterion.coefficient;
         let count = coefficients.len() / criterion.limit.len().max(1);
         for (place, what) in COEFFICIENTS.iter().take(count).enumerate() {
@@ -174,7 +180,7 @@ fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
                 &mut coefficients.iter().skip(place).step_by(count).copied(),
             );
         }
-        let parameter = criterion.after.parameter();
+        let parameter = criteria.after(number).parameter();
         if !parameter.is_empty() {
             push("after", &mut parameter.iter().copied());
         }
