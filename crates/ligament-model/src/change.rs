@@ -39,9 +39,9 @@ pub trait ChangedElements: std::fmt::Debug {
 struct ChangedElement<const D: usize, const M: usize, E: Element<D, M>> {
     /// Ends of the bond.
     ends: [u32; 2],
-    /// Element before, with its deformation at the breakage.
+    /// Element before the breakage, with its deformation then.
     before: (E, E::Deformation),
-    /// Element after, with its deformation; `None` if its own bond breaks.
+    /// Element after the breakage, with its deformation; `None` if its own bond breaks.
     after: Option<(E, E::Deformation)>,
 }
 
@@ -53,7 +53,7 @@ struct Changed<const D: usize, const M: usize, E: Element<D, M>> {
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
-    /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    /// Elements that change when some of the unbroken bonds `left` break, at displacements (n_degrees_of_freedom).
     pub(crate) fn changed(
         &self,
         left: UnbrokenBonds<'_>,

@@ -19,7 +19,7 @@ use crate::material::{Stiffness, stress};
 use crate::tensor::{SymTensor, dot, minus};
 use crate::topology::CoupledPoints;
 
-/// Stiffness between two points, rows by columns, N/m.
+/// Stiffness block between two points, rows by columns, N/m.
 type Block<const D: usize> = [[f64; D]; D];
 
 /// Triangle or tetrahedron with the index of its material.

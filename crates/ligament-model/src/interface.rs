@@ -147,7 +147,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));
 
-    /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    /// Elements that change when some of the unbroken bonds `left` break, at displacements (n_degrees_of_freedom).
     fn changed(
         &self,
         left: UnbrokenBonds<'_>,

@@ -51,7 +51,7 @@ impl<const M: usize> PointSum<M> for [f64; M] {
 
 /// Forces of bonds.
 pub(crate) trait BondForces<const M: usize>: Sync {
-    /// What is found in each bond once, beside its forces.
+    /// Result of each bond beside its forces, collected once.
     type Found: Default + Send;
 
     /// Adds the forces of a bond at the points that the bond reaches. The task of the first end of the bond gives `found`.
@@ -120,8 +120,8 @@ impl Reach<'_> {
         self.ends.partition_point(|[first, _]| *first < point)
     }
 
-    /// Bonds that begin before a task and after it, ascending, but reach its points of a share; `own` are those that begin in the task.
-    fn of_others(
+    /// Bonds of other tasks that reach the points of a task, before and after its `own` bonds, ascending.
+    fn bonds_of_other_tasks(
         &self,
         share: impl Share,
         points: &Range<u32>,
@@ -154,7 +154,7 @@ impl Reach<'_> {
         sums: &mut [S],
     ) -> F::Found {
         let own = self.bonds_before(points.start)..self.bonds_before(points.end);
-        let [before, after] = self.of_others(share, &points, &own);
+        let [before, after] = self.bonds_of_other_tasks(share, &points, &own);
         let first_row = share.rows_before(points.start);
         let mut found = F::Found::default();
         let mut of_group = Vec::new();

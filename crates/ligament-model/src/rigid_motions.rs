@@ -14,8 +14,8 @@ const BALANCE_TOLERANCE: f64 = 1e-6;
 /// A rigid motion in space: displacements along x, y and z at the middle, and angles about x, y and z times the radius.
 type Motion = [f64; 6];
 
-/// Rigid motions of some points in D dimensions that cost no energy, about their middle and scaled by their size: the translations, and the
-/// rotations unless they cost energy.
+/// Rigid motions of some points in D dimensions that cost no energy, about their centroid and scaled by their size: translations, and rotations
+/// unless they cost energy.
 pub(crate) struct RigidMotions<'a, const D: usize> {
     layout: Layout,
     positions: &'a [[f64; D]],
@@ -188,7 +188,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         })
     }
 
-    /// Part of the unit row of a degree of freedom orthogonal to the (orthonormal) spanned directions.
+    /// Component of the unit row of a degree of freedom orthogonal to the (orthonormal) spanned directions.
     fn remainder(&self, spanned: &[Motion], degree_of_freedom: usize) -> Motion {
         let row = self.row(degree_of_freedom);
         let norm = dot(row, row).sqrt();

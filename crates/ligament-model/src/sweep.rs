@@ -275,7 +275,7 @@ impl BondSweep {
 #[derive(Debug, Clone, Copy)]
 struct PointForces<const M: usize> {
     sum: [f64; M],
-    /// Sum of their absolute values.
+    /// Sum of the absolute end forces.
     size: [f64; M],
 }
 

@@ -1,6 +1,6 @@
 //! The bond system: points, bonds and rigidities, from which the equations are made.
 
-mod answers;
+mod bonds;
 mod contact;
 mod crack_axis;
 pub mod elements;
@@ -67,7 +67,7 @@ pub struct BondSystem<const D: usize = 2> {
     pub volumetric: Option<VolumetricTerms<D>>,
     /// Reusable memory for deformations.
     pub room: DeformationPool,
-    /// Factors of the [strains of points](crate::stress::point_strain), once some were asked for, shape (n_bonds).
+    /// Weights of the [strains of points](crate::stress::point_strain), computed at first use, shape (n_bonds).
     pub closeness: OnceLock<Vec<f64>>,
 }
 
@@ -136,7 +136,7 @@ impl<const D: usize> BondSystem<D> {
         Self { materials, ..self }
     }
 
-    /// The system with another stress across its plane than none.
+    /// The system with a stress across its plane, which is zero by default.
     pub fn with_stress_across_plane(self, stress_across_plane: StressAcrossPlane) -> Self {
         Self {
             stress_across_plane,
@@ -215,12 +215,12 @@ pub(crate) struct ElementSystem<const D: usize, const M: usize, E: Element<D, M>
     pub(crate) system: BondSystem<D>,
     /// Points and bonds as arrays.
     pub(crate) topology: Topology,
-    /// What the elements share.
+    /// Data that the elements share.
     pub(crate) lattice: E::Lattice,
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
-    /// The system with what its elements share.
+    /// The system with the data that its elements share.
     fn new(system: BondSystem<D>, lattice: E::Lattice) -> Self {
         let BondSystem { cloud, bonds, .. } = &system;
         let couplings = E::couplings(&lattice);

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::first::first_bonds;
+use super::first_bonds::first_bonds;
 use super::parts::{Parts, Side};
 use super::retained::retained;
 use crate::cloud::PointCloud;
@@ -190,7 +190,7 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         let near: Vec<Near<D>> = near.collect();
         let of_bond = |bond: usize| {
             let shares = self.shares(bond, &near)?;
-            (!self.is_told(bond, &shares)).then_some((bond as u32, shares))
+            (!self.ends_determine_material(bond, &shares)).then_some((bond as u32, shares))
         };
         self.own(point).filter_map(of_bond).collect()
     }
@@ -223,8 +223,8 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         (total > 0.0).then(|| lengths.into_iter().map(|it| it / total).collect())
     }
 
-    /// Whether a bond lies in one material only, which is the only one that both ends contain.
-    fn is_told(&self, bond: usize, shares: &[f64]) -> bool {
+    /// Whether a bond lies in one material only, the only one that both ends contain.
+    fn ends_determine_material(&self, bond: usize, shares: &[f64]) -> bool {
         let [first, second] = self.ends[bond].map(|end| self.cloud.shares(end as usize));
         let common = first.iter().zip(second).map(|(a, b)| *a > 0.0 && *b > 0.0);
         common

@@ -136,7 +136,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         found.ok().map(|point| point as u32)
     }
 
-    /// A cell that may lie beyond the box; `None` if it does.
+    /// Index of a cell inside the box; `None` beyond it.
     fn in_box(&self, cell: [i64; D]) -> Option<[u32; D]> {
         let mut inside = [0; D];
         for axis in 0..D {

@@ -249,7 +249,7 @@ impl<const D: usize> PointCloud<D> {
         (0..self.len()).map(is_near).collect()
     }
 
-    /// Some of the points (ascending), among them all owned ones, with what the cloud has of them.
+    /// The cloud of some of its points (ascending), among them all owned ones.
     pub fn part(&self, points: &[u32]) -> Self {
         let indices = || points.iter().map(|&it| it as usize);
         let along_curve = self.curve.iter();
@@ -267,7 +267,7 @@ impl<const D: usize> PointCloud<D> {
         }
     }
 
-    /// Volumes of some points, m^3, and fractions of the materials in them; empty where the cloud does not have them yet.
+    /// Volumes of some points, m^3, and their material fractions; empty before the cloud has them.
     pub fn volumes_at(&self, points: &[u32]) -> [Vec<f64>; 2] {
         let n = self.n_materials;
         let indices = || points.iter().map(|&it| it as usize);

@@ -1,4 +1,4 @@
-//! Where on a line of deformations no criterion breaks a bond.
+//! Interval of a line of deformations in which no criterion breaks a bond.
 
 use rayon::prelude::*;
 
@@ -8,11 +8,11 @@ use super::state_variables::CriteriaInState;
 use crate::deformation::{Deformation, Deformations, SpaceDeformation};
 use crate::element::BondDeformation;
 
-/// Bonds that make a task worth while.
+/// Least number of bonds for a parallel task.
 const TASK: usize = 4096;
 
 impl Criteria {
-    /// The first criterion whose measure is not known along lines, for some bond.
+    /// The first criterion whose measure has no closed form along lines, for some bond.
     pub fn unknown_along_lines(&self) -> Option<&Criterion> {
         let is_unknown = |it: &&Criterion| {
             let mut bonds = 0..it.limit.len();

@@ -1,4 +1,4 @@
-//! Where a bond stays within its limit while its deformation goes along a line, in closed form.
+//! Closed forms of the interval of a line of deformations in which a bond stays within its limit.
 //!
 //! With d(t) = d_0 + t d_1 a measure is the largest of some linear functions of t, or the root of a quadratic one where the bond
 //! is stretched. In space shear and relative rotation are vectors: |gamma_0 + t gamma_1|^2 is a quadratic function of t that is no square
@@ -10,17 +10,17 @@ use crate::deformation::{Deformation, SpaceDeformation};
 use crate::element::BondDeformation;
 use crate::tensor::dot;
 
-/// All t from the first to the second.
+/// Interval of t from the first bound to the second.
 pub type Interval = [f64; 2];
 
-/// All t, to both sides without an end.
+/// The unbounded interval.
 pub const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
 const NOWHERE: Interval = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// A deformation whose strains are asked for along a line: from one deformation on, with the slope of another.
+/// A deformation whose strains along a line d_0 + t d_1 are known.
 pub(super) trait AlongLine: Deformation {
-    /// A strain of which measures take the size: a number in the plane, a vector in space.
+    /// Type of shear and relative rotation, whose size enters measures: a number in the plane, a vector in space.
     type Sized: Strain;
 
     /// The strains along the line.
@@ -40,7 +40,7 @@ type Linear = [f64; 2];
 /// The function a t^2 + b t + c.
 type Quadratic = [f64; 3];
 
-/// A strain along a line of which measures take the size.
+/// A strain along a line whose size enters measures.
 pub(super) trait Strain: Copy {
     /// The strain times a factor.
     fn times(self, factor: f64) -> Self;
@@ -48,7 +48,7 @@ pub(super) trait Strain: Copy {
     /// Square of its size times a factor q.
     fn square_times(self, q: f64) -> Quadratic;
 
-    /// Where the sum of its size and another strain is at most a limit; empty (the first is larger) where it nowhere is.
+    /// Interval in which the sum of its size and another strain is at most a limit; empty (first bound larger) if there is none.
     fn beside_at_most(self, other: Linear, limit: f64) -> Interval;
 }
 
@@ -121,7 +121,7 @@ impl Strain for [[f64; 3]; 2] {
 }
 
 impl Measure {
-    /// Whether [`Measure::within`] knows the measure with these coefficients.
+    /// Whether [`Measure::within`] has a closed form for the measure with these coefficients.
     pub(super) fn is_known_along_lines(self, coefficients: &[f64]) -> bool {
         match self {
             Self::Tension
@@ -186,7 +186,7 @@ impl Measure {
     }
 }
 
-/// Where a strain is at most a limit; empty (the first is larger) where it nowhere is.
+/// Interval in which a strain is at most a limit; empty (first bound larger) if there is none.
 fn at_most([value, slope]: Linear, limit: f64) -> Interval {
     let reached = (limit - value) / slope;
     match slope {
@@ -197,7 +197,7 @@ fn at_most([value, slope]: Linear, limit: f64) -> Interval {
     }
 }
 
-/// Where sqrt(max(s, 0)^2 + g), g = q |gamma|^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
+/// Interval in which sqrt(max(s, 0)^2 + g), g = q |gamma|^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
 /// elsewhere. Where q is negative and the quadratic bends down, up to its first root beyond s = 0.
 fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
     let [a, b, c] = s.square_times(1.0);
@@ -207,7 +207,7 @@ fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
     hull(both(sliding, closed), both(stretched, open))
 }
 
-/// Where a t^2 + b t + c is at most zero; one that bends down is taken at the side of its roots on which t = 0 lies.
+/// Interval in which a t^2 + b t + c is at most zero; where the parabola bends down, the part on the side of t = 0.
 fn quadratic([a, b, c]: Quadratic) -> Interval {
     if a == 0.0 {
         return at_most([c, b], 0.0);
@@ -221,7 +221,7 @@ fn quadratic([a, b, c]: Quadratic) -> Interval {
     }
 }
 
-/// The smaller and the larger root of a t^2 + b t + c with a that is not zero; None without any.
+/// The smaller and the larger root of a t^2 + b t + c with a nonzero; None without real roots.
 fn roots([a, b, c]: Quadratic) -> Option<[f64; 2]> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
@@ -237,7 +237,7 @@ fn both(one: Interval, other: Interval) -> Interval {
     [one[0].max(other[0]), one[1].min(other[1])]
 }
 
-/// The interval that spans both; an empty one adds nothing.
+/// The smallest interval that contains both intervals; an empty one adds nothing.
 fn hull(one: Interval, other: Interval) -> Interval {
     let is_empty = |it: Interval| it[0] > it[1];
     match (is_empty(one), is_empty(other)) {

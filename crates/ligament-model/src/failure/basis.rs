@@ -1,4 +1,4 @@
-//! What the limits of bonds are made from.
+//! Input of the limits of bonds: body, materials and law.
 
 use super::crack_energies::Lattice;
 use super::joint::{crosses, shares_of_length};
@@ -20,17 +20,16 @@ pub struct Basis<'a, const D: usize = 2> {
     pub materials: &'a [Material],
     /// Interfaces between two materials, by their indices, with strengths of their own, shape (n_joints).
     pub joints: &'a [[usize; 2]],
-    /// The elastic constants that the law makes of those of each material, and those of its bonds; none with axes, shape (n_materials).
+    /// Elastic constants of each material under the law, and of its bonds; None for a material with axes, shape (n_materials).
     pub constants: Vec<Option<VolumetricSplit>>,
     /// The bonds as a lattice far from its edges, for those with strains of their own; in the plane alone.
     pub lattice: Option<Lattice>,
-    /// Factors by which properties vary at random, each another one.
+    /// Random factors, each of another property.
     pub scatter: &'a [Factors],
 }
 
 impl<const D: usize> Basis<'_, D> {
-    /// A value of each of `materials`, from the constants that the law makes of its own; infinite where it has none, shape
-    /// (n).
+    /// A value of each of `materials` from its constants under the law; infinite where it has none, shape (n).
     pub fn each(&self, value: impl Fn(&VolumetricSplit, &Material) -> Option<f64>) -> Vec<f64> {
         let value = |(constants, material): (&Option<VolumetricSplit>, &Material)| {
             value(constants.as_ref()?, material)
@@ -114,7 +113,7 @@ impl<const D: usize> Basis<'_, D> {
             .unwrap_or((f64::INFINITY, 0))
     }
 
-    /// The limits that are given, or the smallest of those of the materials, like [`weakest`](Self::weakest).
+    /// The given limits, or the smallest limits of the materials, like [`weakest`](Self::weakest).
     pub(super) fn given_or(
         &self,
         given: Option<f64>,

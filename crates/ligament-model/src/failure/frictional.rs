@@ -31,7 +31,7 @@ pub static FRICTIONAL: Kind = Kind {
     )
 };
 
-/// The limit a is that of sliding without stretch, and says nothing of how it falls with the stretch.
+/// Checks that a given limit `a` of sliding without stretch has the angle by which it decreases with the stretch.
 fn check(choice: &Choice) -> Result<(), Unfit> {
     match (choice.limit, choice.friction_angle) {
         (Some(_), None) => Err(Unfit::Missing {
@@ -53,7 +53,7 @@ fn check(choice: &Choice) -> Result<(), Unfit> {
     }
 }
 
-/// Friction makes sliding harder under compression, so that the compressive strength is the larger one.
+/// Refuses a compressive strength below the tensile one, because friction makes sliding harder under compression.
 fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     if choice.friction_angle.is_some() {
         return Ok(());

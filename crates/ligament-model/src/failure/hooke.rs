@@ -38,7 +38,7 @@ pub struct StressAcross {
 }
 
 impl StressAcross {
-    /// The stress and another one times a factor.
+    /// The sum of the stress and `factor` times another one.
     #[inline]
     pub(super) fn plus(&self, other: &Self, factor: f64) -> Self {
         let shear = self.shear.iter().zip(&other.shear);
@@ -75,7 +75,7 @@ impl Moduli {
         }
     }
 
-    /// The coefficients from which they [come](Self::from_coefficients).
+    /// The moduli as [coefficients](Self::from_coefficients) of a measure.
     pub(super) fn coefficients(&self) -> [f64; 4] {
         [self.lateral, self.shear, self.bar, self.along]
     }

@@ -1,4 +1,4 @@
-//! Bonds across the joint of two materials, and what their limits are made of.
+//! Bonds across the interface of two materials, and the materials that determine their limits.
 //!
 //! A bond has the strengths of the material in which it lies. Across a joint it has the smaller ones, or those of an interface that is given there,
 //! and under one stress it is stretched by the mean over its length of the strains of its materials: so is its limit.

@@ -21,7 +21,7 @@ pub static SLIDING: Kind = Kind {
 };
 
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
-    let limit = stretch::of_strength(choice, basis, limit);
+    let limit = stretch::limits_from_strength(choice, basis, limit);
     Ok(vec![Limits::without_coefficient(limit)])
 }
 

@@ -188,7 +188,7 @@ impl BondStiffness {
     }
 }
 
-/// The values, or an empty array if all have a common value.
+/// The values, or an empty array if all equal a common value.
 fn some_other_than<T: PartialEq>(common: T, values: Vec<T>) -> Vec<T> {
     match values.iter().all(|value| *value == common) {
         true => Vec::new(),

@@ -1,4 +1,4 @@
-//! Bonds whose ends a stiffer material restrains: what they lose of k_t, and what they gain of k_n instead.
+//! Bonds whose ends a stiffer material restrains: their loss of k_t and gain of k_n.
 //!
 //! A point rotates with the stiffest of its materials. In a layer sheared by gamma between stiff parts the ends of bonds miss a share beta of
 //! the rotation gamma/2 of the layer, in the mean over both ends, and a bond straight across has the shear gamma instead of gamma/2. With
@@ -32,7 +32,7 @@ const LARGEST_LOSS: f64 = 1.3;
 /// Part of the trace of the spread of a family that is added to it, so that families along a line have a normal.
 const SPREAD: f64 = 0.02;
 
-/// Sums over bonds, with d for x = 1.
+/// Sums over the bonds of a point, with the loss d for x = 1.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     /// Sum w d c^4.

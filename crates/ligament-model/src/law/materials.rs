@@ -1,4 +1,4 @@
-//! Materials of a bond where several meet.
+//! Materials of a bond at an interface.
 //!
 //! Points on an interface contain both of its materials, and bonds may run within one material, along the interface or across it. Two halves
 //! in series test the rule: with the mean of both ends' materials, as homogeneous laws suggest, a soft half beside a stiff one would be

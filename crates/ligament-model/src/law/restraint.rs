@@ -1,4 +1,4 @@
-//! Restraint of a bond by stiffer materials, and what the bond exchanges for it.
+//! Restraint of a bond by stiffer materials, and its exchange of k_t for k_n.
 
 /// Restraint of the rotations of the ends of a bond by stiffer materials.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -9,7 +9,7 @@ pub struct Restraint {
     pub softness: f64,
 }
 
-/// What a restrained bond loses and gains.
+/// Loss and gain of stiffness of a restrained bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exchange {
     /// Share d of k_t and k_theta that it loses.

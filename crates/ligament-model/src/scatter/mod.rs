@@ -33,8 +33,8 @@ pub struct Scatter {
 }
 
 crate::case_type! {
-    /// Property that varies, by a factor f. Limits of bonds from strengths, and limits given in their place, are multiplied by f; those from fracture energies
-    /// by sqrt(f), and the energy of a bond beyond its limit follows.
+    /// Property that varies, by a factor f. Limits of bonds from strengths, and limits given in their place, are multiplied by f; those from fracture
+    /// energies by sqrt(f), and the energy of a bond beyond its limit follows.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub enum Scattered {
         /// Strengths, and limits given in their place.
@@ -45,7 +45,7 @@ crate::case_type! {
 }
 
 impl Scattered {
-    /// The other property.
+    /// Fracture energy for strength, and strength for fracture energy.
     pub fn other(self) -> Self {
         match self {
             Self::Strength => Self::FractureEnergy,

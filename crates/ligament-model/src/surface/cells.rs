@@ -9,7 +9,7 @@ use crate::contact::CutBond;
 use crate::tensor::{dot, minus};
 use crate::topology::Families;
 
-/// A part of the face between the cells of two points: a segment, or a triangle.
+/// A piece of the face between the cells of two points: a segment, or a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InnerFace<const D: usize> {
     /// Points A < B.
@@ -31,7 +31,7 @@ pub struct Boundaries<const D: usize> {
     cut: Vec<u32>,
 }
 
-/// The faces of cracks of a surface, with the side and the contact stiffness (Pa/m) of what each point adds.
+/// Crack faces of a surface, with the side and the contact stiffness (Pa/m) for each point.
 #[derive(Debug, Clone)]
 pub struct CrackFaces<const D: usize> {
     /// Faces between points.
@@ -40,7 +40,7 @@ pub struct CrackFaces<const D: usize> {
     pub of_points: Vec<Option<(u32, f64)>>,
 }
 
-/// Bonds that are not broken.
+/// Unbroken bonds of a body.
 #[derive(Debug, Clone, Copy)]
 pub struct Bonded<'a> {
     /// Ends and families of all bonds.
@@ -76,7 +76,7 @@ impl<const D: usize> InnerFace<D> {
     }
 }
 
-/// Corners in the order of the other side.
+/// Corners in the reversed order, for the opposite side.
 fn turned_over<const D: usize>(corners: &Corners<D>) -> Corners<D> {
     let mut corners = *corners;
     corners.swap(D - 2, D - 1);

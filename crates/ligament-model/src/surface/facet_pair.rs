@@ -22,19 +22,19 @@ const SKIN: f64 = 0.5;
 /// Gap between neighbouring facets over the length of an edge that a contact bridges: facets of a lattice move with one cell each.
 const SEAM: f64 = 0.05;
 
-/// Part of the half-width of a rigid shape to which integration points get into it unnoticed.
+/// Depth, as a fraction of the half-width of a rigid shape, up to which contact may miss an integration point.
 const UNNOTICED: f64 = 0.5;
 
-/// Distance of a place from a facet over the length of its longest edge, within which it lies on it.
+/// Distance from a facet over its longest edge below which a position lies on it.
 const ON_FACET: f64 = 1e-9;
 
 /// Relative rounding of a distance from the plane of a facet, generously.
 const ROUNDING: f64 = 1e-9;
 
-/// Divisions of the way of a step in the search for its deepest place, each into thirds: to 1e-7 of the way.
+/// Number of divisions, each into thirds, in the search along the path of a step for its deepest point: to 1e-7 of the path.
 const DIVISIONS: usize = 40;
 
-/// What the integration points of a surface may meet.
+/// Possible contact partner of the integration points of a surface.
 #[derive(Debug, Clone)]
 pub enum Opposite<const D: usize> {
     /// Facets of other sides of the same surface.
@@ -45,7 +45,7 @@ pub enum Opposite<const D: usize> {
     Rigid(RigidShape<D>, bool),
 }
 
-/// The facets of a body, and what they may meet.
+/// The facets of a body with their possible contact partner.
 #[derive(Debug, Clone)]
 pub struct FacetPair<const D: usize> {
     pub(super) surface: Surface<D>,
@@ -57,19 +57,19 @@ pub struct FacetPair<const D: usize> {
     pub(super) reach: f64,
 }
 
-/// What an integration point meets.
+/// The contact partner of an integration point in a state.
 struct Meeting<const D: usize> {
     onto: Option<u32>,
     weights: Vector,
     normal: [f64; D],
     overlap: f64,
-    /// Way from the middle of a rigid body, m.
+    /// Vector from the middle of a rigid body to the contact, m.
     arm: Vector,
-    /// Motion of the surface that is met in the step, m.
+    /// Motion of the contact partner in the step, m.
     carried: [f64; D],
 }
 
-/// An integration point: the place of a facet that it stands for.
+/// An integration point of a facet.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     pub(super) number: u32,
@@ -78,7 +78,7 @@ pub(super) struct Place {
     pub(super) weights: Vector,
 }
 
-/// The facets of a surface so far, by their places in the search.
+/// Present facets of a surface, by their indices in the search.
 struct Present<'a, const D: usize> {
     /// Numbers of the facets.
     numbers: &'a [u32],
@@ -90,12 +90,12 @@ struct Present<'a, const D: usize> {
     normals: Vec<Option<[f64; D]>>,
     /// Largest distances of a corner from the first one, m.
     extents: Vec<f64>,
-    /// Largest gap below which an integration point meets what it faces, m.
+    /// Gap below which an integration point is in contact, m.
     within: f64,
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// A surface against what its integration points may meet, with the coefficient of Coulomb's friction.
+    /// A surface with the contact partner of its integration points and the coefficient of Coulomb's friction.
     pub fn new(surface: Surface<D>, opposite: Opposite<D>, friction: f64) -> Self {
         Self {
             of_sides: surface.mean_stiffness(),
@@ -178,7 +178,7 @@ impl<const D: usize> FacetPair<D> {
         all.filter(|it| !is_turned_away(it)).collect()
     }
 
-    /// Whether one facet may ever meet another one of the surface.
+    /// Whether contact between two facets of the surface is possible.
     pub(super) fn may_meet(&self, own: u32, other: u32) -> bool {
         let of_cells = |it: u32| self.surface.facet(it as usize).corners[0].point;
         match self.opposite {
@@ -253,7 +253,7 @@ impl<const D: usize> FacetPair<D> {
         })
     }
 
-    /// The rigid shape, where an integration point faces its surface with less than the largest gap.
+    /// Contact with the rigid shape, if the gap of the integration point is small enough.
     fn shape_met(
         shape: &RigidShape<D>,
         (at, place): (usize, Place),
@@ -285,7 +285,7 @@ impl<const D: usize> FacetPair<D> {
         })
     }
 
-    /// The contact of an integration point with what it meets, given the one before the step.
+    /// Contact of an integration point with its partner, from the contact before the step.
     ///
     /// A new contact whose overlap is deeper than the motion of the step explains begins without force.
     fn touch(
@@ -329,7 +329,7 @@ impl<const D: usize> FacetPair<D> {
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// Integration points that meet what they face with less than a gap (m) after a step, ascending, given those in contact before it.
+    /// Integration points in contact, with less than a gap (m), after a step, ascending, from the contacts before it.
     pub(super) fn met(
         &self,
         search: &mut Search,
@@ -512,7 +512,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         self.add_bound_of_all(sums);
     }
 
-    /// Faces of cracks do not count: what a rigid body feels at a time is at most as wide as the body.
+    /// Crack faces do not count: the contact area of a rigid body at one time is at most the width of the body.
     fn on_rigid_body(&self) -> [f64; 2] {
         let facets = self.surface.facets.iter().enumerate();
         let of_facet = |(number, it): (usize, &Facet<D>)| it.area * self.stiffness(number, None);
@@ -579,7 +579,7 @@ impl<const D: usize> FacetPair<D> {
 }
 
 /// An integration point in a step.
-struct Passing<const D: usize> {
+struct PointInStep<const D: usize> {
     place: Place,
     /// Position after the step, m.
     now: [f64; D],
@@ -588,7 +588,7 @@ struct Passing<const D: usize> {
 }
 
 /// A facet in a step.
-struct Passed<const D: usize> {
+struct FacetInStep<const D: usize> {
     number: u32,
     /// Corners after the step, m.
     now: Corners<D>,
@@ -597,7 +597,7 @@ struct Passed<const D: usize> {
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// Way of the surfaces against each other in a step that contact is sure to see, m.
+    /// Relative motion of the surfaces in a step up to which no contact is missed, m.
     pub(super) fn largest_way_seen(&self) -> f64 {
         match &self.opposite {
             Opposite::Rigid(shape, _) => self.reach.min(UNNOTICED * shape.half_width()),
@@ -605,7 +605,7 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// The first integration point of the outline that moved through what it may meet in a step or into it, but is not in contact after it.
+    /// The first integration point of the outline that penetrated its partner in a step but is not in contact after it.
     pub(super) fn first_missed(&self, step: Step<'_>, touches: &[Touch]) -> Option<Missed> {
         let is_free = |number: u32| {
             touches
@@ -613,25 +613,26 @@ impl<const D: usize> FacetPair<D> {
                 .is_err()
         };
         let facets = self.moved(step);
-        let of_facet = |it: &Passed<D>| {
+        let of_facet = |it: &FacetInStep<D>| {
             let first = D as u32 * it.number;
             (0..D as u32).map(move |corner| first + corner)
         };
         let free = facets.iter().flat_map(of_facet).filter(|it| is_free(*it));
-        let places: Vec<Passing<D>> = free.map(|it| self.passing(it, step)).collect();
+        let places: Vec<PointInStep<D>> = free.map(|it| self.passing(it, step)).collect();
         let found = match &self.opposite {
             Opposite::Rigid(shape, _) => {
-                let into = |it: &Passing<D>| self.way_into(shape, it, step.rigid);
+                let into = |it: &PointInStep<D>| self.path_into_shape(shape, it, step.rigid);
                 let deep = places.iter().find_map(|it| Some((it.place, into(it)?)));
-                let has_contact = |it: &&Passed<D>| {
+                let has_contact = |it: &&FacetInStep<D>| {
                     (0..D as u32).any(|corner| !is_free(D as u32 * it.number + corner))
                 };
                 let others = facets.iter().filter(|it| !has_contact(it));
-                deep.or_else(|| self.swallowed(shape, others, step.rigid))
+                deep.or_else(|| self.facet_crossed_by_shape(shape, others, step.rigid))
             }
             Opposite::OtherSides if self.move_as_one(&facets, &places) => None,
             Opposite::OtherSides => {
-                let through = |it: &Passing<D>| Some((it.place, self.way_through(it, &facets)?));
+                let through =
+                    |it: &PointInStep<D>| Some((it.place, self.path_through_facet(it, &facets)?));
                 places.par_iter().find_map_first(through)
             }
             Opposite::Unbonded => None,
@@ -644,21 +645,21 @@ impl<const D: usize> FacetPair<D> {
         })
     }
 
-    /// Whether no integration point moves far against a facet.
-    fn move_as_one(&self, facets: &[Passed<D>], places: &[Passing<D>]) -> bool {
+    /// Whether integration points and facets move nearly as one.
+    fn move_as_one(&self, facets: &[FacetInStep<D>], places: &[PointInStep<D>]) -> bool {
         let ways = facets.iter().map(|it| it.way);
         let [low, high] = bounding_box(ways.chain(places.iter().map(|it| it.way)));
         norm(minus(high, low)) <= self.reach
     }
 
     /// Facets of the outline in a step.
-    fn moved(&self, step: Step<'_>) -> Vec<Passed<D>> {
+    fn moved(&self, step: Step<'_>) -> Vec<FacetInStep<D>> {
         let layout = self.surface.layout;
         let of_facet = |number: usize| {
             let facet = self.surface.facet(number);
             let [before, now] = [step.before, step.now].map(|it| facet.moved(layout, it));
             let even = [1.0 / D as f64; D];
-            Passed {
+            FacetInStep {
                 number: number as u32,
                 way: minus(weighted(&now, &even), weighted(&before, &even)),
                 now,
@@ -667,7 +668,7 @@ impl<const D: usize> FacetPair<D> {
         (0..self.surface.facets.len()).map(of_facet).collect()
     }
 
-    fn passing(&self, number: u32, step: Step<'_>) -> Passing<D> {
+    fn passing(&self, number: u32, step: Step<'_>) -> PointInStep<D> {
         let place = Self::place(number);
         let facet = self.surface.facet(place.facet);
         let at = |motions| {
@@ -675,18 +676,18 @@ impl<const D: usize> FacetPair<D> {
             weighted(&corners, &place.weights)
         };
         let now = at(step.now);
-        Passing {
+        PointInStep {
             place,
             way: minus(now, at(step.before)),
             now,
         }
     }
 
-    /// Length of the way of an integration point against a rigid shape, m, if it leads deep into the shape.
-    fn way_into(
+    /// Length of the path of an integration point relative to a rigid shape, m, if it leads deep into the shape.
+    fn path_into_shape(
         &self,
         shape: &RigidShape<D>,
-        passing: &Passing<D>,
+        passing: &PointInStep<D>,
         rigid: [Pose; 2],
     ) -> Option<f64> {
         let way = minus(passing.way, carried(rigid));
@@ -713,10 +714,10 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// A facet without contact through which the middle of a shape that fits between integration points moved, and the length of its way, m.
-    fn swallowed<'a>(
+    fn facet_crossed_by_shape<'a>(
         &self,
         shape: &RigidShape<D>,
-        mut facets: impl Iterator<Item = &'a Passed<D>>,
+        mut facets: impl Iterator<Item = &'a FacetInStep<D>>,
         rigid: [Pose; 2],
     ) -> Option<(Place, f64)> {
         if UNNOTICED * shape.half_width() >= self.reach {
@@ -732,8 +733,12 @@ impl<const D: usize> FacetPair<D> {
         Some((Self::place(D as u32 * facet.number), way))
     }
 
-    /// Length of the way of an integration point against a facet of another side that it moved through from outside, m.
-    fn way_through(&self, passing: &Passing<D>, facets: &[Passed<D>]) -> Option<f64> {
+    /// Length of the path of an integration point relative to a facet of another side that it crossed from outside, m.
+    fn path_through_facet(
+        &self,
+        passing: &PointInStep<D>,
+        facets: &[FacetInStep<D>],
+    ) -> Option<f64> {
         let own = passing.place.facet as u32;
         facets.iter().find_map(|it| {
             let way = minus(passing.way, it.way);
@@ -751,7 +756,7 @@ fn carried<const D: usize>([before, now]: [Pose; 2]) -> [f64; D] {
     std::array::from_fn(|axis| now.displacement[axis] - before.displacement[axis])
 }
 
-/// Signed distance of a position from a shape in a place, m.
+/// Signed distance of a position from a moved rigid shape, m.
 pub(super) fn distance_from<const D: usize>(
     shape: &RigidShape<D>,
     position: [f64; D],
@@ -766,7 +771,7 @@ pub(super) fn distance_from<const D: usize>(
     shape.distance(unturned).0
 }
 
-/// Whether a straight way leads through a facet from its outer side.
+/// Whether a straight path crosses a facet from its outer side.
 fn passes<const D: usize>(corners: &Corners<D>, from: [f64; D], to: [f64; D]) -> bool {
     let Some(normal) = normal(corners) else {
         return false;

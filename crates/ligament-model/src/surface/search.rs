@@ -1,4 +1,4 @@
-//! Facets near others, searched anew when surfaces have moved by more than a skin.
+//! Search for neighbouring facets, repeated when surfaces have moved by more than a skin.
 
 use std::collections::BTreeMap;
 
@@ -15,8 +15,8 @@ type Place = [i64; 3];
 /// none near it.
 const TORN: f64 = 4.0;
 
-/// Facets of a surface so far, with those near them at the last search. What is found does not change results: it contains at least all
-/// facets within reach.
+/// Present facets of a surface with their neighbours at the last search. The neighbours contain at least all facets within reach, so that the time of
+/// a search does not change results.
 #[derive(Debug, Clone, Default)]
 pub struct Search {
     /// Numbers of the facets, in the order in which they joined the surface.
@@ -29,13 +29,13 @@ pub struct Search {
     boxes: BTreeMap<Place, Vec<u32>>,
 }
 
-/// What a search looks for.
+/// Input of a search.
 pub(super) struct Sought<'a, const D: usize> {
     /// Present corners of the facets, by their places, m.
     pub(super) corners: &'a [Corners<D>],
     /// Distance between the boxes around facets that count as near, m.
     pub(super) within: f64,
-    /// Whether one facet may ever meet another one, by their numbers.
+    /// Whether contact between two facets is possible, by their numbers.
     pub(super) may_meet: &'a (dyn Fn(u32, u32) -> bool + Sync),
 }
 
@@ -55,8 +55,7 @@ impl Search {
         &self.near[place]
     }
 
-    /// Finds what may be missing: everything where a corner has moved by half of the skin (m) since the last search, otherwise the facets near
-    /// those that joined.
+    /// Updates the neighbours: of all facets if a corner has moved by half of the skin (m) since the last search, otherwise of added facets.
     pub(super) fn update<const D: usize>(&mut self, sought: &Sought<'_, D>, skin: f64) {
         if self.is_old(sought.corners, skin) {
             self.since.clear();
@@ -135,7 +134,7 @@ impl<const D: usize> Sought<'_, D> {
     }
 }
 
-/// Boxes of space of a size (m) that a box reaches into.
+/// Cells of a grid of a width (m) that a box intersects.
 fn places<const D: usize>([lower, upper]: [[f64; D]; 2], size: f64) -> impl Iterator<Item = Place> {
     let along = |axis: usize| {
         let at = |corner: &[f64; D]| corner.get(axis).map_or(0, |x| (x / size).floor() as i64);

@@ -45,7 +45,7 @@ impl<const D: usize> BondSystem<D> {
         of_broken.chain(of_cut).collect()
     }
 
-    /// The pair of a broken bond with the sums of directions around its ends; none of a bond along the crack.
+    /// The pair of a broken bond from the sums of directions around its ends; none for a bond along the crack.
     fn pair_of_broken(
         &self,
         layout: Layout,
@@ -177,7 +177,7 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
-    /// Pair with the largest overlap of the faces, beyond a depth (m), among the points marked in `asked` (n_points).
+    /// Pair with the largest overlap of the faces, beyond a depth (m), among the marked points `asked` (n_points).
     pub(super) fn largest_overlap(
         &self,
         intact: &[bool],

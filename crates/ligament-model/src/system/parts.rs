@@ -9,11 +9,11 @@ use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
 /// Values at a degree of freedom of a part.
 #[derive(Debug, Clone, Copy)]
 struct Given {
-    /// Whether it is fixed.
+    /// Whether the degree of freedom is fixed.
     is_fixed: bool,
     /// Whether a support can be added.
     can_hold: bool,
-    /// Force on it, N or N m.
+    /// Force on the degree of freedom, N or N m.
     force: f64,
 }
 

@@ -12,7 +12,7 @@ use crate::thermal::ThermalStrain;
 use crate::topology::CoupledPoints;
 use crate::topology::UnbrokenBonds;
 
-/// Cells or patches of a task worth while.
+/// Least number of cells or patches for a parallel task.
 const TASK: usize = 1024;
 
 /// Volumetric stiffnesses of the patches of a body: the cells of one material around a point.
@@ -25,7 +25,7 @@ pub struct VolumetricTerms<const D: usize> {
     cells_of_bonds: Incidence,
     /// Cell of each corner.
     cell_of_corner: Vec<u32>,
-    /// Corners, by their places in the arrays over corners, that each point is.
+    /// Corners of cells at each point, by their indices in the arrays over corners.
     corners_at_points: Incidence,
     /// Patch of each corner.
     patch_of_corner: Vec<u32>,
@@ -96,12 +96,12 @@ pub(crate) struct VolumetricStress {
 
 impl VolumetricStress {
     /// Mean stress of the living cells, Pa; none without a living cell.
-    pub(crate) fn of_living(&self) -> Option<f64> {
+    pub(crate) fn mean_over_living(&self) -> Option<f64> {
         (self.volume > 0.0).then(|| self.stress_volume / self.volume)
     }
 
-    /// Stress over the volume of all cells, dead or living, Pa; none without a cell.
-    pub(crate) fn of_all(&self) -> Option<f64> {
+    /// Mean stress over all cells, dead or living, Pa; none without a cell.
+    pub(crate) fn mean_over_all(&self) -> Option<f64> {
         (self.whole_volume > 0.0).then(|| self.stress_volume / self.whole_volume)
     }
 }

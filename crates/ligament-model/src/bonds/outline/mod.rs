@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::first::first_bonds;
+use super::first_bonds::first_bonds;
 use super::{BondSet, Incidence};
 use crate::cloud::lumping::shortest_edges;
 use crate::cloud::{PointCloud, distance, search_tree};

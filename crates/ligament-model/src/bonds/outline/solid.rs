@@ -72,9 +72,9 @@ impl SolidOutline {
         let edges = edges_of(facet.nodes);
         match past.map(|it| it == 0) {
             [false, false, false] => true,
-            [true, false, false] => !self.goes_on_past(edges[0], ends, slack),
-            [false, true, false] => !self.goes_on_past(edges[1], ends, slack),
-            [false, false, true] => !self.goes_on_past(edges[2], ends, slack),
+            [true, false, false] => !self.continues_beyond_edge(edges[0], ends, slack),
+            [false, true, false] => !self.continues_beyond_edge(edges[1], ends, slack),
+            [false, false, true] => !self.continues_beyond_edge(edges[2], ends, slack),
             _ => self.is_left_at_node(facet, ends, slack),
         }
     }
@@ -88,7 +88,8 @@ impl SolidOutline {
             .zip(edges_of(facet.corners));
         self.is_left_at_node(facet, ends, slack)
             || sides.any(|(edge, corners)| {
-                crosses(line, corners.map(flat), slack) && !self.goes_on_past(edge, ends, slack)
+                crosses(line, corners.map(flat), slack)
+                    && !self.continues_beyond_edge(edge, ends, slack)
             })
     }
 
@@ -124,7 +125,7 @@ impl SolidOutline {
     }
 
     /// Whether a line that crosses an edge of the outline continues there into a tetrahedron, or along a face of one.
-    fn goes_on_past(&self, [p, q]: [u32; 2], ends: [[f64; 3]; 2], slack: f64) -> bool {
+    fn continues_beyond_edge(&self, [p, q]: [u32; 2], ends: [[f64; 3]; 2], slack: f64) -> bool {
         let at = |node: u32| self.at(node);
         let length = norm(minus(ends[1], ends[0]));
         let mut at_edge = self.parts_at(p).filter(|nodes| nodes.contains(&q));

@@ -339,8 +339,8 @@ impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
             })
             .collect();
         Factors {
-            axial: pairs.of_bonds(factors.iter().map(|&[axial, _]| axial)),
-            shear: pairs.of_bonds(factors.iter().map(|&[_, shear]| shear)),
+            axial: pairs.bond_values(factors.iter().map(|&[axial, _]| axial)),
+            shear: pairs.bond_values(factors.iter().map(|&[_, shear]| shear)),
             report: Report {
                 steps,
                 products,

@@ -29,8 +29,8 @@ pub(crate) trait Equations<const N: usize>: Sync {
     /// Terms of a pair in the equations of its other end, for given products of factors and stiffness.
     fn forces(&self, pair: usize, products: [f64; 2]) -> [f64; N];
 
-    /// Transpose of the forces: both entries of G^T mu over the stiffness of a pair, from the sum of the multipliers of its ends with the
-    /// signs of its terms there.
+    /// Both entries of G^T mu over the stiffness of a pair, from the sum of the multipliers of its ends with the signs of its terms there: the
+    /// transpose of [`forces`](Self::forces).
     fn strains(&self, pair: usize, sum: &[f64; N]) -> [f64; 2];
 
     /// Terms of a pair at its own point, from those at its other end.

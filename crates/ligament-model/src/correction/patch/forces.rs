@@ -13,7 +13,7 @@ use crate::tensor::{SymTensor, cross, dot, minus};
 pub struct CellForces<const D: usize = 2> {
     /// Forces, shape (n_points, n_strains, D), N.
     values: Vec<[f64; D]>,
-    /// Stiffness of each material in the forces: on a mesh its own, on a lattice that which the uniaxial tractions act on.
+    /// Stiffness of each material in the forces: on a mesh its own, on a lattice the one of the uniaxial tractions.
     pub stiffness: Vec<Stiffness>,
 }
 
@@ -136,7 +136,7 @@ pub fn of_solid_mesh(
     for (cell, &material) in cells.iter().zip(material_of_cell) {
         for corners in cell.tetrahedra() {
             let places = corners.map(|corner| cloud.positions[corner as usize]);
-            for (corner, gradient) in corners.into_iter().zip(of_tetrahedron(places)) {
+            for (corner, gradient) in corners.into_iter().zip(tetrahedron_gradients(places)) {
                 forces.add(corner, &stresses[material as usize], gradient);
             }
         }
@@ -152,7 +152,7 @@ pub(crate) fn gradients<const D: usize>(corners: &[u32], cloud: &PointCloud<D>) 
         return of_corners.collect();
     }
     let place = |k: usize| resized(cloud.positions[corners[k] as usize]);
-    let of_corners = of_tetrahedron(std::array::from_fn(place)).into_iter();
+    let of_corners = tetrahedron_gradients(std::array::from_fn(place)).into_iter();
     of_corners.map(resized).collect()
 }
 
@@ -163,7 +163,7 @@ fn resized<const D: usize, const E: usize>(vector: [f64; D]) -> [f64; E] {
 
 /// Integrals of the gradients of the linear shape functions over a tetrahedron, m^2: a third of the area of the opposite face along its
 /// inward normal.
-fn of_tetrahedron([a, b, c, d]: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
+fn tetrahedron_gradients([a, b, c, d]: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
     let [e, f, g] = [b, c, d].map(|corner| minus(corner, a));
     let is_positive = dot(e, cross(f, g)) > 0.0;
     let sixth = if is_positive { 1.0 / 6.0 } else { -1.0 / 6.0 };

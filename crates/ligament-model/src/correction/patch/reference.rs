@@ -67,7 +67,7 @@ pub fn reference<const D: usize>(
         let values = tensors.as_flattened_mut().as_flattened_mut();
         families.order.ghosts.update(values, D * D);
     }
-    let factors = families.of_all_bonds(families.factors(&tensors));
+    let factors = families.with_bonds_of_other_ranks(families.factors(&tensors));
     let products = alpha.iter().zip(factors);
     products.map(|(alpha, factor)| alpha * factor).collect()
 }
@@ -132,7 +132,7 @@ impl<const D: usize> Families<'_, D> {
     }
 
     /// The factors (n_bonds) with those that other processes compute; collective.
-    fn of_all_bonds(&self, mut factors: Vec<f64>) -> Vec<f64> {
+    fn with_bonds_of_other_ranks(&self, mut factors: Vec<f64>) -> Vec<f64> {
         let subdomain = self.order.subdomain;
         let across = self
             .bonds

@@ -63,9 +63,9 @@ struct Place<const D: usize> {
 
 /// Coefficients of the harmonics of n in the equations, by dimension.
 struct Sizes {
-    /// Coefficient of n, times q_n.
+    /// Coefficient of n in the first equations, times q_n.
     first: f64,
-    /// Coefficients of n, times q_n and q_t.
+    /// Coefficients of n in the second equations, times q_n and q_t.
     second: [f64; 2],
     /// Coefficient of Y_3, times q_n.
     third: f64,

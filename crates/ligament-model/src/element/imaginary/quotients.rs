@@ -1,4 +1,4 @@
-//! Difference quotients that make up the strains of an element.
+//! Difference quotients, whose means are the strains of an element.
 
 use super::{BondClass, Surroundings};
 use crate::bonds::BondSet;

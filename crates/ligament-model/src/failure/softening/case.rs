@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::{Curve, LAWS, Law};
 use crate::word::{self, Worded};
 
-/// A law that has a name.
+/// A softening law in a case file by its name.
 #[derive(Clone, Copy)]
 struct Named(&'static Law);
 

@@ -1,4 +1,4 @@
-//! Implementation of the interface to the equations for a bond system.
+//! Implementation of [`Bonds`] for a bond system.
 
 use super::contact::Moved;
 use super::{BondSystem, ElementSystem, UnbrokenBonds};
