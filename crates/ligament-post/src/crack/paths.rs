@@ -77,13 +77,13 @@ impl CrackPath {
 
 impl Graph {
     /// The graph of faces with given states (n_faces), for the horizons of the points (n_points), m.
-    pub(super) fn new(faces: &Faces, parts: &[FaceState], horizon: &[f64]) -> Self {
+    pub(super) fn new(faces: &Faces, states: &[FaceState], horizon: &[f64]) -> Self {
         let mut is_cut = vec![false; faces.corners.len()];
         let mut numbers = vec![u32::MAX; faces.corners.len()];
-        for (ends, part) in faces.ends.iter().zip(parts) {
+        for (ends, state) in faces.ends.iter().zip(states) {
             for &end in ends {
-                is_cut[end as usize] |= *part == FaceState::PreCrack;
-                if *part == FaceState::Open {
+                is_cut[end as usize] |= *state == FaceState::PreCrack;
+                if *state == FaceState::Open {
                     numbers[end as usize] = 0;
                 }
             }
@@ -100,7 +100,7 @@ impl Graph {
             });
         }
         let mut edges = Vec::new();
-        let open = (0..faces.len()).filter(|&face| parts[face] == FaceState::Open);
+        let open = (0..faces.len()).filter(|&face| states[face] == FaceState::Open);
         for face in open {
             let ends = faces.ends[face].map(|it| numbers[it as usize]);
             let middle = faces.middle[face];
@@ -139,7 +139,7 @@ impl Graph {
         });
     }
 
-    /// Corners by connected parts, both in the order of their numbers.
+    /// Corners of each connected part, both in the order of their numbers.
     pub(super) fn components(&self) -> Vec<Vec<u32>> {
         let mut is_found = vec![false; self.corners.len()];
         let mut components = Vec::new();

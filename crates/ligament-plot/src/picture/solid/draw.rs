@@ -1,4 +1,4 @@
-//! A scene as paths of a picture.
+//! Drawing of a scene as paths.
 
 use super::outline::unit_normal;
 use super::visible::DepthBuffer;
@@ -150,7 +150,7 @@ fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
     [x, y]
 }
 
-/// Brightness of a triangle as seen, from either side.
+/// Brightness of a triangle, seen from either side.
 fn brightness(corners: [[f64; 3]; 3]) -> f64 {
     let normal = unit_normal(corners);
     let to_eye = if normal[2] < 0.0 { -1.0 } else { 1.0 };

@@ -21,7 +21,7 @@ pub(super) struct DepthBuffer {
 /// Share of a triangle by which a dot may lie outside of it, so that none is lost between two triangles.
 const SLACK: f64 = 1e-9;
 
-/// The part of a range in which none of three linear functions is below zero.
+/// The part of a range in which three linear functions are not negative.
 fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
     let mut part = whole;
     for (start, slope) in starts.into_iter().zip(slopes) {
@@ -41,7 +41,7 @@ fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
 const NONE: u32 = u32::MAX;
 
 impl DepthBuffer {
-    /// The buffer of triangles as seen (to the right, up, to the eye, m) in a part of the picture, with a scale in pixels per metre.
+    /// The buffer of triangles in the axes of the view (to the right, up, to the eye, m) for a part of the picture, with a scale in pixels per metre.
     pub(super) fn new(
         seen: &[[f64; 3]],
         triangles: &[[u32; 3]],
