@@ -27,7 +27,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute: Compute::Code(compute),
 };
 
-/// Label of the problem that stands for all of them.
+/// Label that stands for all problems.
 const ALL: &str = "all";
 
 /// A problem of the table.
@@ -38,7 +38,7 @@ struct Problem {
     case: PathBuf,
     /// Geometry, from the folder of meshes; without one the cells of the mesh are split, or the body is a lattice.
     geometry: Option<String>,
-    /// Numbers of the geometry that are sizes, m, at the size 1.
+    /// Numbers of the geometry for sizes, m, at the relative size 1.
     #[serde(default)]
     sizes: BTreeMap<String, f64>,
     /// Other numbers of the geometry.
@@ -53,9 +53,9 @@ struct Problem {
 #[derive(Default)]
 struct Intervals {
     problems: BTreeMap<String, Problem>,
-    /// Results by the problem and its size.
+    /// Results by problem and size.
     known: BTreeMap<(String, String), Vec<Evaluated>>,
-    /// Places of the targets in all intervals so far.
+    /// Relative positions of the targets in all intervals so far.
     places: Vec<f64>,
 }
 

@@ -31,7 +31,7 @@ impl Record {
         Ok(start + (end - start) * (time - early) / (late - early))
     }
 
-    /// Value in the first row from a time on, which may be rounded.
+    /// Value in the first row from a (possibly rounded) time on.
     pub(crate) fn from(&self, time: f64) -> anyhow::Result<f64> {
         let place = self.times.partition_point(|it| *it < time * (1.0 - 1e-9));
         let found = self.values.get(place).copied();
@@ -112,7 +112,7 @@ impl Record {
         part.transform(omega)
     }
 
-    /// Phases, rad, by which another record is behind this one at multiples of a small angular frequency.
+    /// Phase lags, rad, of another record behind this one at multiples of a small angular frequency.
     fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
         let mut last = 0.0;
         let mut delays = Vec::with_capacity(count);

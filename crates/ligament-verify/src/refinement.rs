@@ -29,7 +29,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute: Compute::Code(compute),
 };
 
-/// Values of the problems by what they are of.
+/// Values of the problems by name.
 type Values = BTreeMap<&'static str, f64>;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
@@ -71,7 +71,7 @@ fn solved(setup: Setup) -> anyhow::Result<Solution> {
     Ok(setup.solve(&mut NoObserver)?)
 }
 
-/// A refinement around given places, in the pass in which edges are halved twice.
+/// A refinement around given places, in the pass that halves edges twice.
 fn around(places: impl Iterator<Item = [f64; 2]>) -> Refine {
     let place = |[x, y]: [f64; 2]| FinePlace {
         position: [x, y, 0.0],
@@ -94,13 +94,13 @@ fn line(from: [f64; 2], to: [f64; 2], count: usize) -> impl Iterator<Item = [f64
     })
 }
 
-/// Places so close everywhere in a square with a corner at the origin that all of its cells are refined.
+/// Places that cover a square with a corner at the origin so densely that all of its cells are refined.
 fn everywhere(side: f64, count: usize) -> Refine {
     let rows = line([0.0, 0.0], [0.0, side], count);
     around(rows.flat_map(move |[_, y]| line([0.0, y], [side, y], count)))
 }
 
-/// The setup on the mesh of its refinement by another horizon factor, without further refinement.
+/// The setup on its refined mesh with another horizon factor, without further refinement.
 fn on_mesh_by(factor: f64, setup: Setup) -> anyhow::Result<Setup> {
     let horizon = setup.horizon;
     let coarser = Setup {

@@ -86,8 +86,8 @@ pub enum Steps {
     Factors(#[schemars(length(min = 1))] Vec<f64>),
 }
 
-/// Puts the corners of curves of softening, `after = { table = "..." }`, in the place of their tables, which are relative to the folder of the
-/// case: results then hold the curve itself.
+/// Replaces the tables of softening curves, `after = { table = "..." }`, relative to the folder of the case, by their corners, so that results
+/// contain the curve itself.
 pub(super) fn read_curves(document: &mut Node, folder: &Path) -> Result<(), KeyFault> {
     let criteria = document
         .get_mut("fracture")
@@ -145,7 +145,7 @@ fn energy_tolerance() -> f64 {
 }
 
 impl Fracture {
-    /// Fills in missing keys of the load steps; with stages, these are those of the stages.
+    /// Fills in missing keys of the load steps, which a case with stages has there.
     pub(super) fn complete(&mut self, key: &KeyPath, is_staged: bool) -> Result<(), KeyFault> {
         if self.control == Control::Stepped {
             let settings = self.stepping(key, is_staged)?;
@@ -187,7 +187,7 @@ impl Fracture {
         })
     }
 
-    /// Breakages in implicit steps of a motion, from others for the keys that are not given.
+    /// Breakages in implicit steps of a motion, with `default` for missing keys.
     pub(super) fn of_steps(&self, default: StepBreakages) -> StepBreakages {
         StepBreakages {
             rule: self.rule(default.rule),

@@ -207,7 +207,7 @@ pub struct Cylinder {
 }
 
 impl LatticeSection {
-    /// What the section says of the lattice.
+    /// The lattice of the section.
     pub(crate) fn grid(&self) -> Grid<2, Shape> {
         let holes = self.remove.iter();
         let sets = self.sets.iter();
@@ -225,7 +225,7 @@ impl LatticeSection {
 }
 
 impl SolidLatticeSection {
-    /// What the section says of the lattice.
+    /// The lattice of the section.
     pub(crate) fn grid(&self) -> Grid<3, SolidShape> {
         let holes = self.remove.iter();
         let sets = self.sets.iter();
@@ -304,7 +304,7 @@ impl SolidCellSetKeys {
     }
 }
 
-/// What a section says of a lattice in D dimensions.
+/// Content of a section for a lattice in D dimensions.
 pub(crate) struct Grid<const D: usize, S> {
     /// Key of the section.
     section: &'static str,

@@ -203,7 +203,7 @@ impl Expansion {
 struct Kind {
     /// Keys of the constants of this kind only, with their schemas.
     constants: Map<String, Json>,
-    /// The required ones of them.
+    /// Required keys of the constants.
     needed: Json,
     /// Optional coefficients of expansion along axes.
     expansion: &'static [&'static str],
@@ -287,7 +287,7 @@ impl Kind {
     }
 }
 
-/// The place of a material.
+/// The group of the body that a material fills.
 #[derive(Debug, Deserialize, JsonSchema)]
 struct MaterialGroup {
     /// The physical surface of the mesh, or the set of the lattice, that the material fills.
@@ -328,7 +328,7 @@ fn key_of(name: Option<&String>) -> KeyPath {
     name.map_or(section.clone(), |name| section.child(name))
 }
 
-/// Reads the section: one material, or a table for each of several.
+/// Reads the section: one material, or one table for each material.
 pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
     let key = key_of(None);
     let is_table = |node: &Node| matches!(node.value, Value::Table(_));

@@ -131,7 +131,7 @@ impl ModelSection {
         }
     }
 
-    /// Size of the rotational stiffness.
+    /// Scale of the rotational stiffness.
     pub(super) fn rotational_scale(&self) -> RotationalScale {
         let factor = self.rotational_factor.unwrap_or(1.0);
         let length = self.cosserat_length.map(RotationalScale::CosseratLength);
@@ -145,7 +145,7 @@ impl ModelSection {
     }
 }
 
-/// Description of a key with the laws to which it applies.
+/// Description of a key, with the laws to which it applies.
 fn laws_text(what: &str, takes: fn(&BondLaw) -> bool) -> String {
     let laws = LAWS.into_iter().filter(|it| takes(it));
     let words: Vec<String> = laws.map(|it| format!("`{}`", it.word)).collect();

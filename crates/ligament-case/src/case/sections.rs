@@ -47,8 +47,8 @@ pub struct Case {
     /// What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
     /// `static`.
     pub analysis: Option<Analysis>,
-    /// Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load, otherwise
-    /// the temperature, otherwise the first rigid body that moves.
+    /// Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load,
+    /// otherwise the temperature, otherwise the first rigid body that moves.
     pub curve: Option<String>,
     /// The body, meshed by Gmsh; or a `[lattice]`.
     pub mesh: Option<MeshSection>,
@@ -304,7 +304,7 @@ impl Case {
         scale.into_iter().chain(missing).chain(angles).collect()
     }
 
-    /// The setup of the case on a given body, in place of that of the case, with its tables.
+    /// The setup of the case with its tables, on a given body.
     pub(crate) fn setup_on(&self, body: AnyBody, tables: Tables) -> Result<Setup, KeyFault> {
         let dimensions = body.dimensions();
         let law = self.model.law;
@@ -363,8 +363,8 @@ impl Case {
         })
     }
 
-    /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys
-    /// of the references; each text stands once.
+    /// Papers of the law, the corrections, the criteria and laws of softening, random properties and the motion, as texts with keys of the
+    /// references, each once.
     pub fn sources(&self) -> Vec<&'static str> {
         let mut found = vec![self.model.law.row.source];
         found.extend(self.correction.alpha.map(Alpha::source));
@@ -401,7 +401,7 @@ impl Case {
         each
     }
 
-    /// Takes the places of a growth into the near field.
+    /// Adds the places of a growth to the near field.
     pub fn grow(&mut self, growth: &Growth) {
         if let Some(far_field) = &mut self.far_field {
             far_field.grow(growth);
@@ -440,7 +440,7 @@ impl Case {
         })
     }
 
-    /// Checks conditions between sections that the setup does not check.
+    /// Checks conditions across sections, beyond the checks of the setup.
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         let law = self.model.law.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);

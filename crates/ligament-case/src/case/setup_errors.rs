@@ -100,7 +100,7 @@ impl Case {
         }
     }
 
-    /// Key path of the section that makes a field of the setup.
+    /// Key path of the section that determines a field of the setup.
     fn section_of(&self, field: Field) -> KeyPath {
         let section = match field.name {
             "body" if self.mesh.is_some() => "mesh",
@@ -130,7 +130,7 @@ impl Case {
         }
     }
 
-    /// The fault of two rows of a table of temperatures or factors for one point.
+    /// The fault of a table of temperatures or factors with two rows for one point.
     fn row_twice(&self, field: Field, place: &str, samples: [usize; 2]) -> Fault {
         let file = field.index.and_then(|index| match field.name {
             "loads" => self.loads[index].profile.as_ref()?.file.as_ref(),

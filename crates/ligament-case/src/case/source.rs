@@ -9,7 +9,7 @@ use super::keys::{in_sections, unit_of};
 use super::mesh_section::BodyKind;
 use super::overrides;
 
-/// What the names of case files may end in before their extension, by which editors tell them from other TOML files.
+/// Ending that names of case files may have before their extension, by which editors distinguish them from other TOML files.
 const KIND: &str = ".ligament";
 
 /// The parsed text of a case or a study, with its file and overrides.

@@ -68,7 +68,7 @@ pub enum Factors {
     Table(#[schemars(length(min = 1))] Vec<[f64; 2]>),
 }
 
-/// Leaves the description to the forms.
+/// Removes the description, which the alternatives contain.
 fn without_description(schema: &mut Schema) {
     schema.remove("description");
 }

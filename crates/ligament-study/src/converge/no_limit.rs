@@ -6,10 +6,10 @@ use ligament_case::case::CaseFile;
 use ligament_model::failure::Choice;
 use ligament_model::scatter::Scattered;
 
-/// Kind of a result, which decides what refuses it.
+/// Kind of a result, which determines the reasons to refuse it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Depends on displacements under the loads.
+    /// A result that depends on displacements under the loads.
     Stiffness,
     /// A load at which bonds break.
     Breakage,
@@ -17,7 +17,7 @@ pub(super) enum Kind {
     AtEnd,
     /// Work up to the end of the run.
     Work,
-    /// Anything else.
+    /// Any other result.
     Other,
 }
 
@@ -42,7 +42,7 @@ impl NoLimit {
         }
     }
 
-    /// Tells what will have no interval, before any run.
+    /// Prints the results that will have no interval, before any run.
     ///
     /// # Errors
     ///

@@ -45,7 +45,7 @@ pub struct Conversion {
 /// Advice where Python is missing.
 const REMEDY: &str = "install Python from https://python.org, or say where it is by --python PATH";
 
-/// Faults of a source by the script's words for them.
+/// Faults of a source by their keywords in the script.
 const FAULTS: [(&str, Refusal); 6] = [
     ("unknown-format", Refusal::UnknownFormat),
     ("unreadable", Refusal::Unreadable),

@@ -29,12 +29,12 @@ const LISTED: usize = 20;
 const FIT_COLUMNS: &str =
     "plot,x,y,by,curve,slope,slope_error,intercept,intercept_error,r_squared,points,remark";
 
-/// What a user should know about the tables and plots of a study.
+/// Problems and remarks about the tables and plots of a study.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
-    /// Reasons why some of them could not be made.
+    /// Reasons why some tables or plots could not be made.
     pub(super) problems: Vec<String>,
-    /// Remarks about what they show.
+    /// Remarks about the contents of the tables and plots.
     pub(super) remarks: Vec<String>,
 }
 
@@ -126,7 +126,7 @@ fn written<Reason: ToString>(
     }
 }
 
-/// The error of a column that a plot does not find, unless it was told already.
+/// The error of a missing column of a plot, unless it was reported before.
 fn missing_column(
     study: &Study,
     index: usize,
@@ -345,7 +345,7 @@ fn with_panels<'a>(curves: &'a Curves<'_>) -> impl Iterator<Item = (&'a str, &'a
     panels.flat_map(|panel| panel.curves.iter().map(|curve| (&*panel.label, curve)))
 }
 
-/// The label of a panel, if it has one, and that of a curve.
+/// Joined label of a panel, if it has one, and a curve.
 fn joined(panel: &str, curve: &str) -> String {
     let labels = [panel, curve].into_iter().filter(|it| !it.is_empty());
     labels.collect::<Vec<_>>().join(", ")

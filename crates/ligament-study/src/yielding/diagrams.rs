@@ -1,4 +1,4 @@
-//! Errors over orientation and loci: tables (CSV) and diagrams (SVG).
+//! Errors over orientation, and loci, as tables (CSV) and diagrams (SVG).
 
 use std::f64::consts::TAU;
 
