@@ -111,7 +111,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements for Changed<D, M, E> {
-    /// Patches count by their terms, as many as a third of those of a bond.
+    /// Patches count by their terms: three terms are one element.
     fn n_elements(&self) -> usize {
         let n_terms: usize = self.patches.iter().map(ChangedPatch::n_terms).sum();
         self.elements.len() + n_terms.div_ceil(TERMS_OF_BOND)

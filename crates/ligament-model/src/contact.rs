@@ -142,8 +142,7 @@ impl ContactPair {
         [0, 1, 2].map(|axis| whole[axis] - across * self.normal[axis])
     }
 
-    /// Adds the internal forces of a force f (N) on B along the crack and of its opposite on A to those of all points
-    /// (n_degrees_of_freedom), with the moments -r x f/2 on both, which belong to the rotations in [`slip`](Self::slip).
+    /// Adds a force f (N) on B along the crack and its opposite on A to the internal forces of all points (n_degrees_of_freedom), with the moments -r x f/2 on both, which belong to the rotations in [`slip`](Self::slip).
     pub fn add_along(&self, layout: Layout, force: [f64; 3], internal: &mut [f64]) {
         let moment = cross(self.way, force).map(|it| -0.5 * it);
         for (end, sign) in self.ends.into_iter().zip([-1.0, 1.0]) {

@@ -290,7 +290,7 @@ fn ahead<B: Deformation>(all: &Deformations, slopes: &Deformations, by: f64) -> 
     let both = B::of_bonds(all).par_iter().zip(B::of_bonds(slopes));
     B::written(&all.room, all.len(), |to| {
         (to.par_iter_mut().zip(both))
-            .for_each(|(to, (here, slope))| *to = here.less(&slope.scaled(-by)));
+            .for_each(|(to, (value, slope))| *to = value.less(&slope.scaled(-by)));
     })
 }
 
@@ -315,10 +315,10 @@ mod tests {
             rotation: [0.0, y, x],
         };
         let room = DeformationPool::default();
-        let here = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(1.0, 3.0, 0.0));
+        let start = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(1.0, 3.0, 0.0));
         let slopes =
             SpaceDeformation::written(&room, 1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
-        let ahead = here.ahead(&slopes, 2.0);
+        let ahead = start.ahead(&slopes, 2.0);
         assert_eq!(ahead[0], BondDeformation::new([-1.0, 5.0, 5.0]));
         assert_eq!(
             ahead.scaled(-2.0)[0],

@@ -109,10 +109,10 @@ impl<const D: usize> FarField<D> {
     /// Force K u of the elements at a point, N, for motions with M components a point, the displacements first.
     #[inline]
     pub(crate) fn force<const M: usize>(&self, motions: &[f64], point: u32) -> [f64; D] {
-        let here = displacement::<D>(motions, M, point);
+        let own = displacement::<D>(motions, M, point);
         let mut force = [0.0; D];
         for (other, block) in self.couplings_of(point) {
-            let moved = minus(displacement(motions, M, other), here);
+            let moved = minus(displacement(motions, M, other), own);
             (0..D).for_each(|axis| force[axis] += dot(block[axis], moved));
         }
         force

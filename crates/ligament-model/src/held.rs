@@ -16,7 +16,7 @@ const LEAST_SHARE: f64 = 1e-3;
 /// A motion along faces that friction resists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldMotion {
-    /// Number of the motion among those of a contact.
+    /// Number of the motion among the motions of a contact.
     pub number: usize,
     /// Unit direction.
     pub way: Vector,

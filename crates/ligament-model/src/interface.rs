@@ -176,8 +176,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// cell along one of them.
     fn points_of_breakage(&self, bonds: &[u32]) -> Vec<u32>;
 
-    /// Energy 1/2 u^T (K - K') u', J, of the cells, of which bonds with the remaining stiffness `before` and `after` (n_bonds) leave the
-    /// stiffnesses K and K', for two deformations of all bonds; 0 where cells have no stiffness.
+    /// Energy 1/2 u^T (K - K') u', J, of the cells with the stiffnesses K and K' for bonds with the remaining stiffness `before` and `after` (n_bonds), for two deformations of all bonds; 0 where cells have no stiffness.
     fn energy_lost_by_cells(
         &self,
         intact: &[bool],

@@ -83,14 +83,14 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         points: &[u32],
         turn: Turn,
     ) -> Self {
-        let here = Subdomain::whole(points.len());
+        let subdomain = Subdomain::whole(points.len());
         Self {
             turn,
-            ..Self::of_body(layout, positions, points, &here)
+            ..Self::of_body(layout, positions, points, &subdomain)
         }
     }
 
-    /// The rigid motions of a body, of which this process owns some points; points rotate along. Collective.
+    /// The rigid motions of a body with some points on this process; points rotate along. Collective.
     pub(crate) fn of_body(
         layout: Layout,
         positions: &'a [[f64; D]],

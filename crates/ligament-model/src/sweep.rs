@@ -302,7 +302,7 @@ impl<const M: usize> PointSum<M> for PointForces<M> {
     }
 }
 
-/// Unbroken bonds with their deformations (n_bonds), of which a share is summed.
+/// Unbroken bonds with their deformations (n_bonds), for sums over a share of them.
 struct DeformedBonds<'a, const D: usize, const M: usize, E: Element<D, M>, S> {
     typed: &'a ElementSystem<D, M, E>,
     share: S,

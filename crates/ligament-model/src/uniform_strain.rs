@@ -17,8 +17,7 @@ const ROOT: f64 = std::f64::consts::SQRT_2;
 /// Strains of a free body under the forces of the unit uniform strains of [`CellForces`], in the order of [`SymTensor`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniformStrains {
-    /// Mean strains of the body in the basis of the uniform ones, a column for each, shape (n_strains, n_strains): those of the affine
-    /// motion on which the forces do the same work as on the body. The unit matrix if the body is as stiff as its cells.
+    /// Mean strains of the body in the basis of the uniform ones, a column for each, shape (n_strains, n_strains): the strain of the affine motion on which the forces do the same work as on the body. The unit matrix if the body is as stiff as its cells.
     pub mean: DMatrix<f64>,
     /// Root mean square over the bonds of the deviation of their stretch from that of the mean strain, for each strain.
     pub scatter: Vec<f64>,

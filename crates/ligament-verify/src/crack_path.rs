@@ -148,10 +148,10 @@ impl Crack {
         let mut reached: Vec<bool> = self.points.iter().map(is_at).collect();
         let mut front: Vec<usize> = (0..reached.len()).filter(|&it| reached[it]).collect();
         while let Some(last) = front.pop() {
-            let here = self.points[last];
+            let current = self.points[last];
             for (next, point) in self.points.iter().enumerate() {
-                let reach = here.horizon.max(point.horizon);
-                if !reached[next] && distance(point.at, [here.at; 2]) <= reach {
+                let reach = current.horizon.max(point.horizon);
+                if !reached[next] && distance(point.at, [current.at; 2]) <= reach {
                     reached[next] = true;
                     front.push(next);
                 }

@@ -113,7 +113,7 @@ pub enum Fault {
     /// A fault of the setup: a name that does not exist, or a value out of range.
     #[error(transparent)]
     Setup(#[from] SetupFault),
-    /// Keys of which exactly one must be given.
+    /// Alternative keys: exactly one must be given.
     #[error(
         "needs exactly one of {}; found {}",
         quoted(valid, "none"),

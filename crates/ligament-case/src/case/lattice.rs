@@ -242,7 +242,7 @@ impl SolidLatticeSection {
     }
 }
 
-/// Values by the keys of which a table has one.
+/// Values by alternative keys, exactly one of them given.
 type Choices<T> = Vec<(&'static str, Option<T>)>;
 
 impl Hole {

@@ -218,7 +218,7 @@ const ALONG_AXES: [&str; 3] = [
     "thermal_expansion_3",
 ];
 
-/// The kinds; keys of a later one decide before those of an earlier one.
+/// The kinds; keys of a later kind take precedence over keys of an earlier one.
 static KINDS: LazyLock<[Kind; 3]> = LazyLock::new(|| {
     [
         Kind::new::<Isotropic>(&[], |table, key| {

@@ -41,7 +41,7 @@ pub fn require(
     Err(KeyFault::new(key(), fault))
 }
 
-/// The given value among keys of which a table must have exactly one.
+/// The value of the given one among alternative keys of a table.
 pub fn one_of<T>(
     table: &KeyPath,
     given: impl IntoIterator<Item = (&'static str, Option<T>)>,

@@ -160,7 +160,7 @@ impl<'a, const D: usize> MeshGroups<'a, D> {
             })
     }
 
-    /// The best group with one of the words in its name: groups of sides of cells precede those of cells, of edges or of points, and groups
+    /// The best group with one of the words in its name: groups of sides of cells precede groups of cells, of edges or of points, and groups
     /// with more nodes precede others.
     fn best(&self, words: &[&str]) -> Option<&'a Group> {
         let is_part = |group: &&Group| 4 * group.cells.len() < self.n_cells;

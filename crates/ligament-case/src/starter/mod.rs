@@ -261,9 +261,9 @@ fn starter<const D: usize>(
 
 /// The path of a file relative to a folder, with slashes; absolute if there is no relative path.
 fn relative(path: &Path, folder: &Path) -> String {
-    let here = Path::new(".");
+    let current = Path::new(".");
     let folder = if folder.as_os_str().is_empty() {
-        here
+        current
     } else {
         folder
     };

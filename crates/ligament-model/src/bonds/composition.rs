@@ -211,11 +211,11 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         let mut lengths = vec![0.0; self.cloud.n_materials];
         for piece in places.windows(2) {
             let (length, middle) = (piece[1] - piece[0], 0.5 * (piece[0] + piece[1]));
-            let mut here = passed.iter().filter(|it| it.0 < middle && middle < it.1);
-            let Some(&(.., material)) = here.next() else {
+            let mut containing = passed.iter().filter(|it| it.0 < middle && middle < it.1);
+            let Some(&(.., material)) = containing.next() else {
                 continue;
             };
-            if length > SHORTEST_PIECE && here.all(|it| it.2 == material) {
+            if length > SHORTEST_PIECE && containing.all(|it| it.2 == material) {
                 lengths[material as usize] += length;
             }
         }

@@ -49,7 +49,7 @@ impl<const D: usize> BondSet<D> {
         self.ends.len()
     }
 
-    /// Number of bonds of the whole body between the points of a cloud, part of which are on this process.
+    /// Number of bonds of the whole body, for a cloud whose points are distributed over processes.
     pub fn count(&self, cloud: &PointCloud<D>) -> usize {
         let owned = self.ends.iter();
         let owned = owned.filter(|it| cloud.subdomain.owns_bond(**it));

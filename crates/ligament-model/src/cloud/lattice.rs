@@ -299,7 +299,7 @@ impl<const D: usize> PointCloud<D> {
     }
 
     /// A point at the centre of each cell of a lattice, not yet with volumes, materials and their order along a curve, which
-    /// [`PointCloud::with_cells`] adds to all points or to those of a part.
+    /// [`PointCloud::with_cells`] adds to all points or to a part.
     ///
     /// The nearest distance is the shortest side for every point, also where a hole removed its neighbours: horizons based on it are
     /// unified.

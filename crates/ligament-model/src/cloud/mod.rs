@@ -55,8 +55,7 @@ pub struct PointCloud<const D: usize = 2> {
 pub(crate) type NumberedPoint<const D: usize = 2> = GeomWithData<[f64; D], u32>;
 
 impl<const D: usize> PointCloud<D> {
-    /// Sides of the cell of a point, m: those of the cells of a lattice; on a mesh those of the square with the point's area V/t, or of the
-    /// cube with its volume.
+    /// Sides of the cell of a point, m: a cell of a lattice; on a mesh the square with the point's area V/t, or the cube with its volume.
     pub fn cell_size(&self, point: u32) -> [f64; D] {
         self.lattice_cell.unwrap_or_else(|| {
             let size = self.volumes[point as usize] / self.thickness;

@@ -105,7 +105,7 @@ impl<'a, const D: usize> Members<'a, D> {
             });
     }
 
-    /// An array over the members, divided into those of the points of each block.
+    /// An array over the members, divided by blocks of points.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let mut blocks = Vec::new();
         for first in (0..self.n_points()).step_by(BLOCK) {

@@ -24,17 +24,17 @@ impl Criteria {
 }
 
 impl CriteriaInState<'_> {
-    /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `here` + t `slopes`; None where some
-    /// does for every t. These are the criteria here, and `rates` are those of the slopes.
+    /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `start` + t `slopes`; None where some
+    /// does for every t. `self` has the criteria at t = 0, `rates` their rates along the slopes.
     pub fn admissible(
         &self,
         rates: &Self,
         intact: &[bool],
-        [here, slopes]: [&Deformations; 2],
+        [start, slopes]: [&Deformations; 2],
         reach: Interval,
     ) -> Option<Interval> {
-        let line = [here, slopes];
-        if SpaceDeformation::of_bonds(here).is_empty() {
+        let line = [start, slopes];
+        if SpaceDeformation::of_bonds(start).is_empty() {
             self.admissible_along(rates, intact, line.map(BondDeformation::of_bonds), reach)
         } else {
             self.admissible_along(rates, intact, line.map(SpaceDeformation::of_bonds), reach)
@@ -45,23 +45,23 @@ impl CriteriaInState<'_> {
         &self,
         rates: &Self,
         intact: &[bool],
-        [here, slopes]: [&[B]; 2],
+        [start, slopes]: [&[B]; 2],
         reach: Interval,
     ) -> Option<Interval> {
-        let of_task = |(task, (here, slopes)): (usize, (&[B], &[B]))| {
-            let bonds = (task * TASK..).zip(here.iter().zip(slopes));
+        let of_task = |(task, (start, slopes)): (usize, (&[B], &[B]))| {
+            let bonds = (task * TASK..).zip(start.iter().zip(slopes));
             let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
-            of_intact.try_fold(reach, |interval, (bond, (here, slope))| {
-                both(interval, self.within(rates, bond, [here, slope])?)
+            of_intact.try_fold(reach, |interval, (bond, (start, slope))| {
+                both(interval, self.within(rates, bond, [start, slope])?)
             })
         };
-        let tasks = here.par_chunks(TASK).zip(slopes.par_chunks(TASK));
+        let tasks = start.par_chunks(TASK).zip(slopes.par_chunks(TASK));
         let of_tasks: Vec<Option<Interval>> = tasks.enumerate().map(of_task).collect();
         let mut of_tasks = of_tasks.into_iter();
         of_tasks.try_fold(reach, |interval, of_task| both(interval, of_task?))
     }
 
-    /// The t for which no criterion breaks a bond with the deformation `here` + t `slope`; None where some does for every t.
+    /// The t for which no criterion breaks a bond with the deformation `start` + t `slope`; None where some does for every t.
     fn within<B: AlongLine>(&self, rates: &Self, bond: usize, line: [&B; 2]) -> Option<Interval> {
         let of = |interval: Interval, (place, it): (usize, &Criterion)| {
             let limit = self.break_limit(place, bond);

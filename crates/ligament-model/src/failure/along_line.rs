@@ -154,8 +154,8 @@ impl Measure {
         let (stretch, shear) = (of_ends.stretch, of_ends.shear);
         let q = coefficients.first().copied().unwrap_or(0.0);
         let mixed = |axis: usize| {
-            let [here, slope] = line.map(|it| it.measured().strain());
-            let [opening, sliding] = [axis, 2].map(|it| [here[it], slope[it]]);
+            let [start, slope] = line.map(|it| it.measured().strain());
+            let [opening, sliding] = [axis, 2].map(|it| [start[it], slope[it]]);
             root(opening, sliding.square_times(q), limit)
         };
         let interval = match self {
@@ -266,10 +266,10 @@ mod tests {
 
     /// Closed forms against a search along the line in fine steps.
     fn assert_as_searched<B: AlongLine>(line: [&B; 2], measures: &[Measure], q: f64) {
-        let [here, slope] = line;
+        let [start, slope] = line;
         for measure in measures {
             let value = |t: f64| {
-                let at = here.less(&slope.scaled(-t)).measured();
+                let at = start.less(&slope.scaled(-t)).measured();
                 measure.value(&at, &[q], StressAcross::default)
             };
             let interval = measure.within(line, &[q], [StressAcross::default(); 2], 0.8);
@@ -297,8 +297,8 @@ mod tests {
             ([0.1, 0.0, 0.0], [0.0, 1.0, 0.2]),
             ([-0.2, 0.3, 0.0], [0.7, 0.0, 0.0]),
         ];
-        for (here, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
-            let line = [&here, &slope];
+        for (start, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
+            let line = [&start, &slope];
             assert_as_searched(line, &OF_PAIRS, 0.4);
             assert_as_searched(line, &[Measure::MixedModeX, Measure::MixedModeY], 0.4);
         }
@@ -322,8 +322,8 @@ mod tests {
             shear: [x, y, z],
             rotation: [z, 0.5 * x, -y],
         };
-        for (here, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
-            let line = [&here, &slope];
+        for (start, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
+            let line = [&start, &slope];
             assert_as_searched(line, &OF_PAIRS, 0.4);
             assert_as_searched(line, &OF_PAIRS, 2.0);
             assert_as_searched(line, &[Measure::Energy], -0.2);
@@ -341,8 +341,8 @@ mod tests {
             ([-0.4, 0.6, 0.2, 0.0], [0.0, 0.0, 0.0, 0.0]),
         ];
         let line = [0.1, -0.2].map(|stretch| deformation([stretch, 0.4, 0.0]));
-        for (here, slope) in stresses {
-            let of_line = [here, slope].map(|[normal, x, y, z]| StressAcross {
+        for (start, slope) in stresses {
+            let of_line = [start, slope].map(|[normal, x, y, z]| StressAcross {
                 normal,
                 shear: [x, y, z],
             });
@@ -362,13 +362,13 @@ mod tests {
 
     #[test]
     fn a_bond_that_slides_too_far_is_beyond_its_limit_wherever_it_closes() {
-        let (here, slope) = (deformation([0.0, 3.0, 0.0]), deformation([1.0, 0.0, 0.0]));
+        let (start, slope) = (deformation([0.0, 3.0, 0.0]), deformation([1.0, 0.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&here, &slope], &[0.5], [StressAcross::default(); 2], 1.0),
+            Measure::Energy.within([&start, &slope], &[0.5], [StressAcross::default(); 2], 1.0),
             None
         );
         assert_eq!(
-            Measure::Tension.within([&here, &slope], &[], [StressAcross::default(); 2], 1.0),
+            Measure::Tension.within([&start, &slope], &[], [StressAcross::default(); 2], 1.0),
             Some([f64::NEG_INFINITY, 1.0])
         );
     }
@@ -376,9 +376,9 @@ mod tests {
     /// With q < 0 the quadratic bends down where shear grows faster than stretch: never beyond its limit here.
     #[test]
     fn a_negative_shear_stiffness_takes_from_the_measure() {
-        let (here, slope) = (deformation([0.5, 0.0, 0.0]), deformation([0.1, 1.0, 0.0]));
+        let (start, slope) = (deformation([0.5, 0.0, 0.0]), deformation([0.1, 1.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&here, &slope], &[-0.5], [StressAcross::default(); 2], 1.0),
+            Measure::Energy.within([&start, &slope], &[-0.5], [StressAcross::default(); 2], 1.0),
             Some(EVERYWHERE)
         );
         assert!(!Measure::PrintedMixed.is_known_along_lines(&[0.5]));

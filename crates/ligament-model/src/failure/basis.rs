@@ -62,7 +62,7 @@ impl<const D: usize> Basis<'_, D> {
         limits.map(|(_, material)| material).collect()
     }
 
-    /// Springs in series: the modulus of a bond from those of its materials (Pa), 1/sum of phi_i/M_i with the fractions phi_i of its length.
+    /// Springs in series: the modulus of a bond from the moduli of its materials (Pa), 1/sum of phi_i/M_i with the fractions phi_i of its length.
     pub(super) fn in_series(&self, bond: usize, moduli: &[f64]) -> f64 {
         if let [only] = moduli {
             return *only;

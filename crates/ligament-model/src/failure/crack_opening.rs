@@ -13,7 +13,7 @@
 //!
 //! (Silling and Askari 2005, eq. 26, as a sum over the bonds that there are, with their shear and with any criterion).
 //!
-//! A bond that lies nearly along the crack comes to its limit of stretch only when the crack is wide open, w = s_0 l/cos(phi), and would have
+//! A bond that lies nearly along the crack reaches its limit of stretch only when the crack is wide open, w = s_0 l/cos(phi), and would have
 //! taken R_t s_0^2 tan(phi)^2/2 in shear until then: the sum over all directions has no limit, and one bond along a row of points could outweigh
 //! all others. No crack opens across such a bond. Its ends lie side by side, and a crack passes both of them on the same side. So bonds count
 //! whose ends are apart across the crack by a quarter of the distance of points at least (`PASSED`), the others as never broken.

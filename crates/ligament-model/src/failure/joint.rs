@@ -1,6 +1,6 @@
 //! Bonds across the interface of two materials, and the materials that determine their limits.
 //!
-//! A bond has the strengths of the material in which it lies. Across a joint it has the smaller ones, or those of an interface that is given there,
+//! A bond has the strengths of the material in which it lies. Across a joint it has the smaller strengths, or the strengths of an interface there,
 //! and under one stress it is stretched by the mean over its length of the strains of its materials: so is its limit.
 //!
 //! Points lie on the interface itself, and have cells of both materials. At an interface that is given they belong to the first material, so

@@ -284,7 +284,7 @@ impl Measure {
     ///
     /// # Panics
     ///
-    /// Panics for a measure of strains of the bond's own, which are those of the body in all directions, and of the stress around it.
+    /// Panics for measures of imaginary strains, which are the strains of the body in all directions, and of the stress around a bond.
     pub fn worst_directions(self, coefficient: f64, mean: f64, deviator: f64) -> [f64; 5] {
         match self {
             Self::Tension | Self::Fibre => [1.0; 5],

@@ -3,7 +3,7 @@
 //! A brittle bond breaks where on the plane across it sigma_n = F_t, or |tau| + sigma_n tan(phi) = c. The plane across a bond is one of
 //! those on which a body may slide; of a family of bonds the planes have all directions, and the worst of them decides as in a continuum.
 //!
-//! A bond that softens begins where the stress around it comes to the surface on any plane, as with [`super::rankine`]: by tension where sigma_1
+//! Softening begins where the stress around a bond reaches the surface on any plane, as with [`super::rankine`]: by tension where sigma_1
 //! = F_t, and by shear where
 //!
 //! (sigma_1 - sigma_3)/(2 cos(phi)) + (sigma_1 + sigma_3)/2 tan(phi) = c,

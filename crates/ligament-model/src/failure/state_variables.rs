@@ -397,9 +397,9 @@ impl<'a> CriteriaInState<'a> {
 
     /// The criteria in the sum of this motion and t times another motion of the same bonds, `rates`.
     pub fn ahead(&self, rates: &Self, t: f64) -> Self {
-        self.with_stresses(|place, here| match &rates.criterion(place).1.stress {
-            Some(rate) => here.plus(rate, t),
-            None => here.clone(),
+        self.with_stresses(|place, stress| match &rates.criterion(place).1.stress {
+            Some(rate) => stress.plus(rate, t),
+            None => stress.clone(),
         })
     }
 

@@ -115,7 +115,7 @@ impl BondStiffness {
         }
     }
 
-    /// The densities with those of bonds across an interface as two halves in series.
+    /// The densities, with bonds across an interface as two halves in series.
     ///
     /// Corrections treat such bonds as bonds of the softer material. A uniform strain then leaves that material as it is without the stiffer
     /// one, as in a body whose parts pull each other along; and where the strains of both agree with equal tractions, a bond that is half in

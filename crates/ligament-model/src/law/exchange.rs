@@ -12,7 +12,7 @@
 //! - sheared, where sum w d (c^2 (1 + beta)/2 - (1 + eta) c^2 t^2) = sum w beta c^2/2: the right side is what the missing rotation adds to the
 //!   force, the left one what the bonds give up.
 //!
-//! Bonds in all directions give x = 1, eta = (D - 1)/3. Few have directions of their own: x and eta of an end are those of the sums over the
+//! Bonds in all directions give x = 1, eta = (D - 1)/3. Few bonds have particular directions: x and eta of an end follow from the sums over the
 //! bonds of the points in its family. A bond has the means over its ends, in proportion to their restraints. The weight Omega alpha
 //! V_A V_B l abs(k_t) phi/kappa^2 is that of the energy under a given traction, of a bond with the fraction phi of its length in the layer
 //! and k_t over that of the stiffest material kappa. The normal of a point is the gradient of 3 beta/(1 + 3 beta) of its bonds over the
@@ -87,7 +87,7 @@ impl Sums {
 impl BondStiffness {
     /// The densities with the exchanges of the restrained bonds between points with rotations. The directions of the bonds determine x and
     /// eta where a uniform strain is an equilibrium with the factors alpha and Omega (n_bonds) of the correction, `balanced`; without such
-    /// a correction they are those of bonds in all directions, since the sums take its uniform strains for right.
+    /// a correction they have the values for bonds in all directions, since the sums assume its uniform strains to be right.
     pub fn exchanged<const D: usize>(
         mut self,
         bonds: &BondSet<D>,

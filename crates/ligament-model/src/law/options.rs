@@ -66,7 +66,7 @@ impl Options {
         poisson: None,
     };
 
-    /// The options, completed by those of `others`.
+    /// The options, completed by options of `others`.
     pub fn or(self, others: Self) -> Self {
         Self {
             calibration: self.calibration.or(others.calibration),

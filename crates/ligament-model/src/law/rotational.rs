@@ -128,8 +128,7 @@ pub fn scaled(mut stiffness: BondStiffness, factor: f64) -> BondStiffness {
     stiffness
 }
 
-/// Densities of bonds in the plane with k_theta proportional to a profile q(l), for materials with given [constants](curvature_constants),
-/// the second of which is gamma:
+/// Densities of bonds in the plane with k_theta proportional to a profile q(l), for materials with given [constants](curvature_constants), the second being gamma:
 ///
 /// k_theta = 2 gamma q(l) / (pi t M), M = integral of q l^3 over the horizon,
 ///

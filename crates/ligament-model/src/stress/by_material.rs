@@ -6,7 +6,7 @@
 //! sigma = C : eps.
 //!
 //! The strain at which sound bonds would carry the forces of the point ([`super::carried`]) gives the stress that the material carries, the
-//! strain of the bonds that it has left ([`super::point_strain`]) the effective stress of damage mechanics; a sound point has one stress.
+//! strain of its unbroken bonds ([`super::point_strain`]) the effective stress of damage mechanics; both are equal at an undamaged point.
 //!
 //! That is the stress of an affine motion to rounding, inside a body, at its edges and beside cracks, whatever the corrections of the
 //! bonds; the virial stress ([`super::virial`]) is so inside an uncorrected body alone. A point on the border of materials has the mean

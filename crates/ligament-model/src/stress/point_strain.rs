@@ -5,7 +5,7 @@
 //!
 //! K = sum w n (x) n, M = sum w (du/l) (x) n, G = M K^-1, eps = (G + G^T)/2, with w = V_Q exp(-l/H).
 //!
-//! An affine motion is found exactly from any bonds that span the space: also from those of half a family at an edge or beside a crack.
+//! An affine motion is found exactly from any bonds that span the space: also from half a family at an edge or beside a crack.
 //! The dyads of the forces ([`super::virial`]) have no such property: corrections make forces and energies right, not the dyads of
 //! single points.
 
@@ -38,7 +38,7 @@ pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option
 /// Sums over the bonds of a point that determine its strain.
 #[derive(Debug, Clone)]
 pub struct Fit<const D: usize> {
-    /// K, of which the entries above its diagonal are not used.
+    /// K; entries above its diagonal are not used.
     spread: SMatrix<f64, D, D>,
     /// M.
     slopes: SMatrix<f64, D, D>,

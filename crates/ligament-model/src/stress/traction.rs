@@ -69,7 +69,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// Adds the tractions of closed pairs to those of the bonds, shape (n_points, D D), Pa.
+    /// Adds the tractions of closed pairs to the tractions of the bonds, shape (n_points, D D), Pa.
     pub(crate) fn add_contact_tractions(&self, closed: &[ClosedPair], tractions: &mut [f64]) {
         if closed.is_empty() {
             return;

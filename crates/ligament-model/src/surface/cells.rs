@@ -14,7 +14,7 @@ use crate::topology::Families;
 pub struct InnerFace<const D: usize> {
     /// Points A < B.
     pub points: [u32; 2],
-    /// Corners, m, of which the normal points from A to B.
+    /// Corners, m, in an order for which the normal points from A to B.
     pub corners: [[f64; D]; D],
 }
 

@@ -84,7 +84,7 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// Length of the longest edge of a facet, m: a deeper overlap is not seen.
     fn reach(&self) -> f64;
 
-    /// Largest coordinate without motion of which gaps are differences, m: their rounding is relative to it.
+    /// Largest undeformed coordinate in the differences of gaps, m: their rounding is relative to it.
     fn coordinate(&self) -> f64;
 
     /// Relative motion of the surfaces in a step up to which no contact is missed, m; zero where the motion since the undeformed body counts instead.

@@ -155,7 +155,7 @@ pub(super) fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
     std::array::from_fn(|axis| way[axis] + added[axis])
 }
 
-/// A vector with three components, the third of which is zero in the plane.
+/// A vector with three components, the third zero in the plane.
 pub(super) fn in_space<const D: usize>(vector: [f64; D]) -> Vector {
     std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }

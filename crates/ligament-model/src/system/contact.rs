@@ -220,15 +220,15 @@ impl<const D: usize> BondSystem<D> {
         let beyond = overlaps.filter(|it| it.depth > beyond);
         let larger = |most: Overlap, it: Overlap| if it.depth > most.depth { it } else { most };
         let owned = beyond.filter(|it| subdomain.owns_bond(it.ends));
-        let here = owned.reduce(larger).map(|it| Overlap {
+        let local = owned.reduce(larger).map(|it| Overlap {
             ends: subdomain.numbers(it.ends),
             ..it
         });
-        let here = here.into_iter().collect();
-        subdomain.all_gather_list(here).into_iter().reduce(larger)
+        let local = local.into_iter().collect();
+        subdomain.all_gather_list(local).into_iter().reduce(larger)
     }
 
-    /// Adds the stresses of closed pairs to those of the bonds by a reading, shape (n_points, n_components), Pa.
+    /// Adds the stresses of closed pairs to the stresses of the bonds by a reading, shape (n_points, n_components), Pa.
     pub(crate) fn add_stresses_of_contact(
         &self,
         reading: StressReading,

@@ -180,7 +180,7 @@ impl<const D: usize> VolumetricTerms<D> {
         terms
     }
 
-    /// Sets the patches: those of each point by material.
+    /// Sets the patches of each point, one for each material.
     fn find_patches(&mut self, n_points: usize) {
         let cells = &self.cells;
         let cell = |place: u32| self.cell_of_corner[place as usize] as usize;
@@ -229,7 +229,7 @@ impl<const D: usize> VolumetricTerms<D> {
         CoupledPoints::from_lists(&Incidence::from_pairs(pairs, n_points).into())
     }
 
-    /// The terms between the points of a whole body of which these are a part: `points` has their numbers, ascending. `coupled` has the
+    /// The terms of a part of a body, between the points of the whole body: `points` has their numbers, ascending. `coupled` has the
     /// points that bonds and elements couple in the whole body.
     pub(crate) fn within(
         self,
@@ -320,7 +320,7 @@ impl<const D: usize> VolumetricTerms<D> {
         cells
     }
 
-    /// Share f of its stiffness that a cell has left.
+    /// Remaining share f of the stiffness of a cell.
     pub(super) fn share(&self, bonds: UnbrokenBonds<'_>, cell: u32) -> f64 {
         let along_edges = self.bonds_of_cells.at(cell).iter();
         along_edges.fold(1.0, |share, &bond| {
@@ -387,7 +387,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.of_cells(|cell| self.thermal_change(cell, expansion))
     }
 
-    /// Share of its stiffness that each cell has left, shape (n_cells).
+    /// Remaining share of the stiffness of each cell, shape (n_cells).
     pub(crate) fn shares(&self, bonds: UnbrokenBonds<'_>) -> Vec<f64> {
         self.of_cells(|cell| self.share(bonds, cell))
     }

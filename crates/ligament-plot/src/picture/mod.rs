@@ -79,7 +79,7 @@ pub enum PictureError {
     /// A field with several components was requested without a component.
     #[error("`{field}` has several components; name one of {}", choices.join(", "))]
     NoComponent {
-        /// Field of which a component is needed.
+        /// Field that needs a component.
         field: String,
         /// Names that can be drawn.
         choices: Vec<String>,

@@ -15,7 +15,7 @@ pub(super) struct PathDistances {
     half_horizon: f64,
     /// Mean distance of the paths of the two bodies of h, m; none with one body.
     at_h: Option<f64>,
-    /// Mean distance of the paths of 2h from those of h, m.
+    /// Mean distance of the paths of 2h from the paths of h, m.
     from_2h: f64,
 }
 

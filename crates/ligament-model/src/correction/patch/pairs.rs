@@ -108,7 +108,7 @@ impl<'a> Pairs<'a> {
         indices.flat_map_iter(of_index).collect()
     }
 
-    /// An array over the pairs, divided into those of the points of each block.
+    /// An array over the pairs, divided by blocks of points.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let of_block = |block| {
             let indices = self.indices(block);

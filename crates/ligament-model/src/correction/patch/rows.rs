@@ -10,7 +10,7 @@ use crate::correction::sweep_order::SweepOrder;
 use crate::law::BondStiffness;
 use crate::tensor::{SymTensor, dot};
 
-/// Equations of all points: 6 of forces in the plane and 13 in space, and with those of moments N = 8 and 18 a point.
+/// Equations of all points: 6 equations of forces a point in the plane and 13 in space; with equations of moments N = 8 and 18.
 ///
 /// A bond of length l from a point in the direction n, with w = V_A V_B, acts under a strain eps on its other end with the force w (q_n k_n
 /// s n + q_t k_t gamma), s = n . eps n, gamma = eps n - s n, on the point with the opposite force and on both with the moment -1/2 w q_t k_t

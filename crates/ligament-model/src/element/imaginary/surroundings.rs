@@ -133,8 +133,7 @@ fn spacings(bonds: &BondSet) -> [f64; 2] {
     [along(BondClass::Horizontal), along(BondClass::Vertical)]
 }
 
-/// Bonds that each bond supports: for a V bond of one spacing the H bonds at its ends, for such an H bond the V bonds at its ends, and the S
-/// bonds of which it is an edge.
+/// Bonds that each bond supports: for a V bond of one spacing the H bonds at its ends, for such an H bond the V bonds at its ends, and the S bonds whose rectangle has it as an edge.
 fn dependents(bonds: &BondSet, links: &[[[Link; 2]; 2]], edges: &[[[Link; 2]; 2]]) -> Incidence {
     let supports = |bond: u32| -> Vec<u32> {
         let of_edges = edges[bond as usize].as_flattened();

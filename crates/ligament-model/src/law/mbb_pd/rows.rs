@@ -8,7 +8,7 @@ use crate::cloud::PointCloud;
 use crate::element::imaginary::BondClass;
 use crate::law::{BondStiffness, LawInput};
 
-/// Micro-modulus matrices: the symmetric part of diag(psi_1, psi_2, psi_6) c, of which a bond has the rows of its class, with the means of
+/// Micro-modulus matrices: the symmetric part of diag(psi_1, psi_2, psi_6) c, restricted to the rows of the class of a bond, with the means of
 /// its ends and
 ///
 /// psi_1 = 2/(V (sum_H + sum_S)), psi_2 = 2/(V (sum_V + sum_S)), psi_6 = 2/(V sum_S)
