@@ -38,7 +38,7 @@ pub struct Rigid {
     pub velocity: Option<Vector>,
     /// Factor of the velocity as a function of time; without it 1.
     pub amplitude: Option<Amplitude>,
-    /// Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed.
+    /// Mass of a body that contact alone moves, in the plane for the whole thickness, kg; without it the motion is prescribed.
     #[schemars(transform = setup::Rigid::MASS.keywords())]
     pub mass: Option<f64>,
     /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
@@ -54,7 +54,7 @@ pub struct Rigid {
     #[serde(default = "one")]
     #[schemars(transform = ContactLaw::STIFFNESS.keywords())]
     pub stiffness: f64,
-    /// Groups whose outlines it meets; without it that of the whole body.
+    /// Groups whose outlines it can touch; by default the outline of the whole body.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub against: Vec<String>,
     /// Whether it meets the faces of cracks as well.

@@ -28,10 +28,10 @@ const MOST_STEPS: u32 = 1_000_000;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fracture {
-    /// What drives the load.
+    /// Control of the load.
     #[serde(default)]
     pub control: Control,
-    /// The load steps: so many equal ones up to load factor 1, or a list of load factors. With stages each of them has its own.
+    /// The load steps: a number of equal steps up to load factor 1, or a list of load factors. With stages each stage has its own.
     pub steps: Option<Steps>,
     /// Bonds broken at most between two solutions.
     #[schemars(range(min = 1), extend("default" = stepped().rule.bonds_per_iteration))]
@@ -64,7 +64,7 @@ pub struct Fracture {
     pub criteria: Option<Vec<Choice>>,
 }
 
-/// What drives the load.
+/// Control of the load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Control {
@@ -260,7 +260,7 @@ pub struct Scatters(pub Vec<Scatter>);
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
-    /// What varies.
+    /// Property that varies.
     pub of: Scattered,
     /// Distribution of the factors.
     #[serde(default)]
@@ -271,7 +271,7 @@ pub struct Scatter {
     /// Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`.
     #[schemars(transform = scatter::Distribution::DEVIATION.keywords())]
     pub deviation: Option<f64>,
-    /// Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's.
+    /// Seed of the random numbers: another seed gives another specimen. The default is 0; the seed of a second property follows from the first.
     pub seed: Option<u64>,
     /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
     #[serde(default)]

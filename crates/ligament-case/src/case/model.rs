@@ -65,7 +65,7 @@ pub struct ModelSection {
     pub cosserat_length: Option<f64>,
     /// How the bonds of `mbb-pd` resist their strains.
     pub form: Option<Form>,
-    /// What the strains of `mbb-pd` are taken over.
+    /// Distances in the denominators of the strains of `mbb-pd`.
     pub strains: Option<Strains>,
 }
 
@@ -177,10 +177,10 @@ pub struct Correction {
     /// Largest factor of the patch correction over the uncorrected one.
     #[schemars(transform = Settings::HIGHEST.keywords(), extend("default" = Settings::DEFAULT.highest))]
     pub largest_factor: Option<f64>,
-    /// Weight of the equations of moments against those of forces in the patch correction.
+    /// Weight of the equations of moments relative to the equations of forces in the patch correction.
     #[schemars(transform = Settings::MOMENT_WEIGHT.keywords(), extend("default" = Settings::DEFAULT.moment_weight))]
     pub moment_weight: Option<f64>,
-    /// Regularisation of the patch correction, which lets go where its equations cannot be met.
+    /// Regularisation of the patch correction, for equations that cannot be satisfied.
     #[schemars(transform = Settings::REGULARISATION.keywords(), extend("default" = Settings::DEFAULT.regularisation))]
     pub regularisation: Option<f64>,
     /// The body that the correction sees.

@@ -243,7 +243,7 @@ impl Region {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FarField {
-    /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
+    /// Parts of the body that keep their bonds: the cells with all corners in one of them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub near: Vec<Region>,
     /// Share of the strength of a material, up to 1, that the largest principal stress of elements may reach (under pressure the smallest one over

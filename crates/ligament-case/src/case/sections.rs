@@ -44,7 +44,7 @@ pub struct Case {
     /// One line on what the case is.
     #[serde(default)]
     pub title: String,
-    /// What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
+    /// Kind of analysis; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
     /// `static`.
     pub analysis: Option<Analysis>,
     /// Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load,
@@ -75,7 +75,7 @@ pub struct Case {
     /// Cracks and slots that are there from the start.
     #[serde(rename = "precrack", default, skip_serializing_if = "Vec::is_empty")]
     pub precracks: Vec<Precrack>,
-    /// What holds the body; nothing need.
+    /// Supports of the body, which needs none.
     #[serde(rename = "support", default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<Support>,
     /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
@@ -84,7 +84,7 @@ pub struct Case {
     /// Stages one after the other, in which each load follows a factor of its own; without any all grow with one load factor.
     #[serde(rename = "stage", default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<Stage>,
-    /// Changes of temperature at load factor 1; where several reach, the last holds.
+    /// Changes of temperature at load factor 1; where several apply, the last one counts.
     #[serde(rename = "temperature", default, skip_serializing_if = "Vec::is_empty")]
     pub temperatures: Vec<Temperature>,
     /// Velocities at time zero of a motion.
@@ -115,15 +115,15 @@ pub struct Case {
     pub probes: Vec<Probe>,
     /// How bonds break; without it the case is one linear elastic solution.
     pub fracture: Option<Fracture>,
-    /// Natural modes that are wanted, with `analysis = "modal"`.
+    /// Requested natural modes, with `analysis = "modal"`.
     pub modal: Option<ModalSettings>,
     /// A motion in time under loads that depend on time.
     pub motion: Option<MotionSettings>,
-    /// How the equations are solved; nothing need be said.
+    /// Solution of the equations; all keys are optional.
     #[serde(default, deserialize_with = "analysis::read_solver")]
     #[schemars(schema_with = "analysis::solver_schema")]
     pub solver: SolverSettings,
-    /// What a run writes.
+    /// Files that a run writes.
     #[serde(default)]
     pub output: Output,
 }

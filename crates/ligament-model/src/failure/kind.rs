@@ -149,7 +149,7 @@ crate::case_type! {
     /// A criterion of failure.
     #[derive(Debug, Clone, PartialEq)]
     pub struct Choice {
-        /// What fails, and where its limit comes from.
+        /// Kind of failure and origin of the limit.
         pub kind: Kind,
         /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
         #[range("exclusiveMinimum" = 0)]
@@ -173,7 +173,7 @@ crate::case_type! {
         /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
         #[range("minimum" = 0)]
         pub fibre_distance: Option<f64>,
-        /// What a bond does after its limit: a word, or a curve of stress over the opening of a crack.
+        /// Behaviour of a bond after its limit: a word, or a curve of stress over the opening of a crack.
         #[case(serde(default))]
         pub after: Law,
         /// Deformation at which a force that falls to zero is gone, over that at the limit: of `linear` above 1, of `two-branch` above 3; without it

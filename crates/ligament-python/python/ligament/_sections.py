@@ -204,7 +204,7 @@ then not to be trusted. Default false."""
 - `rows`: Bonds along x and y only their own.
 - `pairwise`: As printed, with forces on the two ends alone."""
     strains: Literal["small", "true"]
-    """What the strains of `mbb-pd` are taken over.
+    """Distances in the denominators of the strains of `mbb-pd`.
 
 - `small`: The distances before the deformation.
 - `true`: The distances after the deformation."""
@@ -246,9 +246,9 @@ class Correction(TypedDict, total=False):
     largest_factor: float
     """Largest factor of the patch correction over the uncorrected one. Default 20.0."""
     moment_weight: float
-    """Weight of the equations of moments against those of forces in the patch correction. Default 0.04."""
+    """Weight of the equations of moments relative to the equations of forces in the patch correction. Default 0.04."""
     regularisation: float
-    """Regularisation of the patch correction, which lets go where its equations cannot be met. Default 1e-6."""
+    """Regularisation of the patch correction, for equations that cannot be satisfied. Default 1e-6."""
     domain: Literal["whole", "cracked"]
     """The body that the correction sees.
 
@@ -301,7 +301,7 @@ class SupportDisplacement(TypedDict, total=False):
 
 
 class SupportStiffness(TypedDict, total=False):
-    """Springs to the ground in the place of what holds, in total over the points."""
+    """Springs to the ground instead of fixed displacements, in total over the points."""
 
     x: float
     """Along x, N/m."""
@@ -329,7 +329,7 @@ class Support(TypedDict, total=False):
     normal: Numbers
     """An inclined roller: the direction along which the points are held while they are free across it, `[1.0, 1.0]` is at 45 degrees."""
     stiffness: SupportStiffness
-    """Springs to the ground in the place of what holds, in total over the points."""
+    """Springs to the ground instead of fixed displacements, in total over the points."""
 
 
 class LoadDisplacement(TypedDict, total=False):
@@ -371,7 +371,7 @@ class LoadVelocity(TypedDict, total=False):
 
 
 class LoadBaseAcceleration(TypedDict, total=False):
-    """Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2."""
+    """Prescribed accelerations in a motion, such as the acceleration of the ground, m/s^2, of the rotation rad/s^2."""
 
     x: float
     """Along x."""
@@ -515,10 +515,10 @@ class LoadAmplitude(TypedDict, total=False):
 
 
 class Load(TypedDict, total=False):
-    """A load, given as it is at load factor 1."""
+    """A load, with its value at load factor 1."""
 
     name: str
-    """Heads its column in `history.csv`; without it the name of the group, or `load-1` and so on where that cannot head a column."""
+    """Name of its column in `history.csv`; by default the name of the group, or `load-1` and so on where that cannot head a column."""
     group: str
     """The points of this physical group of the mesh, or of this set or hole of the lattice."""
     box: Sequence[Numbers]
@@ -530,7 +530,7 @@ class Load(TypedDict, total=False):
     velocity: LoadVelocity
     """Prescribed velocities in a motion, m/s, of the rotation rad/s."""
     base_acceleration: LoadBaseAcceleration
-    """Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2."""
+    """Prescribed accelerations in a motion, such as the acceleration of the ground, m/s^2, of the rotation rad/s^2."""
     force: LoadForce
     """A force in total over the points, N."""
     force_per_length: LoadForcePerLength
@@ -553,7 +553,7 @@ class Load(TypedDict, total=False):
     amplitude: LoadAmplitude
     """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
     stiffness: float
-    """Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine."""
+    """Total stiffness of springs through which a `displacement` moves the points, N/m: the stiffness of a testing machine."""
     tilts: bool
     """Whether a `displacement` or `force` acts through a rigid platen that may tilt: it moves by the mean of its points."""
 
@@ -579,7 +579,7 @@ class Stage(TypedDict, total=False):
     """A stage of the loading: loads that go to other factors, each times the load as it is at factor 1."""
 
     name: str
-    """Stands in `history.csv`; without it `stage-1` and so on."""
+    """Name in `history.csv`; by default `stage-1` and so on."""
     loads: Mapping[str, float | Numbers | Sequence[Numbers]]
     """Factors that loads go to, by the names of the loads; `temperature` for the temperatures. All others keep theirs, which is 0 at
 first."""
@@ -591,7 +591,7 @@ peaks and snap-backs. Without it the factors grow."""
 
 
 class Temperature(TypedDict, total=False):
-    """A change of temperature at load factor 1. Where several reach, the last of them holds."""
+    """A change of temperature at load factor 1. Where several apply, the last one counts."""
 
     group: str
     """The part of the body; the whole body without it or a `box`."""
@@ -621,7 +621,7 @@ class InitialVelocityVelocity(TypedDict, total=False):
 
 
 class InitialVelocity(TypedDict, total=False):
-    """A velocity at time zero. Where several reach, the last of them holds."""
+    """A velocity at time zero. Where several apply, the last one counts."""
 
     group: str
     """The points of this physical group of the mesh, or of this set or hole of the lattice; without a place the whole body moves."""
@@ -742,7 +742,7 @@ class Rigid(TypedDict, total=False):
     amplitude: RigidAmplitude
     """Factor of the velocity as a function of time; without it 1."""
     mass: float
-    """Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed."""
+    """Mass of a body that contact alone moves, in the plane for the whole thickness, kg; without it the motion is prescribed."""
     inertia: float
     """Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn."""
     acceleration: RigidAcceleration
@@ -752,7 +752,7 @@ class Rigid(TypedDict, total=False):
     stiffness: float
     """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
     against: Sequence[str]
-    """Groups whose outlines it meets; without it that of the whole body."""
+    """Groups whose outlines it can touch; by default the outline of the whole body."""
     cracks: bool
     """Whether it meets the faces of cracks as well. Default false."""
 
@@ -770,7 +770,7 @@ class FarField(TypedDict, total=False):
     """Linear finite elements in place of bonds, away from parts of a meshed body."""
 
     near: Sequence[FarFieldNear]
-    """Parts of the body that keep their bonds: the cells of which all corners lie in one of them."""
+    """Parts of the body that keep their bonds: the cells with all corners in one of them."""
     strength_share: float
     """Share of the strength of a material, up to 1, that the largest principal stress of elements may reach (under pressure the smallest one over
 `compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without it the
@@ -815,7 +815,7 @@ class Probe(TypedDict, total=False):
     """A column of the history."""
 
     name: str
-    """Heads its column in `history.csv`; each name once."""
+    """Name of its column in `history.csv`, another one for each probe."""
     between: Sequence[Numbers]
     """Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`."""
     at: Numbers
@@ -920,7 +920,7 @@ class FractureScatter(TypedDict, total=False):
     """A property that varies over the body at random, by a factor with the mean 1."""
 
     of: Literal["strength", "fracture-energy"]
-    """What varies.
+    """Property that varies.
 
 - `strength`: Strengths, and limits given in their place.
 - `fracture-energy`: Fracture energies."""
@@ -935,7 +935,7 @@ class FractureScatter(TypedDict, total=False):
     deviation: float
     """Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`."""
     seed: int
-    """Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's."""
+    """Seed of the random numbers: another seed gives another specimen. The default is 0; the seed of a second property follows from the first."""
     correlation_length: float
     """Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself. Default 0.0."""
 
@@ -956,7 +956,7 @@ class FractureCriterion(TypedDict, total=False):
     """A criterion of failure."""
 
     kind: Literal["strength", "bond-rankine", "rankine", "mohr-coulomb", "tension", "compression", "fibre", "sliding", "frictional", "critical-stretch", "bond-energy", "mixed-mode", "printed-opening", "printed-sliding", "printed-mixed"]
-    """What fails, and where its limit comes from.
+    """Kind of failure and origin of the limit.
 
 - `strength`: Stretch, from the energy at the `tensile_strength` (NHPD).
 - `bond-rankine`: Tensile stress on the plane across the bond, from the `tensile_strength`: the strength of the material under any stress.
@@ -992,7 +992,7 @@ compressive strength: compression by s makes its limit of sliding larger by s ta
     fibre_distance: float
     """Distance of the outermost fibre from the axis of a bond, m; of `fibre`."""
     after: Literal["brittle", "linear", "two-branch", "cornelissen", "ceb-fip", "model-code-2010", "exponential", "plastic", "bilinear"] | FractureCriterionAfter
-    """What a bond does after its limit: a word, or a curve of stress over the opening of a crack.
+    """Behaviour of a bond after its limit: a word, or a curve of stress over the opening of a crack.
 
 - `brittle`: It breaks.
 - `linear`: Its force falls in one straight line to zero.
@@ -1013,12 +1013,12 @@ class Fracture(TypedDict, total=False):
     """How bonds break; without it the case is one linear elastic solution."""
 
     control: Literal["stepped", "event"]
-    """What drives the load.
+    """Control of the load.
 
 - `stepped`: Load steps, given by `steps`; in each, bonds break until none is beyond its limit.
 - `event`: The exact path from breakage to breakage up to load factor 1, without steps and with snap-back. Default "stepped"."""
     steps: int | Numbers
-    """The load steps: so many equal ones up to load factor 1, or a list of load factors. With stages each of them has its own."""
+    """The load steps: a number of equal steps up to load factor 1, or a list of load factors. With stages each stage has its own."""
     bonds_per_iteration: int
     """Bonds broken at most between two solutions. Default 5."""
     order: Literal["excess", "ratio"]
@@ -1043,7 +1043,7 @@ class Fracture(TypedDict, total=False):
 
 
 class Modal(TypedDict, total=False):
-    """Natural modes that are wanted, with `analysis = "modal"`."""
+    """Requested natural modes, with `analysis = "modal"`."""
 
     modes: int
     """Number of modes, rigid ones included, lowest first. Default 10."""
@@ -1147,7 +1147,7 @@ open, bodies in the plane whose factor does not fit are solved without a matrix.
 
 
 class Output(TypedDict, total=False):
-    """What a run writes."""
+    """Files that a run writes."""
 
     fields_every: int
     """Load steps or rows of a motion (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone."""
@@ -1171,7 +1171,7 @@ class SectionsOnBody(TypedDict, total=False):
     title: str
     """One line on what the case is. Default ""."""
     analysis: Literal["static", "fracture", "modal", "motion"]
-    """What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
+    """Kind of analysis; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
 `static`.
 
 - `static`: One linear elastic solution at load factor 1.
@@ -1192,13 +1192,13 @@ the temperature, otherwise the first rigid body that moves."""
     precrack: Sequence[Precrack]
     """Cracks and slots that are there from the start."""
     support: Sequence[Support]
-    """What holds the body; nothing need."""
+    """Supports of the body, which needs none."""
     load: Sequence[Load]
     """Loads as they are at load factor 1; the first is the axis of the force-displacement curve."""
     stage: Sequence[Stage]
     """Stages one after the other, in which each load follows a factor of its own; without any all grow with one load factor."""
     temperature: Sequence[Temperature]
-    """Changes of temperature at load factor 1; where several reach, the last holds."""
+    """Changes of temperature at load factor 1; where several apply, the last one counts."""
     initial_velocity: Sequence[InitialVelocity]
     """Velocities at time zero of a motion."""
     quiet: Sequence[Quiet]
@@ -1218,13 +1218,13 @@ the temperature, otherwise the first rigid body that moves."""
     fracture: Fracture
     """How bonds break; without it the case is one linear elastic solution."""
     modal: Modal
-    """Natural modes that are wanted, with `analysis = "modal"`."""
+    """Requested natural modes, with `analysis = "modal"`."""
     motion: Motion
     """A motion in time under loads that depend on time."""
     solver: Literal["auto"] | Solver
-    """How the equations are solved; nothing need be said."""
+    """Solution of the equations; all keys are optional."""
     output: Output
-    """What a run writes."""
+    """Files that a run writes."""
 
 
 class Mesh(TypedDict, total=False):
@@ -1271,7 +1271,7 @@ class LatticeRemove(TypedDict, total=False):
     """A hole: cells whose centre lies in it are removed."""
 
     name: str
-    """Makes the cells at its rim a `group`; several holes may share it."""
+    """Name of the `group` of the cells at its rim; several holes may share it."""
     circle: LatticeRemoveCircle
     """A disk, m."""
     rectangle: Sequence[Numbers]
@@ -1295,13 +1295,13 @@ class LatticeSet(TypedDict, total=False):
     """A set of cells."""
 
     bottom: int
-    """So many rows from the bottom."""
+    """Number of rows from the bottom."""
     top: int
-    """So many rows from the top."""
+    """Number of rows from the top."""
     left: int
-    """So many columns from the left."""
+    """Number of columns from the left."""
     right: int
-    """So many columns from the right."""
+    """Number of columns from the right."""
     box: Sequence[Numbers]
     """Cells whose centre lies in a rectangle, by two opposite corners, m."""
     circle: LatticeSetCircle
@@ -1360,7 +1360,7 @@ class SolidLatticeRemoveOutsideSphere(TypedDict, total=False):
 
 
 class SolidLatticeRemoveOutsideCylinder(TypedDict, total=False):
-    """Everything outside of a cylinder that goes on beyond its ends, m."""
+    """Everything outside of an infinite cylinder, m."""
 
     ends: Sequence[Numbers]
     """Middles of its two ends, m."""
@@ -1372,7 +1372,7 @@ class SolidLatticeRemove(TypedDict, total=False):
     """A hole: cells whose centre lies in it are removed."""
 
     name: str
-    """Makes the cells at its surface a `group`; several holes may share it."""
+    """Name of the `group` of the cells at its surface; several holes may share it."""
     sphere: SolidLatticeRemoveSphere
     """A ball, m."""
     cylinder: SolidLatticeRemoveCylinder
@@ -1382,7 +1382,7 @@ class SolidLatticeRemove(TypedDict, total=False):
     outside_sphere: SolidLatticeRemoveOutsideSphere
     """Everything outside of a ball, m."""
     outside_cylinder: SolidLatticeRemoveOutsideCylinder
-    """Everything outside of a cylinder that goes on beyond its ends, m."""
+    """Everything outside of an infinite cylinder, m."""
 
 
 class SolidLatticeSetSphere(TypedDict, total=False):
@@ -1407,17 +1407,17 @@ class SolidLatticeSet(TypedDict, total=False):
     """A set of cells."""
 
     left: int
-    """So many layers from the lowest x."""
+    """Number of layers from the lowest x."""
     right: int
-    """So many layers from the highest x."""
+    """Number of layers from the highest x."""
     front: int
-    """So many layers from the lowest y."""
+    """Number of layers from the lowest y."""
     back: int
-    """So many layers from the highest y."""
+    """Number of layers from the highest y."""
     bottom: int
-    """So many layers from the lowest z."""
+    """Number of layers from the lowest z."""
     top: int
-    """So many layers from the highest z."""
+    """Number of layers from the highest z."""
     box: Sequence[Numbers]
     """Cells whose centre lies in a box, by two opposite corners, m."""
     sphere: SolidLatticeSetSphere

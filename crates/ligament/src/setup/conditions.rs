@@ -28,7 +28,7 @@ impl From<&str> for Place {
 /// Far field of a meshed body, where linear finite elements take the place of bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FarField {
-    /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
+    /// Parts of the body that keep their bonds: the cells with all corners in one of them.
     pub near: Vec<Place>,
     /// Share of the strength, above 0 and up to 1, that the principal stresses of elements may reach. Where a run meets a larger one the near field
     /// grows, and the run begins anew. Without one the near field stays as it is.
@@ -218,8 +218,8 @@ pub struct InitialVelocity {
     pub velocity: Position,
 }
 
-// The dashpots of Lysmer and Kuhlemeyer 1969: on an area A with the normal n their force is -C v with C = A rho (c_P n n^T + c_S (I - n n^T)), so that
-// waves along n are not reflected.
+// The dashpots of Lysmer and Kuhlemeyer 1969: on an area A with the normal n their force is -C v with C = A rho (c_P n n^T + c_S (I - n n^T)), so
+// that waves along n are not reflected.
 case_type! {
     /// A part of the outline through which waves leave the body, by dashpots that take those at a right angle to it.
     #[derive(Debug, Clone, PartialEq, Eq)]
