@@ -21,14 +21,14 @@ fn chunk_digest(values: &[f64]) -> [u64; LANES] {
     let mut digests = [NONE; LANES];
     for values in values.chunks(LANES) {
         for (digest, value) in digests.iter_mut().zip(values) {
-            *digest = with(*digest, value.to_bits());
+            *digest = extended(*digest, value.to_bits());
         }
     }
     digests
 }
 
 /// Extends a hash of Fowler, Noll and Vo, taken over words instead of bytes, by one word; a rotation moves high bits down.
-fn with(digest: u64, word: u64) -> u64 {
+fn extended(digest: u64, word: u64) -> u64 {
     (digest.rotate_left(29) ^ word).wrapping_mul(0x0000_0100_0000_01b3)
 }
 

@@ -70,7 +70,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             let bond = bond as usize;
             Some(ChangedElement {
                 ends: ends[bond],
-                before: deformed(bond, self.left(left, bond)?),
+                before: deformed(bond, self.remaining_element(left, bond)?),
                 after: None,
             })
         });
@@ -83,7 +83,8 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             }
             elements.extend(dependent_bonds.into_iter().filter_map(|bond| {
                 let bond = bond as usize;
-                let [before, after] = [left.intact, &intact].map(|intact| self.whole(intact, bond));
+                let [before, after] =
+                    [left.intact, &intact].map(|intact| self.whole_element(intact, bond));
                 (intact[bond] && before != after).then(|| ChangedElement {
                     ends: ends[bond],
                     before: deformed(bond, before),

@@ -80,7 +80,7 @@ impl<const D: usize> FarField<D> {
         let ends = ends.into();
         let neighbours = CoupledPoints::from_bonds(&ends, &couplings);
         Self {
-            coupled_points: joined([coupled, &neighbours], cloud.len()),
+            coupled_points: union_of_couplings([coupled, &neighbours], cloud.len()),
             neighbours,
             ends,
             blocks,
@@ -153,7 +153,7 @@ impl<const D: usize> FarField<D> {
 }
 
 /// Points that some of the lists couple with each point, ascending.
-pub(crate) fn joined(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoints {
+pub(crate) fn union_of_couplings(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoints {
     let of_point = |point: u32| {
         let mut others: Vec<u32> = lists.iter().flat_map(|it| it.at(point)).collect();
         others.sort_unstable();
@@ -164,7 +164,7 @@ pub(crate) fn joined(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoin
     CoupledPoints::from_lists(&Arc::new(Incidence::from_pairs(of_points, n_points)))
 }
 
-/// Displacement of a point in motions with some components a point.
+/// Displacement of a point from motions with some components per point.
 fn displacement<const D: usize>(motions: &[f64], n_components: usize, point: u32) -> [f64; D] {
     let first = n_components * point as usize;
     std::array::from_fn(|axis| motions[first + axis])

@@ -132,10 +132,10 @@ impl Reach<'_> {
             // Most points have bonds of their task alone: the first and the last one of a point show that.
             let bonds = self.bonds.at(point);
             if bonds.first().is_some_and(|it| (*it as usize) < own.start) {
-                before.extend(within(bonds, &(0..own.start)));
+                before.extend(numbers_in(bonds, &(0..own.start)));
             }
             if bonds.last().is_some_and(|it| *it as usize >= own.end) {
-                after.extend(within(bonds, &(own.end..self.ends.len())));
+                after.extend(numbers_in(bonds, &(own.end..self.ends.len())));
             }
         }
         [before, after].map(|mut bonds| {
@@ -179,13 +179,13 @@ impl Reach<'_> {
                     }
                 });
             };
-            for bond in within(&before, &group) {
+            for bond in numbers_in(&before, &group) {
                 add(*bond as usize, None);
             }
             for bond in group.start.max(own.start)..group.end.min(own.end) {
                 add(bond, Some(&mut found));
             }
-            for bond in within(&after, &group) {
+            for bond in numbers_in(&after, &group) {
                 add(*bond as usize, None);
             }
             if number > 0 {
@@ -199,7 +199,7 @@ impl Reach<'_> {
 }
 
 /// Numbers of an ascending list within a range.
-fn within<'a>(list: &'a [u32], range: &Range<usize>) -> &'a [u32] {
+fn numbers_in<'a>(list: &'a [u32], range: &Range<usize>) -> &'a [u32] {
     let first = list.partition_point(|it| (*it as usize) < range.start);
     let length = list[first..].partition_point(|it| (*it as usize) < range.end);
     &list[first..first + length]

@@ -92,7 +92,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>, J: LimitTest> BondForces<
 
     #[inline(always)]
     fn add(&self, bond: usize, near: Option<&mut Vec<u32>>, add: impl FnMut(u32, [f64; M])) {
-        let Some(element) = self.typed.left(self.bonds, bond) else {
+        let Some(element) = self.typed.remaining_element(self.bonds, bond) else {
             return;
         };
         let deformation = element.deformation(self.motions);
@@ -108,7 +108,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>, J: LimitTest> BondForces<
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Product of the stiffness of the unbroken bonds with motions, shape (M n_points) both.
     pub(crate) fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
-        self.swept(bonds, motions, Unlimited, forces);
+        self.sum_forces(bonds, motions, Unlimited, forces);
     }
 
     /// Product of the stiffness of the unbroken bonds with motions (M n_points), and the unbroken bonds near their limits, ascending.
@@ -120,14 +120,16 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         forces: &mut [f64],
     ) -> Vec<u32> {
         match (limits.criteria.list.is_empty(), limits.stretch_limits()) {
-            (true, _) => self.swept(bonds, motions, Unlimited, forces),
-            (false, Some(stretch_limits)) => self.swept(bonds, motions, stretch_limits, forces),
-            (false, None) => self.swept(bonds, motions, limits, forces),
+            (true, _) => self.sum_forces(bonds, motions, Unlimited, forces),
+            (false, Some(stretch_limits)) => {
+                self.sum_forces(bonds, motions, stretch_limits, forces)
+            }
+            (false, None) => self.sum_forces(bonds, motions, limits, forces),
         }
     }
 
     /// Sums the forces over the bonds, and returns the bonds near their limits.
-    fn swept(
+    fn sum_forces(
         &self,
         bonds: UnbrokenBonds<'_>,
         motions: &[f64],

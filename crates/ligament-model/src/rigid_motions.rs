@@ -163,7 +163,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         for (_, motion) in self.motions().take(self.count()) {
             let mut unit = [0.0; 6];
             unit[motion] = 1.0;
-            let rest = without(unit, &all);
+            let rest = orthogonal_part(unit, &all);
             let norm = dot(rest, rest).sqrt();
             if norm > RANK_TOLERANCE {
                 all.push(rest.map(|value| value / norm));
@@ -195,7 +195,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         if norm == 0.0 {
             return row;
         }
-        without(row.map(|value| value / norm), spanned)
+        orthogonal_part(row.map(|value| value / norm), spanned)
     }
 
     /// Adds the direction that a degree of freedom prevents, if it is a new one.
@@ -251,7 +251,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
                 }
                 continue;
             }
-            let turn = without(unit, &held);
+            let turn = orthogonal_part(unit, &held);
             if held.len() < self.count() && turn[place] > RANK_TOLERANCE {
                 let by_one = turn.map(|value| value / turn[place] * self.radius);
                 free.push((component, by_one));
@@ -357,7 +357,7 @@ impl FreeMotion {
 }
 
 /// Part of a motion orthogonal to some orthonormal directions.
-fn without(motion: Motion, directions: &[Motion]) -> Motion {
+fn orthogonal_part(motion: Motion, directions: &[Motion]) -> Motion {
     directions.iter().fold(motion, |rest, direction| {
         let share = dot(rest, *direction);
         std::array::from_fn(|i| rest[i] - share * direction[i])

@@ -72,7 +72,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let ends = &self.system.bonds.ends;
         let of_task = |(task, deformations): (usize, &mut [E::Deformation])| {
             for (bond, deformation) in (task * TASK..).zip(deformations) {
-                let element = self.whole(intact, bond);
+                let element = self.whole_element(intact, bond);
                 *deformation = element.deformation(displacement);
                 if !expansion.is_none() {
                     let thermal = expansion.of_bond(ends[bond]);
@@ -190,7 +190,9 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let [mut work, mut energy] = [0.0; 2];
         for bond in group {
             let ends = self.system.bonds.ends[bond];
-            let element = self.left(bonds, bond).filter(|_| subdomain.owns_bond(ends));
+            let element = self
+                .remaining_element(bonds, bond)
+                .filter(|_| subdomain.owns_bond(ends));
             let Some(element) = element else {
                 continue;
             };
@@ -318,7 +320,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>, S: Share> BondForces<M>
 
     #[inline(always)]
     fn add(&self, bond: usize, energies: Option<&mut Vec<f64>>, add: impl FnMut(u32, [f64; M])) {
-        let element = self.typed.left(self.bonds, bond);
+        let element = self.typed.remaining_element(self.bonds, bond);
         let deformation = &self.deformations[bond];
         if let Some(energies) = energies {
             let ends = self.typed.system.bonds.ends[bond];

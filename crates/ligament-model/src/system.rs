@@ -83,7 +83,7 @@ impl<const D: usize> BondSystem<D> {
     ) -> Self {
         // The arrays of densities become those of rigidities: at this point of a run memory is scarce.
         let mut weight = length_factor;
-        let (stiffness, beyond_correction) = stiffness.joined();
+        let (stiffness, beyond_correction) = stiffness.after_correction();
         let BondStiffness {
             mut axial,
             mut shear,
@@ -276,7 +276,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// The element of a bond with its whole stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
     #[inline(always)]
-    pub(crate) fn whole(&self, intact: &[bool], bond: usize) -> E {
+    pub(crate) fn whole_element(&self, intact: &[bool], bond: usize) -> E {
         let BondSystem {
             bonds, rigidities, ..
         } = &self.system;
@@ -285,11 +285,11 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 
     /// The element of a bond with its remaining stiffness; `None` if the bond is broken.
     #[inline(always)]
-    pub(crate) fn left(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E> {
+    pub(crate) fn remaining_element(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E> {
         if !bonds.intact[bond] {
             return None;
         }
-        let whole = self.whole(bonds.intact, bond);
+        let whole = self.whole_element(bonds.intact, bond);
         Some(match bonds.remaining.get(bond) {
             None => whole,
             Some(remaining) => whole.weakened(remaining),

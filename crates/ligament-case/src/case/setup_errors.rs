@@ -120,7 +120,7 @@ impl Case {
         KeyPath(section.split('.').map(str::to_owned).collect())
     }
 
-    /// The key of a point of a pre-crack that equals its predecessor, or of all points.
+    /// The key of a repeated point of a pre-crack, or of its list of points.
     fn repeated_point(&self, index: usize, points: KeyPath) -> KeyPath {
         let given = self.precracks[index].points.iter();
         let mut pairs = given.flat_map(|points| points.windows(2));

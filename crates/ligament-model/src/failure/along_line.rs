@@ -121,7 +121,7 @@ impl Strain for [[f64; 3]; 2] {
 }
 
 impl Measure {
-    /// Whether [`Measure::within`] has a closed form for the measure with these coefficients.
+    /// Whether [`Measure::interval_within`] has a closed form for the measure with these coefficients.
     pub(super) fn is_known_along_lines(self, coefficients: &[f64]) -> bool {
         match self {
             Self::Tension
@@ -143,7 +143,7 @@ impl Measure {
     /// # Panics
     ///
     /// Panics for measures that are not [known along lines](Measure::is_known_along_lines).
-    pub(super) fn within<B: AlongLine>(
+    pub(super) fn interval_within<B: AlongLine>(
         self,
         line: [&B; 2],
         coefficients: &[f64],
@@ -272,7 +272,7 @@ mod tests {
                 let at = start.less(&slope.scaled(-t)).measured();
                 measure.value(&at, &[q], StressAcross::default)
             };
-            let interval = measure.within(line, &[q], [StressAcross::default(); 2], 0.8);
+            let interval = measure.interval_within(line, &[q], [StressAcross::default(); 2], 0.8);
             // Where q is negative the measure may fall again: beyond the first place where it is at its limit nothing is asked.
             let steps = if q > 0.0 { -4000..=4000 } else { 0..=4000 };
             let mut passed = false;
@@ -347,7 +347,7 @@ mod tests {
                 shear: [x, y, z],
             });
             for measure in [Measure::NormalStress, Measure::CoulombStress] {
-                let interval = measure.within([&line[0], &line[1]], &[0.7], of_line, 0.8);
+                let interval = measure.interval_within([&line[0], &line[1]], &[0.7], of_line, 0.8);
                 for place in -4000..=4000 {
                     let t = f64::from(place) * 1e-3;
                     let at = || of_line[0].plus(&of_line[1], t);
@@ -364,11 +364,21 @@ mod tests {
     fn a_bond_that_slides_too_far_is_beyond_its_limit_wherever_it_closes() {
         let (start, slope) = (deformation([0.0, 3.0, 0.0]), deformation([1.0, 0.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&start, &slope], &[0.5], [StressAcross::default(); 2], 1.0),
+            Measure::Energy.interval_within(
+                [&start, &slope],
+                &[0.5],
+                [StressAcross::default(); 2],
+                1.0
+            ),
             None
         );
         assert_eq!(
-            Measure::Tension.within([&start, &slope], &[], [StressAcross::default(); 2], 1.0),
+            Measure::Tension.interval_within(
+                [&start, &slope],
+                &[],
+                [StressAcross::default(); 2],
+                1.0
+            ),
             Some([f64::NEG_INFINITY, 1.0])
         );
     }
@@ -378,7 +388,12 @@ mod tests {
     fn a_negative_shear_stiffness_takes_from_the_measure() {
         let (start, slope) = (deformation([0.5, 0.0, 0.0]), deformation([0.1, 1.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&start, &slope], &[-0.5], [StressAcross::default(); 2], 1.0),
+            Measure::Energy.interval_within(
+                [&start, &slope],
+                &[-0.5],
+                [StressAcross::default(); 2],
+                1.0
+            ),
             Some(EVERYWHERE)
         );
         assert!(!Measure::PrintedMixed.is_known_along_lines(&[0.5]));

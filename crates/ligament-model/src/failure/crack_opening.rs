@@ -42,7 +42,7 @@ pub struct CrackEnergy {
 impl CrackEnergy {
     /// The energy of cracks with a unit normal among the points marked in `among` (n_points). A bond counts one half at each of its ends. None
     /// without such points, and for imaginary elements, whose strains do not follow from the opening.
-    pub fn of_opening(
+    pub fn for_normal(
         system: &BondSystem,
         criteria: &Criteria,
         among: &[bool],

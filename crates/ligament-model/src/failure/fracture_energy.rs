@@ -92,7 +92,7 @@ fn stretches_at_strength<const D: usize>(basis: &Basis<'_, D>) -> Vec<f64> {
 pub fn stretch_at_strength(material: &Isotropic, strength: f64, space: impl Into<Space>) -> f64 {
     const PARTS: u32 = 1000;
     let space = space.into();
-    let Isotropic { young, poisson } = material.of_bar(space);
+    let Isotropic { young, poisson } = material.bar_constants(space);
     match space {
         Space::Plane(_) => {
             let a = 4.0 * poisson / (1.0 + poisson);

@@ -94,7 +94,7 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         };
         let found = condition(constants, [tensile, compressive], space, calibration);
         let fault = NoLimit::NoFriction {
-            poisson: constants.of_bar(space).poisson,
+            poisson: constants.bar_constants(space).poisson,
             tensile,
             compressive,
         };
@@ -157,7 +157,7 @@ pub fn condition(
     calibration: Calibration,
 ) -> Option<Friction> {
     let space = space.into();
-    let poisson = material.of_bar(space).poisson;
+    let poisson = material.bar_constants(space).poisson;
     let limit = stretch::limit(material, tensile, space);
     let sin_phi = (compressive - tensile) / (compressive + tensile);
     match calibration {
@@ -192,7 +192,7 @@ pub fn with_slope(
     (slope, calibration): (f64, Calibration),
 ) -> Friction {
     let space = space.into();
-    let poisson = material.of_bar(space).poisson;
+    let poisson = material.bar_constants(space).poisson;
     let limit = stretch::limit(material, tensile, space);
     let per_limit = match calibration {
         Calibration::Printed => {

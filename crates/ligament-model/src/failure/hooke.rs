@@ -105,11 +105,14 @@ impl Moduli {
 
     /// Moduli of a material in a space.
     pub fn new(material: &Isotropic, space: Space) -> Self {
-        let (nu, along) = (across(material, space).poisson, modulus(material, space));
+        let (nu, along) = (
+            plane_stress_constants(material, space).poisson,
+            modulus(material, space),
+        );
         Self {
             lateral: nu,
             shear: 1.0 - nu,
-            bar: material.of_bar(space).young / along,
+            bar: material.bar_constants(space).young / along,
             along,
         }
     }
@@ -117,12 +120,12 @@ impl Moduli {
 
 /// Modulus E' of a strain along one direction alone, Pa.
 pub fn modulus(material: &Isotropic, space: Space) -> f64 {
-    let Isotropic { young, poisson: nu } = across(material, space);
+    let Isotropic { young, poisson: nu } = plane_stress_constants(material, space);
     young / (1.0 - nu * nu)
 }
 
 /// The constants with which the equations of plane stress describe strains in a plane, and in space.
-fn across(material: &Isotropic, space: Space) -> Isotropic {
+fn plane_stress_constants(material: &Isotropic, space: Space) -> Isotropic {
     material.in_plane(match space {
         Space::Plane(plane) => plane,
         Space::Solid => Plane::Strain,

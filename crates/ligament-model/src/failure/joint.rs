@@ -19,7 +19,7 @@ pub fn crosses<const D: usize>(
     bond: usize,
     between: [usize; 2],
 ) -> bool {
-    let within = bonds.composition.of_bond(bond);
+    let within = bonds.composition.fractions(bond);
     let sides = bonds.ends[bond].map(|end| {
         let shares = cloud.shares(end as usize);
         between.into_iter().find(|&material| shares[material] > 0.0)
@@ -41,7 +41,7 @@ pub(super) fn shares_of_length<const D: usize>(
         let shares = numbered.map(|(material, share)| (material, share / total));
         shares.filter(|it| it.1 > 0.0).collect()
     };
-    if let Some(shares) = bonds.composition.of_bond(bond) {
+    if let Some(shares) = bonds.composition.fractions(bond) {
         return present(shares.to_vec());
     }
     let [a, b] = bonds.ends[bond].map(|end| cloud.shares(end as usize));

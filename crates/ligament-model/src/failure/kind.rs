@@ -338,7 +338,7 @@ impl Choice {
     }
 
     /// Whether a random factor of a property has an effect.
-    pub fn feels(&self, of: Scattered) -> bool {
+    pub fn is_affected_by(&self, of: Scattered) -> bool {
         let of_softening =
             of == Scattered::FractureEnergy && self.parameter_from_energy().is_some();
         // What lets bonds begin to soften is a strength, and what lets them end an energy.

@@ -59,5 +59,5 @@ pub(super) fn limits_from_strength<const D: usize>(
 ///
 /// The bond along the bar has this stretch, so that a bar yields at its strength wherever a bond lies along it.
 pub fn limit(material: &Isotropic, strength: f64, space: impl Into<Space>) -> f64 {
-    strength / material.of_bar(space).young
+    strength / material.bar_constants(space).young
 }

@@ -18,8 +18,8 @@ const SOLID: Space = Space::Solid;
 const HORIZON: f64 = 0.7;
 const PARTS: u32 = 40;
 
-/// The bonds of a point with a full ball: on shells at the two points of Gauss in each part of the radius the twelve corners of an icosahedron, which integrate
-/// polynomials of the direction up to the fifth degree exactly, each with its part of the volume of the shell.
+/// The bonds of a point with a full ball of neighbours. They lie on shells at the two Gauss points of each part of the radius, at the twelve corners
+/// of an icosahedron, which integrate polynomials of the direction up to the fifth degree exactly, each with its part of the volume of the shell.
 fn ball() -> (BondSet<3>, PointCloud<3>) {
     let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
     let size = golden.hypot(1.0);

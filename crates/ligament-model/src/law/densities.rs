@@ -101,7 +101,7 @@ impl BondStiffness {
                 (of_bond.axial, of_bond.shear, of_bond.rotational);
             series[bond] = factor;
         }
-        let held = materials::held(bonds, cloud, &shear, |material, bond| {
+        let held = materials::restraints(bonds, cloud, &shear, |material, bond| {
             densities(&constants[material], &geometry(bond)).shear
         });
         Self {
@@ -132,7 +132,7 @@ impl BondStiffness {
     /// The densities after the correction, of bonds [in series](Self::in_series) and with the [exchanges](Self::exchanged) of restrained
     /// bonds; and the part of each to which the correction does not apply, shape (n_bonds), empty in a body of one material. Where k_t is
     /// negative, k_n keeps at least half of its value.
-    pub(crate) fn joined(mut self) -> (Self, Vec<StiffnessFactors>) {
+    pub(crate) fn after_correction(mut self) -> (Self, Vec<StiffnessFactors>) {
         if self.series.is_empty() && self.exchange.is_empty() {
             return (self, Vec::new());
         }

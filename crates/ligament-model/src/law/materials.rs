@@ -104,7 +104,7 @@ pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f
 ///
 /// Where materials are sheared in series, each rotates in proportion to 1/k_ti, and the point between them by their mean with the weights
 /// phi_i k_ti: beta is the relative deficit of the rotation of the point against that of the material of the bond.
-pub(super) fn held<const D: usize>(
+pub(super) fn restraints<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
     shear: &[f64],
@@ -169,7 +169,7 @@ mod tests {
         let bonds = BondSet::<2>::search(&cloud, &Horizons::unified(2.5, 3));
         assert_eq!(*bonds.ends, [[0, 1], [0, 2], [1, 2]]);
         let of_material = |material: usize, _| [1.0, 9.0][material];
-        let found = held(&bonds, &cloud, &[1.0, 1.0, 9.0], of_material);
+        let found = restraints(&bonds, &cloud, &[1.0, 1.0, 9.0], of_material);
         let soft = |ends| Restraint {
             ends,
             softness: 1.0 / 9.0,

@@ -78,7 +78,7 @@ impl Options {
     }
 
     /// Name of the first option that is set in only one of both.
-    pub fn apart_from(&self, others: &Self) -> Option<&'static str> {
+    pub fn first_different_option(&self, others: &Self) -> Option<&'static str> {
         [
             (
                 "calibration",

@@ -107,7 +107,7 @@ pub struct Law {
 
 impl Materials {
     /// Least general class that contains a material.
-    pub fn of_elasticity(elasticity: &Elasticity) -> Self {
+    pub fn most_general_for(elasticity: &Elasticity) -> Self {
         match elasticity {
             Elasticity::Isotropic(_) => Self::Isotropic,
             Elasticity::Orthotropic(_) => Self::Orthotropic,
@@ -135,7 +135,7 @@ impl Eq for BondLaw {}
 
 impl<const D: usize> LawInput<'_, D> {
     /// Densities from constants of the materials, each computed from an isotropic material, the space and the thickness of the body.
-    pub(super) fn of_isotropic<const N: usize>(
+    pub(super) fn from_isotropic<const N: usize>(
         &self,
         constants: [fn(&Isotropic, Space, f64) -> f64; N],
         densities: impl Fn(&[f64; N], &BondGeometry<D>) -> Densities + Sync,
@@ -227,7 +227,7 @@ impl Law {
 
     /// Name of the first option that is set although the law does not have it, or missing although the law has it.
     pub fn misplaced_option(&self) -> Option<&'static str> {
-        self.options.apart_from(&self.row.options)
+        self.options.first_different_option(&self.row.options)
     }
 
     /// Keyword of the law in papers and case files.

@@ -209,7 +209,7 @@ impl Isotropic {
     }
 
     /// Young's modulus and Poisson's ratio of a bar in a space: the constants of the material, or in a plane [`in_plane`](Self::in_plane).
-    pub fn of_bar(&self, space: impl Into<Space>) -> Self {
+    pub fn bar_constants(&self, space: impl Into<Space>) -> Self {
         match space.into() {
             Space::Plane(plane) => self.in_plane(plane),
             Space::Solid => *self,

@@ -27,7 +27,7 @@ impl<const D: usize> BondSystem<D> {
             let around = mean.map(|it| StrainAround::new(&it, bonds.direction[bond]));
             let moduli = moduli(bond);
             let mut stress = moduli.stress_across(deformation.stretch(), around);
-            stress.normal += of_cells.around(bonds.ends[bond]) / moduli.along;
+            stress.normal += of_cells.mean_at_ends(bonds.ends[bond]) / moduli.along;
             stress
         };
         deformations.par_iter().enumerate().map(of_bond).collect()
@@ -47,7 +47,7 @@ pub(super) struct CellStresses(Option<Vec<VolumetricStress>>);
 
 impl CellStresses {
     /// Mean of the volumetric stresses at those ends of a bond that have living cells, Pa; 0 if neither has any.
-    pub(super) fn around(&self, ends: [u32; 2]) -> f64 {
+    pub(super) fn mean_at_ends(&self, ends: [u32; 2]) -> f64 {
         let Some(of_points) = &self.0 else {
             return 0.0;
         };

@@ -159,7 +159,7 @@ struct ElasticField {
 impl ElasticField {
     /// Field of a tip with a stress intensity factor of 1 Pa m^0.5 in opening or sliding, at a distance (m) and an angle from the direction of
     /// growth.
-    fn of_tip(quantity: TipQuantity, moduli: PlaneModuli, distance: f64, angle: f64) -> Self {
+    fn near_tip(quantity: TipQuantity, moduli: PlaneModuli, distance: f64, angle: f64) -> Self {
         let root = (2.0 * PI * distance).sqrt();
         let [sine, sine_3] = [0.5 * angle, 1.5 * angle].map(f64::sin);
         let [cosine, cosine_3] = [0.5 * angle, 1.5 * angle].map(f64::cos);
@@ -250,7 +250,7 @@ impl DomainIntegral {
             let area = cloud.volumes[point as usize] / cloud.thickness;
             let auxiliary = moduli.map(|moduli| {
                 let angle = ring.angle(from_tip);
-                let field = ElasticField::of_tip(quantity, moduli, distance, angle);
+                let field = ElasticField::near_tip(quantity, moduli, distance, angle);
                 field.turned_from(ring.direction)
             });
             (weight > 0.0 && distance > 0.0).then(|| WeightedPoint {

@@ -252,7 +252,7 @@ impl<const D: usize> BondSystem<D> {
         let place = |motion: &[f64]| -> [f64; D] { std::array::from_fn(|axis| motion[axis]) };
         let (n, moved) = (bonds.direction[bond], minus(place(b), place(a)));
         let slope = moved.map(|it| it / bonds.length[bond]);
-        [a, b].map(|motion| minus(slope, turned(&motion[D..], n)))
+        [a, b].map(|motion| minus(slope, cross_product(&motion[D..], n)))
     }
 
     /// Sums over the points that elements of the far field couple with a point, with w = V_Q.
@@ -299,7 +299,7 @@ impl<const D: usize> BondSystem<D> {
 }
 
 /// phi x n for the rotation of a point, about z or about all axes.
-fn turned<const D: usize>(rotation: &[f64], n: [f64; D]) -> [f64; D] {
+fn cross_product<const D: usize>(rotation: &[f64], n: [f64; D]) -> [f64; D] {
     let about = match *rotation {
         [z] => [0.0, 0.0, z],
         _ => std::array::from_fn(|axis| rotation[axis]),

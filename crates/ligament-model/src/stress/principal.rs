@@ -42,7 +42,7 @@ impl<const D: usize> BondSystem<D> {
                 };
             };
             let n = self.bonds.direction[bond];
-            let of_cells = of_cells.around(self.bonds.ends[bond]) / moduli.along;
+            let of_cells = of_cells.mean_at_ends(self.bonds.ends[bond]) / moduli.along;
             let principal = |slope: [f64; D]| {
                 let more = stretch - dot(n, slope);
                 let own = std::array::from_fn(|axis| slope[axis] + more * n[axis]);

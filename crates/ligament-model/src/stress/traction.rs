@@ -46,7 +46,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     ) -> Vec<f64> {
         let of_bonds: &[E::Deformation] = Deformation::of_bonds(deformations);
         let pull = |bond: usize| {
-            let element = self.left(bonds, bond)?;
+            let element = self.remaining_element(bonds, bond)?;
             // The end force is what holds the end in place against the bond: the bond pulls the other way.
             let [at_a, _] = element.end_forces(&of_bonds[bond])?;
             let force = std::array::from_fn(|axis| -at_a[axis]);
@@ -151,7 +151,7 @@ impl<'a, const D: usize> Planes<'a, D> {
             width: 0.5 * (squares.width[a] + squares.width[b]),
             normal: *normal,
         };
-        for point in squares.within(band.reach(squares.largest_width)) {
+        for point in squares.points_in_box(band.reach(squares.largest_width)) {
             let size = band.size_within(cloud.positions[point], squares.width[point]);
             if size > 0.0 {
                 crossed.push((point, size));
@@ -280,7 +280,7 @@ impl<const D: usize> Squares<D> {
     }
 
     /// The points in a box, in the order of the tree, which depends on the points alone.
-    fn within(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = usize> + '_ {
+    fn points_in_box(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = usize> + '_ {
         let found = self
             .middles
             .locate_in_envelope(AABB::from_corners(lower, upper));

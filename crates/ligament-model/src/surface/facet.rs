@@ -59,7 +59,7 @@ impl<const D: usize> Corner<D> {
             return std::array::from_fn(|axis| 0.25 * sum(axis));
         }
         let motion = motion(self.point);
-        let turned = turned(&motion[D..], self.arm);
+        let turned = rotated(&motion[D..], self.arm);
         std::array::from_fn(|axis| motion[axis] + turned[axis])
     }
 }
@@ -82,7 +82,7 @@ impl<const D: usize> Facet<D> {
 
     /// Facets of a side of the outline between points in their order from outside: one of a side of D points, of a quadrangle four triangles that
     /// meet in its middle, so that none of its diagonals is preferred.
-    pub fn of_side(cloud: &PointCloud<D>, side: &[u32]) -> Vec<Self> {
+    pub fn on_side(cloud: &PointCloud<D>, side: &[u32]) -> Vec<Self> {
         let corner = |point: u32| (point, cloud.positions[point as usize]);
         let &[a, b, c, d] = side else {
             let corners = std::array::from_fn(|place| corner(side[place]));
@@ -198,7 +198,7 @@ impl<const D: usize> Facet<D> {
 }
 
 /// Displacement phi x r of an arm by the rotations of its point: one in the plane, three in space, or none.
-fn turned<const D: usize>(rotations: &[f64], arm: [f64; D]) -> [f64; D] {
+fn rotated<const D: usize>(rotations: &[f64], arm: [f64; D]) -> [f64; D] {
     match *rotations {
         [angle] => std::array::from_fn(|axis| angle * if axis == 0 { -arm[1] } else { arm[0] }),
         [_, _, _] => std::array::from_fn(|axis| {

@@ -265,15 +265,15 @@ impl<const D: usize> FacetPair<D> {
         let mut position = minus(weighted(own, &place.weights), now);
         let arm = minus(position, shape.middle());
         let step: Vector = minus(rigid[1].rotation, rigid[0].rotation);
-        let carried = minus(arm, turned(arm, step.map(|it| -it)));
+        let carried = minus(arm, rotated(arm, step.map(|it| -it)));
         // Of the shapes in space only spheres turn.
         let angle = if D == 2 { rigid[1].rotation } else { [0.0; 3] };
         if angle != [0.0; 3] {
-            let back = turned(arm, angle.map(|it| -it));
+            let back = rotated(arm, angle.map(|it| -it));
             position = std::array::from_fn(|axis| shape.middle()[axis] + back[axis]);
         }
         let (gap, outward) = shape.distance(position);
-        let outward = turned(outward, angle);
+        let outward = rotated(outward, angle);
         let meets = gap < present.within && dot(outward, present.normals[at]?) < FACING;
         meets.then(|| Meeting {
             onto: None,
@@ -330,7 +330,7 @@ impl<const D: usize> FacetPair<D> {
 
 impl<const D: usize> FacetPair<D> {
     /// Integration points in contact, with less than a gap (m), after a step, ascending, from the contacts before it.
-    pub(super) fn met(
+    pub(super) fn contacts_within(
         &self,
         search: &mut Search,
         step: Step<'_>,
@@ -364,7 +364,7 @@ impl<const D: usize> FacetPair<D> {
             search.update(&sought, skin);
             let search = &*search;
             let met = of_facets.flat_map_iter(|at| {
-                let facing = Self::facing(at, &present, search.near(at));
+                let facing = Self::facing(at, &present, search.neighbours(at));
                 let present = &present;
                 places(at).filter_map(move |place| {
                     let meeting = self.facet_met(place, present, &facing, step.bonds)?;
@@ -407,7 +407,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
     }
 
     fn touches(&self, search: &mut Search, step: Step<'_>, before: &[Touch]) -> Vec<Touch> {
-        self.met(search, step, before, 0.0)
+        self.contacts_within(search, step, before, 0.0)
     }
 
     fn add_force(&self, touch: &Touch, force: Vector, forces: &mut [f64]) {
@@ -727,7 +727,7 @@ impl<const D: usize> FacetPair<D> {
         let end = std::array::from_fn(|axis| middle[axis] + rigid[1].displacement[axis]);
         let facet = facets.find(|it| {
             let way = minus(carried(rigid), it.way);
-            passes(&it.now, minus(end, way), end)
+            crosses_facet(&it.now, minus(end, way), end)
         })?;
         let way = norm(minus(carried(rigid), facet.way));
         Some((Self::place(D as u32 * facet.number), way))
@@ -745,7 +745,7 @@ impl<const D: usize> FacetPair<D> {
             let goes_far = dot(way, way) > self.reach * self.reach;
             let is_through = goes_far
                 && self.may_meet(own, it.number)
-                && passes(&it.now, minus(passing.now, way), passing.now);
+                && crosses_facet(&it.now, minus(passing.now, way), passing.now);
             is_through.then(|| norm(way))
         })
     }
@@ -766,13 +766,13 @@ pub(super) fn distance_from<const D: usize>(
     let arm = minus(still, shape.middle());
     // Of the shapes in space only spheres turn.
     let angle = if D == 2 { pose.rotation } else { [0.0; 3] };
-    let back = turned(arm, angle.map(|it| -it));
+    let back = rotated(arm, angle.map(|it| -it));
     let unturned = std::array::from_fn(|axis| shape.middle()[axis] + back[axis]);
     shape.distance(unturned).0
 }
 
 /// Whether a straight path crosses a facet from its outer side.
-fn passes<const D: usize>(corners: &Corners<D>, from: [f64; D], to: [f64; D]) -> bool {
+fn crosses_facet<const D: usize>(corners: &Corners<D>, from: [f64; D], to: [f64; D]) -> bool {
     let Some(normal) = normal(corners) else {
         return false;
     };
@@ -866,7 +866,7 @@ mod tests {
         };
         let mut search = Search::default();
         search.join(0..300);
-        let found = pair.met(&mut search, step, &[], 0.0);
+        let found = pair.contacts_within(&mut search, step, &[], 0.0);
         let found: Vec<(u32, Option<u32>)> = found.iter().map(|it| (it.place, it.onto)).collect();
         let all =
             (0..300 * D as u32).map(|it| (it, met_among_all(&pair, FacetPair::<D>::place(it))));
@@ -888,12 +888,12 @@ mod tests {
     fn ways_through_a_facet_come_from_outside() {
         // The body is on the left of a segment: below this one.
         let segment = [[1.0, 0.0], [0.0, 0.0]];
-        assert!(passes(&segment, [0.2, 3.0], [0.4, -5.0]));
-        assert!(!passes(&segment, [0.4, -5.0], [0.2, 3.0]));
-        assert!(!passes(&segment, [1.2, 3.0], [1.2, -5.0]));
-        assert!(!passes(&segment, [0.2, 3.0], [0.4, 0.5]));
+        assert!(crosses_facet(&segment, [0.2, 3.0], [0.4, -5.0]));
+        assert!(!crosses_facet(&segment, [0.4, -5.0], [0.2, 3.0]));
+        assert!(!crosses_facet(&segment, [1.2, 3.0], [1.2, -5.0]));
+        assert!(!crosses_facet(&segment, [0.2, 3.0], [0.4, 0.5]));
         let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        assert!(passes(&triangle, [0.2, 0.2, 2.0], [0.3, 0.3, -7.0]));
-        assert!(!passes(&triangle, [0.8, 0.8, 2.0], [0.8, 0.8, -7.0]));
+        assert!(crosses_facet(&triangle, [0.2, 0.2, 2.0], [0.3, 0.3, -7.0]));
+        assert!(!crosses_facet(&triangle, [0.8, 0.8, 2.0], [0.8, 0.8, -7.0]));
     }
 }

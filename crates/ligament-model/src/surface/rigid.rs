@@ -142,7 +142,7 @@ fn direction<const D: usize>(way: [f64; D], length: f64, axis: usize) -> [f64; D
 }
 
 /// A vector rotated by angles about the axes: exactly in the plane, to the first order in space.
-pub(super) fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
+pub(super) fn rotated<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
     if by == [0.0; 3] {
         return way;
     }

@@ -51,7 +51,7 @@ impl Search {
     }
 
     /// Facets near that at a place, as places, by their numbers.
-    pub(super) fn near(&self, place: usize) -> &[u32] {
+    pub(super) fn neighbours(&self, place: usize) -> &[u32] {
         &self.near[place]
     }
 
@@ -74,7 +74,7 @@ impl Search {
         }
         let found: Vec<Vec<u32>> = (first..self.facets.len())
             .into_par_iter()
-            .map(|place| self.around(place, sought))
+            .map(|place| self.find_neighbours(place, sought))
             .collect();
         for (place, others) in (first as u32..).zip(&found) {
             for &other in others.iter().filter(|it| (**it as usize) < first) {
@@ -104,7 +104,7 @@ impl Search {
     }
 
     /// Facets whose box is near that of the facet at a place, by their numbers.
-    fn around<const D: usize>(&self, place: usize, sought: &Sought<'_, D>) -> Vec<u32> {
+    fn find_neighbours<const D: usize>(&self, place: usize, sought: &Sought<'_, D>) -> Vec<u32> {
         if !sought.is_whole(&sought.corners[place]) {
             return Vec::new();
         }
@@ -188,7 +188,7 @@ mod tests {
                     .filter(|it| is_near(place, it))
                     .map(|it| it as u32)
                     .collect();
-                let found = search.near(place).iter().filter(|it| **it % 3 != 0);
+                let found = search.neighbours(place).iter().filter(|it| **it % 3 != 0);
                 assert!(found.copied().eq(expected), "{place}");
             }
         }
@@ -208,7 +208,7 @@ mod tests {
                 may_meet: &|_, _| true,
             };
             search.update(&sought, 0.5);
-            assert_eq!(search.near(0).len(), near);
+            assert_eq!(search.neighbours(0).len(), near);
         }
     }
 }

@@ -51,7 +51,7 @@ impl<const D: usize> UndeformedPair<D> {
         };
         let mut search = Search::default();
         pair.join(&mut search, &mut std::iter::empty());
-        let mut facing = pair.met(&mut search, step, &[], within);
+        let mut facing = pair.contacts_within(&mut search, step, &[], within);
         for it in &mut facing {
             if it.overlap > -CLOSED * pair.reach {
                 it.overlap = 0.0;

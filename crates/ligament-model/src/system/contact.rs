@@ -81,7 +81,7 @@ impl<const D: usize> BondSystem<D> {
         let mut points = BTreeSet::new();
         for end in broken.iter().flat_map(|&it| self.bonds.ends[it as usize]) {
             points.insert(end);
-            points.extend(near.parted(end).map(|(other, _)| other));
+            points.extend(near.separated_neighbours(end).map(|(other, _)| other));
         }
         let sums: BTreeMap<u32, AxisSum<D>> = {
             let ends = |point: u32| {
@@ -269,7 +269,7 @@ impl<const D: usize> CrackAround<'_, D> {
     }
 
     /// Other ends and directions of the broken bonds of a point, then of its cut ones.
-    fn parted(&self, point: u32) -> impl Iterator<Item = (u32, [f64; D])> {
+    fn separated_neighbours(&self, point: u32) -> impl Iterator<Item = (u32, [f64; D])> {
         let bonds = &self.system.bonds;
         let of_broken = self.broken(point);
         let of_broken =
@@ -284,9 +284,9 @@ impl<const D: usize> CrackAround<'_, D> {
     }
 
     /// Sum of the directions at a point.
-    fn own(&self, point: u32) -> AxisSum<D> {
+    fn sum_at_point(&self, point: u32) -> AxisSum<D> {
         let mut sum = AxisSum::default();
-        for (_, direction) in self.parted(point) {
+        for (_, direction) in self.separated_neighbours(point) {
             sum.add(direction);
         }
         sum
@@ -294,9 +294,9 @@ impl<const D: usize> CrackAround<'_, D> {
 
     /// Sum of the directions at a point and at the points that its broken and cut bonds connect to.
     fn sum(&self, point: u32) -> AxisSum<D> {
-        let own = self.own(point);
-        self.parted(point)
-            .fold(own, |sum, (other, _)| sum.plus(self.own(other)))
+        let own = self.sum_at_point(point);
+        self.separated_neighbours(point)
+            .fold(own, |sum, (other, _)| sum.plus(self.sum_at_point(other)))
     }
 }
 

@@ -34,7 +34,7 @@ impl<const D: usize> AxisSum<D> {
         }
     }
 
-    /// Values of the sum.
+    /// Values of the sum, of which there are `N_VALUES`.
     pub(super) fn values(self) -> impl Iterator<Item = f64> {
         self.values.into_iter().take(Self::N_VALUES)
     }

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::cells::VolumetricCells;
 use crate::bonds::{BondSet, Incidence};
 use crate::correction::patch::{CellForces, uniform_strains};
-use crate::far_field::joined;
+use crate::far_field::union_of_couplings;
 use crate::material::add_volumetric;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::thermal::ThermalStrain;
@@ -76,7 +76,7 @@ impl CellPatch {
 pub(crate) struct PatchDilatation {
     /// Volume w of the living cells at the point, m^3.
     pub(crate) volume: f64,
-    /// Mean dilatation theta less that by temperature; 0 without a living cell.
+    /// Mean dilatation theta less the thermal dilatation; 0 without a living cell.
     pub(crate) dilatation: f64,
 }
 
@@ -176,7 +176,7 @@ impl<const D: usize> VolumetricTerms<D> {
             unconnected,
         };
         terms.find_patches(n_points);
-        terms.coupled_points = joined([coupled, &terms.neighbours(n_points)], n_points);
+        terms.coupled_points = union_of_couplings([coupled, &terms.neighbours(n_points)], n_points);
         terms
     }
 
@@ -333,7 +333,7 @@ impl<const D: usize> VolumetricTerms<D> {
         })
     }
 
-    /// Change of the volume of a cell in motions with a number of components a point, m^3. A translation makes none.
+    /// Change of the volume of a cell for motions with a given number of components per point, m^3. A translation makes none.
     fn volume_change(&self, cell: u32, motions: &[f64], n_components: usize) -> f64 {
         let places = self.cells.places(cell as usize);
         let moved = |place: usize| -> [f64; D] {
@@ -362,7 +362,7 @@ impl<const D: usize> VolumetricTerms<D> {
         share * corners.iter().map(of_corner).sum::<f64>()
     }
 
-    /// Change of the volume of a cell less that by temperature, m^3, in motions with a number of components a point.
+    /// Change of the volume of a cell less its thermal change, m^3, for motions with a given number of components per point.
     fn change(
         &self,
         cell: u32,
@@ -372,8 +372,8 @@ impl<const D: usize> VolumetricTerms<D> {
         self.volume_change(cell, motions, n_components) - self.thermal_change(cell, expansion)
     }
 
-    /// Change of the volume of each cell less that by temperature, living or not, shape (n_cells), m^3, in motions with a number of components
-    /// a point.
+    /// Change of the volume of each cell, living or not, less its thermal change, shape (n_cells), m^3, for motions with a given number of components
+    /// per point.
     pub(crate) fn volume_changes(
         &self,
         motions: (&[f64], usize),
@@ -503,7 +503,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.stress(point, |patch| self.dilatation(patch, share, change))
     }
 
-    /// Volumetric stress of a point in motions with a number of components a point.
+    /// Volumetric stress of a point for motions with a given number of components per point.
     pub(crate) fn stress_in_motions(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -516,7 +516,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.stress(point, |patch| self.dilatation(patch, share, change))
     }
 
-    /// Volumetric stress of each point in motions with a number of components a point, shape (n_points).
+    /// Volumetric stress of each point for motions with a given number of components per point, shape (n_points).
     pub(crate) fn stresses(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -626,7 +626,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.patches[patch as usize].modulus
     }
 
-    /// Weights of the thermal dilatations of the points in that of a patch.
+    /// Weights of the thermal dilatations of the points in the dilatation of a patch.
     pub(super) fn thermal_weights(
         &self,
         patch: u32,

@@ -22,7 +22,7 @@ pub(super) struct PathDistances {
 impl PathDistances {
     /// The distances of the longest cracks at the end of the runs; none for a solid, or where a run has no crack.
     pub(super) fn between_runs(runs: &Runs<'_>) -> Option<Self> {
-        let lines = |run: &SizedRun<'_>| longest(Path::new(&run.folder));
+        let lines = |run: &SizedRun<'_>| longest_crack(Path::new(&run.folder));
         let of_size = |is_fine: bool| {
             runs.runs_of_size(is_fine)
                 .map(lines)
@@ -60,7 +60,7 @@ impl PathDistances {
 }
 
 /// The longest crack at the end of a run.
-fn longest(folder: &Path) -> Option<CrackLine> {
+fn longest_crack(folder: &Path) -> Option<CrackLine> {
     // Results of a solid, or without bonds that can break, have no lines.
     let lines = StoredCracks::open(folder).ok()?.lines(usize::MAX);
     lines

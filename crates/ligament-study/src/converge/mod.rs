@@ -157,7 +157,7 @@ fn results_without_limit(
     let first = plan::runs(study, path)?.into_iter().next();
     let case = first.map_or_else(|| request.case.clone(), |run| run.case);
     let found = no_limit(&case, &case.setup(&mut ())?);
-    found.tell(&request.results, &mut request.print())?;
+    found.print_refusals(&request.results, &mut request.print())?;
     Ok(found)
 }
 

@@ -64,7 +64,7 @@ pub fn convert_deck(request: &DeckRequest) -> Result<Conversion, MeshingError> {
             mesh: source.clone(),
             source: error,
         })?;
-        let remarks = of_mesh(&mesh).collect();
+        let remarks = mesh_remarks(&mesh).collect();
         (mesh, remarks)
     } else {
         let deck = read_deck(source, plane)?;
@@ -103,13 +103,13 @@ fn content(source: &Path, what: &'static str) -> Result<Vec<u8>, MeshingError> {
     })
 }
 
-fn of_mesh(mesh: &AnyMesh) -> impl Iterator<Item = String> {
+fn mesh_remarks(mesh: &AnyMesh) -> impl Iterator<Item = String> {
     mesh.remarks().iter().map(ToString::to_string)
 }
 
 /// Remarks on contents of a deck that the mesh lacks.
 fn remarks(deck: &Deck) -> Vec<String> {
-    let mut remarks: Vec<String> = of_mesh(&deck.mesh).collect();
+    let mut remarks: Vec<String> = mesh_remarks(&deck.mesh).collect();
     if let Some(plane) = deck.plane {
         let word = match plane {
             Plane::Stress => "stress",

@@ -309,7 +309,7 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     let heads = ["", "slope", "+-", "intercept", "+-", "R^2", "points"];
     let mut lines = vec![heads.map(str::to_owned).to_vec()];
     for (panel, curve) in with_panels(curves) {
-        let name = joined(panel, curve.name("runs"));
+        let name = joined_label(panel, curve.name("runs"));
         match &curve.fit {
             Some(Ok(fit)) => {
                 let error = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), rounded);
@@ -346,7 +346,7 @@ fn with_panels<'a>(curves: &'a Curves<'_>) -> impl Iterator<Item = (&'a str, &'a
 }
 
 /// Joined label of a panel, if it has one, and a curve.
-fn joined(panel: &str, curve: &str) -> String {
+fn joined_label(panel: &str, curve: &str) -> String {
     let labels = [panel, curve].into_iter().filter(|it| !it.is_empty());
     labels.collect::<Vec<_>>().join(", ")
 }
@@ -374,7 +374,7 @@ fn fits(all: &[Curves<'_>]) -> String {
                 &csv::line(&[&[name, x, y, by, curve], &numbers[..], &[remark.into()]].concat());
         };
         for (panel, Curve { label, fit, .. }) in with_panels(curves) {
-            let label = &joined(panel, label);
+            let label = &joined_label(panel, label);
             match fit {
                 Some(Ok(fit)) => {
                     let numbers = [

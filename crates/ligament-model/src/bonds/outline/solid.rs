@@ -27,7 +27,7 @@ pub struct Facet {
 
 impl SolidOutline {
     /// The outline of some cells between the points of a cloud.
-    pub fn of_cells(cells: &[SolidCell], cloud: &PointCloud<3>) -> Self {
+    pub fn from_cells(cells: &[SolidCell], cloud: &PointCloud<3>) -> Self {
         let positions = cloud.positions.as_slice();
         let outer = Faces::new(cells, positions.len()).outer();
         let triangles = outer.iter().flat_map(|side| side.face.triangles());
@@ -65,7 +65,7 @@ impl SolidOutline {
         if start * end >= 0 {
             return false;
         }
-        let past = edges_of(facet.corners).map(|edge| passes(ends, edge, slack));
+        let past = edges_of(facet.corners).map(|edge| passing_side(ends, edge, slack));
         if past.contains(&1) && past.contains(&-1) {
             return false;
         }
@@ -152,7 +152,7 @@ impl Outline<3> for SolidOutline {
     type Facet = Facet;
 
     fn facets_within(&self, bounds: [[f64; 3]; 2]) -> impl Iterator<Item = Facet> {
-        self.within(bounds).map(|nodes| self.facet(nodes))
+        self.facets_in_box(bounds).map(|nodes| self.facet(nodes))
     }
 
     fn is_crossed_by_bonds(&self, [a, b]: [u32; 2], near: &[Facet], slack: f64) -> bool {
@@ -197,7 +197,7 @@ impl Facet {
 }
 
 /// Side on which a line passes the line of an edge; zero where they intersect.
-fn passes([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2], slack: f64) -> i8 {
+fn passing_side([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2], slack: f64) -> i8 {
     let least = slack * norm(cross(minus(b, a), minus(q, p)));
     side_of_plane([a, b, p], q, least)
 }

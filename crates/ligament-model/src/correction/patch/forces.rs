@@ -79,12 +79,12 @@ impl<const D: usize> CellForces<D> {
     }
 
     /// Forces on each point in each strain.
-    pub fn of_points(&self) -> impl Iterator<Item = &[[f64; D]]> {
+    pub fn on_points(&self) -> impl Iterator<Item = &[[f64; D]]> {
         self.values.chunks_exact(SymTensor::<D>::COMPONENTS.len())
     }
 
     /// Forces on a point in each strain.
-    pub fn of_point(&self, point: u32) -> &[[f64; D]] {
+    pub fn on_point(&self, point: u32) -> &[[f64; D]] {
         let n_strains = SymTensor::<D>::COMPONENTS.len();
         &self.values[n_strains * point as usize..][..n_strains]
     }
@@ -94,7 +94,7 @@ impl<const D: usize> CellForces<D> {
 ///
 /// The integral of the gradient of N_P over a cell is half of the side from its last corner before P to the next one after it, turned
 /// by a right angle, for triangles and for quadrangles.
-pub fn of_mesh(
+pub fn forces_of_mesh(
     cells: &[Cell],
     cloud: &PointCloud,
     material_of_cell: &[u32],
@@ -125,7 +125,7 @@ fn gradient(corners: &[u32], k: usize, cloud: &PointCloud) -> [f64; 2] {
 ///
 /// Shape functions are linear on tetrahedra. Other cells are split into tetrahedra ([`SolidCell::tetrahedra`]), alike on both sides of a
 /// face: contributions of neighbours to a point inside a body of one material cancel.
-pub fn of_solid_mesh(
+pub fn forces_of_solid_mesh(
     cells: &[SolidCell],
     cloud: &PointCloud<3>,
     material_of_cell: &[u32],

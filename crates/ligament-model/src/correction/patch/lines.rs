@@ -75,7 +75,7 @@ impl Lines {
     }
 
     /// Shares of a bond, from A to B.
-    pub(super) fn of_bond(&self, bond: usize) -> &[Share] {
+    pub(super) fn shares_of_bond(&self, bond: usize) -> &[Share] {
         &self.shares[self.starts[bond]..self.starts[bond + 1]]
     }
 

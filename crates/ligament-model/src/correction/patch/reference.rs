@@ -99,7 +99,8 @@ struct Families<'a, const D: usize> {
 impl<const D: usize> Families<'_, D> {
     /// Mean T without factors, Pa.
     fn mean_stress(&self) -> f64 {
-        let divided = (0..self.bonds.len()).filter(|&bond| !self.lines.of_bond(bond).is_empty());
+        let divided =
+            (0..self.bonds.len()).filter(|&bond| !self.lines.shares_of_bond(bond).is_empty());
         let mut sums = [
             divided.map(|bond| self.weights[bond]).sum::<f64>(),
             D as f64 * self.volumes.iter().sum::<f64>(),
@@ -124,7 +125,7 @@ impl<const D: usize> Families<'_, D> {
     fn factors(&self, tensors: &[Tensor<D>]) -> Vec<f64> {
         let of_bond = |bond: usize| {
             let direction = &self.bonds.direction[bond];
-            let shares = self.lines.of_bond(bond).iter();
+            let shares = self.lines.shares_of_bond(bond).iter();
             let terms = shares.map(|it| it.share * along(direction, &tensors[it.index as usize]));
             terms.sum::<f64>().exp().clamp(1.0 / LARGEST, LARGEST)
         };
@@ -140,7 +141,7 @@ impl<const D: usize> Families<'_, D> {
             .iter()
             .enumerate()
             .filter_map(|(bond, ends)| {
-                let is_divided = !self.lines.of_bond(bond).is_empty();
+                let is_divided = !self.lines.shares_of_bond(bond).is_empty();
                 let other = ends
                     .iter()
                     .find(|&&end| is_divided && !subdomain.owns(end))?;

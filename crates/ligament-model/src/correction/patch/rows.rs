@@ -141,7 +141,7 @@ impl<'a, const D: usize, const N: usize> Rows<'a, D, N> {
             });
             [force, moment_weight * moment]
         };
-        let right = |&point: &u32| combined::<D, N>(forces.of_point(point));
+        let right = |&point: &u32| combined::<D, N>(forces.on_point(point));
         Self {
             places: pairs.values(place),
             stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
@@ -217,7 +217,7 @@ fn body_factor<const D: usize>(
 /// Work of the cells in all strains, J; collective.
 fn work<const D: usize>(cloud: &PointCloud<D>, forces: &CellForces<D>) -> f64 {
     let of_point = |point: u32| {
-        let (forces, x) = (forces.of_point(point), cloud.positions[point as usize]);
+        let (forces, x) = (forces.on_point(point), cloud.positions[point as usize]);
         let strains = forces.iter().zip(SymTensor::<D>::COMPONENTS);
         let of_strain = |(force, &[i, j]): (&[f64; D], &[usize; 2])| match i == j {
             true => force[i] * x[i],

@@ -22,7 +22,7 @@ pub(super) struct DepthBuffer {
 const SLACK: f64 = 1e-9;
 
 /// The part of a range in which three linear functions are not negative.
-fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
+fn nonnegative_range(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
     let mut part = whole;
     for (start, slope) in starts.into_iter().zip(slopes) {
         let zero = -(SLACK + start) / slope;
@@ -97,7 +97,7 @@ impl DepthBuffer {
             let starts = shares.map(|([_, up], at)| at + up * row as f64);
             let slopes = shares.map(|it| it.0[0]);
             let whole = columns.start as f64..columns.end as f64 - 1.0;
-            let inside = within(whole, starts, slopes);
+            let inside = nonnegative_range(whole, starts, slopes);
             let depth = (0..3).map(|it| starts[it] * depths[it]).sum::<f64>();
             let first = inside.start.ceil() as usize;
             let end = (inside.end.floor() + 1.0).max(0.0) as usize;
