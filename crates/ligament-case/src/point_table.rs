@@ -179,7 +179,7 @@ pub(crate) fn body(path: &Path) -> Result<AnyBody, String> {
 /// # Errors
 ///
 /// If a name of a group cannot head a column, or has the name of another column.
-pub fn text_of_points<const D: usize>(
+pub fn table_text<const D: usize>(
     positions: &[[f64; D]],
     sizes: &[f64],
     groups: &[(String, Vec<u32>)],
@@ -447,7 +447,7 @@ mod tests {
     fn points_are_read_as_they_are_written() {
         let positions = [[0.1, 0.2], [0.1 + 0.2, 1e-300]];
         let groups = [("left".to_owned(), vec![0]), ("all".to_owned(), vec![0, 1])];
-        let text = text_of_points(&positions, &[1e-4, 2e-4], &groups).unwrap();
+        let text = table_text(&positions, &[1e-4, 2e-4], &groups).unwrap();
         let table = Table::parse(Path::new("points.csv"), &text, "").unwrap();
         let body = table.body::<2>().unwrap();
         let direct = Points::new(positions.to_vec(), vec![1e-4, 2e-4]).unwrap();
@@ -458,8 +458,8 @@ mod tests {
             .unwrap();
         assert_eq!(body, direct);
         assert_eq!(body.group_names(), ["all", "left"]);
-        assert!(text_of_points(&positions, &[1.0; 2], &[("x".to_owned(), vec![0])]).is_err());
-        assert!(text_of_points(&positions, &[1.0; 2], &[("a,b".to_owned(), vec![0])]).is_err());
+        assert!(table_text(&positions, &[1.0; 2], &[("x".to_owned(), vec![0])]).is_err());
+        assert!(table_text(&positions, &[1.0; 2], &[("a,b".to_owned(), vec![0])]).is_err());
         assert_eq!(holds_solid(text.as_bytes()), Some(false));
         assert_eq!(holds_solid(b"x, y,\"z\",volume\n"), Some(true));
         assert_eq!(holds_solid(b"x, y,\"z\""), None);

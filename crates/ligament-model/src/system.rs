@@ -146,7 +146,7 @@ impl<const D: usize> BondSystem<D> {
 
     /// The bonds of a part of a body between the points of the whole body: `points` has their numbers at the points of the part, ascending.
     /// Crack faces are not taken over.
-    pub fn within(self, cloud: PointCloud<D>, points: &[u32]) -> Self {
+    pub fn in_whole_body(self, cloud: PointCloud<D>, points: &[u32]) -> Self {
         let mut bonds = self.bonds;
         let of_body = |ends: &[u32; 2]| ends.map(|end| points[end as usize]);
         bonds.ends = bonds.ends.iter().map(of_body).collect();
@@ -154,7 +154,7 @@ impl<const D: usize> BondSystem<D> {
         let coupled = CoupledPoints::from_bonds(&bonds.ends, &bonds.incidence);
         let volumetric = self
             .volumetric
-            .map(|it| it.within(points, &bonds, &coupled));
+            .map(|it| it.in_whole_body(points, &bonds, &coupled));
         Self {
             cloud,
             volumetric,

@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 use super::experiment::{Compute, Experiment, Findings};
 use super::places::repository;
-use super::published::{folder, known};
+use super::published::{folder, known_table};
 use super::table::{Extent, Labels};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -44,7 +44,7 @@ struct Problem {
     /// Other numbers of the geometry.
     #[serde(default)]
     numbers: BTreeMap<String, f64>,
-    /// Settings on the case.
+    /// Settings that replace values of the case.
     #[serde(default)]
     set: Vec<String>,
 }
@@ -66,7 +66,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         problems: toml::from_str(&text).with_context(|| file.display().to_string())?,
         ..Intervals::default()
     };
-    let table = known("converge")?.judge(extent, |labels| intervals.value(labels))?;
+    let table = known_table("converge")?.judge(extent, |labels| intervals.value(labels))?;
     Ok(Findings {
         tables: vec![table],
         ..Findings::default()

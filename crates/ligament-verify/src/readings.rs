@@ -6,7 +6,7 @@ use ligament::run::Solution;
 use super::case_run::{CaseRun, ResultCache, displacement_at, largest_displacements};
 use super::experiment::{Compute, Experiment, Findings};
 use super::named_modes::Frequencies;
-use super::published::known;
+use super::published::known_table;
 use super::square_elements::SquareLoad;
 use super::table::{Extent, Labels, Row, Table};
 
@@ -48,11 +48,11 @@ const FORCE: f64 = 100.0;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut cache = ResultCache::default();
-    let statics = known("mppd-readings-statics")?.judge(extent, |labels| {
+    let statics = known_table("mppd-readings-statics")?.judge(extent, |labels| {
         score(labels, &mut cache, || static_tables(labels))
     })?;
     let mut cache = ResultCache::default();
-    let frequencies = known("mppd-readings-frequencies")?.judge(extent, |labels| {
+    let frequencies = known_table("mppd-readings-frequencies")?.judge(extent, |labels| {
         score(labels, &mut cache, || modal_tables(labels))
     })?;
     Ok(Findings {
@@ -85,7 +85,7 @@ impl Reading {
 }
 
 /// The case with a load.
-pub(super) fn case_of(load: SquareLoad) -> &'static str {
+pub(super) fn case_path(load: SquareLoad) -> &'static str {
     match load {
         SquareLoad::Traction => TRACTION,
         SquareLoad::Shear => SHEAR,
@@ -150,11 +150,11 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let is_largest = reading.text("point")? == "largest";
     let mut cache = ResultCache::default();
     let mut table = |table: &str, load: SquareLoad| {
-        known(table)?.judge(Extent::Full, |printed| {
+        known_table(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? {
                 return Ok(f64::NAN);
             }
-            let case_run = loaded_on(CaseRun::from_file(case_of(load))?, load, rows);
+            let case_run = loaded_on(CaseRun::from_file(case_path(load))?, load, rows);
             let case_run =
                 with_law(case_run, reading)?.set("material.poisson", printed.number("nu")?);
             let found = cache.reading(&case_run, Reading::from_solution)?;
@@ -183,7 +183,7 @@ fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let mut cache = ResultCache::default();
     let mut table = |table: &str, mode: &str| {
-        known(table)?.judge(Extent::Full, |printed| {
+        known_table(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
                 return Ok(f64::NAN);
             }

@@ -58,7 +58,7 @@ impl Record {
     }
 
     /// First time after `from` at which the values fall through zero, between rows by a straight line.
-    pub(crate) fn fall(&self, from: f64) -> anyhow::Result<f64> {
+    pub(crate) fn time_of_fall(&self, from: f64) -> anyhow::Result<f64> {
         self.falls(from).first().copied().context("no zero follows")
     }
 
@@ -206,7 +206,7 @@ mod tests {
         let falls = wave.falls(0.0);
         assert_eq!(falls.len(), 2);
         assert!((falls[0] - 0.1234 - PI / 2.0).abs() < 1e-5);
-        assert!((wave.fall(3.0).unwrap() - 0.1234 - 2.5 * PI).abs() < 1e-5);
-        assert!(wave.fall(9.0).is_err());
+        assert!((wave.time_of_fall(3.0).unwrap() - 0.1234 - 2.5 * PI).abs() < 1e-5);
+        assert!(wave.time_of_fall(9.0).is_err());
     }
 }

@@ -13,7 +13,7 @@ use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 
 use super::experiment::{Compute, Experiment, Findings};
 use super::places::repository;
-use super::published::known;
+use super::published::known_table;
 use super::table::Extent;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -34,7 +34,7 @@ type Values = BTreeMap<&'static str, f64>;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut found: BTreeMap<String, Values> = BTreeMap::new();
-    let table = known("refine")?.judge(extent, |labels| {
+    let table = known_table("refine")?.judge(extent, |labels| {
         let (problem, of) = (labels.text("problem")?, labels.text("of")?);
         if !found.contains_key(problem) {
             found.insert(problem.to_owned(), values(problem)?);

@@ -209,9 +209,9 @@ pub struct Load {
     pub body_couple: Option<Couple>,
     /// A pressure on the outline of a group, Pa; positive pushes on the body.
     pub pressure: Option<f64>,
-    /// How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table.
+    /// Variation of the load in space: a factor (c - zero)/(one - zero), or the factor of a table.
     pub profile: Option<Profile>,
-    /// How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start.
+    /// Variation of the load in time, in a motion: a factor of the load. Without it the load is as given from the start.
     pub amplitude: Option<Amplitude>,
     /// Total stiffness of springs through which a `displacement` moves the points, N/m: the stiffness of a testing machine.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -58,7 +58,7 @@ pub struct Fracture {
     pub stop: StopRules,
     /// A strength or a fracture energy that varies over the body at random; both as a list of two tables.
     pub scatter: Option<Scatters>,
-    /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
+    /// Criteria for the failure of bonds: the first that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
     #[serde(rename = "criterion")]
     #[schemars(length(min = 1))]
     pub criteria: Option<Vec<Choice>>,
@@ -188,7 +188,7 @@ impl Fracture {
     }
 
     /// Breakages in implicit steps of a motion, with `default` for missing keys.
-    pub(super) fn of_steps(&self, default: StepBreakages) -> StepBreakages {
+    pub(super) fn step_breakages(&self, default: StepBreakages) -> StepBreakages {
         StepBreakages {
             rule: self.rule(default.rule),
             rounds: self.max_iterations.unwrap_or(default.rounds),

@@ -65,7 +65,7 @@ pub struct Orthotropic {
     /// Shear modulus in the plane, Pa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_modulus: f64,
-    /// From the x axis to the axis 1, counter-clockwise, rad.
+    /// Angle from the x axis to axis 1, counter-clockwise, rad.
     #[serde(default)]
     pub angle: f64,
     /// Young's modulus across the plane, Pa; for plane strain.
@@ -383,7 +383,9 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
 }
 
 /// Skips the section, which [`read`] decodes in its two forms.
-pub(super) fn later<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Material>, D::Error> {
+pub(super) fn skip_section<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<Vec<Material>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| Vec::new())
 }
 

@@ -47,10 +47,10 @@ pub struct ModelSection {
     pub allow_unstable: bool,
     /// What carries the stiffness that bonds cannot have above the Poisson's ratio of central forces (1/3 in plane stress, else 1/4).
     #[serde(default, skip_serializing_if = "by_cells")]
-    #[schemars(extend("description" = laws_text("What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3)", |it| it.options.poisson.is_some())))]
+    #[schemars(extend("description" = laws_text("Carrier of the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3)", |it| it.options.poisson.is_some())))]
     pub poisson: Option<PoissonForm>,
-    /// Where the constants of the law come from.
-    #[schemars(extend("description" = laws_text("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
+    /// Origin of the constants of the law.
+    #[schemars(extend("description" = laws_text("Origin of the constants of the law", |it| it.options.calibration.is_some())))]
     pub calibration: Option<Calibration>,
     /// Stiffness against relative rotation.
     #[schemars(extend("description" = laws_text("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
@@ -63,7 +63,7 @@ pub struct ModelSection {
     /// `rotational_factor`.
     #[schemars(transform = RotationalScale::LENGTH.keywords())]
     pub cosserat_length: Option<f64>,
-    /// How the bonds of `mbb-pd` resist their strains.
+    /// Strains that the bonds of `mbb-pd` resist.
     pub form: Option<Form>,
     /// Distances in the denominators of the strains of `mbb-pd`.
     pub strains: Option<Strains>,
@@ -160,7 +160,7 @@ pub struct Correction {
     pub alpha: Option<Alpha>,
     /// The correction of surfaces; without it as in the paper of the law.
     pub surface: Option<Word<Surface>>,
-    /// How the change of a sweep of the domain correction is measured.
+    /// Measure of the change in a sweep of the domain correction.
     pub rule: Option<Word<Option<StopRule>>>,
     /// Change of a sweep below which the domain correction has converged.
     #[schemars(extend("exclusiveMinimum" = 0))]

@@ -59,7 +59,7 @@ pub struct Case {
     /// The material of the whole body; or a table `[material.NAME]` with a `group` for each of several.
     #[serde(
         rename = "material",
-        deserialize_with = "material::later",
+        deserialize_with = "material::skip_section",
         serialize_with = "material::serialize"
     )]
     #[schemars(schema_with = "material::schema")]
@@ -416,7 +416,7 @@ impl Case {
                 }
                 let fracture = self.fracture.as_ref();
                 let breakages =
-                    fracture.map_or(motion.breakages, |it| it.of_steps(motion.breakages));
+                    fracture.map_or(motion.breakages, |it| it.step_breakages(motion.breakages));
                 setup::Analysis::Motion(MotionSettings {
                     breakages,
                     ..*motion

@@ -147,7 +147,7 @@ impl Case {
     }
 }
 
-/// The key of a material that is responsible for a part of the setup's material.
+/// Key of a material section for a constant of the setup's material.
 fn key_of_material(part: &'static str) -> &'static str {
     match part {
         "elasticity.poisson" => "poisson_12",

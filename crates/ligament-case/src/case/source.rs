@@ -15,7 +15,7 @@ const KIND: &str = ".ligament";
 /// The parsed text of a case or a study, with its file and overrides.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// The file, as it was given.
+    /// Path of the file as it was given.
     pub path: PathBuf,
     /// Text of the file; empty for a document in memory.
     pub text: String,

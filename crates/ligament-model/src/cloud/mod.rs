@@ -99,7 +99,7 @@ impl<const D: usize> PointCloud<D> {
         all
     }
 
-    /// A value for each of some points, and `of_others` for the other points, shape (n_points).
+    /// Values of `points` by a function, and one value for all other points, shape (n_points).
     fn over_some<T: Copy + Send>(
         &self,
         points: &[u32],

@@ -52,17 +52,25 @@ impl CriteriaInState<'_> {
             let bonds = (task * TASK..).zip(start.iter().zip(slopes));
             let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
             of_intact.try_fold(reach, |interval, (bond, (start, slope))| {
-                both(interval, self.within(rates, bond, [start, slope])?)
+                intersection(
+                    interval,
+                    self.admissible_interval(rates, bond, [start, slope])?,
+                )
             })
         };
         let tasks = start.par_chunks(TASK).zip(slopes.par_chunks(TASK));
         let of_tasks: Vec<Option<Interval>> = tasks.enumerate().map(of_task).collect();
         let mut of_tasks = of_tasks.into_iter();
-        of_tasks.try_fold(reach, |interval, of_task| both(interval, of_task?))
+        of_tasks.try_fold(reach, |interval, of_task| intersection(interval, of_task?))
     }
 
     /// The t for which no criterion breaks a bond with the deformation `start` + t `slope`; None where some does for every t.
-    fn within<B: AlongLine>(&self, rates: &Self, bond: usize, line: [&B; 2]) -> Option<Interval> {
+    fn admissible_interval<B: AlongLine>(
+        &self,
+        rates: &Self,
+        bond: usize,
+        line: [&B; 2],
+    ) -> Option<Interval> {
         let of = |interval: Interval, (place, it): (usize, &Criterion)| {
             let limit = self.break_limit(place, bond);
             let of_criterion = if limit.is_finite() {
@@ -72,14 +80,14 @@ impl CriteriaInState<'_> {
             } else {
                 EVERYWHERE
             };
-            both(interval, of_criterion)
+            intersection(interval, of_criterion)
         };
         let mut list = self.criteria().list.iter().enumerate();
         list.try_fold(EVERYWHERE, of)
     }
 }
 
-fn both(one: Interval, other: Interval) -> Option<Interval> {
+fn intersection(one: Interval, other: Interval) -> Option<Interval> {
     let both = [one[0].max(other[0]), one[1].min(other[1])];
     (both[0] <= both[1]).then_some(both)
 }

@@ -89,7 +89,7 @@ impl Strain for Linear {
 
     fn beside_at_most(self, [value, slope]: Linear, limit: f64) -> Interval {
         let plus = at_most([value + self[0], slope + self[1]], limit);
-        both(plus, at_most([value - self[0], slope - self[1]], limit))
+        intersection(plus, at_most([value - self[0], slope - self[1]], limit))
     }
 }
 
@@ -115,7 +115,7 @@ impl Strain for [[f64; 3]; 2] {
         match roots(beyond).filter(|_| beyond[0] < 0.0) {
             Some([_, upper]) if slope > 0.0 => [upper, f64::INFINITY],
             Some([lower, _]) => [f64::NEG_INFINITY, lower],
-            None => both(quadratic(beyond), at_most(other, limit)),
+            None => intersection(quadratic(beyond), at_most(other, limit)),
         }
     }
 }
@@ -204,7 +204,7 @@ fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
     let sliding = quadratic([g[0], g[1], g[2] - limit * limit]);
     let stretched = quadratic([a + g[0], b + g[1], c + g[2] - limit * limit]);
     let (closed, open) = (at_most(s, 0.0), at_most(s.times(-1.0), 0.0));
-    hull(both(sliding, closed), both(stretched, open))
+    hull(intersection(sliding, closed), intersection(stretched, open))
 }
 
 /// Interval in which a t^2 + b t + c is at most zero; where the parabola bends down, the part on the side of t = 0.
@@ -233,7 +233,7 @@ fn roots([a, b, c]: Quadratic) -> Option<[f64; 2]> {
     Some([one.min(other), one.max(other)])
 }
 
-fn both(one: Interval, other: Interval) -> Interval {
+fn intersection(one: Interval, other: Interval) -> Interval {
     [one[0].max(other[0]), one[1].min(other[1])]
 }
 

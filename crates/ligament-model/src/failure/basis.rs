@@ -145,7 +145,7 @@ impl Basis<'_> {
     /// # Panics
     ///
     /// Panics where the bonds are none of a [`lattice`](Self::lattice) in a plane.
-    pub(super) fn of_plane(&self) -> (Plane, &Lattice) {
+    pub(super) fn plane_and_lattice(&self) -> (Plane, &Lattice) {
         match (self.space, &self.lattice) {
             (Space::Plane(plane), Some(lattice)) => (plane, lattice),
             _ => panic!("bonds with strains of their own are those of a lattice in a plane"),

@@ -52,7 +52,7 @@ impl CrackAtPoints {
     pub fn new(mode: Mode, basis: &Basis<'_>) -> Self {
         let (bonds, cloud) = (&basis.system.bonds, &basis.system.cloud);
         let stiffness: &[_] = &basis.system.rigidities.strain;
-        let (_, lattice) = basis.of_plane();
+        let (_, lattice) = basis.plane_and_lattice();
         let [dx, dy] = lattice.spacing;
         let area = 2.0 * dx * lattice.thickness;
         let of_bond = |((direction, &length), density): ((&[f64; 2], &f64), SymmetricEntries)| {

@@ -78,7 +78,7 @@ impl Criterion {
         }
     }
 
-    /// The measure of a deformation of a bond without stress around it.
+    /// Value of the measure for the deformation of a bond, with zero stress around the bond.
     #[inline]
     pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
         let coefficients = self.coefficients(bond);

@@ -56,7 +56,7 @@ pub fn criteria<const D: usize>(
     Ok(Criteria { list })
 }
 
-/// The refusal in space of a kind that exists in the plane alone, with those that exist in space.
+/// Error for a solid whose kind of failure exists only in the plane; it lists the kinds that exist in space.
 fn plane_only(kind: &Kind) -> NoLimit {
     let in_space = KINDS.iter().filter(|it| it.limits.solid.is_some());
     NoLimit::PlaneOnly {

@@ -80,7 +80,7 @@ impl Moduli {
         [self.lateral, self.shear, self.bar, self.along]
     }
 
-    /// Stress across a bond from its own stretch and the strain of the points around it; of a bar where that is not known.
+    /// Stress across a bond from its own stretch and the strain of the points around it; the stress of a bar if the strain is not known.
     #[inline]
     pub fn stress_across(&self, stretch: f64, around: Option<StrainAround>) -> StressAcross {
         match around {

@@ -160,7 +160,7 @@ crate::case_type! {
         /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
         #[range("exclusiveMinimum" = 0)]
         pub critical_angle: Option<f64>,
-        /// How the limit of `frictional` comes from the strengths.
+        /// Derivation of the limit of `frictional` from the strengths.
         #[case(schemars(extend("default" = Calibration::default())))]
         pub calibration: Option<Calibration>,
         /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the

@@ -29,7 +29,7 @@ pub static MIXED_MODE: Kind = Kind {
 struct MaterialLimits {
     /// s_I of opening along x and along y; infinite where it never fails.
     stretch: [f64; 2],
-    /// q along x and along y, G_IIc/G_Ic, eta.
+    /// Coefficients along x and along y: q, G_IIc/G_Ic and eta.
     coefficients: [[f64; 3]; 2],
 }
 
@@ -57,7 +57,7 @@ fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
                 angle: [angle; 2],
             };
             let each = basis.materials.iter();
-            each.map(|_| of_material(&limits, 1.0, 1.0)).collect()
+            each.map(|_| material_limits(&limits, 1.0, 1.0)).collect()
         }
         _ => (basis.materials.iter())
             .map(|it| limits_from_energies(it, basis))
@@ -96,15 +96,15 @@ fn limits_from_energies(material: &Material, basis: &Basis<'_>) -> MaterialLimit
         };
     };
     let sliding = material.fracture_energy_sliding.unwrap_or(opening);
-    let (plane, lattice) = basis.of_plane();
+    let (plane, lattice) = basis.plane_and_lattice();
     let energies = lattice.crack_energies(&material.elasticity.plane_stiffness(plane));
     let of_modes = |sliding| energies.limits(&Toughness { opening, sliding });
     let exponent = material.mixed_mode_exponent.unwrap_or(1.0);
-    of_material(&of_modes(opening), sliding / opening, exponent)
+    material_limits(&of_modes(opening), sliding / opening, exponent)
 }
 
 /// Limits from given limits of both modes with equal toughness.
-fn of_material(limits: &ModeLimits, ratio: f64, exponent: f64) -> MaterialLimits {
+fn material_limits(limits: &ModeLimits, ratio: f64, exponent: f64) -> MaterialLimits {
     let of_axis = |axis: usize| {
         let share = (limits.stretch[axis] / limits.angle[axis]).powi(2);
         [share, ratio, exponent]

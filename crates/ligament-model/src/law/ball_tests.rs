@@ -175,7 +175,7 @@ fn central_forces_have_a_poisson_s_ratio_of_a_quarter() {
     assert_eq!(constants::bending(&quarter, SOLID, 1.0), 0.0);
 }
 
-/// A rigid rotation costs springs 2 (mu - lambda) |omega|^2 a volume, and beams nothing.
+/// Rotational springs have the energy 2 (mu - lambda) |omega|^2 per volume in a rigid rotation, and beams have none.
 #[test]
 fn rotations_cost_springs_what_they_should() {
     let (bonds, cloud) = ball();

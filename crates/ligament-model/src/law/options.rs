@@ -7,7 +7,7 @@ crate::case_type! {
     /// Origin of the constants of a law.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub enum Calibration {
-        /// Integrals over a full circle (the papers').
+        /// Integrals over a full circle, as in the papers.
         #[default]
         Integral,
         /// Sums over the family of each point.
@@ -19,12 +19,12 @@ crate::case_type! {
     /// Strains that the bonds of MBB-PD resist.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub enum Form {
-        /// All bonds all three strains.
+        /// Every bond resists all three strains.
         #[default]
         Full,
-        /// Bonds along x and y only their own.
+        /// Bonds along x and y resist only their own strain.
         Rows,
-        /// As printed, with forces on the two ends alone.
+        /// The form as printed, with forces only on the two ends of a bond.
         Pairwise,
     }
 }

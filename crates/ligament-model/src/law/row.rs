@@ -68,7 +68,7 @@ pub struct LawInput<'a, const D: usize> {
 pub enum Materials {
     /// Isotropic materials alone.
     Isotropic,
-    /// Orthotropic materials and isotropic ones.
+    /// Isotropic and orthotropic materials.
     Orthotropic,
     /// All materials, with any anisotropy.
     Anisotropic,
@@ -77,7 +77,7 @@ pub enum Materials {
 /// Corrections of the bonds that a paper uses with its law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaperCorrection {
-    /// No corrections: the law gives the right energies by itself.
+    /// No corrections, because the law gives the right energies without them.
     None,
     /// Partial volumes of the cells at the horizon; and volumes of the families, unless the constants are sums over the families.
     Volumes,
@@ -88,8 +88,8 @@ pub enum PaperCorrection {
 /// Shear stiffness k_t of a bond over its length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShearForm {
-    /// Constant k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
-    /// stays right: NHPD's form in space.
+    /// Constant k_t for all lengths, as in [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch stays right:
+    /// NHPD's form in space.
     Constant,
     /// Falling k_t = 12 d/l^2, as in a beam of Euler and Bernoulli: NHPD's form in the plane. In space NHPD's factor alpha, which falls with
     /// the length, makes the shear of the body 1.16 times too strong: nu = .2 becomes .192.
@@ -106,8 +106,8 @@ pub struct Law {
 }
 
 impl Materials {
-    /// Least general class that contains a material.
-    pub fn most_general_for(elasticity: &Elasticity) -> Self {
+    /// The least general class that contains a material.
+    pub fn least_general_for(elasticity: &Elasticity) -> Self {
         match elasticity {
             Elasticity::Isotropic(_) => Self::Isotropic,
             Elasticity::Orthotropic(_) => Self::Orthotropic,

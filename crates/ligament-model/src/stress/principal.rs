@@ -136,7 +136,7 @@ pub fn direction_of_largest(stress: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Equivalent stress of von Mises (1913), Pa, of a stress with these components, in the plane with that across it: with its principal values
+/// Equivalent stress of von Mises (1913), Pa, of a stress with these components, in the plane with the stress across it, by the principal values:
 ///
 /// sigma_v = sqrt(((sigma_1 - sigma_2)^2 + (sigma_2 - sigma_3)^2 + (sigma_3 - sigma_1)^2)/2).
 pub fn von_mises(stress: &[f64]) -> Vec<f64> {
@@ -145,8 +145,8 @@ pub fn von_mises(stress: &[f64]) -> Vec<f64> {
     vec![(0.5 * squares.iter().sum::<f64>()).sqrt()]
 }
 
-/// Equivalent stress of Tresca (1864), Pa, of a stress with these components, in the plane with that across it: twice the largest shear
-/// stress, sigma_1 - sigma_3.
+/// Equivalent stress of Tresca (1864), Pa, of a stress with these components, in the plane with the stress across it: twice the largest shear stress,
+/// sigma_1 - sigma_3.
 pub fn tresca(stress: &[f64]) -> Vec<f64> {
     let [largest, _, least] = in_space(stress);
     vec![largest - least]

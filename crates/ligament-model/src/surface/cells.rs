@@ -156,7 +156,7 @@ impl<const D: usize> Boundaries<D> {
 
 impl<const D: usize> CrackFaces<D> {
     /// Side and stiffness of a side of a face by its number, the first point first; none where it does not belong to the surface.
-    pub(super) fn of_facet(&self, number: usize) -> Option<(u32, f64)> {
+    pub(super) fn side_and_stiffness(&self, number: usize) -> Option<(u32, f64)> {
         let points = self.boundaries.faces()[number / 2].points;
         self.of_points[points[number % 2] as usize]
     }

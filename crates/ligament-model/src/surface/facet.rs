@@ -266,7 +266,7 @@ impl<const D: usize> Surface<D> {
     /// Side and stiffness (Pa/m) of a facet by its number; none for a crack face that does not belong to the surface.
     pub(super) fn side_and_stiffness(&self, number: usize) -> Option<(u32, f64)> {
         match (number.checked_sub(self.facets.len()), &self.cracks) {
-            (Some(beyond), Some(cracks)) => cracks.of_facet(beyond),
+            (Some(beyond), Some(cracks)) => cracks.side_and_stiffness(beyond),
             (Some(_), None) | (None, _) => Some((self.sides[number], self.stiffness[number])),
         }
     }

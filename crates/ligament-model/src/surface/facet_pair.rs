@@ -58,7 +58,7 @@ pub struct FacetPair<const D: usize> {
 }
 
 /// The contact partner of an integration point in a state.
-struct Meeting<const D: usize> {
+struct ContactPartner<const D: usize> {
     onto: Option<u32>,
     weights: Vector,
     normal: [f64; D],
@@ -86,7 +86,7 @@ struct Present<'a, const D: usize> {
     before: Vec<Corners<D>>,
     /// Positions after the step, m.
     now: Vec<Corners<D>>,
-    /// Outward normals; none of a facet without area.
+    /// Outward normals; `None` for a facet without area.
     normals: Vec<Option<[f64; D]>>,
     /// Largest distances of a corner from the first one, m.
     extents: Vec<f64>,
@@ -106,7 +106,7 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// The integration point of a number: D on each facet, by Gauss's rule on a segment and that of degree two on a triangle.
+    /// The integration point with a given number: D on each facet, by Gauss's rule on a segment and the rule of degree two on a triangle.
     pub(super) fn place(number: u32) -> Place {
         let own = if D == 2 {
             0.5 + 0.5 / 3.0_f64.sqrt()
@@ -136,14 +136,14 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// Side and contact stiffness of a facet that belongs to the surface, Pa/m.
-    fn known(&self, facet: usize) -> (u32, f64) {
+    fn side_and_stiffness(&self, facet: usize) -> (u32, f64) {
         let known = self.surface.side_and_stiffness(facet);
         known.expect("facets that join belong to the surface")
     }
 
     /// Contact stiffness of a facet against a side, Pa/m: that of both in turn, as springs in series with twice the stiffness each.
     pub(super) fn stiffness(&self, facet: usize, of_other: Option<f64>) -> f64 {
-        let own = self.known(facet).1;
+        let own = self.side_and_stiffness(facet).1;
         of_other.map_or(own, |other| 2.0 * own * other / (own + other))
     }
 
@@ -182,7 +182,9 @@ impl<const D: usize> FacetPair<D> {
     pub(super) fn may_meet(&self, own: u32, other: u32) -> bool {
         let of_cells = |it: u32| self.surface.facet(it as usize).corners[0].point;
         match self.opposite {
-            Opposite::OtherSides => self.known(own as usize).0 != self.known(other as usize).0,
+            Opposite::OtherSides => {
+                self.side_and_stiffness(own as usize).0 != self.side_and_stiffness(other as usize).0
+            }
             Opposite::Unbonded => of_cells(own) != of_cells(other),
             Opposite::Rigid(..) => false,
         }
@@ -206,7 +208,7 @@ impl<const D: usize> FacetPair<D> {
         present: &Present<'_, D>,
         facing: &[(usize, [f64; D])],
         bonds: Bonded<'_>,
-    ) -> Option<Meeting<D>> {
+    ) -> Option<ContactPartner<D>> {
         let position = weighted(&present.now[at], &place.weights);
         let mut nearest = self.reach.max(present.within);
         let mut met = None;
@@ -243,7 +245,7 @@ impl<const D: usize> FacetPair<D> {
         let (other, weights, normal, overlap) = met.filter(|it| it.3 > -present.within)?;
         let [before, now] = [&present.before, &present.now];
         let [before, now] = [before, now].map(|it| weighted(&it[other], &weights));
-        Some(Meeting {
+        Some(ContactPartner {
             onto: Some(present.numbers[other]),
             weights,
             normal,
@@ -259,7 +261,7 @@ impl<const D: usize> FacetPair<D> {
         (at, place): (usize, Place),
         present: &Present<'_, D>,
         rigid: [Pose; 2],
-    ) -> Option<Meeting<D>> {
+    ) -> Option<ContactPartner<D>> {
         let own = &present.now[at];
         let [before, now] = rigid.map(|it| std::array::from_fn(|axis| it.displacement[axis]));
         let mut position = minus(weighted(own, &place.weights), now);
@@ -275,7 +277,7 @@ impl<const D: usize> FacetPair<D> {
         let (gap, outward) = shape.distance(position);
         let outward = rotated(outward, angle);
         let meets = gap < present.within && dot(outward, present.normals[at]?) < FACING;
-        meets.then(|| Meeting {
+        meets.then(|| ContactPartner {
             onto: None,
             weights: [0.0; 3],
             normal: outward,
@@ -291,29 +293,31 @@ impl<const D: usize> FacetPair<D> {
     fn touch(
         &self,
         (at, place): (usize, Place),
-        meeting: &Meeting<D>,
+        partner: &ContactPartner<D>,
         present: &Present<'_, D>,
         before: Option<&Touch>,
     ) -> Touch {
-        let &Meeting {
+        let &ContactPartner {
             normal, overlap, ..
-        } = meeting;
+        } = partner;
         let [then, now] = [&present.before, &present.now];
         let [then, now] = [then, now].map(|it| weighted(&it[at], &place.weights));
-        let slid = minus(minus(now, then), meeting.carried);
+        let slid = minus(minus(now, then), partner.carried);
         let unexplained = (overlap + dot(slid, normal)).max(0.0);
         let offset = before.map_or(unexplained, |it| it.offset).min(overlap);
         let held = before.map_or([0.0; D], |it| std::array::from_fn(|axis| it.slip[axis]));
         let trial = std::array::from_fn(|axis| held[axis] + slid[axis]);
         let slip = held_slip(tangential(trial, normal), self.friction, overlap - offset);
         let area = self.area(&self.surface.facet(place.facet));
-        let side_met = meeting.onto.map(|it| self.known(it as usize).0);
+        let side_met = partner
+            .onto
+            .map(|it| self.side_and_stiffness(it as usize).0);
         let other = side_met.map(|it| self.of_sides[it as usize]);
         Touch {
             place: place.number,
-            onto: meeting.onto,
-            weights: meeting.weights,
-            arm: meeting.arm,
+            onto: partner.onto,
+            weights: partner.weights,
+            arm: partner.arm,
             normal: in_space(normal),
             overlap,
             offset,
@@ -321,7 +325,7 @@ impl<const D: usize> FacetPair<D> {
             stiffness: area * self.stiffness(place.facet, other),
             credit: before.map_or(0.0, |it| it.credit),
             area,
-            is_first: meeting
+            is_first: partner
                 .onto
                 .is_none_or(|it| self.is_first(place.facet, it as usize)),
         }
@@ -350,8 +354,8 @@ impl<const D: usize> FacetPair<D> {
         let of_facets = (0..facets.len()).into_par_iter();
         let mut touches: Vec<Touch> = if let Opposite::Rigid(shape, _) = &self.opposite {
             let met = of_facets.flat_map_iter(places).filter_map(|place| {
-                let meeting = Self::shape_met(shape, place, &present, step.rigid)?;
-                Some(self.touch(place, &meeting, &present, known(place.1)))
+                let partner = Self::shape_met(shape, place, &present, step.rigid)?;
+                Some(self.touch(place, &partner, &present, known(place.1)))
             });
             met.collect()
         } else {
@@ -367,8 +371,8 @@ impl<const D: usize> FacetPair<D> {
                 let facing = Self::facing(at, &present, search.neighbours(at));
                 let present = &present;
                 places(at).filter_map(move |place| {
-                    let meeting = self.facet_met(place, present, &facing, step.bonds)?;
-                    Some(self.touch(place, &meeting, present, known(place.1)))
+                    let partner = self.facet_met(place, present, &facing, step.bonds)?;
+                    Some(self.touch(place, &partner, present, known(place.1)))
                 })
             });
             met.collect()
@@ -379,7 +383,12 @@ impl<const D: usize> FacetPair<D> {
 
     /// Whether the first of two facets comes first among the sides, or, of cells of one side, by its point.
     fn is_first(&self, one: usize, other: usize) -> bool {
-        let order = |it: usize| (self.known(it).0, self.surface.facet(it).corners[0].point);
+        let order = |it: usize| {
+            (
+                self.side_and_stiffness(it).0,
+                self.surface.facet(it).corners[0].point,
+            )
+        };
         let [one, other] = [one, other].map(order);
         match self.opposite {
             Opposite::OtherSides | Opposite::Rigid(..) => one.0 < other.0,

@@ -107,8 +107,8 @@ impl VolumetricStress {
 }
 
 impl<const D: usize> VolumetricTerms<D> {
-    /// Terms of cells with the moduli kappa of their materials (n_materials), Pa; none where no cell has one. `is_cut` says of an edge without
-    /// a bond whether a pre-crack cuts it; other edges without a bond, longer than a horizon, count as whole. `coupled` has the points that
+    /// Terms of cells with the moduli kappa of their materials (n_materials), Pa; `None` if no cell has a modulus. `is_cut` returns whether a
+    /// pre-crack cuts an edge without a bond; other edges without a bond, longer than a horizon, count as whole. `coupled` contains the points that
     /// bonds, crack faces and elements couple.
     pub fn new(
         cells: &VolumetricCells<D>,
@@ -134,11 +134,11 @@ impl<const D: usize> VolumetricTerms<D> {
         let cells = cells.retained(living);
         (!cells.is_empty()).then(|| {
             let n_points = bonds.incidence.n_points();
-            Self::of_living(cells, bonds, moduli, n_points, coupled, unconnected)
+            Self::from_intact_cells(cells, bonds, moduli, n_points, coupled, unconnected)
         })
     }
 
-    fn of_living(
+    fn from_intact_cells(
         cells: VolumetricCells<D>,
         bonds: &BondSet<D>,
         moduli: &[f64],
@@ -231,7 +231,7 @@ impl<const D: usize> VolumetricTerms<D> {
 
     /// The terms of a part of a body, between the points of the whole body: `points` has their numbers, ascending. `coupled` has the
     /// points that bonds and elements couple in the whole body.
-    pub(crate) fn within(
+    pub(crate) fn in_whole_body(
         self,
         points: &[u32],
         bonds: &BondSet<D>,
@@ -239,7 +239,7 @@ impl<const D: usize> VolumetricTerms<D> {
     ) -> Self {
         let n_points = bonds.incidence.n_points();
         let cells = self.cells.renumbered(points);
-        Self::of_living(
+        Self::from_intact_cells(
             cells,
             bonds,
             &self.moduli,

@@ -18,11 +18,11 @@ pub(super) struct Corner {
     pub(super) place: [f64; 2],
     /// Mean horizon of the points around the corner, m: the resolution of the crack.
     pub(super) horizon: f64,
-    /// Whether a face cut by a pre-crack ends here.
+    /// Whether a face cut by a pre-crack ends at the corner.
     pub(super) is_cut: bool,
     /// Whether the corner lies on the outline of the body.
     pub(super) is_outside: bool,
-    /// Open faces that end here, ascending.
+    /// Open faces that end at the corner, ascending.
     open: Vec<u32>,
 }
 
@@ -62,7 +62,7 @@ impl CrackPath {
         [self.corners[0], self.corners[self.corners.len() - 1]]
     }
 
-    /// Extends the path by one that starts at one of its ends.
+    /// Extends the path by another path that starts at one of its ends.
     pub(super) fn append(&mut self, other: Self) {
         let [start, end] = self.ends();
         let root = other.corners[0];

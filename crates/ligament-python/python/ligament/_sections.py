@@ -32,7 +32,7 @@ class Material(TypedDict, total=False):
     shear_modulus: float
     """Shear modulus in the plane, Pa."""
     angle: float
-    """From the x axis to the axis 1, counter-clockwise, rad. Default 0.0."""
+    """Angle from the x axis to axis 1, counter-clockwise, rad. Default 0.0."""
     young_3: float
     """Young's modulus across the plane, Pa; for plane strain."""
     poisson_13: float
@@ -91,7 +91,7 @@ class MaterialPart(TypedDict, total=False):
     shear_modulus: float
     """Shear modulus in the plane, Pa."""
     angle: float
-    """From the x axis to the axis 1, counter-clockwise, rad. Default 0.0."""
+    """Angle from the x axis to axis 1, counter-clockwise, rad. Default 0.0."""
     young_3: float
     """Young's modulus across the plane, Pa; for plane strain."""
     poisson_13: float
@@ -176,14 +176,14 @@ class Model(TypedDict, total=False):
     """Whether a run goes on where the intact model is unstable, with more negative eigenvalues than its rotations explain; its results are
 then not to be trusted. Default false."""
     poisson: Literal["cells", "bonds"]
-    """What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3); of `nhpd`, `bbpd`, `pds`, `mppd`, `mppd-beam`, `orthotropic`.
+    """Carrier of the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3); of `nhpd`, `bbpd`, `pds`, `mppd`, `mppd-beam`, `orthotropic`.
 
 - `cells`: The cells of the body, by their changes of volume.
 - `bonds`: The bonds, with a negative shear stiffness: the form of the papers, which cracks make unstable."""
     calibration: Literal["integral", "discrete"]
-    """Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
+    """Origin of the constants of the law; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
 
-- `integral`: Integrals over a full circle (the papers').
+- `integral`: Integrals over a full circle, as in the papers.
 - `discrete`: Sums over the family of each point."""
     rotational_stiffness: Literal["decaying", "quarter", "beam", "none"]
     """Stiffness against relative rotation; of `mppd`, `orthotropic`.
@@ -198,11 +198,11 @@ then not to be trusted. Default false."""
     """Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
 `rotational_factor`."""
     form: Literal["full", "rows", "pairwise"]
-    """How the bonds of `mbb-pd` resist their strains.
+    """Strains that the bonds of `mbb-pd` resist.
 
-- `full`: All bonds all three strains.
-- `rows`: Bonds along x and y only their own.
-- `pairwise`: As printed, with forces on the two ends alone."""
+- `full`: Every bond resists all three strains.
+- `rows`: Bonds along x and y resist only their own strain.
+- `pairwise`: The form as printed, with forces only on the two ends of a bond."""
     strains: Literal["small", "true"]
     """Distances in the denominators of the strains of `mbb-pd`.
 
@@ -227,7 +227,7 @@ class Correction(TypedDict, total=False):
 - `domain`: NHPD's iterative domain correction.
 - `patch`: Two factors a bond for which every uniform strain is an equilibrium."""
     rule: Literal["auto", "sum", "mean"]
-    """How the change of a sweep of the domain correction is measured.
+    """Measure of the change in a sweep of the domain correction.
 
 - `auto`: `sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.
 - `sum`: Summed over all bonds (the paper's): grows with the size of the model.
@@ -265,9 +265,9 @@ class Precrack(TypedDict, total=False):
     """Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
 `radius`."""
     length: float
-    """From end to end of a straight crack, m."""
+    """Length of a straight crack, m."""
     angle: float
-    """From the x axis to a straight crack, counter-clockwise, rad."""
+    """Angle from the x axis to a straight crack, counter-clockwise, rad."""
     normal: Numbers
     """Normal of a disk in a solid."""
     radius: float
@@ -468,7 +468,7 @@ class LoadBodyCouple(TypedDict, total=False):
 
 
 class LoadProfile(TypedDict, total=False):
-    """How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    """Variation of the load in space: a factor (c - zero)/(one - zero), or the factor of a table."""
 
     along: Literal["x", "y", "z"]
     """The coordinate.
@@ -486,7 +486,7 @@ the case file."""
 
 
 class LoadAmplitude(TypedDict, total=False):
-    """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
+    """Variation of the load in time, in a motion: a factor of the load. Without it the load is as given from the start."""
 
     points: Sequence[Numbers]
     """Times (s) with the factors there, `[[0.0, 0.0], [1e-3, 1.0]]`: straight between them, constant before and after."""
@@ -549,9 +549,9 @@ class Load(TypedDict, total=False):
     pressure: float
     """A pressure on the outline of a group, Pa; positive pushes on the body."""
     profile: LoadProfile | Function
-    """How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    """Variation of the load in space: a factor (c - zero)/(one - zero), or the factor of a table."""
     amplitude: LoadAmplitude
-    """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
+    """Variation of the load in time, in a motion: a factor of the load. Without it the load is as given from the start."""
     stiffness: float
     """Total stiffness of springs through which a `displacement` moves the points, N/m: the stiffness of a testing machine."""
     tilts: bool
@@ -947,7 +947,7 @@ class FractureCriterionAfter(TypedDict, total=False):
     """Opening and stress of each corner, from the opening 0 and the strength to the stress 0. Units do not matter: the curve is scaled so
 that the `fracture_energy` comes out."""
     kink: Numbers
-    """Where two straight lines meet: opening over that at the end, and stress over the strength."""
+    """Point at which two straight lines meet: opening over the opening at the end, and stress over the strength."""
     table: str
     """A table (`.csv`) of the corners with the columns `opening` and `stress`, from the folder of the case file."""
 
@@ -980,7 +980,7 @@ class FractureCriterion(TypedDict, total=False):
     critical_angle: float
     """Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`."""
     calibration: Literal["printed", "two-point"]
-    """How the limit of `frictional` comes from the strengths.
+    """Derivation of the limit of `frictional` from the strengths.
 
 - `printed`: As printed: exact without lateral strain alone.
 - `two-point`: From the strains of a bar under both strengths. Default "printed"."""
@@ -1039,7 +1039,7 @@ class Fracture(TypedDict, total=False):
     scatter: FractureScatter | Sequence[FractureScatter]
     """A strength or a fracture energy that varies over the body at random; both as a list of two tables."""
     criterion: Sequence[FractureCriterion]
-    """When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`)."""
+    """Criteria for the failure of bonds: the first that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`)."""
 
 
 class Modal(TypedDict, total=False):

@@ -24,10 +24,10 @@ pub(super) enum Kind {
 /// Reasons why results of a case have no limit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct NoLimit {
-    /// Stiffness and work, because a load acts on one point.
-    pub(super) of_stiffness: Option<String>,
-    /// Loads of breakage, because bonds break at once by their strength where the stress is singular.
-    pub(super) of_breakage: Option<String>,
+    /// Reason for stiffness and work: a load acts on one point.
+    pub(super) stiffness: Option<String>,
+    /// Reason for loads of breakage: bonds break at once by their strength where the stress is singular.
+    pub(super) breakage: Option<String>,
     /// Groups of supports on one point, on which stiffness and work depend if they carry a force.
     pub(super) supports_on_a_point: Vec<String>,
 }
@@ -36,8 +36,8 @@ impl NoLimit {
     /// Reason why results of a kind have no limit.
     pub(super) fn reason(&self, kind: Kind) -> Option<&str> {
         match kind {
-            Kind::Breakage => self.of_breakage.as_deref(),
-            Kind::Stiffness | Kind::Work => self.of_stiffness.as_deref(),
+            Kind::Breakage => self.breakage.as_deref(),
+            Kind::Stiffness | Kind::Work => self.stiffness.as_deref(),
             Kind::AtEnd | Kind::Other => None,
         }
     }
@@ -58,7 +58,7 @@ impl NoLimit {
             anyhow::bail!("{} has no limit: {reason}", names.join(", "));
         }
         let words = ["stiffness and work", "loads of breakage"];
-        for (words, reason) in words.iter().zip([&self.of_stiffness, &self.of_breakage]) {
+        for (words, reason) in words.iter().zip([&self.stiffness, &self.breakage]) {
             if let Some(reason) = reason {
                 print(&format!("no interval of {words}: {reason}"));
             }
@@ -104,10 +104,10 @@ pub(super) fn no_limit(case: &CaseFile, setup: &Setup) -> NoLimit {
         _ => None,
     });
     NoLimit {
-        of_stiffness: load.map(|load| {
+        stiffness: load.map(|load| {
             format!("`{}` loads one point, under which the displacement grows with the logarithm of 1/h: load a length, or read a probe", load.name)
         }),
-        of_breakage: by_strength(setup).and_then(|word| {
+        breakage: by_strength(setup).and_then(|word| {
             let place = singularity(case, setup)?;
             Some(format!(
                 "bonds break at once by their strength (`{word}`) at {place}, where the load of breakage falls with sqrt(h): use a criterion of \

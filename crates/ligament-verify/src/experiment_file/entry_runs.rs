@@ -10,7 +10,7 @@ use super::expression::{Expression, RunRow};
 use super::quantity::{CURVE, RunResults, ensure_known};
 use crate::case_run::CaseRun;
 use crate::places::repository;
-use crate::published::known;
+use crate::published::known_table;
 use crate::table::{Labels, number};
 use crate::uniform_stress::loads;
 
@@ -237,7 +237,7 @@ fn name_of(key: &str) -> &str {
 
 /// The known value of the entry of a table with given labels.
 fn known_value(table: &str, labels: &BTreeMap<String, String>) -> anyhow::Result<f64> {
-    let known = known(table)?;
+    let known = known_table(table)?;
     let keys = known
         .heading
         .keys

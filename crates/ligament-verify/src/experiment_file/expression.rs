@@ -159,7 +159,7 @@ static FUNCTIONS: [Function; 32] = [
         Rows(|record, times| Ok(record.peak([times[0], times[1]])?[1])),
     ),
     // First time after another at which the values fall through zero, and the frequency at which they do.
-    function("fall", 2, Rows(|record, time| record.fall(time[0]))),
+    function("fall", 2, Rows(|record, time| record.time_of_fall(time[0]))),
     // Real and imaginary part of the Fourier transform of what follows a time, at an angular frequency.
     function(
         "cosine",

@@ -78,7 +78,7 @@ impl Setup {
             return missing(field, "density", reason);
         }
         let elasticity = field.part("elasticity");
-        let needed = Materials::most_general_for(&material.elasticity);
+        let needed = Materials::least_general_for(&material.elasticity);
         let taken = self.law.row.materials;
         if taken < needed {
             let text = format!(

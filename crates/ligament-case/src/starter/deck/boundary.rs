@@ -48,7 +48,7 @@ impl Translation<'_> {
     /// Components of the body among degrees of freedom, with their units.
     fn components(&mut self, row: Row<'_>, dofs: &[usize], key: &str) -> Vec<(&'static str, f64)> {
         let all = COMPONENTS[usize::from(self.places.dimensions() > 2)];
-        let (unit, length) = (self.units.of_key(key), self.units.length);
+        let (unit, length) = (self.units.for_key(key), self.units.length);
         let component = |dof: &usize| {
             let turns = *dof > AXES.len();
             Some((all[dof - 1]?, if turns { unit / length } else { unit }))
@@ -74,7 +74,7 @@ impl Translation<'_> {
                 }
                 ("VELOCITY", Some(dof), Some(size)) if (1.0..=3.0).contains(&dof) => {
                     let place = self.places.line_of_nodes(&target.name, nodes);
-                    let size = size * self.units.of_key("velocity");
+                    let size = size * self.units.for_key("velocity");
                     let velocity = self.velocities.entry(place).or_default();
                     velocity.insert(AXES[dof as usize - 1], size);
                 }

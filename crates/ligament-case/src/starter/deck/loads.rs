@@ -208,7 +208,7 @@ impl Translation<'_> {
             lines,
             key,
             direction,
-            size * self.units.of_key(key),
+            size * self.units.for_key(key),
         ))
     }
 }

@@ -171,7 +171,7 @@ impl Translation<'_> {
             Vec::new(),
             key,
             vec![(axis, 1.0)],
-            size * self.units.of_key(key),
+            size * self.units.for_key(key),
         );
         if platen.is_upright || size == 0.0 || self.procedure().is_motion() {
             if !platen.is_upright {

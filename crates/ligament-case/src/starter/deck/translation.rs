@@ -33,11 +33,11 @@ pub(super) struct Section {
 /// Kinds of motion of nodes with a reference node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// As a rigid body.
+    /// The nodes move as a rigid body.
     Rigid,
-    /// By the mean, with forces spread over them.
+    /// The mean of the nodes moves with the reference node, whose forces are spread over them.
     Spread,
-    /// One degree of freedom is that of the reference node.
+    /// One degree of freedom of the nodes equals the one of the reference node.
     Tied(usize),
 }
 

@@ -63,7 +63,7 @@ impl Units {
     }
 
     /// Unit of a quantity of supports and loads by its key in the case, in SI units.
-    pub(super) fn of_key(&self, key: &str) -> f64 {
+    pub(super) fn for_key(&self, key: &str) -> f64 {
         match key {
             "displacement" => self.length,
             "velocity" => self.length / self.time,

@@ -24,7 +24,7 @@ const FEWEST_POINTS: usize = 64;
 /// Ratio below which one of two distances or volumes is the smaller one in spite of rounding.
 const TIE: f64 = 1.0 - 1e-9;
 
-/// Regularisation of multipliers that are linear over aggregates relative to that of others: it fixes those that are constant over the
+/// Regularisation of multipliers that are linear over aggregates, relative to other multipliers: it fixes multipliers that are constant over the
 /// body, which have no equation.
 const SHARE: f64 = 1e-3;
 

@@ -313,7 +313,7 @@ impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
     }
 
     fn minus_right(&self) -> Multipliers<N> {
-        let right = self.equations.right().iter();
+        let right = self.equations.right_hand_sides().iter();
         right.map(|right| right.map(|it| -it)).collect()
     }
 

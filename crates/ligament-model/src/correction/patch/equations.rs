@@ -21,7 +21,7 @@ pub(crate) trait Equations<const N: usize>: Sync {
     fn start(&self) -> &[f64];
 
     /// Right-hand sides f, shape (n_own, N).
-    fn right(&self) -> &[[f64; N]];
+    fn right_hand_sides(&self) -> &[[f64; N]];
 
     /// Scales d of the equations of an own point.
     fn scale(&self, index: usize) -> [f64; N];

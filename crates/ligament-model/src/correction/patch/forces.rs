@@ -156,7 +156,7 @@ pub(crate) fn gradients<const D: usize>(corners: &[u32], cloud: &PointCloud<D>) 
     of_corners.map(resized).collect()
 }
 
-/// A vector with other components than it has as zeros.
+/// A vector with E components: the first ones of a vector with D, and zeros for missing ones.
 fn resized<const D: usize, const E: usize>(vector: [f64; D]) -> [f64; E] {
     std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }

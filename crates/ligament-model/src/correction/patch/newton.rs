@@ -20,9 +20,9 @@ pub(super) struct Hessian<'a, E, const N: usize> {
 
 /// The preconditioner applied to a residual.
 struct Solved<const N: usize> {
-    /// Part of the blocks of the points.
+    /// Solution of the blocks of the points.
     points: Multipliers<N>,
-    /// Part of the aggregates, `width` numbers for each.
+    /// Solution of the aggregates, `width` numbers for each.
     aggregates: Vec<f64>,
 }
 

@@ -244,7 +244,7 @@ impl<const D: usize, const N: usize> Equations<N> for Rows<'_, D, N> {
         &self.start
     }
 
-    fn right(&self) -> &[[f64; N]] {
+    fn right_hand_sides(&self) -> &[[f64; N]] {
         &self.right
     }
 

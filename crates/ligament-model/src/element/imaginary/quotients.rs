@@ -33,7 +33,7 @@ impl Quotient {
     }
 }
 
-/// Difference quotients of an element; none where one of the derivatives has no support.
+/// Difference quotients of an element; none if a derivative has no supporting bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::element) struct Quotients {
     count: usize,

@@ -43,7 +43,7 @@ struct ByCurve {
     /// that the `fracture_energy` comes out.
     #[serde(skip_serializing_if = "Option::is_none")]
     curve: Option<Vec<[f64; 2]>>,
-    /// Where two straight lines meet: opening over that at the end, and stress over the strength.
+    /// Point at which two straight lines meet: opening over the opening at the end, and stress over the strength.
     #[serde(skip_serializing_if = "Option::is_none")]
     kink: Option<[f64; 2]>,
     /// A table (`.csv`) of the corners with the columns `opening` and `stress`, from the folder of the case file.

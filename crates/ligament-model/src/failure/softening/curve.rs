@@ -43,7 +43,7 @@ pub enum CurveError {
         point: usize,
         /// Opening of the point.
         opening: f64,
-        /// Opening of the point before.
+        /// Opening of the previous point.
         before: f64,
     },
     /// A stress is larger than the one before, or negative.
@@ -52,7 +52,7 @@ pub enum CurveError {
         point: usize,
         /// Stress of the point.
         stress: f64,
-        /// Stress of the point before.
+        /// Stress of the previous point.
         before: f64,
     },
     /// The last stress is not zero.
