@@ -227,7 +227,7 @@ pub struct Load {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["along", "file"])))]
 pub struct Profile {
-    /// The coordinate.
+    /// Coordinate along which the load varies.
     pub along: Option<Axis>,
     /// Coordinate in the mesh file at which the load is zero, m.
     pub zero: Option<f64>,
@@ -358,7 +358,7 @@ fn describe_rates(schema: &mut Schema) {
     for component in components.into_iter().flat_map(|it| it.values_mut()) {
         let words = component["description"].as_str().unwrap_or_default();
         let words = words.replace(", m.", ".").replace(", rad,", ",");
-        let words = words.replace("Rotation", "Of the rotation");
+        let words = words.replace("Rotation", "Component of the rotation");
         let words = words.replace("clockwise.", "clockwise, with rad in the place of m.");
         *component = json!({ "description": words, "type": component["type"] });
     }

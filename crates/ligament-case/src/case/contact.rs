@@ -57,7 +57,7 @@ pub struct Rigid {
     /// Groups whose outlines it can touch; by default the outline of the whole body.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub against: Vec<String>,
-    /// Whether it meets the faces of cracks as well.
+    /// Whether the rigid shape meets the faces of cracks as well.
     #[serde(default)]
     pub cracks: bool,
 }

@@ -42,7 +42,7 @@ pub struct Fracture {
     /// Rounds of breaking at most in a load step.
     #[schemars(range(min = 1), extend("default" = stepped().round_limit))]
     pub max_iterations: Option<usize>,
-    /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
+    /// Number of parts into which the load step of the first breakage is divided after it; 0 for no division.
     #[schemars(range(max = MOST_STEPS), extend("default" = stepped().refine_first_break))]
     pub refine_first_break: Option<usize>,
     /// Bonds closer than this (relative) to the worst one break together with it.

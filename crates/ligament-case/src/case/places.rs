@@ -94,13 +94,13 @@ impl JsonSchema for Coordinates {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("minProperties" = 1))]
 pub struct Vector {
-    /// Along x, in the unit of the force.
+    /// Component along x, in the unit of the vector.
     #[serde(default)]
     pub x: f64,
-    /// Along y, in the unit of the force.
+    /// Component along y, in the unit of the vector.
     #[serde(default)]
     pub y: f64,
-    /// Along z of a solid, in the unit of the force.
+    /// Component along z of a solid, in the unit of the vector.
     pub z: Option<f64>,
 }
 

@@ -76,7 +76,7 @@ impl CriteriaInState<'_> {
             let of_criterion = if limit.is_finite() {
                 let stress = [self, rates].map(|it| it.stress(place, bond));
                 it.measure
-                    .within(line, it.coefficients(bond), stress, limit)?
+                    .interval_within(line, it.coefficients(bond), stress, limit)?
             } else {
                 EVERYWHERE
             };

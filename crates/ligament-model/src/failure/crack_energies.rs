@@ -54,9 +54,9 @@ pub struct Limits {
 /// of the strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrackEnergies {
-    /// Sums for a crack that opens along x, and along y, times the square of the stretch.
+    /// Sums for cracks that open along x and along y, per squared stretch.
     pub opening: [f64; 2],
-    /// Sums for a crack that lies across x, and across y, and slides, times the square of the angle.
+    /// Sums for cracks across x and across y that slide, per squared angle.
     pub sliding: [f64; 2],
 }
 

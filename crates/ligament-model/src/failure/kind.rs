@@ -163,8 +163,8 @@ crate::case_type! {
         /// Derivation of the limit of `frictional` from the strengths.
         #[case(schemars(extend("default" = Calibration::default())))]
         pub calibration: Option<Calibration>,
-        /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
-        /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
+        /// Angle of friction, rad. For `mohr-coulomb` it is the angle phi of the material; for `frictional` the angle beta of a bond, in the place of
+        /// the compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
         #[range("minimum" = 0)]
         pub friction_angle: Option<f64>,
         /// Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`.
@@ -176,8 +176,8 @@ crate::case_type! {
         /// Behaviour of a bond after its limit: a word, or a curve of stress over the opening of a crack.
         #[case(serde(default))]
         pub after: Law,
-        /// Deformation at which a force that falls to zero is gone, over that at the limit: of `linear` above 1, of `two-branch` above 3; without it
-        /// so that the `fracture_energy` comes out.
+        /// Deformation at which the force has fallen to zero, over the deformation at the limit: above 1 for `linear`, above 3 for `two-branch`;
+        /// without it the value that gives the `fracture_energy`.
         #[range("exclusiveMinimum" = 1)]
         pub end: Option<f64>,
         /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.

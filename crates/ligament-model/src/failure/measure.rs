@@ -373,7 +373,7 @@ pub enum Weakened {
     Crushing,
     /// Resistance to shear.
     Sliding,
-    /// All resistance, where shear under pressure crushes the material.
+    /// Resistance to every deformation, where shear under pressure crushes the material.
     Whole,
 }
 

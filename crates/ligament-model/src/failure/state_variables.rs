@@ -19,12 +19,12 @@ const SAME: f64 = 1e-9;
 /// Least number of bonds for a parallel task.
 const TASK: usize = 256;
 
-/// Stresses across the bonds of a body: those at one load factor times a number.
+/// Stresses across the bonds of a body: the stresses at one load factor, times a number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stresses {
     /// Stress across each bond, shape (n_bonds); empty where no measure takes it.
     of_bonds: Arc<Vec<StressAcross>>,
-    /// Factor on all of them.
+    /// Factor of all stresses.
     times: f64,
 }
 
@@ -246,7 +246,7 @@ impl<'a> CriteriaInState<'a> {
         self.criteria
     }
 
-    /// The limits and stresses of a state of the body, in which some bonds are intact, of the deformations (n_bonds) and with the
+    /// The criteria with the limits and stresses of a state, from its intact bonds, its deformations (n_bonds) and the
     /// [`stresses`](Criteria::stresses) across the bonds.
     pub fn in_state(
         mut self,
@@ -415,7 +415,7 @@ impl<'a> CriteriaInState<'a> {
         }
     }
 
-    /// Replaces the stresses across some bonds by those that a function gives for a bond and its moduli.
+    /// Replaces the stresses across some bonds by the values of a function of the bond and its moduli.
     pub fn replace_stresses(
         &mut self,
         bonds: &[u32],

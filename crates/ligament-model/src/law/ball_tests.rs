@@ -101,7 +101,7 @@ fn tensor([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> SymTensor<3> {
     SymTensor::from_engineering(&[xx, yy, xy, zz, xz, yz])
 }
 
-/// lambda/2 tr^2 eps + mu eps : eps.
+/// Elastic energy density lambda/2 tr^2 eps + mu eps : eps.
 fn elastic(material: &Isotropic, [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> f64 {
     let Isotropic { young, poisson } = *material;
     let mu = young / (2.0 * (1.0 + poisson));

@@ -53,7 +53,7 @@ pub(crate) struct BondGeometry<const D: usize = 2> {
 
 impl BondStiffness {
     /// Densities from `constants` of the materials (n_materials), the first of which is a measure of stiffness: a bond has the densities of
-    /// its materials ([`materials::of_bond`]).
+    /// its materials ([`materials::fractions_of_bond`]).
     pub(crate) fn from_constants<const D: usize, const N: usize>(
         bonds: &BondSet<D>,
         cloud: &PointCloud<D>,
@@ -65,7 +65,7 @@ impl BondStiffness {
             if let [of_all] = constants {
                 return *of_all;
             }
-            materials::of_bond(cloud, ends, &axial_constants).fold(
+            materials::fractions_of_bond(cloud, ends, &axial_constants).fold(
                 [0.0; N],
                 |mut sum, (material, share)| {
                     for (value, constant) in sum.iter_mut().zip(&constants[material]) {

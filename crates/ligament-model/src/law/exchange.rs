@@ -47,7 +47,7 @@ struct Sums {
 
 impl Sums {
     /// The terms of a bond of weight w with the cosine c.
-    fn of_bond(weight: f64, cosine: f64, restraint: &Restraint) -> Self {
+    fn from_bond(weight: f64, cosine: f64, restraint: &Restraint) -> Self {
         let (beta, square) = (restraint.mean(), cosine * cosine);
         let lost = weight * restraint.usual_loss();
         Self {
@@ -189,7 +189,7 @@ impl<const D: usize> Layers<'_, D> {
         let of_bond = |bond: usize| {
             let cosine = normal.dot(&SVector::from(self.bonds.direction[bond]));
             let weight = self.weight(bond) * held[bond].share(self.end(bond, point));
-            Sums::of_bond(weight, cosine, &held[bond])
+            Sums::from_bond(weight, cosine, &held[bond])
         };
         restrained
             .into_iter()
@@ -257,7 +257,7 @@ mod tests {
     fn factors<const D: usize>(directions: &[[f64; D]], restraint: &Restraint) -> [f64; 2] {
         let terms = directions
             .iter()
-            .map(|n| Sums::of_bond(1.0, n[0], restraint));
+            .map(|n| Sums::from_bond(1.0, n[0], restraint));
         terms.fold(Sums::default(), Sums::plus).balance::<D>()
     }
 

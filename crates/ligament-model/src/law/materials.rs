@@ -16,7 +16,7 @@ use crate::cloud::PointCloud;
 /// within that half, one along the interface has both halves at its sides. A bond whose ends have no material in common crosses an
 /// interface, and has the materials of its softer end: with springs in series the softer one decides. `stiffness` (n_materials) gives the
 /// softer one; of equal ends it is the first.
-pub(super) fn of_bond<'a, const D: usize>(
+pub(super) fn fractions_of_bond<'a, const D: usize>(
     cloud: &'a PointCloud<D>,
     ends: [u32; 2],
     stiffness: &[f64],
@@ -68,8 +68,8 @@ pub(super) fn series_factors<const D: usize>(
     bonds.ends.iter().map(of_bond).collect()
 }
 
-/// The softest of the materials in which a bond has fractions of its length (n_materials), and the ratio of the stiffness of the bond, as
-/// springs in series, to that of a bond in the softest material only:
+/// The softest material of a bond with the fractions `shares` of its length in the materials (n_materials), and the stiffness of the bond, as springs
+/// in series, over the stiffness of a bond in this material alone:
 ///
 /// 1/sum of phi_i k_s/k_i, with the fractions phi_i, the stiffnesses k_i and the smallest of them k_s.
 ///
@@ -148,7 +148,9 @@ mod tests {
     }
 
     fn shares(ends: [u32; 2], stiffness: [f64; 2]) -> Vec<f64> {
-        of_bond(&cloud(), ends, &stiffness).map(|it| it.1).collect()
+        fractions_of_bond(&cloud(), ends, &stiffness)
+            .map(|it| it.1)
+            .collect()
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::tensor::{dot, minus, norm};
 /// points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner<const D: usize> {
-    /// The point.
+    /// Point with which the corner moves.
     pub point: u32,
     /// Further corners of a quadrangular side, whose middle this corner is: it moves by the mean of the displacements of all four points.
     pub others: Option<[u32; 3]>,

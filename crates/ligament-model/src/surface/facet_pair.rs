@@ -6,7 +6,7 @@ use super::cells::Bonded;
 use super::facet::{Facet, Surface};
 use super::nearest::nearest_weights;
 use super::pair::{Missed, Pose, Step, SurfacePair};
-use super::rigid::{RigidShape, in_space, turned};
+use super::rigid::{RigidShape, in_space, rotated};
 use super::search::{Search, Sought};
 use super::touch::{Touch, Vector, held_slip};
 use super::{Corners, extent, normal, tangential, weighted};
@@ -521,7 +521,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         self.add_bound_of_all(sums);
     }
 
-    /// Crack faces do not count: the contact area of a rigid body at one time is at most the width of the body.
+    /// Sum over the outline without crack faces: the contact area of a rigid body at one time is at most the width of the body.
     fn on_rigid_body(&self) -> [f64; 2] {
         let facets = self.surface.facets.iter().enumerate();
         let of_facet = |(number, it): (usize, &Facet<D>)| it.area * self.stiffness(number, None);

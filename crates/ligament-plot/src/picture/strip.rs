@@ -285,7 +285,7 @@ fn widest(titles: &[Vec<String>]) -> f64 {
     lines.map(|line| text_width(line, SIZE)).fold(0.0, f64::max)
 }
 
-/// Words in lines of a width: several in one line where they fit, in their short form where one alone does not.
+/// Words broken into lines of a width: several words in one line where they fit, and the short form of a word that does not fit alone.
 fn wrapped(words: &[[String; 2]], width: f64) -> Vec<String> {
     let fits = |text: &str| text_width(text, SIZE) <= width;
     let mut lines: Vec<String> = Vec::new();

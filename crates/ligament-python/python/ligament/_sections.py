@@ -285,13 +285,13 @@ class SupportDisplacement(TypedDict, total=False):
     """The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad."""
 
     x: float
-    """Along x, m."""
+    """Component along x, m."""
     y: float
-    """Along y, m."""
+    """Component along y, m."""
     rotation: float
     """Rotation in the plane, rad, counter-clockwise."""
     z: float
-    """Along z of a solid, m."""
+    """Component along z of a solid, m."""
     rotation_x: float
     """Rotation about x in a solid, rad, right-handed."""
     rotation_y: float
@@ -304,15 +304,15 @@ class SupportStiffness(TypedDict, total=False):
     """Springs to the ground instead of fixed displacements, in total over the points."""
 
     x: float
-    """Along x, N/m."""
+    """Stiffness along x, N/m."""
     y: float
-    """Along y, N/m."""
+    """Stiffness along y, N/m."""
     rotation: float
-    """Against rotations of the points, in N m/rad."""
+    """Stiffness against rotations of the points, in N m/rad."""
     z: float
-    """Along z of a solid, N/m."""
+    """Stiffness along z of a solid, N/m."""
     normal: float
-    """Along the `normal` of the support, N/m."""
+    """Stiffness along the `normal` of the support, N/m."""
 
 
 class Support(TypedDict, total=False):
@@ -336,13 +336,13 @@ class LoadDisplacement(TypedDict, total=False):
     """Prescribed displacements, m, rotation in rad."""
 
     x: float
-    """Along x, m."""
+    """Component along x, m."""
     y: float
-    """Along y, m."""
+    """Component along y, m."""
     rotation: float
     """Rotation in the plane, rad, counter-clockwise."""
     z: float
-    """Along z of a solid, m."""
+    """Component along z of a solid, m."""
     rotation_x: float
     """Rotation about x in a solid, rad, right-handed."""
     rotation_y: float
@@ -355,82 +355,82 @@ class LoadVelocity(TypedDict, total=False):
     """Prescribed velocities in a motion, m/s, of the rotation rad/s."""
 
     x: float
-    """Along x."""
+    """Component along x."""
     y: float
-    """Along y."""
+    """Component along y."""
     rotation: float
-    """Of the rotation in the plane, counter-clockwise, with rad in the place of m."""
+    """Component of the rotation in the plane, counter-clockwise, with rad in the place of m."""
     z: float
-    """Along z of a solid."""
+    """Component along z of a solid."""
     rotation_x: float
-    """Of the rotation about x in a solid, right-handed."""
+    """Component of the rotation about x in a solid, right-handed."""
     rotation_y: float
-    """Of the rotation about y in a solid, right-handed."""
+    """Component of the rotation about y in a solid, right-handed."""
     rotation_z: float
-    """Of the rotation about z in a solid, right-handed."""
+    """Component of the rotation about z in a solid, right-handed."""
 
 
 class LoadBaseAcceleration(TypedDict, total=False):
     """Prescribed accelerations in a motion, such as the acceleration of the ground, m/s^2, of the rotation rad/s^2."""
 
     x: float
-    """Along x."""
+    """Component along x."""
     y: float
-    """Along y."""
+    """Component along y."""
     rotation: float
-    """Of the rotation in the plane, counter-clockwise, with rad in the place of m."""
+    """Component of the rotation in the plane, counter-clockwise, with rad in the place of m."""
     z: float
-    """Along z of a solid."""
+    """Component along z of a solid."""
     rotation_x: float
-    """Of the rotation about x in a solid, right-handed."""
+    """Component of the rotation about x in a solid, right-handed."""
     rotation_y: float
-    """Of the rotation about y in a solid, right-handed."""
+    """Component of the rotation about y in a solid, right-handed."""
     rotation_z: float
-    """Of the rotation about z in a solid, right-handed."""
+    """Component of the rotation about z in a solid, right-handed."""
 
 
 class LoadForce(TypedDict, total=False):
     """A force in total over the points, N."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadForcePerLength(TypedDict, total=False):
     """A force along the edges of a group, N/m."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadForcePerArea(TypedDict, total=False):
     """A force over the surface of a group of a solid, N/m^2."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadBodyForce(TypedDict, total=False):
     """A force in the volume, N/m^3; on the whole body without a place."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadAcceleration(TypedDict, total=False):
@@ -438,40 +438,40 @@ class LoadAcceleration(TypedDict, total=False):
 `density`."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadMoment(TypedDict, total=False):
     """A vector; a component that is not given is zero."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadBodyCouple(TypedDict, total=False):
     """A vector; a component that is not given is zero."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadProfile(TypedDict, total=False):
     """Variation of the load in space: a factor (c - zero)/(one - zero), or the factor of a table."""
 
     along: Literal["x", "y", "z"]
-    """The coordinate.
+    """Coordinate along which the load varies.
 
 - `x`: Along x.
 - `y`: Along y.
@@ -559,8 +559,8 @@ class Load(TypedDict, total=False):
 
 
 class StageControl(TypedDict, total=False):
-    """What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
-peaks and snap-backs. Without it the factors grow."""
+    """A quantity that grows in equal steps over the stage, while the loads follow in fixed proportion, past peaks and snap-backs. Without it the
+factors of the loads grow."""
 
     probe: str
     """Name of a probe that reads a displacement or one between two points; load steps alone."""
@@ -569,8 +569,8 @@ peaks and snap-backs. Without it the factors grow."""
     quantity: Literal["dissipated_energy"]
     """A quantity of the whole body.
 
-- `dissipated_energy`: The energy that bonds have taken for good since the loading began, a column of `history.csv`: in load steps of bonds that soften; along
-the exact path it says how far the stage goes."""
+- `dissipated_energy`: The energy that bonds have dissipated since the loading began, a column of `history.csv`: in load steps with softening bonds; along the exact
+path it determines the end of the stage."""
     to: float
     """The value at the end of the stage, in the unit of the probe, or J."""
 
@@ -586,8 +586,8 @@ first."""
     steps: int
     """Equal load steps of the stage; not on the exact path, nor in an elastic analysis."""
     control: StageControl
-    """What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
-peaks and snap-backs. Without it the factors grow."""
+    """A quantity that grows in equal steps over the stage, while the loads follow in fixed proportion, past peaks and snap-backs. Without it the
+factors of the loads grow."""
 
 
 class Temperature(TypedDict, total=False):
@@ -613,11 +613,11 @@ class InitialVelocityVelocity(TypedDict, total=False):
     """The velocity, m/s."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class InitialVelocity(TypedDict, total=False):
@@ -657,22 +657,22 @@ class RigidDisplacement(TypedDict, total=False):
     """Displacement at load factor 1, m; in statics."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class RigidVelocity(TypedDict, total=False):
     """Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class RigidAmplitude(TypedDict, total=False):
@@ -708,11 +708,11 @@ class RigidAcceleration(TypedDict, total=False):
     """Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class Rigid(TypedDict, total=False):
@@ -754,7 +754,7 @@ class Rigid(TypedDict, total=False):
     against: Sequence[str]
     """Groups whose outlines it can touch; by default the outline of the whole body."""
     cracks: bool
-    """Whether it meets the faces of cracks as well. Default false."""
+    """Whether the rigid shape meets the faces of cracks as well. Default false."""
 
 
 class FarFieldNear(TypedDict, total=False):
@@ -773,8 +773,8 @@ class FarField(TypedDict, total=False):
     """Parts of the body that keep their bonds: the cells with all corners in one of them."""
     strength_share: float
     """Share of the strength of a material, up to 1, that the largest principal stress of elements may reach (under pressure the smallest one over
-`compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without it the
-near field stays as it is."""
+`compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without
+it the near field stays as it is."""
 
 
 class Refine(TypedDict, total=False):
@@ -985,8 +985,8 @@ class FractureCriterion(TypedDict, total=False):
 - `printed`: As printed: exact without lateral strain alone.
 - `two-point`: From the strains of a bar under both strengths. Default "printed"."""
     friction_angle: float
-    """Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
-compressive strength: compression by s makes its limit of sliding larger by s tan(beta)."""
+    """Angle of friction, rad. For `mohr-coulomb` it is the angle phi of the material; for `frictional` the angle beta of a bond, in the place of
+the compressive strength: compression by s makes its limit of sliding larger by s tan(beta)."""
     cohesion: float
     """Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`."""
     fibre_distance: float
@@ -1004,7 +1004,8 @@ compressive strength: compression by s makes its limit of sliding larger by s ta
 - `plastic`: Its force stays; of `sliding` alone.
 - `bilinear`: Older word for `linear`: one straight line, not the two of `two-branch` that concrete has. Default "brittle"."""
     end: float
-    """Deformation at which a force that falls to zero is gone, over that at the limit: of `linear` above 1, of `two-branch` above 3; without it so that the `fracture_energy` comes out."""
+    """Deformation at which the force has fallen to zero, over the deformation at the limit: above 1 for `linear`, above 3 for `two-branch`;
+without it the value that gives the `fracture_energy`."""
     scale: float
     """Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out."""
 
@@ -1029,7 +1030,7 @@ class Fracture(TypedDict, total=False):
     max_iterations: int
     """Rounds of breaking at most in a load step. Default 10000."""
     refine_first_break: int
-    """Parts into which the load step of the first breakage is divided after it; 0: not divided. Default 0."""
+    """Number of parts into which the load step of the first breakage is divided after it; 0 for no division. Default 0."""
     tie_tolerance: float
     """Bonds closer than this (relative) to the worst one break together with it. Default 1e-8."""
     energy_tolerance: float
@@ -1179,8 +1180,8 @@ class SectionsOnBody(TypedDict, total=False):
 - `modal`: Natural frequencies and modes.
 - `motion`: A motion in time, in which bonds break where `[fracture]` has criteria."""
     curve: str
-    """Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load, otherwise
-the temperature, otherwise the first rigid body that moves."""
+    """Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load,
+otherwise the temperature, otherwise the first rigid body that moves."""
     material: Material | Mapping[str, MaterialPart]
     """The material of the whole body; or a table `[material.NAME]` with a `group` for each of several."""
     interface: Sequence[Interface]

@@ -64,7 +64,7 @@ pub(crate) struct AxisFilter {
     pub(crate) values: Vec<usize>,
 }
 
-/// A line that is known from elsewhere.
+/// A line from another source, for comparison.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownLine {

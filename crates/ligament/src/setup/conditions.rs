@@ -40,13 +40,13 @@ case_type! {
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     #[case(schemars(extend("minProperties" = 1)))]
     pub struct Displacement {
-        /// Along x, m.
+        /// Component along x, m.
         pub x: Option<f64>,
-        /// Along y, m.
+        /// Component along y, m.
         pub y: Option<f64>,
         /// Rotation in the plane, rad, counter-clockwise.
         pub rotation: Option<f64>,
-        /// Along z of a solid, m.
+        /// Component along z of a solid, m.
         pub z: Option<f64>,
         /// Rotation about x in a solid, rad, right-handed.
         pub rotation_x: Option<f64>,
@@ -62,19 +62,19 @@ case_type! {
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     #[case(schemars(extend("minProperties" = 1)))]
     pub struct SpringStiffness {
-        /// Along x, N/m.
+        /// Stiffness along x, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub x: Option<f64>,
-        /// Along y, N/m.
+        /// Stiffness along y, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub y: Option<f64>,
-        /// Against rotations of the points, in N m/rad.
+        /// Stiffness against rotations of the points, in N m/rad.
         #[range("exclusiveMinimum" = 0)]
         pub rotation: Option<f64>,
-        /// Along z of a solid, N/m.
+        /// Stiffness along z of a solid, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub z: Option<f64>,
-        /// Along the `normal` of the support, N/m.
+        /// Stiffness along the `normal` of the support, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub normal: Option<f64>,
     }

@@ -30,7 +30,7 @@ pub(super) fn stiffness_from_matrices(
     }
 }
 
-/// Plane stiffness of the materials of each bond ([`materials::of_bond`]), shape (n_bonds), Pa.
+/// Plane stiffness of the materials of each bond ([`materials::fractions_of_bond`]), shape (n_bonds), Pa.
 pub(super) fn plane_stiffnesses(input: &LawInput<'_, 2>) -> Vec<Matrix3<f64>> {
     let (bonds, plane) = (input.bonds, input.space.plane());
     let of_materials: Vec<Matrix3<f64>> = (input.elasticity.iter())
@@ -38,7 +38,7 @@ pub(super) fn plane_stiffnesses(input: &LawInput<'_, 2>) -> Vec<Matrix3<f64>> {
         .collect();
     let bulk: Vec<f64> = of_materials.iter().map(bulk_stiffness).collect();
     let of_bond = |&ends: &[u32; 2]| {
-        let shares = materials::of_bond(input.cloud, ends, &bulk);
+        let shares = materials::fractions_of_bond(input.cloud, ends, &bulk);
         shares.fold(Matrix3::zeros(), |sum, (material, share)| {
             sum + share * of_materials[material]
         })
