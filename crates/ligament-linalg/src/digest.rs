@@ -14,7 +14,7 @@ const NONE: u64 = 0xcbf2_9ce4_8422_2325;
 /// A hash of the bits of values, the same for any number of threads; different bits give the same hash with a probability of about 2^-64.
 pub fn digest(values: &[f64]) -> u64 {
     let of_chunks: Vec<[u64; LANES]> = values.par_chunks(CHUNK).map(chunk_digest).collect();
-    of_chunks.into_iter().flatten().fold(NONE, with)
+    of_chunks.into_iter().flatten().fold(NONE, extended)
 }
 
 fn chunk_digest(values: &[f64]) -> [u64; LANES] {

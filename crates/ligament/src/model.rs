@@ -307,7 +307,12 @@ impl<const D: usize> Bonded<D> {
     }
 
     /// The bonds of a near field in the whole body, with the elements of the far field.
-    fn within(self, near: NearField<D>, body: &dyn Geometry<D>, material_of_cell: &[u32]) -> Self {
+    fn in_whole_body(
+        self,
+        near: NearField<D>,
+        body: &dyn Geometry<D>,
+        material_of_cell: &[u32],
+    ) -> Self {
         Self {
             fixed: near.fields(self.fixed),
             system: near.in_whole_body(body, self.system, material_of_cell),
