@@ -121,9 +121,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     ) -> Vec<u32> {
         match (limits.criteria.list.is_empty(), limits.stretch_limits()) {
             (true, _) => self.sum_forces(bonds, motions, Unlimited, forces),
-            (false, Some(stretch_limits)) => {
-                self.sum_forces(bonds, motions, stretch_limits, forces)
-            }
+            (false, Some(it)) => self.sum_forces(bonds, motions, it, forces),
             (false, None) => self.sum_forces(bonds, motions, limits, forces),
         }
     }

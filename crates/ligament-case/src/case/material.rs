@@ -383,9 +383,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
 }
 
 /// Skips the section, which [`read`] decodes in its two forms.
-pub(super) fn skip_section<'de, D: Deserializer<'de>>(
-    deserializer: D,
-) -> Result<Vec<Material>, D::Error> {
+pub(super) fn skip<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Material>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| Vec::new())
 }
 

@@ -59,7 +59,7 @@ pub struct Case {
     /// The material of the whole body; or a table `[material.NAME]` with a `group` for each of several.
     #[serde(
         rename = "material",
-        deserialize_with = "material::skip_section",
+        deserialize_with = "material::skip",
         serialize_with = "material::serialize"
     )]
     #[schemars(schema_with = "material::schema")]

@@ -52,10 +52,7 @@ impl CriteriaInState<'_> {
             let bonds = (task * TASK..).zip(start.iter().zip(slopes));
             let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
             of_intact.try_fold(reach, |interval, (bond, (start, slope))| {
-                intersection(
-                    interval,
-                    self.admissible_interval(rates, bond, [start, slope])?,
-                )
+                intersection(interval, self.interval(rates, bond, [start, slope])?)
             })
         };
         let tasks = start.par_chunks(TASK).zip(slopes.par_chunks(TASK));
@@ -65,12 +62,7 @@ impl CriteriaInState<'_> {
     }
 
     /// The t for which no criterion breaks a bond with the deformation `start` + t `slope`; None where some does for every t.
-    fn admissible_interval<B: AlongLine>(
-        &self,
-        rates: &Self,
-        bond: usize,
-        line: [&B; 2],
-    ) -> Option<Interval> {
+    fn interval<B: AlongLine>(&self, rates: &Self, bond: usize, line: [&B; 2]) -> Option<Interval> {
         let of = |interval: Interval, (place, it): (usize, &Criterion)| {
             let limit = self.break_limit(place, bond);
             let of_criterion = if limit.is_finite() {

@@ -105,10 +105,8 @@ impl Moduli {
 
     /// Moduli of a material in a space.
     pub fn new(material: &Isotropic, space: Space) -> Self {
-        let (nu, along) = (
-            plane_stress_constants(material, space).poisson,
-            modulus(material, space),
-        );
+        let nu = plane_stress_constants(material, space).poisson;
+        let along = modulus(material, space);
         Self {
             lateral: nu,
             shear: 1.0 - nu,

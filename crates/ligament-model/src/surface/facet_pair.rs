@@ -135,15 +135,15 @@ impl<const D: usize> FacetPair<D> {
         share * facet.area / D as f64
     }
 
-    /// Side and contact stiffness of a facet that belongs to the surface, Pa/m.
-    fn side_and_stiffness(&self, facet: usize) -> (u32, f64) {
+    /// Number and contact stiffness (Pa/m) of the side of a facet that belongs to the surface.
+    fn side(&self, facet: usize) -> (u32, f64) {
         let known = self.surface.side_and_stiffness(facet);
         known.expect("facets that join belong to the surface")
     }
 
-    /// Contact stiffness of a facet against a side, Pa/m: that of both in turn, as springs in series with twice the stiffness each.
+    /// Contact stiffness of a facet against a side, Pa/m: two springs in series, each with twice the stiffness of its side.
     pub(super) fn stiffness(&self, facet: usize, of_other: Option<f64>) -> f64 {
-        let own = self.side_and_stiffness(facet).1;
+        let own = self.side(facet).1;
         of_other.map_or(own, |other| 2.0 * own * other / (own + other))
     }
 
@@ -182,9 +182,7 @@ impl<const D: usize> FacetPair<D> {
     pub(super) fn may_meet(&self, own: u32, other: u32) -> bool {
         let of_cells = |it: u32| self.surface.facet(it as usize).corners[0].point;
         match self.opposite {
-            Opposite::OtherSides => {
-                self.side_and_stiffness(own as usize).0 != self.side_and_stiffness(other as usize).0
-            }
+            Opposite::OtherSides => self.side(own as usize).0 != self.side(other as usize).0,
             Opposite::Unbonded => of_cells(own) != of_cells(other),
             Opposite::Rigid(..) => false,
         }
@@ -309,9 +307,7 @@ impl<const D: usize> FacetPair<D> {
         let trial = std::array::from_fn(|axis| held[axis] + slid[axis]);
         let slip = held_slip(tangential(trial, normal), self.friction, overlap - offset);
         let area = self.area(&self.surface.facet(place.facet));
-        let side_met = partner
-            .onto
-            .map(|it| self.side_and_stiffness(it as usize).0);
+        let side_met = partner.onto.map(|it| self.side(it as usize).0);
         let other = side_met.map(|it| self.of_sides[it as usize]);
         Touch {
             place: place.number,
@@ -383,12 +379,7 @@ impl<const D: usize> FacetPair<D> {
 
     /// Whether the first of two facets comes first among the sides, or, of cells of one side, by its point.
     fn is_first(&self, one: usize, other: usize) -> bool {
-        let order = |it: usize| {
-            (
-                self.side_and_stiffness(it).0,
-                self.surface.facet(it).corners[0].point,
-            )
-        };
+        let order = |it: usize| (self.side(it).0, self.surface.facet(it).corners[0].point);
         let [one, other] = [one, other].map(order);
         match self.opposite {
             Opposite::OtherSides | Opposite::Rigid(..) => one.0 < other.0,
@@ -641,7 +632,7 @@ impl<const D: usize> FacetPair<D> {
             Opposite::OtherSides if self.move_as_one(&facets, &places) => None,
             Opposite::OtherSides => {
                 let through =
-                    |it: &PointInStep<D>| Some((it.place, self.path_through_facet(it, &facets)?));
+                    |it: &PointInStep<D>| Some((it.place, self.path_through(it, &facets)?));
                 places.par_iter().find_map_first(through)
             }
             Opposite::Unbonded => None,
@@ -743,11 +734,7 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// Length of the path of an integration point relative to a facet of another side that it crossed from outside, m.
-    fn path_through_facet(
-        &self,
-        passing: &PointInStep<D>,
-        facets: &[FacetInStep<D>],
-    ) -> Option<f64> {
+    fn path_through(&self, passing: &PointInStep<D>, facets: &[FacetInStep<D>]) -> Option<f64> {
         let own = passing.place.facet as u32;
         facets.iter().find_map(|it| {
             let way = minus(passing.way, it.way);

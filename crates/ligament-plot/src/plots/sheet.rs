@@ -75,11 +75,7 @@ impl PageLayout {
     }
 
     /// A sheet of paper of a width in mm with a line above several plots of equal size, and the rooms of these in rows.
-    pub(super) fn paper_for_panels(
-        width: f64,
-        series: &[Series],
-        count: usize,
-    ) -> (Self, Vec<Room>) {
+    pub(super) fn for_panels(width: f64, series: &[Series], count: usize) -> (Self, Vec<Room>) {
         let sheet = Self::paper(width, series);
         // Up to four plots are in pairs, so that they are not small.
         let columns = match count {

@@ -23,14 +23,10 @@ impl PathDistances {
     /// The distances of the longest cracks at the end of the runs; none for a solid, or where a run has no crack.
     pub(super) fn between_runs(runs: &Runs<'_>) -> Option<Self> {
         let lines = |run: &SizedRun<'_>| longest_crack(Path::new(&run.folder));
-        let of_size = |is_fine: bool| {
-            runs.runs_of_size(is_fine)
-                .map(lines)
-                .collect::<Option<Vec<_>>>()
-        };
+        let of_size = |is_fine: bool| runs.by_size(is_fine).map(lines).collect::<Option<Vec<_>>>();
         let (fine, coarse) = (of_size(true)?, of_size(false)?);
         let horizons = runs
-            .runs_of_size(true)
+            .by_size(true)
             .filter_map(|run| run.results.number("horizon.mean").ok());
         let apart = coarse
             .iter()

@@ -75,7 +75,7 @@ impl Runs<'_> {
     }
 
     /// The runs of one size.
-    pub(super) fn runs_of_size(&self, is_fine: bool) -> impl Iterator<Item = &SizedRun<'_>> {
+    pub(super) fn by_size(&self, is_fine: bool) -> impl Iterator<Item = &SizedRun<'_>> {
         let runs = self.runs.iter();
         runs.filter(move |run| run.body.is_fine == is_fine)
     }
@@ -94,7 +94,7 @@ impl Runs<'_> {
     /// Values of a result in the runs at h and at 2h; runs without it are left out.
     fn samples(&self, name: &str) -> [Vec<f64>; 2] {
         let values = |is_fine| {
-            let runs = self.runs_of_size(is_fine);
+            let runs = self.by_size(is_fine);
             runs.filter_map(|run| run.results.number(name).ok())
                 .collect()
         };

@@ -106,7 +106,7 @@ pub fn converge(
         replace_file(&path.join(name), text.as_bytes())?;
     }
     let study = Study::load(&source)?;
-    let no_limit = results_without_limit(&study, &path, request)?;
+    let no_limit = no_limits(&study, &path, request)?;
     let from = match &request.task {
         Task::Run(settings) => {
             sweep::run(&study, &path, settings, &mut io::sink())?;
@@ -149,15 +149,11 @@ impl Request<'_> {
 }
 
 /// The results without a limit for the first body; prints them before any run.
-fn results_without_limit(
-    study: &Study,
-    path: &Path,
-    request: &Request<'_>,
-) -> anyhow::Result<NoLimit> {
+fn no_limits(study: &Study, path: &Path, request: &Request<'_>) -> anyhow::Result<NoLimit> {
     let first = plan::runs(study, path)?.into_iter().next();
     let case = first.map_or_else(|| request.case.clone(), |run| run.case);
     let found = no_limit(&case, &case.setup(&mut ())?);
-    found.print_refusals(&request.results, &mut request.print())?;
+    found.show(&request.results, &mut request.print())?;
     Ok(found)
 }
 

@@ -47,11 +47,7 @@ impl NoLimit {
     /// # Errors
     ///
     /// If none of the named results can have one.
-    pub(super) fn print_refusals(
-        &self,
-        names: &[String],
-        print: &mut dyn FnMut(&str),
-    ) -> anyhow::Result<()> {
+    pub(super) fn show(&self, names: &[String], print: &mut dyn FnMut(&str)) -> anyhow::Result<()> {
         let reasons = names.iter().map(|name| self.reason(kind(name)));
         let refused: Option<Vec<&str>> = reasons.collect();
         if let Some(reason) = refused.as_ref().and_then(|all| all.first()) {

@@ -150,7 +150,7 @@ fn print(
     )?;
     let points = |is_fine: bool| {
         let counts = runs
-            .runs_of_size(is_fine)
+            .by_size(is_fine)
             .filter_map(|run| run.results.number("points").ok());
         let words: Vec<String> = counts.map(|it| it.to_string()).collect();
         words.join(" and ")
@@ -190,7 +190,7 @@ fn print_apart(runs: &Runs<'_>, results: &[Evaluated], out: &mut dyn Write) -> i
     };
     let (mesher, families) = (shares(|it| it.mesher), shares(|it| it.families));
     if !mesher.is_empty() {
-        let names: Vec<&str> = runs.runs_of_size(true).map(|run| run.body.mesher).collect();
+        let names: Vec<&str> = runs.by_size(true).map(|run| run.body.mesher).collect();
         let names = format!("{} less {}", names[1], names[0]);
         writeln!(out, "  mesher       {names} at h: {mesher}")?;
     }
@@ -241,7 +241,7 @@ fn plot(runs: &Runs<'_>, result: &Evaluated) -> Plot {
         series.push(Series::circles(*mesher, colour, points));
     }
     let mean = |is_fine: bool| {
-        let points: Vec<[f64; 2]> = runs.runs_of_size(is_fine).filter_map(at).collect();
+        let points: Vec<[f64; 2]> = runs.by_size(is_fine).filter_map(at).collect();
         let n = points.len() as f64;
         [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / n)
     };

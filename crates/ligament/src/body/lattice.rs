@@ -193,7 +193,7 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
     }
 
     fn facets(&self, cloud: &PointCloud<D>) -> Vec<Facet<D>> {
-        Facet::outline_of_lattice(&self.lattice, cloud)
+        Facet::outline(&self.lattice, cloud)
     }
 
     fn cell_faces(&self, cloud: &PointCloud<D>) -> Option<CellFaces<D>> {

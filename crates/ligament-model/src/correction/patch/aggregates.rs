@@ -269,10 +269,7 @@ pub(super) struct Regularisation<'a, const N: usize> {
 
 impl<const N: usize> Regularisation<'_, N> {
     /// Linear parts of deviations (n_own) from a centre over the aggregates, reduced by the fraction that stays regularised.
-    pub(super) fn linear_deviations(
-        &self,
-        distance: impl Fn(usize) -> [f64; N] + Sync,
-    ) -> Vec<f64> {
+    pub(super) fn deviations(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
         let weighted = |index: usize| {
             let (distance, weight) = (distance(index), &self.weights[index]);
             std::array::from_fn(|k| weight[k] * distance[k])

@@ -198,7 +198,7 @@ impl<const N: usize> Place<N> {
             let (mu, centre) = (&self.mu[index], &centre[index]);
             std::array::from_fn(|k| mu[k] - centre[k])
         };
-        let common = regularisation.linear_deviations(away);
+        let common = regularisation.deviations(away);
         let mut gradient = self.unbalanced.clone();
         for (index, gradient) in gradient.iter_mut().enumerate() {
             let force = regularisation.force(index, away(index), &common);

@@ -138,7 +138,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
 
     /// Computes the product of the Hessian with values by index, and returns the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
-        let common = self.regularisation.linear_deviations(|index| values[index]);
+        let common = self.regularisation.deviations(|index| values[index]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {
             let indices = self.equations.pairs().indices(block);
             for (index, product) in indices.clone().zip(product.iter_mut()) {

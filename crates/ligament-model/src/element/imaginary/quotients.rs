@@ -60,9 +60,8 @@ impl Quotients {
     ) -> Self {
         let ends = bonds.ends[bond];
         let is_linked = |bond: u32| intact[bond as usize];
-        let across = |axis: Axis| {
-            ends.map(|end| surroundings.quotient_points(end, axis as usize, is_linked))
-        };
+        let across =
+            |axis: Axis| ends.map(|end| surroundings.stencil(end, axis as usize, is_linked));
         let own = [Some(ends), None];
         let mut quotients = Self::NONE;
         let is_supported = match BondClass::from_direction(bonds.direction[bond]) {

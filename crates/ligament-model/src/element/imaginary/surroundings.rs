@@ -91,7 +91,7 @@ impl Surroundings {
 
     /// Points of the difference quotient at a point along an axis (0: x, 1: y); `None` without a linked neighbour.
     #[inline]
-    pub(super) fn quotient_points(
+    pub(super) fn stencil(
         &self,
         point: u32,
         axis: usize,

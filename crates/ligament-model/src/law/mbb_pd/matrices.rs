@@ -7,10 +7,7 @@ use crate::element::imaginary::{StrainStiffness, entries};
 use crate::law::{BondStiffness, LawInput, bulk_stiffness, materials};
 
 /// Stiffness of bonds with given micro-modulus matrices and energy fractions of their first ends (n_bonds).
-pub(super) fn stiffness_from_matrices(
-    bonds: &BondSet,
-    matrices: &[(Matrix3<f64>, f64)],
-) -> BondStiffness {
+pub(super) fn bond_stiffness(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffness {
     let along = |((matrix, _), &[a, b]): (&(Matrix3<f64>, f64), &[f64; 2])| {
         let stretch = Vector3::new(a * a, b * b, a * b);
         stretch.dot(&(matrix * stretch))

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::matrices::{plane_stiffnesses, stiffness_from_matrices};
+use super::matrices::{bond_stiffness, plane_stiffnesses};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::BondClass;
@@ -40,7 +40,7 @@ pub(super) fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
         (0.5 * (rows + rows.transpose()), of_a / (of_a + of_b))
     };
     let matrices: Vec<(Matrix3<f64>, f64)> = (0..bonds.len()).map(of_bond).collect();
-    stiffness_from_matrices(bonds, &matrices)
+    bond_stiffness(bonds, &matrices)
 }
 
 /// Factors psi_1, psi_2 and psi_6 of a point, 1/m^4; infinite where the point has no bond that resists the strain.
