@@ -142,7 +142,8 @@ impl ContactPair {
         [0, 1, 2].map(|axis| whole[axis] - across * self.normal[axis])
     }
 
-    /// Adds a force f (N) on B along the crack and its opposite on A to the internal forces of all points (n_degrees_of_freedom), with the moments -r x f/2 on both, which belong to the rotations in [`slip`](Self::slip).
+    /// Adds a force f (N) on B along the crack and its opposite on A to the internal forces of all points (n_degrees_of_freedom), with the moments -r
+    /// x f/2 on both, which belong to the rotations in [`slip`](Self::slip).
     pub fn add_along(&self, layout: Layout, force: [f64; 3], internal: &mut [f64]) {
         let moment = cross(self.way, force).map(|it| -0.5 * it);
         for (end, sign) in self.ends.into_iter().zip([-1.0, 1.0]) {
@@ -200,7 +201,7 @@ impl ClosedPair {
         })
     }
 
-    /// Energy 1/2 k g^2, J, and where the pair sticks that of its elastic motion along the crack.
+    /// Energy 1/2 k g^2, J, and for a pair that sticks also the energy of its elastic motion along the crack.
     pub fn energy(&self) -> f64 {
         0.5 * self.force() * self.gap + self.stored_in_friction()
     }

@@ -158,7 +158,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     }
 
     /// Adds the forces of the elements of the far field at all points; returns their energy 1/2 u^T K u, J. A translation of all points makes no
-    /// force: displacements are counted from that of the first point, so that a large one costs no digits.
+    /// force: displacements are relative to the displacement of the first point, so that a large one costs no digits.
     fn add_far_field(&self, motions: &[f64], sums: &mut [PointForces<M>]) -> f64 {
         let Some(far) = &self.system.far else {
             return 0.0;

@@ -178,7 +178,7 @@ impl<const D: usize> BondSystem<D> {
         self
     }
 
-    /// Stiffness of each material, that of bonds and cells together, shape (n_materials), Pa.
+    /// Stiffness of each material, by bonds and cells together, shape (n_materials), Pa.
     pub fn whole_materials(&self) -> Vec<Stiffness> {
         let mut materials = self.materials.clone();
         let moduli = self.volumetric.iter().flat_map(|it| it.moduli());

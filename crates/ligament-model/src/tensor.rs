@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
-/// Components of a symmetric tensor as row and column, in the order of calculations: the components of the plane come first, so that the plane is a part of space.
+/// Components of a symmetric tensor as row and column, in the order of calculations: the components of the plane come first, so that the plane is a
+/// part of space.
 pub(crate) const ORDER: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [2, 2], [0, 2], [1, 2]];
 
 /// Names of the components of a symmetric tensor, in order.
@@ -100,7 +101,7 @@ impl<const D: usize> SymTensor<D> {
         _ => Self::NAMES,
     };
 
-    /// The tensor with components in order, zero where some of the last are missing: in space that of a plane with its normal component.
+    /// The tensor with components in order, zero where some of the last are missing: in space the tensor of a plane with its normal component.
     pub fn from_first_components(components: &[f64]) -> Self {
         let mut values = components.iter();
         Self::from_fn(|_, _| *values.next().unwrap_or(&0.0))

@@ -20,7 +20,7 @@ pub struct UniformStrains {
     /// Mean strains of the body in the basis of the uniform ones, a column for each, shape (n_strains, n_strains): the strain of the affine motion on
     /// which the forces do the same work as on the body. The unit matrix if the body is as stiff as its cells.
     pub mean: DMatrix<f64>,
-    /// Root mean square over the bonds of the deviation of their stretch from that of the mean strain, for each strain.
+    /// Root mean square over the bonds of the deviation of their stretch from the stretch by the mean strain, for each strain.
     pub scatter: Vec<f64>,
     /// Largest deviation of the stretch of a bond in a uniform strain of size one.
     pub largest: f64,

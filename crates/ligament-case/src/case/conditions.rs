@@ -107,7 +107,7 @@ pub struct Temperature {
 }
 
 impl Temperature {
-    /// Fills in missing keys; `folder` is that of the case file.
+    /// Fills in missing keys; `folder` is the folder of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         if let Some(file) = &mut self.file {
             complete_path(&key.child("file"), file, folder)?;
@@ -414,7 +414,7 @@ pub enum Shape {
 }
 
 impl Amplitude {
-    /// Fills in missing keys; `folder` is that of the case file.
+    /// Fills in missing keys; `folder` is the folder of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         if let Some(file) = &mut self.file {
             complete_path(&key.child("file"), file, folder)?;

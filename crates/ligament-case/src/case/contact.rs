@@ -81,7 +81,7 @@ fn one() -> f64 {
 }
 
 impl Rigid {
-    /// Fills in missing keys; `folder` is that of the case file.
+    /// Fills in missing keys; `folder` is the folder of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
         match &mut self.amplitude {

@@ -137,7 +137,7 @@ fn optional<T, U>(
 }
 
 impl Case {
-    /// Reads a parsed document and fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
+    /// Reads a parsed document and fills in missing keys; `folder` is the folder of the case file, `body` the kind of a body in memory.
     pub(super) fn read(
         document: &Node,
         folder: &Path,

@@ -81,7 +81,7 @@ impl Source {
         Ok(source)
     }
 
-    /// Name of the source: that of its folder if the file has one of the `usual` names, otherwise that of the file without its extension.
+    /// Name of the source: the name of its folder if the file has one of the `usual` names, otherwise the name of the file without its extension.
     pub fn name(&self, usual: &[&str]) -> String {
         let stem = self.path.file_stem().unwrap_or_default();
         let stem = stem.to_string_lossy();

@@ -38,7 +38,7 @@ pub struct PairwiseElement {
     ends: [u32; 2],
     /// Vector from A to B, m.
     offset: [f64; 2],
-    /// Ratio of the printed psi to that of the energy, for the rows (xx, yy, xy).
+    /// Ratio of the printed psi to the psi of the energy, for the rows (xx, yy, xy).
     row_factors: [f64; 3],
     /// Coefficients from psi c S V_A V_B |xi| of the rows to the force on the second end, 1/m.
     of_rows: [[f64; 3]; 2],

@@ -67,7 +67,7 @@ impl Sums {
         }
     }
 
-    /// Factors x of the loss, at most [`LARGEST_LOSS`], and x eta of the gain, with eta at most three times that of bonds in all directions.
+    /// Factors x of the loss, at most [`LARGEST_LOSS`], and x eta of the gain, with eta at most three times the value for bonds in all directions.
     fn balance<const D: usize>(self) -> [f64; 2] {
         let tangents = D as f64 - 1.0;
         if self.along == 0.0 {

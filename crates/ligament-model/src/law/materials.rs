@@ -46,7 +46,7 @@ pub(super) fn fractions_of_bond<'a, const D: usize>(
 /// Factors 2/(1 + k_soft/k_stiff) of the bonds whose ends have no material in common, 1 of the others, from the `stiffness` (n_materials) of
 /// the materials; shape (n_bonds), empty in a body of one material.
 ///
-/// This is the ratio of the stiffness of a bond with half its length in either material, as springs in series, to that of a bond in the
+/// This is the ratio of the stiffness of a bond with half its length in either material, as springs in series, to the stiffness of a bond in the
 /// softer one.
 pub(super) fn series_factors<const D: usize>(
     bonds: &BondSet<D>,
@@ -103,7 +103,7 @@ pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f
 /// material, `of_material`; shape (n_bonds), empty in a body of one material.
 ///
 /// Where materials are sheared in series, each rotates in proportion to 1/k_ti, and the point between them by their mean with the weights
-/// phi_i k_ti: beta is the relative deficit of the rotation of the point against that of the material of the bond.
+/// phi_i k_ti: beta is the relative deficit of the rotation of the point against the rotation of the bond's material.
 pub(super) fn restraints<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,

@@ -27,7 +27,7 @@ pub struct BondLaw {
     pub element: fn(&Options) -> ElementKind,
     /// Form of the shear stiffness over the length of bonds, by the space; `None` where points have no rotations.
     pub shear_form: Option<fn(Space) -> ShearForm>,
-    /// Whether the law fixes Poisson's ratio, whatever that of the materials.
+    /// Whether the law fixes Poisson's ratio, for all materials.
     pub fixes_poisson: bool,
     /// Most general materials that the law admits.
     pub materials: Materials,

@@ -147,7 +147,7 @@ impl<const D: usize> BondSystem<D> {
         fit.strain()
     }
 
-    /// Ratio k_t/k_n of the stiffness across an undamaged bond to that along it, between that of a spring and that of a point that resists
+    /// Ratio k_t/k_n of the stiffness across an undamaged bond to the stiffness along it, between the ratio of a spring and of a point that resists
     /// all motions alike.
     fn shear_ratio(&self, bond: usize) -> f64 {
         let [axial, shear] = [&self.rigidities.axial, &self.rigidities.shear].map(|it| it[bond]);

@@ -39,7 +39,7 @@ const DIVISIONS: usize = 40;
 pub enum Opposite<const D: usize> {
     /// Facets of other sides of the same surface.
     OtherSides,
-    /// Facets of the same surface whose points no unbroken bond connects with that of the integration point; each facet moves with one point.
+    /// Facets of the same surface whose points no unbroken bond connects with the point of the integration point; each facet moves with one point.
     Unbonded,
     /// A rigid shape, and whether it is free to move.
     Rigid(RigidShape<D>, bool),
@@ -525,7 +525,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// Shares of the axes in the stiffness of a facet: without friction that of a face of cells acts across it alone.
+    /// Shares of the axes in the stiffness of a facet: without friction the stiffness of a face of cells acts only across the face.
     fn axes(&self, facet: &Facet<D>) -> [f64; D] {
         let across = normal(&facet.corners.map(|it| it.position));
         match across.filter(|_| self.surface.cracks.is_some() && self.friction == 0.0) {

@@ -106,7 +106,7 @@ impl<const D: usize> RigidShape<D> {
         }
     }
 
-    /// Largest length in its distances, m: a coordinate of the shape, of a ball together with the radius.
+    /// Largest absolute coordinate of the shape, for a ball plus the radius, m: it determines the rounding of distances.
     pub(super) fn coordinate(&self) -> f64 {
         let largest = |position: [f64; D]| position.into_iter().fold(0.0, largest_size);
         match *self {
@@ -128,7 +128,7 @@ impl<const D: usize> RigidShape<D> {
     }
 }
 
-/// The larger of a size and that of a value.
+/// The larger one of a size and of the size of a value.
 pub(super) fn largest_size(size: f64, value: f64) -> f64 {
     size.max(value.abs())
 }

@@ -103,7 +103,7 @@ impl Search {
         now.par_iter().zip(before).any(moved)
     }
 
-    /// Facets whose box is near that of the facet at a place, by their numbers.
+    /// Facets whose box is near the box of the facet at a place, by their numbers.
     fn find_neighbours<const D: usize>(&self, place: usize, sought: &Sought<'_, D>) -> Vec<u32> {
         if !sought.is_whole(&sought.corners[place]) {
             return Vec::new();

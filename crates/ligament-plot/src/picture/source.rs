@@ -136,7 +136,7 @@ impl Subject {
     }
 }
 
-/// The default field: that of the first results in which bonds failed, else the displacement.
+/// The default field: the field of the first results in which bonds failed, else the displacement.
 fn default_field(sources: &[Source]) -> Result<&'static str, PictureError> {
     for source in sources {
         let field = first_field_of(&source.outputs)?;

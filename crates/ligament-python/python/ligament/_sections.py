@@ -188,12 +188,12 @@ then not to be trusted. Default false."""
     rotational_stiffness: Literal["decaying", "quarter", "beam", "none"]
     """Stiffness against relative rotation; of `mppd`, `orthotropic`.
 
-- `decaying`: k_t l (1 - l/H)/2.
-- `quarter`: k_t l/4.
-- `beam`: k_t l/12.
-- `none`: None."""
+- `decaying`: k_theta = k_t l (1 - l/H)/2.
+- `quarter`: k_theta = k_t l/4.
+- `beam`: k_theta = k_t l/12.
+- `none`: k_theta = 0."""
     rotational_factor: float
-    """Stiffness against relative rotation over that of the law; 1 without the key; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`."""
+    """Stiffness against relative rotation over the stiffness of the law; 1 without the key; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`."""
     cosserat_length: float
     """Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
 `rotational_factor`."""
