@@ -136,7 +136,11 @@ fn rounded_coordinates_have_the_bonds_of_exact_ones() {
     let bonds_of = |mesh: &Mesh| {
         let cloud = cloud_of(mesh, 1.0);
         let found = BondSet::search(&cloud, &Horizons::from_spacing(&cloud.spacing, 3.0));
-        let leaves = bonds_outside(&PlaneOutline::of_cells(&mesh.cells, &cloud), &found, &cloud);
+        let leaves = bonds_outside(
+            &PlaneOutline::from_cells(&mesh.cells, &cloud),
+            &found,
+            &cloud,
+        );
         let inside = found.ends.iter().copied().zip(leaves);
         inside.filter(|it| !it.1).map(|it| it.0).collect::<Vec<_>>()
     };

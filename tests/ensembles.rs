@@ -87,15 +87,15 @@ fn bars(n: u32, modulus: f64) -> Setup {
     const ROWS: u32 = 3;
     const SPACING: f64 = 1e-3;
     const DISTANCE: f64 = 4.0;
-    let of_bar = COLUMNS * ROWS;
+    let bar_constants = COLUMNS * ROWS;
     let position = |k: u32| {
-        let (bar, column, row) = (k / of_bar, k % COLUMNS, k / COLUMNS % ROWS);
+        let (bar, column, row) = (k / bar_constants, k % COLUMNS, k / COLUMNS % ROWS);
         [
             SPACING * f64::from(column),
             DISTANCE * f64::from(bar) + SPACING * f64::from(row),
         ]
     };
-    let all = || 0..n * of_bar;
+    let all = || 0..n * bar_constants;
     let points = Points::new(
         all().map(position).collect(),
         vec![SPACING * SPACING; all().len()],

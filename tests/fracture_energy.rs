@@ -110,7 +110,7 @@ fn told(bench: &Bench, crack: [f64; 2]) -> f64 {
     among[middle] = true;
     let length = crack[0].hypot(crack[1]);
     let normal = [-crack[1] / length, crack[0] / length];
-    let energy = CrackEnergy::of_opening(system, criteria, &among, normal).unwrap();
+    let energy = CrackEnergy::for_normal(system, criteria, &among, normal).unwrap();
     assert_eq!(energy.unbroken, 0.0);
     energy.per_area / FRACTURE_ENERGY
 }

@@ -302,7 +302,7 @@ fn central_forces_are_common_to_all() {
 }
 
 /// Either micromodulus has the energy of the continuum as an integral. E of an infinite lattice with m = 20 and whole families:
-/// the sum with the constant one feels which cells at the horizon it takes in (0.8 %), the conical one is zero there (0.02 %).
+/// the sum with the constant one is_affected_by which cells at the horizon it takes in (0.8 %), the conical one is zero there (0.02 %).
 #[test]
 fn a_conical_micromodulus_has_the_energy_of_a_constant_one() {
     let lattice = r#"

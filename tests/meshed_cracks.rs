@@ -128,14 +128,14 @@ fn no_bond_crosses_a_crack_in_the_mesh() {
     let cloud = PointCloud::from_mesh(&mesh, 1.0, &vec![0; mesh.cells.len()], 1);
     check(
         &cloud,
-        (&PlaneOutline::of_cells(&mesh.cells, &cloud), &mesh.cells),
+        (&PlaneOutline::from_cells(&mesh.cells, &cloud), &mesh.cells),
     );
     for is_cut in [false, true] {
         let mesh = cubes(is_cut);
         let cloud = PointCloud::from_mesh(&mesh, 1.0, &vec![0; mesh.cells.len()], 1);
         check(
             &cloud,
-            (&SolidOutline::of_cells(&mesh.cells, &cloud), &mesh.cells),
+            (&SolidOutline::from_cells(&mesh.cells, &cloud), &mesh.cells),
         );
     }
 }

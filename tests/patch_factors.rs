@@ -7,7 +7,9 @@ use ligament_mesh::{SolidCell, SolidMesh};
 use ligament_model::bonds::BondSet;
 use ligament_model::cloud::PointCloud;
 use ligament_model::correction::Correction;
-use ligament_model::correction::patch::{CellForces, Points, Settings, correct, of_solid_mesh};
+use ligament_model::correction::patch::{
+    CellForces, Points, Settings, correct, forces_of_solid_mesh,
+};
 use ligament_model::horizon::Horizons;
 use ligament_model::law::{BondStiffness, Law};
 use ligament_model::material::{Elasticity, Isotropic, Plane, Space, Stiffness};
@@ -89,7 +91,7 @@ fn corrected_by(settings: &Settings, mesh: &SolidMesh, horizon: f64, turn: bool)
     let of_cells = vec![0; mesh.cells.len()];
     let cloud = PointCloud::from_mesh(mesh, 1.0, &of_cells, 1);
     let bonds = BondSet::search(&cloud, &Horizons::unified(horizon, cloud.len()));
-    let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
+    let forces = forces_of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
     let stiffness = Law::NHPD.densities(&bonds, &cloud, &[MATERIAL.into()], Space::Solid);
     let alpha = vec![1.0; bonds.len()];
     let points = Points {
@@ -120,7 +122,7 @@ impl Case {
                 true => size,
                 false => 0.0,
             });
-            let mut sums: Vec<[[f64; 3]; 2]> = (self.forces.of_points())
+            let mut sums: Vec<[[f64; 3]; 2]> = (self.forces.on_points())
                 .map(|forces| [forces[number].map(|it| -it), [0.0; 3]])
                 .collect();
             for (bond, &[a, b]) in self.bonds.ends.iter().enumerate() {
@@ -257,9 +259,9 @@ fn cells_give_tractions() {
         .for_each(|it| *it = it.round());
     let of_cells = vec![0; mesh.cells.len()];
     let cloud = PointCloud::from_mesh(&mesh, 1.0, &of_cells, 1);
-    let forces = of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
+    let forces = forces_of_solid_mesh(&mesh.cells, &cloud, &of_cells, stiffness());
     let mut side = [0.0; 3];
-    for (forces, position) in forces.of_points().zip(&mesh.positions) {
+    for (forces, position) in forces.on_points().zip(&mesh.positions) {
         // eps_xx = 1 and gamma_xy = 1.
         let half = FRAC_1_SQRT_2;
         let force = minus(forces[0], forces[2].map(|it| -half * it));

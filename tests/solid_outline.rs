@@ -132,7 +132,7 @@ fn bonds_agree_with_points_along_them() {
             let [p, origin] = [cloud.positions[point as usize], cloud.origin];
             back([0, 1, 2].map(|axis| p[axis] + origin[axis])).map(f64::round)
         };
-        let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
+        let outside = bonds_outside(&SolidOutline::from_cells(&cells, &cloud), &bonds, &cloud);
         let mut count = 0;
         for (ends, &found) in bonds.ends.iter().zip(&outside) {
             let [a, b] = ends.map(grid);
@@ -156,7 +156,7 @@ fn bonds_agree_with_points_along_them() {
             bonds.len()
         );
         assert_eq!(
-            SolidOutline::of_cells(&cells, &cloud).first_crossing(),
+            SolidOutline::from_cells(&cells, &cloud).first_crossing(),
             None
         );
     }
@@ -171,7 +171,8 @@ fn a_whole_box_loses_nothing() {
     ] {
         let (cloud, cells, bonds) = body(cells(cut, |_| true), turned(angle), 3.2);
         assert!(
-            !bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud).contains(&true),
+            !bonds_outside(&SolidOutline::from_cells(&cells, &cloud), &bonds, &cloud)
+                .contains(&true),
             "{cut:?}"
         );
     }
@@ -198,7 +199,7 @@ fn ball(p: [f64; 3]) -> [f64; 3] {
 fn a_round_body_loses_nothing() {
     for cut in [Cut::Hexahedra, Cut::Prisms, Cut::Tetrahedra] {
         let (cloud, cells, bonds) = body(cells(cut, |_| true), ball, 0.9);
-        let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
+        let outside = bonds_outside(&SolidOutline::from_cells(&cells, &cloud), &bonds, &cloud);
         let lost = outside.iter().filter(|it| **it).count();
         assert_eq!(lost, 0, "{cut:?} of {}", outside.len());
     }
@@ -211,7 +212,7 @@ fn a_cavity_parts_what_lies_across_it() {
     let is_inner = |cell: [u32; 3]| cell.iter().all(|it| (1..4).contains(it));
     for cut in [Cut::Hexahedra, Cut::Prisms, Cut::Tetrahedra] {
         let (cloud, cells, bonds) = body(cells(cut, |cell| !is_inner(cell)), ball, 0.9);
-        let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
+        let outside = bonds_outside(&SolidOutline::from_cells(&cells, &cloud), &bonds, &cloud);
         let edges: std::collections::BTreeSet<[u32; 2]> =
             cells.iter().flat_map(SolidCell::edges).collect();
         let radius = |point: u32| norm(cloud.positions[point as usize]);
@@ -264,7 +265,7 @@ fn nothing_is_seen_across_a_slot() {
         narrow,
         1.5,
     );
-    let spacing = spacing_inside(&SolidOutline::of_cells(&cells, &cloud), &cells, &cloud);
+    let spacing = spacing_inside(&SolidOutline::from_cells(&cells, &cloud), &cells, &cloud);
     let is_at_slot = |point: usize| {
         let p = [0, 1, 2].map(|axis| cloud.positions[point][axis] + cloud.origin[axis]);
         p[0] < 1.5 && (1.9..2.2).contains(&p[2])
@@ -277,7 +278,7 @@ fn nothing_is_seen_across_a_slot() {
         assert!((cloud.spacing[point] - 0.1).abs() < 1e-12);
         assert!((spacing[point] - 1.0).abs() < 1e-12, "{}", spacing[point]);
     }
-    let outside = bonds_outside(&SolidOutline::of_cells(&cells, &cloud), &bonds, &cloud);
+    let outside = bonds_outside(&SolidOutline::from_cells(&cells, &cloud), &bonds, &cloud);
     let across = bonds
         .length
         .iter()
@@ -299,7 +300,7 @@ fn cells_through_each_other_are_noticed() {
     };
     let (cloud, cells, _) = body(cells(Cut::Hexahedra, apart), moved, 1.1);
     assert!(
-        SolidOutline::of_cells(&cells, &cloud)
+        SolidOutline::from_cells(&cells, &cloud)
             .first_crossing()
             .is_some()
     );

@@ -54,7 +54,12 @@ fn preparation(criterion: &mut Criterion) {
         let patch = || {
             let points = patch::Points {
                 cloud: &cloud,
-                forces: patch::of_mesh(&mesh.cells, &cloud, &material_of_cell, continuum.to_vec()),
+                forces: patch::forces_of_mesh(
+                    &mesh.cells,
+                    &cloud,
+                    &material_of_cell,
+                    continuum.to_vec(),
+                ),
                 turn: true,
             };
             let alpha = length_factors(&bonds, &cloud);

@@ -190,8 +190,8 @@ impl Case {
         canvas.grid("points.vtu", &mut expected);
         let mut fields = canvas.on("points.vtu", &mut expected);
         for (criterion, criteria) in of {
-            for (k, strain) in Strain::of_figures(poisson).into_iter().enumerate() {
-                let at = |_: u32| Strain::of_figures(poisson)[k].stretches;
+            for (k, strain) in Strain::in_figures(poisson).into_iter().enumerate() {
+                let at = |_: u32| Strain::in_figures(poisson)[k].stretches;
                 let found = families(system, &criteria, at);
                 let name = |what: &str| format!("{criterion}_{}_{what}", strain.name);
                 let values = |of: fn(&ligament_post::yielding::field::FamilyYield) -> f64| {

@@ -28,12 +28,12 @@ pub enum MeshFileError {
         /// The reader's reason.
         source: GmshError,
     },
-    /// The first of several processes, which alone reads the mesh, could not use it.
+    /// The first of several processes, the only one that reads the mesh, could not use it.
     #[error("the first process could not use the mesh, and its message says why")]
     OfFirstProcess,
 }
 
-/// The key that reads a mesh in another plane.
+/// The key for a mesh in another plane.
 fn by_key(error: &GmshError) -> String {
     match error {
         GmshError::OtherPlane { plane, .. } => {
@@ -93,10 +93,10 @@ fn read<T>(
     })
 }
 
-/// Number of bytes from which on the kind of most files is known.
+/// Number of bytes that determine the kind of most files.
 const BEGINNING: usize = 1 << 16;
 
-/// Whether a file has a mesh of solid cells, or points of a solid. No more of the file is in memory than twice of what this takes.
+/// Whether a file has a mesh of solid cells, or points of a solid. At most twice the bytes that determine this are in memory.
 ///
 /// # Errors
 ///

@@ -1,4 +1,5 @@
-//! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points; amplitudes, at times; and curves of softening.
+//! Tables of comma-separated values at positions: temperatures, factors of loads, and bodies of points; amplitudes, at times; and curves of
+//! softening.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -12,7 +13,7 @@ use crate::input_file;
 /// Names of the coordinates in a header.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Column of what a point of a body stands for, m^2 in the plane and m^3 in space.
+/// Column of the size of a point of a body: its area in the plane, m^2, its volume in space, m^3.
 const SIZES: [&str; 2] = ["area", "volume"];
 
 /// Word before the names of the columns in files of points of PeriLab.
@@ -30,7 +31,7 @@ pub fn is_table(path: &Path) -> bool {
     ENDINGS.iter().any(|it| ending.eq_ignore_ascii_case(it))
 }
 
-/// Whether the points of a table that begins with these bytes are those of a solid, by its header; `None` where the bytes end before.
+/// Whether the points of a table belong to a solid, by the header in its first bytes; `None` where the header is incomplete.
 pub(crate) fn holds_solid(bytes: &[u8]) -> Option<bool> {
     let end = bytes.iter().position(|it| *it == b'\n')?;
     let header = String::from_utf8_lossy(&bytes[..end]);
@@ -40,7 +41,7 @@ pub(crate) fn holds_solid(bytes: &[u8]) -> Option<bool> {
     Some(names.any(|it| name_of(&it) == AXES[2]))
 }
 
-/// The tables that a case names.
+/// Treatment of the tables that a case names.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Tables {
     /// Tables that stay unread, and so without rows, where a substitute stands in for the body.
@@ -85,8 +86,8 @@ impl Tables {
         table.rows.iter().map(sample).collect()
     }
 
-    /// Reads the places of a refinement, with the pass that found each and whether it is that of an open bond, where the table has these columns; as the
-    /// error a description of the fault.
+    /// Reads the places of a refinement, each with its pass and whether its bond is open, where the table has these columns; as the error a
+    /// description of the fault.
     pub(crate) fn fine_places(self, path: &Path) -> Result<Vec<FinePlace>, String> {
         let Self::Read { dimensions } = self else {
             return Ok(Vec::new());
@@ -172,13 +173,13 @@ pub(crate) fn body(path: &Path) -> Result<AnyBody, String> {
     }
 }
 
-/// The text of a table of points at positions (n_points, m) with what each stands for (n_points, m^2 or m^3) and groups by indices, from
-/// which a case makes the body.
+/// The text of a table of points at positions (n_points, m) with the area or volume of each (n_points, m^2 or m^3) and groups by indices, from which
+/// a case makes the body.
 ///
 /// # Errors
 ///
 /// If a name of a group cannot head a column, or has the name of another column.
-pub fn text_of_points<const D: usize>(
+pub fn table_text<const D: usize>(
     positions: &[[f64; D]],
     sizes: &[f64],
     groups: &[(String, Vec<u32>)],
@@ -241,7 +242,7 @@ pub fn text_of_fine_places(places: &[FinePlace], dimensions: usize) -> String {
     text_of_rows(&header, rows)
 }
 
-/// A row of a table: its line and values, which are words where nothing asks for numbers.
+/// A row of a table: its line and the texts of its values.
 struct Row {
     line: usize,
     values: Vec<String>,
@@ -265,8 +266,8 @@ impl<'a> Table<'a> {
         Self::parse(path, &text, expected)
     }
 
-    /// Parses the rows below the header, separated by commas, by semicolons or tabs as spreadsheets write them where decimals have commas, or by blanks;
-    /// blank lines and lines that begin with # are ignored, but for a header of them.
+    /// Parses the rows below the header, with values separated by commas, by semicolons or tabs (as in spreadsheets with decimal commas), or by
+    /// blanks; blank lines and lines that begin with # are ignored, except for a header.
     fn parse(path: &'a Path, text: &str, expected: &'a str) -> Result<Self, String> {
         // Spreadsheets write a byte order mark at the beginning of a file.
         let lines = text.trim_start_matches('\u{feff}').lines();
@@ -366,7 +367,7 @@ impl<'a> Table<'a> {
     }
 }
 
-/// Groups of a column with their points: the column itself with the points that have not 0 in it, or the blocks of a column of numbers of blocks.
+/// Groups of a column with their points: the column as a group of the points with a nonzero value, or the groups of a column of block numbers.
 fn groups(name: &str, column: &[f64]) -> Vec<(String, Vec<u32>)> {
     if name != BLOCK {
         let members = (0..).zip(column).filter(|(_, it)| **it != 0.0);
@@ -384,7 +385,7 @@ fn groups(name: &str, column: &[f64]) -> Vec<(String, Vec<u32>)> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Separator {
     Comma,
-    /// A semicolon or a tab, beside which decimals may have commas.
+    /// A semicolon or a tab, with which decimals may have commas.
     OfSpreadsheets(char),
     Blanks,
 }
@@ -446,7 +447,7 @@ mod tests {
     fn points_are_read_as_they_are_written() {
         let positions = [[0.1, 0.2], [0.1 + 0.2, 1e-300]];
         let groups = [("left".to_owned(), vec![0]), ("all".to_owned(), vec![0, 1])];
-        let text = text_of_points(&positions, &[1e-4, 2e-4], &groups).unwrap();
+        let text = table_text(&positions, &[1e-4, 2e-4], &groups).unwrap();
         let table = Table::parse(Path::new("points.csv"), &text, "").unwrap();
         let body = table.body::<2>().unwrap();
         let direct = Points::new(positions.to_vec(), vec![1e-4, 2e-4]).unwrap();
@@ -457,8 +458,8 @@ mod tests {
             .unwrap();
         assert_eq!(body, direct);
         assert_eq!(body.group_names(), ["all", "left"]);
-        assert!(text_of_points(&positions, &[1.0; 2], &[("x".to_owned(), vec![0])]).is_err());
-        assert!(text_of_points(&positions, &[1.0; 2], &[("a,b".to_owned(), vec![0])]).is_err());
+        assert!(table_text(&positions, &[1.0; 2], &[("x".to_owned(), vec![0])]).is_err());
+        assert!(table_text(&positions, &[1.0; 2], &[("a,b".to_owned(), vec![0])]).is_err());
         assert_eq!(holds_solid(text.as_bytes()), Some(false));
         assert_eq!(holds_solid(b"x, y,\"z\",volume\n"), Some(true));
         assert_eq!(holds_solid(b"x, y,\"z\""), None);

@@ -45,7 +45,7 @@ impl CaseFile {
         Ok(setup)
     }
 
-    /// The body of the case, of a mesh the nodes alone on other processes than the first.
+    /// The body of the case; other processes than the first have only the nodes of a mesh.
     fn read_body_on_first(
         &self,
         communicator: &dyn MatrixCommunicator,
@@ -123,7 +123,7 @@ impl CaseFile {
         }
     }
 
-    /// The setup of the case on a given body, in place of that of the case.
+    /// The setup of the case on a given body instead of the body of the case.
     ///
     /// # Errors
     ///
@@ -140,7 +140,7 @@ impl CaseFile {
         self.case.solver.threads.map(|threads| threads as usize)
     }
 
-    /// The error of a computation in the terms of the case, with a faulty field of the setup at the responsible key.
+    /// The error of a computation in the terms of the case: a faulty field of the setup at the responsible key.
     pub fn error_in_case_terms(&self, error: ligament::Error) -> anyhow::Error {
         match error {
             ligament::Error::Setup(error) => self.error_at_key(error).into(),

@@ -24,18 +24,18 @@ pub(crate) struct Cholesky {
     negative_pivots: usize,
     /// Digest of the entries of the matrix in the columns of each supernode from which its panel was computed, shape (n_supernodes); None
     /// for a panel that was changed since, or was not computed.
-    made_from: Vec<Option<u64>>,
+    entry_digests: Vec<Option<u64>>,
     /// Working memory of updates in place, made at the first update.
     modification: Option<Modification>,
 }
 
 impl Cholesky {
-    /// Memory for a factor that is not yet computed.
+    /// Allocates a factor that is not yet computed.
     pub(crate) fn new(kind: FactorKind, symbolic: Arc<Symbolic>) -> Result<Self, FactorError> {
         Ok(Self {
             kind,
             values: zeros(symbolic.cholesky.len_val())?,
-            made_from: vec![None; symbolic.supernodes().len()],
+            entry_digests: vec![None; symbolic.supernodes().len()],
             symbolic,
             diagonal: Vec::new(),
             negative_pivots: 0,
@@ -74,7 +74,7 @@ impl Cholesky {
         };
         let numbers = (0..supernodes.len()).into_par_iter();
         let digests: Vec<Option<u64>> = numbers.map(entries).collect();
-        let both = digests.iter().zip(&self.made_from);
+        let both = digests.iter().zip(&self.entry_digests);
         let mut outdated: Vec<bool> = both.map(|(one, other)| one != other).collect();
         for supernode in 0..supernodes.len() {
             if let (true, Some(&parent_row)) = (
@@ -84,7 +84,7 @@ impl Cholesky {
                 outdated[of_row[parent_row] as usize] = true;
             }
         }
-        self.made_from = digests;
+        self.entry_digests = digests;
         outdated
     }
 
@@ -126,9 +126,9 @@ impl Factorisation for Cholesky {
         };
         let factorised = left_looking.factorise(&mut self.values);
         if let Err(row) = factorised {
-            let both = self.made_from.iter_mut().zip(outdated);
+            let both = self.entry_digests.iter_mut().zip(outdated);
             both.filter(|(_, outdated)| *outdated)
-                .for_each(|(made_from, _)| *made_from = None);
+                .for_each(|(entry_digests, _)| *entry_digests = None);
             return Err(self.invalid_pivot_error(row));
         }
         self.finish_factorisation(matrix);
@@ -159,7 +159,7 @@ impl Factorisation for Cholesky {
             values: self.values.clone(),
             diagonal: self.diagonal.clone(),
             negative_pivots: self.negative_pivots,
-            made_from: self.made_from.clone(),
+            entry_digests: self.entry_digests.clone(),
             modification: None,
         })
     }
@@ -197,7 +197,7 @@ impl Factorisation for Cholesky {
             values: &mut self.values,
             diagonal: &mut self.diagonal,
             negative_pivots: &mut self.negative_pivots,
-            made_from: &mut self.made_from,
+            entry_digests: &mut self.entry_digests,
         };
         modification
             .apply(&mut target, terms, rows, &mut vector, &rows_of_b)

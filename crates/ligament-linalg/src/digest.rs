@@ -14,21 +14,21 @@ const NONE: u64 = 0xcbf2_9ce4_8422_2325;
 /// A hash of the bits of values, the same for any number of threads; different bits give the same hash with a probability of about 2^-64.
 pub fn digest(values: &[f64]) -> u64 {
     let of_chunks: Vec<[u64; LANES]> = values.par_chunks(CHUNK).map(chunk_digest).collect();
-    of_chunks.into_iter().flatten().fold(NONE, with)
+    of_chunks.into_iter().flatten().fold(NONE, extended)
 }
 
 fn chunk_digest(values: &[f64]) -> [u64; LANES] {
     let mut digests = [NONE; LANES];
     for values in values.chunks(LANES) {
         for (digest, value) in digests.iter_mut().zip(values) {
-            *digest = with(*digest, value.to_bits());
+            *digest = extended(*digest, value.to_bits());
         }
     }
     digests
 }
 
 /// Extends a hash of Fowler, Noll and Vo, taken over words instead of bytes, by one word; a rotation moves high bits down.
-fn with(digest: u64, word: u64) -> u64 {
+fn extended(digest: u64, word: u64) -> u64 {
     (digest.rotate_left(29) ^ word).wrapping_mul(0x0000_0100_0000_01b3)
 }
 

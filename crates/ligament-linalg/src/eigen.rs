@@ -15,7 +15,7 @@ use faer::{Accum, Mat, Par, Spec};
 /// Vectors multiplied by the operator together.
 const BLOCK: usize = 2;
 
-/// Vectors of the basis beyond three times the number of pairs.
+/// Number of basis vectors beyond three times the number of pairs.
 const ROOM: usize = 20;
 
 /// Relative size of the part of a vector outside the basis below which the vector lies in the basis up to rounding.

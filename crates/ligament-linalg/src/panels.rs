@@ -1,4 +1,4 @@
-//! The values of a factor, panel by panel.
+//! Values of a factor by panels.
 
 use std::ops::Range;
 

@@ -280,7 +280,7 @@ fn forward<S: Simd, const N: usize>(
     }
 }
 
-/// Forward substitution in a block of columns, the first of which has its pivot in the row `first` of the columns and of `column`.
+/// Forward substitution in a block of columns; the pivot of its first column is in the row `first` of the columns and of `column`.
 #[inline(always)]
 pub(crate) fn forward_block<S: Simd>(
     simd: S,
@@ -345,7 +345,7 @@ fn backward<S: Simd, const N: usize>(
     }
 }
 
-/// Backward substitution in a block of columns, the first of which has its pivot in the row `first` of the columns and of `column`.
+/// Backward substitution in a block of columns; the pivot of its first column is in the row `first` of the columns and of `column`.
 #[inline(always)]
 fn backward_block<S: Simd>(
     simd: S,

@@ -142,7 +142,7 @@ impl Symbolic {
         &self.sources
     }
 
-    /// For each supernode, the supernodes before it that update it.
+    /// Supernodes that update each supernode, all of them before it.
     pub(crate) fn updating_supernodes(&self) -> &UpdatingSupernodes {
         &self.updating_supernodes
     }

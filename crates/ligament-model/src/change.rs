@@ -39,9 +39,9 @@ pub trait ChangedElements: std::fmt::Debug {
 struct ChangedElement<const D: usize, const M: usize, E: Element<D, M>> {
     /// Ends of the bond.
     ends: [u32; 2],
-    /// Element before, with its deformation at the breakage.
+    /// Element before the breakage, with its deformation then.
     before: (E, E::Deformation),
-    /// Element after, with its deformation; `None` if its own bond breaks.
+    /// Element after the breakage, with its deformation; `None` if its own bond breaks.
     after: Option<(E, E::Deformation)>,
 }
 
@@ -53,7 +53,7 @@ struct Changed<const D: usize, const M: usize, E: Element<D, M>> {
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
-    /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    /// Elements that change when some of the unbroken bonds `left` break, at displacements (n_degrees_of_freedom).
     pub(crate) fn changed(
         &self,
         left: UnbrokenBonds<'_>,
@@ -70,7 +70,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             let bond = bond as usize;
             Some(ChangedElement {
                 ends: ends[bond],
-                before: deformed(bond, self.left(left, bond)?),
+                before: deformed(bond, self.remaining_element(left, bond)?),
                 after: None,
             })
         });
@@ -83,7 +83,8 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             }
             elements.extend(dependent_bonds.into_iter().filter_map(|bond| {
                 let bond = bond as usize;
-                let [before, after] = [left.intact, &intact].map(|intact| self.whole(intact, bond));
+                let [before, after] =
+                    [left.intact, &intact].map(|intact| self.whole_element(intact, bond));
                 (intact[bond] && before != after).then(|| ChangedElement {
                     ends: ends[bond],
                     before: deformed(bond, before),
@@ -111,7 +112,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ChangedElements for Changed<D, M, E> {
-    /// Patches count by their terms, as many as a third of those of a bond.
+    /// Patches count by their terms: three terms are one element.
     fn n_elements(&self) -> usize {
         let n_terms: usize = self.patches.iter().map(ChangedPatch::n_terms).sum();
         self.elements.len() + n_terms.div_ceil(TERMS_OF_BOND)

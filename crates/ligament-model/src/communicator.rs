@@ -25,7 +25,7 @@ pub trait Communicator: Debug + Send + Sync {
     /// exchange no message.
     fn all_to_all(&self, own: &[f64], to: &[usize], from: &[usize]) -> Vec<f64>;
 
-    /// Replaces the bytes on every process by those of rank 0.
+    /// Replaces the bytes on every process by the bytes of rank 0.
     fn broadcast(&self, bytes: &mut Vec<u8>);
 
     /// Moves bytes from one process to another, where they replace those that it has. These two processes alone call it.
@@ -132,8 +132,8 @@ impl dyn Communicator + '_ {
     }
 
     /// Whether a condition holds on some process.
-    pub fn any(&self, here: bool) -> bool {
-        let mut some = [f64::from(u8::from(here))];
+    pub fn any(&self, local: bool) -> bool {
+        let mut some = [f64::from(u8::from(local))];
         self.all_reduce_max(&mut some);
         some[0] > 0.0
     }

@@ -9,20 +9,20 @@ use crate::subdomain::Subdomain;
 /// Number in the body of the first point of the part of each local point, by pairs of points on all processes, shape (n_points); collective.
 pub fn first_points(subdomain: &Subdomain, pairs: impl Iterator<Item = [u32; 2]>) -> Vec<u32> {
     let n_points = subdomain.n_points();
-    let mut here = Parts::new(n_points);
-    pairs.for_each(|points| here.join(points));
+    let mut sets = Parts::new(n_points);
+    pairs.for_each(|points| sets.join(points));
     let ghosts = Ghosts::all(subdomain);
     let number = |point: u32| f64::from(subdomain.number(point));
     let mut names: Vec<f64> = (0..n_points as u32).map(number).collect();
     let mut of_points = names.clone();
     loop {
         for point in subdomain.owned() {
-            of_points[point as usize] = names[here.first(point) as usize];
+            of_points[point as usize] = names[sets.first(point) as usize];
         }
         ghosts.update(&mut of_points, 1);
         let mut is_earlier = false;
         for &ghost in ghosts.points() {
-            let name = &mut names[here.first(ghost) as usize];
+            let name = &mut names[sets.first(ghost) as usize];
             is_earlier |= of_points[ghost as usize] < *name;
             *name = name.min(of_points[ghost as usize]);
         }

@@ -53,7 +53,7 @@ pub struct ContactPair {
     pub ends: [u32; 2],
     /// Unit normal n of the crack, from A to B; without a component along z in the plane.
     pub normal: [f64; 3],
-    /// Way r from A to B, m.
+    /// Vector r from A to B, m.
     pub way: [f64; 3],
     /// Stiffness k along the normal, N/m.
     pub stiffness: f64,
@@ -80,7 +80,7 @@ pub struct ClosedPair {
 pub struct Rubbing {
     /// Internal force on the second end along the crack, N; the first end has the opposite one.
     pub force: [f64; 3],
-    /// Share of the elastic force that friction holds: 1 where the pair sticks, less where it slides.
+    /// Fraction of the elastic force that friction holds: 1 where the pair sticks, less where it slides.
     pub share: f64,
 }
 
@@ -123,7 +123,7 @@ impl ContactPair {
 }
 
 impl ContactPair {
-    /// Motion P w of the faces against each other along the crack for the motions of all points (n_degrees_of_freedom), m: w = u_B - u_A -
+    /// Relative motion P w of the faces along the crack for the motions of all points (n_degrees_of_freedom), m: w = u_B - u_A -
     /// (phi_A + phi_B)/2 x r, of which n . w is the gap, and P = I - n n^T.
     pub fn slip(&self, layout: Layout, motions: &[f64]) -> [f64; 3] {
         let mut whole = [0.0; 3];
@@ -142,8 +142,8 @@ impl ContactPair {
         [0, 1, 2].map(|axis| whole[axis] - across * self.normal[axis])
     }
 
-    /// Adds the internal forces of a force f (N) on B along the crack and of its opposite on A to those of all points
-    /// (n_degrees_of_freedom), with the moments -r x f/2 on both, which belong to the rotations in [`slip`](Self::slip).
+    /// Adds a force f (N) on B along the crack and its opposite on A to the internal forces of all points (n_degrees_of_freedom), with the moments -r
+    /// x f/2 on both, which belong to the rotations in [`slip`](Self::slip).
     pub fn add_along(&self, layout: Layout, force: [f64; 3], internal: &mut [f64]) {
         let moment = cross(self.way, force).map(|it| -0.5 * it);
         for (end, sign) in self.ends.into_iter().zip([-1.0, 1.0]) {
@@ -201,7 +201,7 @@ impl ClosedPair {
         })
     }
 
-    /// Energy 1/2 k g^2, J, and where the pair sticks that of its elastic motion along the crack.
+    /// Energy 1/2 k g^2, J, and for a pair that sticks also the energy of its elastic motion along the crack.
     pub fn energy(&self) -> f64 {
         0.5 * self.force() * self.gap + self.stored_in_friction()
     }

@@ -28,7 +28,7 @@ pub trait Deformation: Copy + Default + PartialEq + fmt::Debug + Send + Sync + '
     /// The deformation times a factor.
     fn scaled(&self, factor: f64) -> Self;
 
-    /// The difference to another deformation.
+    /// The deformation minus another one.
     fn less(&self, other: &Self) -> Self;
 
     /// Strains that criteria measure.
@@ -40,7 +40,7 @@ pub trait Deformation: Copy + Default + PartialEq + fmt::Debug + Send + Sync + '
     /// Deformations of all bonds, shape (n_bonds).
     fn of_bonds(deformations: &Deformations) -> &[Self];
 
-    /// Deformations of `n_bonds` bonds written by a function, which must write every bond.
+    /// Deformations of `n_bonds` bonds, filled by a function that must write every bond.
     fn written(
         room: &DeformationPool,
         n_bonds: usize,
@@ -78,7 +78,7 @@ impl Deformation for BondDeformation {
         n_bonds: usize,
         write: impl FnOnce(&mut [Self]),
     ) -> Deformations {
-        let mut measured = room.taken(n_bonds, |it| &mut it.measured);
+        let mut measured = room.with_arbitrary_values(n_bonds, |it| &mut it.measured);
         write(&mut measured);
         Deformations {
             measured,
@@ -133,9 +133,9 @@ impl Deformation for SpaceDeformation {
         n_bonds: usize,
         write: impl FnOnce(&mut [Self]),
     ) -> Deformations {
-        let mut in_space = room.taken(n_bonds, |it| &mut it.in_space);
+        let mut in_space = room.with_arbitrary_values(n_bonds, |it| &mut it.in_space);
         write(&mut in_space);
-        let mut measured = room.taken(n_bonds, |it| &mut it.measured);
+        let mut measured = room.with_arbitrary_values(n_bonds, |it| &mut it.measured);
         (measured.par_iter_mut().zip(&in_space)).for_each(|(to, from)| *to = from.measured());
         Deformations {
             measured,
@@ -172,7 +172,7 @@ struct Spare {
 
 impl DeformationPool {
     /// An array of `n_bonds` deformations with arbitrary values.
-    fn taken<T: Clone + Default>(
+    fn with_arbitrary_values<T: Clone + Default>(
         &self,
         n_bonds: usize,
         of: impl Fn(&mut Spare) -> &mut Vec<Vec<T>>,
@@ -265,7 +265,7 @@ impl Deformations {
             .with_volume_changes(scaled(&self.volume_changes))
     }
 
-    /// Deformations plus `by` times the slopes (n_bonds).
+    /// The sum of the deformations and `by` times their slopes (n_bonds).
     pub fn ahead(&self, slopes: &Self, by: f64) -> Self {
         let of_bonds = match self.in_space.is_empty() {
             true => ahead::<BondDeformation>(self, slopes, by),
@@ -290,7 +290,7 @@ fn ahead<B: Deformation>(all: &Deformations, slopes: &Deformations, by: f64) -> 
     let both = B::of_bonds(all).par_iter().zip(B::of_bonds(slopes));
     B::written(&all.room, all.len(), |to| {
         (to.par_iter_mut().zip(both))
-            .for_each(|(to, (here, slope))| *to = here.less(&slope.scaled(-by)));
+            .for_each(|(to, (value, slope))| *to = value.less(&slope.scaled(-by)));
     })
 }
 
@@ -315,10 +315,10 @@ mod tests {
             rotation: [0.0, y, x],
         };
         let room = DeformationPool::default();
-        let here = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(1.0, 3.0, 0.0));
+        let start = SpaceDeformation::written(&room, 1, |all| all[0] = deformation(1.0, 3.0, 0.0));
         let slopes =
             SpaceDeformation::written(&room, 1, |all| all[0] = deformation(-1.0, 0.0, 2.0));
-        let ahead = here.ahead(&slopes, 2.0);
+        let ahead = start.ahead(&slopes, 2.0);
         assert_eq!(ahead[0], BondDeformation::new([-1.0, 5.0, 5.0]));
         assert_eq!(
             ahead.scaled(-2.0)[0],

@@ -19,7 +19,7 @@ use crate::material::{Stiffness, stress};
 use crate::tensor::{SymTensor, dot, minus};
 use crate::topology::CoupledPoints;
 
-/// Stiffness between two points, rows by columns, N/m.
+/// Stiffness block between two points, rows by columns, N/m.
 type Block<const D: usize> = [[f64; D]; D];
 
 /// Triangle or tetrahedron with the index of its material.
@@ -80,7 +80,7 @@ impl<const D: usize> FarField<D> {
         let ends = ends.into();
         let neighbours = CoupledPoints::from_bonds(&ends, &couplings);
         Self {
-            coupled_points: joined([coupled, &neighbours], cloud.len()),
+            coupled_points: union_of_couplings([coupled, &neighbours], cloud.len()),
             neighbours,
             ends,
             blocks,
@@ -109,10 +109,10 @@ impl<const D: usize> FarField<D> {
     /// Force K u of the elements at a point, N, for motions with M components a point, the displacements first.
     #[inline]
     pub(crate) fn force<const M: usize>(&self, motions: &[f64], point: u32) -> [f64; D] {
-        let here = displacement::<D>(motions, M, point);
+        let own = displacement::<D>(motions, M, point);
         let mut force = [0.0; D];
         for (other, block) in self.couplings_of(point) {
-            let moved = minus(displacement(motions, M, other), here);
+            let moved = minus(displacement(motions, M, other), own);
             (0..D).for_each(|axis| force[axis] += dot(block[axis], moved));
         }
         force
@@ -153,7 +153,7 @@ impl<const D: usize> FarField<D> {
 }
 
 /// Points that some of the lists couple with each point, ascending.
-pub(crate) fn joined(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoints {
+pub(crate) fn union_of_couplings(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoints {
     let of_point = |point: u32| {
         let mut others: Vec<u32> = lists.iter().flat_map(|it| it.at(point)).collect();
         others.sort_unstable();
@@ -164,7 +164,7 @@ pub(crate) fn joined(lists: [&CoupledPoints; 2], n_points: usize) -> CoupledPoin
     CoupledPoints::from_lists(&Arc::new(Incidence::from_pairs(of_points, n_points)))
 }
 
-/// Displacement of a point in motions with some components a point.
+/// Displacement of a point from motions with some components per point.
 fn displacement<const D: usize>(motions: &[f64], n_components: usize, point: u32) -> [f64; D] {
     let first = n_components * point as usize;
     std::array::from_fn(|axis| motions[first + axis])

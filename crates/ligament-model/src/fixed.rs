@@ -2,7 +2,7 @@
 
 use crate::scatter::Factors;
 
-/// Constant fields of points and bonds, in addition to those of the bond system.
+/// Constant fields of points and bonds beside the arrays of the bond system.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ConstantFields {
     /// Horizons, shape (n_points), m.

@@ -66,7 +66,7 @@ impl Ghosts {
         self
     }
 
-    /// Replaces the values at the ghosts by those of their owners, shape (n_points, n_values); collective.
+    /// Replaces the values at the ghosts by the values of their owners, shape (n_points, n_values); collective.
     pub fn update(&self, values: &mut [f64], n_values: usize) {
         let of_owners = self.exchanged(values, n_values, &self.sent, &self.received.1);
         let ghosts = self.received.0.iter();

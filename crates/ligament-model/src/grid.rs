@@ -42,7 +42,7 @@ pub enum Tags {
 }
 
 impl PointTags {
-    /// Tags of the ends of a bond, that of the smaller number in the file first.
+    /// Tags of the ends of a bond, the tag of the smaller number in the file first.
     fn of_ends(&self, ends: [u32; 2]) -> [i64; 2] {
         let tag = |point: u32| match &self.tags {
             Tags::Listed(tags) => tags[point as usize],
@@ -88,7 +88,7 @@ impl BodyGrid {
         }
     }
 
-    /// Tags of the ends of a bond, given by their numbers in the body, that of the smaller number in the file first.
+    /// Tags of the ends of a bond, given by their numbers in the body, the tag of the smaller number in the file first.
     pub fn tags_of(&self, ends: [u32; 2]) -> [i64; 2] {
         match &self.of_body {
             Some(tags) => tags.of_ends(ends),

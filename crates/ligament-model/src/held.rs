@@ -4,19 +4,19 @@ use crate::layout::{Component, Layout};
 use crate::surface::Vector;
 use crate::tensor::{cross, norm};
 
-/// Number of the first motion along faces; that across them is 0.
+/// Number of the first motion along faces; the motion across them is 0.
 const ALONG: usize = 1;
 
-/// Number of the motion along faces and across the way of a contact that slides.
+/// Number of the motion along faces and across the direction of a sliding contact.
 pub const ACROSS_THE_WAY: usize = 3;
 
-/// Share of the elastic stiffness below which what a sliding contact resists across its way does not count.
+/// Fraction of the elastic stiffness below which the resistance of a sliding contact across its direction of sliding is neglected.
 const LEAST_SHARE: f64 = 1e-3;
 
 /// A motion along faces that friction resists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HeldMotion {
-    /// Number of the motion among those of a contact.
+    /// Number of the motion among the motions of a contact.
     pub number: usize,
     /// Unit direction.
     pub way: Vector,

@@ -147,7 +147,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// Adds the derivatives of the forces by the displacements: row, column, value.
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64));
 
-    /// Elements that change when some of the bonds that are `left` break, at displacements (n_degrees_of_freedom).
+    /// Elements that change when some of the unbroken bonds `left` break, at displacements (n_degrees_of_freedom).
     fn changed(
         &self,
         left: UnbrokenBonds<'_>,
@@ -176,8 +176,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// cell along one of them.
     fn points_of_breakage(&self, bonds: &[u32]) -> Vec<u32>;
 
-    /// Energy 1/2 u^T (K - K') u', J, of the cells, of which bonds with the remaining stiffness `before` and `after` (n_bonds) leave the
-    /// stiffnesses K and K', for two deformations of all bonds; 0 where cells have no stiffness.
+    /// Energy 1/2 u^T (K - K') u', J, of the cells with the stiffnesses K and K' for bonds with the remaining stiffness `before` and `after` (n_bonds), for two deformations of all bonds; 0 where cells have no stiffness.
     fn energy_lost_by_cells(
         &self,
         intact: &[bool],

@@ -160,7 +160,7 @@ impl Layout {
         }
     }
 
-    /// Value of a component of a point among those of all degrees of freedom; zero where points do not have the component.
+    /// Value of a component of a point in an array over all degrees of freedom; zero where points do not have the component.
     pub fn value(self, point: u32, component: Component, of_all: &[f64]) -> f64 {
         let dof = self.degree_of_freedom(point, component);
         dof.map_or(0.0, |dof| of_all[dof])

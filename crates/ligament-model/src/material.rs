@@ -50,7 +50,7 @@ crate::case_type! {
     }
 }
 
-/// Constants in the place of those that are read by keys of their own.
+/// Placeholder for constants that a case file gives by separate keys.
 #[cfg(feature = "case")]
 fn no_elasticity() -> Elasticity {
     Elasticity::Isotropic(Isotropic {

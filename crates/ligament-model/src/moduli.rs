@@ -47,7 +47,7 @@ pub fn family_stiffness(system: &BondSystem, point: u32) -> Matrix3<f64> {
     stiffness / (2.0 * system.cloud.volumes[point as usize])
 }
 
-/// Engineering constants of a stiffness along some axes; of a stiffness of the plane as in plane stress.
+/// Engineering constants of a stiffness along some axes; for a stiffness of the plane, as in plane stress.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EngineeringConstants<const D: usize = 2> {
     /// Young's moduli along the axes, Pa.

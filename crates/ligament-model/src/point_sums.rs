@@ -51,7 +51,7 @@ impl<const M: usize> PointSum<M> for [f64; M] {
 
 /// Forces of bonds.
 pub(crate) trait BondForces<const M: usize>: Sync {
-    /// What is found in each bond once, beside its forces.
+    /// Result of each bond beside its forces, collected once.
     type Found: Default + Send;
 
     /// Adds the forces of a bond at the points that the bond reaches. The task of the first end of the bond gives `found`.
@@ -120,8 +120,8 @@ impl Reach<'_> {
         self.ends.partition_point(|[first, _]| *first < point)
     }
 
-    /// Bonds that begin before a task and after it, ascending, but reach its points of a share; `own` are those that begin in the task.
-    fn of_others(
+    /// Bonds of other tasks that reach the points of a task, before and after its `own` bonds, ascending.
+    fn bonds_of_other_tasks(
         &self,
         share: impl Share,
         points: &Range<u32>,
@@ -132,10 +132,10 @@ impl Reach<'_> {
             // Most points have bonds of their task alone: the first and the last one of a point show that.
             let bonds = self.bonds.at(point);
             if bonds.first().is_some_and(|it| (*it as usize) < own.start) {
-                before.extend(within(bonds, &(0..own.start)));
+                before.extend(numbers_in(bonds, &(0..own.start)));
             }
             if bonds.last().is_some_and(|it| *it as usize >= own.end) {
-                after.extend(within(bonds, &(own.end..self.ends.len())));
+                after.extend(numbers_in(bonds, &(own.end..self.ends.len())));
             }
         }
         [before, after].map(|mut bonds| {
@@ -154,7 +154,7 @@ impl Reach<'_> {
         sums: &mut [S],
     ) -> F::Found {
         let own = self.bonds_before(points.start)..self.bonds_before(points.end);
-        let [before, after] = self.of_others(share, &points, &own);
+        let [before, after] = self.bonds_of_other_tasks(share, &points, &own);
         let first_row = share.rows_before(points.start);
         let mut found = F::Found::default();
         let mut of_group = Vec::new();
@@ -179,13 +179,13 @@ impl Reach<'_> {
                     }
                 });
             };
-            for bond in within(&before, &group) {
+            for bond in numbers_in(&before, &group) {
                 add(*bond as usize, None);
             }
             for bond in group.start.max(own.start)..group.end.min(own.end) {
                 add(bond, Some(&mut found));
             }
-            for bond in within(&after, &group) {
+            for bond in numbers_in(&after, &group) {
                 add(*bond as usize, None);
             }
             if number > 0 {
@@ -199,7 +199,7 @@ impl Reach<'_> {
 }
 
 /// Numbers of an ascending list within a range.
-fn within<'a>(list: &'a [u32], range: &Range<usize>) -> &'a [u32] {
+fn numbers_in<'a>(list: &'a [u32], range: &Range<usize>) -> &'a [u32] {
     let first = list.partition_point(|it| (*it as usize) < range.start);
     let length = list[first..].partition_point(|it| (*it as usize) < range.end);
     &list[first..first + length]

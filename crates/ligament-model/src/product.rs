@@ -16,14 +16,14 @@ use crate::thermal::ThermalStrain;
 /// Limits near which a sweep finds bonds.
 #[derive(Debug, Clone, Copy)]
 pub struct NearLimits<'a> {
-    /// Criteria of which no limit or measure follows the surroundings of the bonds.
+    /// Criteria whose limits and measures do not depend on the surroundings of the bonds.
     pub criteria: &'a Criteria,
-    /// Measure times this factor that comes to the limit, 1 or a little more.
+    /// Factor on a measure before it is compared with its limit, 1 or a little more.
     pub factor: f64,
 }
 
-/// Judge of deformations of bonds.
-trait Judge: Sync {
+/// A test whether deformed bonds are near their limits.
+trait LimitTest: Sync {
     /// Whether a bond is near a limit.
     fn is_near(&self, bond: usize, deformation: &impl Deformation) -> bool;
 }
@@ -31,7 +31,7 @@ trait Judge: Sync {
 /// Bonds without limits.
 struct Unlimited;
 
-impl Judge for Unlimited {
+impl LimitTest for Unlimited {
     #[inline(always)]
     fn is_near(&self, _: usize, _: &impl Deformation) -> bool {
         false
@@ -39,19 +39,19 @@ impl Judge for Unlimited {
 }
 
 /// Bonds with a limit (n_bonds) of their stretch alone, which needs no other strain.
-struct OfStretch<'a> {
+struct StretchLimits<'a> {
     limit: &'a [f64],
     factor: f64,
 }
 
-impl Judge for OfStretch<'_> {
+impl LimitTest for StretchLimits<'_> {
     #[inline(always)]
     fn is_near(&self, bond: usize, deformation: &impl Deformation) -> bool {
         deformation.measured().stretch() * self.factor >= self.limit[bond]
     }
 }
 
-impl Judge for NearLimits<'_> {
+impl LimitTest for NearLimits<'_> {
     #[inline(always)]
     fn is_near(&self, bond: usize, deformation: &impl Deformation) -> bool {
         let measured = deformation.measured();
@@ -65,14 +65,14 @@ impl Judge for NearLimits<'_> {
 
 impl<'a> NearLimits<'a> {
     /// The limits (n_bonds) of the only criterion, where that is a brittle one of the stretch.
-    fn of_stretch(&self) -> Option<OfStretch<'a>> {
+    fn stretch_limits(&self) -> Option<StretchLimits<'a>> {
         let [only] = &*self.criteria.list else {
             return None;
         };
         let is_of_stretch = only.measure == Measure::Tension && only.after.is_brittle();
         let Self { factor, .. } = *self;
         let limit = &*only.limit;
-        is_of_stretch.then_some(OfStretch { limit, factor })
+        is_of_stretch.then_some(StretchLimits { limit, factor })
     }
 }
 
@@ -84,7 +84,7 @@ struct LinearForces<'a, const D: usize, const M: usize, E: Element<D, M>, J> {
     judge: J,
 }
 
-impl<const D: usize, const M: usize, E: Element<D, M>, J: Judge> BondForces<M>
+impl<const D: usize, const M: usize, E: Element<D, M>, J: LimitTest> BondForces<M>
     for LinearForces<'_, D, M, E, J>
 {
     /// Bonds near their limits.
@@ -92,7 +92,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>, J: Judge> BondForces<M>
 
     #[inline(always)]
     fn add(&self, bond: usize, near: Option<&mut Vec<u32>>, add: impl FnMut(u32, [f64; M])) {
-        let Some(element) = self.typed.left(self.bonds, bond) else {
+        let Some(element) = self.typed.remaining_element(self.bonds, bond) else {
             return;
         };
         let deformation = element.deformation(self.motions);
@@ -108,7 +108,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>, J: Judge> BondForces<M>
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// Product of the stiffness of the unbroken bonds with motions, shape (M n_points) both.
     pub(crate) fn multiply(&self, bonds: UnbrokenBonds<'_>, motions: &[f64], forces: &mut [f64]) {
-        self.swept(bonds, motions, Unlimited, forces);
+        self.sum_forces(bonds, motions, Unlimited, forces);
     }
 
     /// Product of the stiffness of the unbroken bonds with motions (M n_points), and the unbroken bonds near their limits, ascending.
@@ -119,19 +119,19 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         limits: NearLimits<'_>,
         forces: &mut [f64],
     ) -> Vec<u32> {
-        match (limits.criteria.list.is_empty(), limits.of_stretch()) {
-            (true, _) => self.swept(bonds, motions, Unlimited, forces),
-            (false, Some(of_stretch)) => self.swept(bonds, motions, of_stretch, forces),
-            (false, None) => self.swept(bonds, motions, limits, forces),
+        match (limits.criteria.list.is_empty(), limits.stretch_limits()) {
+            (true, _) => self.sum_forces(bonds, motions, Unlimited, forces),
+            (false, Some(it)) => self.sum_forces(bonds, motions, it, forces),
+            (false, None) => self.sum_forces(bonds, motions, limits, forces),
         }
     }
 
     /// Sums the forces over the bonds, and returns the bonds near their limits.
-    fn swept(
+    fn sum_forces(
         &self,
         bonds: UnbrokenBonds<'_>,
         motions: &[f64],
-        judge: impl Judge,
+        judge: impl LimitTest,
         forces: &mut [f64],
     ) -> Vec<u32> {
         let linear = LinearForces {

@@ -14,8 +14,8 @@ const BALANCE_TOLERANCE: f64 = 1e-6;
 /// A rigid motion in space: displacements along x, y and z at the middle, and angles about x, y and z times the radius.
 type Motion = [f64; 6];
 
-/// Rigid motions of some points in D dimensions that cost no energy, about their middle and scaled by their size: the translations, and the
-/// rotations unless they cost energy.
+/// Rigid motions of some points in D dimensions that cost no energy, about their centroid and scaled by their size: translations, and rotations
+/// unless they cost energy.
 pub(crate) struct RigidMotions<'a, const D: usize> {
     layout: Layout,
     positions: &'a [[f64; D]],
@@ -83,14 +83,14 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         points: &[u32],
         turn: Turn,
     ) -> Self {
-        let here = Subdomain::whole(points.len());
+        let subdomain = Subdomain::whole(points.len());
         Self {
             turn,
-            ..Self::of_body(layout, positions, points, &here)
+            ..Self::of_body(layout, positions, points, &subdomain)
         }
     }
 
-    /// The rigid motions of a body, of which this process owns some points; points rotate along. Collective.
+    /// The rigid motions of a body with some points on this process; points rotate along. Collective.
     pub(crate) fn of_body(
         layout: Layout,
         positions: &'a [[f64; D]],
@@ -163,7 +163,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         for (_, motion) in self.motions().take(self.count()) {
             let mut unit = [0.0; 6];
             unit[motion] = 1.0;
-            let rest = without(unit, &all);
+            let rest = orthogonal_part(unit, &all);
             let norm = dot(rest, rest).sqrt();
             if norm > RANK_TOLERANCE {
                 all.push(rest.map(|value| value / norm));
@@ -188,14 +188,14 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
         })
     }
 
-    /// Part of the unit row of a degree of freedom orthogonal to the (orthonormal) spanned directions.
+    /// Component of the unit row of a degree of freedom orthogonal to the (orthonormal) spanned directions.
     fn remainder(&self, spanned: &[Motion], degree_of_freedom: usize) -> Motion {
         let row = self.row(degree_of_freedom);
         let norm = dot(row, row).sqrt();
         if norm == 0.0 {
             return row;
         }
-        without(row.map(|value| value / norm), spanned)
+        orthogonal_part(row.map(|value| value / norm), spanned)
     }
 
     /// Adds the direction that a degree of freedom prevents, if it is a new one.
@@ -251,7 +251,7 @@ impl<'a, const D: usize> RigidMotions<'a, D> {
                 }
                 continue;
             }
-            let turn = without(unit, &held);
+            let turn = orthogonal_part(unit, &held);
             if held.len() < self.count() && turn[place] > RANK_TOLERANCE {
                 let by_one = turn.map(|value| value / turn[place] * self.radius);
                 free.push((component, by_one));
@@ -357,7 +357,7 @@ impl FreeMotion {
 }
 
 /// Part of a motion orthogonal to some orthonormal directions.
-fn without(motion: Motion, directions: &[Motion]) -> Motion {
+fn orthogonal_part(motion: Motion, directions: &[Motion]) -> Motion {
     directions.iter().fold(motion, |rest, direction| {
         let share = dot(rest, *direction);
         std::array::from_fn(|i| rest[i] - share * direction[i])

@@ -1,6 +1,6 @@
 //! Points and bonds of a body on one process.
 //!
-//! Each point has one owner. A process has the points that it owns and those of other processes that it reads, its local points, and numbers
+//! Each point has one owner. The local points of a process are the points that it owns and points of other processes that it reads. It numbers
 //! them from 0 in the order of their numbers in the body: sums over them are in the same order. It has the bonds that end at an owned point,
 //! so that it computes every sum over the bonds of an owned point, in their order, by itself. The owner of the first end of a bond owns the
 //! bond: counts and sums over bonds include each bond once. A single process owns everything.
@@ -282,8 +282,8 @@ impl Subdomain {
     }
 
     /// Sum of a count over all processes.
-    pub fn count(&self, here: usize) -> usize {
-        self.sum(here as f64) as usize
+    pub fn count(&self, local: usize) -> usize {
+        self.sum(local as f64) as usize
     }
 
     /// Replaces each value by its largest over all processes.
@@ -299,8 +299,8 @@ impl Subdomain {
     }
 
     /// Whether a condition holds on some process.
-    pub fn any(&self, here: bool) -> bool {
-        self.communicator.any(here)
+    pub fn any(&self, local: bool) -> bool {
+        self.communicator.any(local)
     }
 
     /// Smallest row over all processes, compared from its first number on; a process may have none.

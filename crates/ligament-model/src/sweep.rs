@@ -72,7 +72,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let ends = &self.system.bonds.ends;
         let of_task = |(task, deformations): (usize, &mut [E::Deformation])| {
             for (bond, deformation) in (task * TASK..).zip(deformations) {
-                let element = self.whole(intact, bond);
+                let element = self.whole_element(intact, bond);
                 *deformation = element.deformation(displacement);
                 if !expansion.is_none() {
                     let thermal = expansion.of_bond(ends[bond]);
@@ -158,7 +158,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     }
 
     /// Adds the forces of the elements of the far field at all points; returns their energy 1/2 u^T K u, J. A translation of all points makes no
-    /// force: displacements are counted from that of the first point, so that a large one costs no digits.
+    /// force: displacements are relative to the displacement of the first point, so that a large one costs no digits.
     fn add_far_field(&self, motions: &[f64], sums: &mut [PointForces<M>]) -> f64 {
         let Some(far) = &self.system.far else {
             return 0.0;
@@ -190,7 +190,9 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let [mut work, mut energy] = [0.0; 2];
         for bond in group {
             let ends = self.system.bonds.ends[bond];
-            let element = self.left(bonds, bond).filter(|_| subdomain.owns_bond(ends));
+            let element = self
+                .remaining_element(bonds, bond)
+                .filter(|_| subdomain.owns_bond(ends));
             let Some(element) = element else {
                 continue;
             };
@@ -275,7 +277,7 @@ impl BondSweep {
 #[derive(Debug, Clone, Copy)]
 struct PointForces<const M: usize> {
     sum: [f64; M],
-    /// Sum of their absolute values.
+    /// Sum of the absolute end forces.
     size: [f64; M],
 }
 
@@ -302,7 +304,7 @@ impl<const M: usize> PointSum<M> for PointForces<M> {
     }
 }
 
-/// Unbroken bonds with their deformations (n_bonds), of which a share is summed.
+/// Unbroken bonds with their deformations (n_bonds), for sums over a share of them.
 struct DeformedBonds<'a, const D: usize, const M: usize, E: Element<D, M>, S> {
     typed: &'a ElementSystem<D, M, E>,
     share: S,
@@ -318,7 +320,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>, S: Share> BondForces<M>
 
     #[inline(always)]
     fn add(&self, bond: usize, energies: Option<&mut Vec<f64>>, add: impl FnMut(u32, [f64; M])) {
-        let element = self.typed.left(self.bonds, bond);
+        let element = self.typed.remaining_element(self.bonds, bond);
         let deformation = &self.deformations[bond];
         if let Some(energies) = energies {
             let ends = self.typed.system.bonds.ends[bond];

@@ -1,6 +1,6 @@
 //! The bond system: points, bonds and rigidities, from which the equations are made.
 
-mod answers;
+mod bonds;
 mod contact;
 mod crack_axis;
 pub mod elements;
@@ -67,7 +67,7 @@ pub struct BondSystem<const D: usize = 2> {
     pub volumetric: Option<VolumetricTerms<D>>,
     /// Reusable memory for deformations.
     pub room: DeformationPool,
-    /// Factors of the [strains of points](crate::stress::point_strain), once some were asked for, shape (n_bonds).
+    /// Weights of the [strains of points](crate::stress::point_strain), computed at first use, shape (n_bonds).
     pub closeness: OnceLock<Vec<f64>>,
 }
 
@@ -83,7 +83,7 @@ impl<const D: usize> BondSystem<D> {
     ) -> Self {
         // The arrays of densities become those of rigidities: at this point of a run memory is scarce.
         let mut weight = length_factor;
-        let (stiffness, beyond_correction) = stiffness.joined();
+        let (stiffness, beyond_correction) = stiffness.after_correction();
         let BondStiffness {
             mut axial,
             mut shear,
@@ -136,7 +136,7 @@ impl<const D: usize> BondSystem<D> {
         Self { materials, ..self }
     }
 
-    /// The system with another stress across its plane than none.
+    /// The system with a stress across its plane, which is zero by default.
     pub fn with_stress_across_plane(self, stress_across_plane: StressAcrossPlane) -> Self {
         Self {
             stress_across_plane,
@@ -146,7 +146,7 @@ impl<const D: usize> BondSystem<D> {
 
     /// The bonds of a part of a body between the points of the whole body: `points` has their numbers at the points of the part, ascending.
     /// Crack faces are not taken over.
-    pub fn within(self, cloud: PointCloud<D>, points: &[u32]) -> Self {
+    pub fn in_whole_body(self, cloud: PointCloud<D>, points: &[u32]) -> Self {
         let mut bonds = self.bonds;
         let of_body = |ends: &[u32; 2]| ends.map(|end| points[end as usize]);
         bonds.ends = bonds.ends.iter().map(of_body).collect();
@@ -154,7 +154,7 @@ impl<const D: usize> BondSystem<D> {
         let coupled = CoupledPoints::from_bonds(&bonds.ends, &bonds.incidence);
         let volumetric = self
             .volumetric
-            .map(|it| it.within(points, &bonds, &coupled));
+            .map(|it| it.in_whole_body(points, &bonds, &coupled));
         Self {
             cloud,
             volumetric,
@@ -178,7 +178,7 @@ impl<const D: usize> BondSystem<D> {
         self
     }
 
-    /// Stiffness of each material, that of bonds and cells together, shape (n_materials), Pa.
+    /// Stiffness of each material, by bonds and cells together, shape (n_materials), Pa.
     pub fn whole_materials(&self) -> Vec<Stiffness> {
         let mut materials = self.materials.clone();
         let moduli = self.volumetric.iter().flat_map(|it| it.moduli());
@@ -215,12 +215,12 @@ pub(crate) struct ElementSystem<const D: usize, const M: usize, E: Element<D, M>
     pub(crate) system: BondSystem<D>,
     /// Points and bonds as arrays.
     pub(crate) topology: Topology,
-    /// What the elements share.
+    /// Data that the elements share.
     pub(crate) lattice: E::Lattice,
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
-    /// The system with what its elements share.
+    /// The system with the data that its elements share.
     fn new(system: BondSystem<D>, lattice: E::Lattice) -> Self {
         let BondSystem { cloud, bonds, .. } = &system;
         let couplings = E::couplings(&lattice);
@@ -276,7 +276,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     /// The element of a bond with its whole stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
     #[inline(always)]
-    pub(crate) fn whole(&self, intact: &[bool], bond: usize) -> E {
+    pub(crate) fn whole_element(&self, intact: &[bool], bond: usize) -> E {
         let BondSystem {
             bonds, rigidities, ..
         } = &self.system;
@@ -285,11 +285,11 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 
     /// The element of a bond with its remaining stiffness; `None` if the bond is broken.
     #[inline(always)]
-    pub(crate) fn left(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E> {
+    pub(crate) fn remaining_element(&self, bonds: UnbrokenBonds<'_>, bond: usize) -> Option<E> {
         if !bonds.intact[bond] {
             return None;
         }
-        let whole = self.whole(bonds.intact, bond);
+        let whole = self.whole_element(bonds.intact, bond);
         Some(match bonds.remaining.get(bond) {
             None => whole,
             Some(remaining) => whole.weakened(remaining),

@@ -2,8 +2,8 @@
 
 use nalgebra::{DMatrix, Dyn, SymmetricEigen};
 
-/// Components of a symmetric tensor as row and column, in the order of calculations: those of the plane come first, so that the plane
-/// is a part of space.
+/// Components of a symmetric tensor as row and column, in the order of calculations: the components of the plane come first, so that the plane is a
+/// part of space.
 pub(crate) const ORDER: [[usize; 2]; 6] = [[0, 0], [1, 1], [0, 1], [2, 2], [0, 2], [1, 2]];
 
 /// Names of the components of a symmetric tensor, in order.
@@ -71,8 +71,7 @@ pub fn tangents(n: [f64; 3]) -> [[f64; 3]; 2] {
     [first, cross(n, first)]
 }
 
-/// A symmetric tensor S of second order in D dimensions, such as a strain or a stress. Shear strains are those of the tensor,
-/// eps_xy = gamma_xy/2.
+/// A symmetric tensor S of second order in D dimensions, such as a strain or a stress. Shear strains are tensor components, eps_xy = gamma_xy/2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SymTensor<const D: usize> {
     rows: [[f64; D]; D],
@@ -102,7 +101,7 @@ impl<const D: usize> SymTensor<D> {
         _ => Self::NAMES,
     };
 
-    /// The tensor with components in order, zero where some of the last are missing: in space that of a plane with its normal component.
+    /// The tensor with components in order, zero where some of the last are missing: in space the tensor of a plane with its normal component.
     pub fn from_first_components(components: &[f64]) -> Self {
         let mut values = components.iter();
         Self::from_fn(|_, _| *values.next().unwrap_or(&0.0))
@@ -120,7 +119,7 @@ impl<const D: usize> SymTensor<D> {
         Self { rows }
     }
 
-    /// The tensor with components in order, of which there must be D (D + 1)/2.
+    /// The tensor with D (D + 1)/2 components in order.
     pub fn from_components(components: &[f64]) -> Self {
         assert_eq!(components.len(), Self::COMPONENTS.len());
         Self::from_first_components(components)

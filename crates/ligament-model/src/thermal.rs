@@ -2,7 +2,7 @@
 
 use crate::tensor::SymTensor;
 
-/// Stress-free strains of the points; those of a body in the plane have no components out of it.
+/// Stress-free strains of the points, without components out of the plane for a body in the plane.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StressFreeStrains {
     of_points: Vec<SymTensor<3>>,

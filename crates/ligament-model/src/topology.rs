@@ -34,7 +34,7 @@ pub struct Topology {
     pub incidence: Arc<Incidence>,
     /// Bonds whose elements couple each point, ascending; on the imaginary lattice these include bonds that do not end at the point.
     pub elements_at_points: Arc<Incidence>,
-    /// Other points that elements couple with each point, also those of the far field and pairs of faces that may close.
+    /// Other points that elements couple with each point, including the far field and pairs of faces that may close.
     pub coupled_points: CoupledPoints,
     /// Points that elements of the far field, which never break, couple with each point; none without a far field.
     pub far_field: Option<CoupledPoints>,

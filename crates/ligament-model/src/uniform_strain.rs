@@ -17,10 +17,10 @@ const ROOT: f64 = std::f64::consts::SQRT_2;
 /// Strains of a free body under the forces of the unit uniform strains of [`CellForces`], in the order of [`SymTensor`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct UniformStrains {
-    /// Mean strains of the body in the basis of the uniform ones, a column for each, shape (n_strains, n_strains): those of the affine
-    /// motion on which the forces do the same work as on the body. The unit matrix if the body is as stiff as its cells.
+    /// Mean strains of the body in the basis of the uniform ones, a column for each, shape (n_strains, n_strains): the strain of the affine motion on
+    /// which the forces do the same work as on the body. The unit matrix if the body is as stiff as its cells.
     pub mean: DMatrix<f64>,
-    /// Root mean square over the bonds of the deviation of their stretch from that of the mean strain, for each strain.
+    /// Root mean square over the bonds of the deviation of their stretch from the stretch by the mean strain, for each strain.
     pub scatter: Vec<f64>,
     /// Largest deviation of the stretch of a bond in a uniform strain of size one.
     pub largest: f64,
@@ -101,7 +101,7 @@ pub fn loads<const D: usize>(system: &dyn System<D>, forces: &CellForces<D>) -> 
     let layout = system.topology().layout;
     let of_strain = |(k, strain): (usize, SymTensor<D>)| {
         let mut loads = excess_across(system, &strain);
-        for (point, forces) in (0..).zip(forces.of_points()) {
+        for (point, forces) in (0..).zip(forces.on_points()) {
             let own = &mut loads[layout.range(point)];
             for (load, force) in own.iter_mut().zip(forces[k]) {
                 *load += force;
@@ -145,7 +145,7 @@ fn mean_strains<const D: usize>(
     let strains: Vec<SymTensor<D>> = uniform_strains().collect();
     let mut of_strains = DMatrix::<f64>::zeros(strains.len(), strains.len());
     let mut of_body = of_strains.clone();
-    for (point, (forces, &position)) in (0..).zip(forces.of_points().zip(&cloud.positions)) {
+    for (point, (forces, &position)) in (0..).zip(forces.on_points().zip(&cloud.positions)) {
         for (k, &force) in forces.iter().enumerate() {
             for (l, strain) in strains.iter().enumerate() {
                 of_body[(k, l)] += dot(force, motion(layout, &displacements[l], point));

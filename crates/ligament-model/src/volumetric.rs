@@ -14,7 +14,7 @@
 //! W = sum kappa w_P theta_P^2/2, w_P = sum over c at P of f_c V_c/m_c, theta_P = sum over c at P of (f_c V_c/m_c) theta_c / w_P.
 //!
 //! In a uniform strain these are exactly the consistent forces of a mesh, whatever its cells. f_c is the smallest share of its stiffness that
-//! a bond along an edge of the cell has left: 0 as soon as one of them is broken, or cut by a pre-crack. Cells that died at two broken edges
+//! a bond along an edge of the cell still has: 0 as soon as one of them is broken, or cut by a pre-crack. Cells that died at two broken edges
 //! would bridge a crack. Each point adds one term of rank one to the stiffness, kappa w_P t t^T with the row t of theta_P = t . u; around a
 //! point with several materials each has a term of its own, its cells alone.
 

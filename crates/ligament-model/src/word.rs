@@ -1,4 +1,4 @@
-//! Words in case files: of values that stand in tables, and of choices that may be open.
+//! Values that are written as words in case files, and choices that may be open (`auto`).
 
 use std::fmt;
 use std::marker::PhantomData;

@@ -92,7 +92,7 @@ pub fn resolved_case(folder: &Path) -> Result<toml::Table, Error> {
         .parse()
         .map_err(|error: toml::de::Error| Error::Unreadable {
             path,
-            // The message without the line of the case: a link may lead to any file.
+            // The message leaves out the line of the case, because a link may lead to any file.
             reason: error.message().trim().to_owned(),
         })
 }

@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-/// Cells without a crack, and pieces of the cells cut by a crack, which move apart.
+/// Whole cells, and pieces of the cells that a crack cuts, which move apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OpenedCells<C> {
     /// Points whose mean displacement each corner of the cells has, shape (n_corners).
@@ -30,7 +30,7 @@ impl<C> OpenedCells<C> {
         }
     }
 
-    /// The corner in the middle of some points that follows `own` of them, both ascending: a new one, or one that is there already.
+    /// The corner in the middle of some points that follows `own` of them, both ascending: an existing one, or else a new one.
     pub(crate) fn corner(
         &mut self,
         between: Vec<u32>,

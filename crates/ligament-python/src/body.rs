@@ -95,7 +95,7 @@ fn points_text<const D: usize>(
 ) -> PyResult<String> {
     let fault = |error: String| errors::body_error(py, &error);
     let positions: Vec<[f64; D]> = positions_of(py, positions)?;
-    let text = point_table::text_of_points(&positions, &sizes, groups).map_err(fault)?;
+    let text = point_table::table_text(&positions, &sizes, groups).map_err(fault)?;
     let mut points = Points::new(positions, sizes).map_err(|it| fault(it.to_string()))?;
     for (name, indices) in groups {
         let with = points.with_group(name, indices.iter().copied());

@@ -19,7 +19,7 @@ use ligament_run::summary::heading;
 /// Error of a request for curves of stiffness.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum DirectionError {
-    /// Bonds with strains of their own have no such stiffness.
+    /// Imaginary elements have no such stiffness.
     #[error(
         "the bonds of \"{0}\" resist the strains of a rectangle by a matrix, and have no k_n, k_t and k_theta: take another law"
     )]
@@ -103,7 +103,7 @@ pub fn bond_stiffness(request: &Request, screen: &mut dyn Write) -> anyhow::Resu
     Ok(writeln!(screen, "results in {}", request.out.display())?)
 }
 
-/// Name of a material: its group, or "body" where it fills the whole body.
+/// Name of a material: its group, or "body" if it fills the whole body.
 fn name_of(setup: &Setup, index: usize) -> String {
     let group = setup.materials[index].group.clone();
     group.unwrap_or_else(|| "body".to_owned())

@@ -9,7 +9,7 @@ use ligament_post::yielding::{Family, PrincipalStretches, lattice};
 use ligament_run::model::Model;
 use ligament_study::yielding::criteria::{Combination, Strengths};
 
-/// Strengths for limits that are equal for all bonds; the errors under one measure do not depend on them.
+/// Strengths for equal limits of all bonds, on which errors under one measure do not depend.
 const STRENGTHS: Strengths = Strengths::TABLE_STRENGTHS;
 
 fn uniform(criterion: &str, n_bonds: usize) -> anyhow::Result<Criteria> {
@@ -38,7 +38,7 @@ pub(super) struct Anisotropy {
 }
 
 impl Anisotropy {
-    /// The errors of a model with a criterion (`strength` for the model's own), under an `extension` or `shear`.
+    /// The errors of a model with a criterion (`strength` for the criterion of the model), under an `extension` or `shear`.
     pub(super) fn new(model: &Model, criterion: &str, strain: &str) -> anyhow::Result<Self> {
         let strains = match strain {
             "extension" => PrincipalStretches::new(1.0, 0.0),

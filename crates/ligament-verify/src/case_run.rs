@@ -15,8 +15,8 @@ use ligament_case::case::CaseFile;
 use super::crack_path::Breakages;
 use super::places::repository;
 
-/// A number of an experiment by its name, such as the radius of a disk. Entries of one run share the values that are read from it: a number
-/// that differs between entries must be part of the name of a quantity.
+/// A number of an experiment by its name, such as the radius of a disk. Entries share the values read from one run, so a number that differs between
+/// entries must be part of the name of a quantity.
 pub(super) type Number<'a> = &'a dyn Fn(&str) -> anyhow::Result<f64>;
 
 /// A case with settings (`key=value`, as with `--set`) for a run.
@@ -79,7 +79,7 @@ impl CaseRun {
         self.with_setup(|case, setup| run(case, setup, observer))
     }
 
-    /// Runs the case until no equilibrium follows.
+    /// Runs the case until no equilibrium exists.
     pub(super) fn solve_to_the_end(&self) -> anyhow::Result<Solution> {
         self.with_setup(|case, setup| {
             let solution = setup.solve(&mut NoObserver);

@@ -10,7 +10,7 @@ use ligament::run::Solution;
 pub(super) struct ContactPressure {
     /// Force, N; for the cylinder per length, N/m.
     pub(super) force: f64,
-    /// Largest pressure of a side of a cell, and of the fit, Pa.
+    /// Largest pressure on a side of a cell, and largest pressure of the fit, Pa.
     pub(super) largest: [f64; 2],
     /// Half-width or radius by the second moment of the pressures, m.
     pub(super) reach: f64,
@@ -19,8 +19,8 @@ pub(super) struct ContactPressure {
 /// Pressures under a rigid body from the sides of cells in contact; `along` is the number of directions along the surface, `points` the
 /// number of integration points of a side.
 ///
-/// Hertz's pressure is p = p_0 sqrt(1 - r^2/a^2) at the distance r from the middle (Johnson 1985, sections 4.2 and 4.3), so that p^2 is a straight line over
-/// r^2, whose value at r = 0 is p_0^2. The mean of r^2, weighted by p, is a^2/4 over a strip and 2 a^2/5 over a disk.
+/// Hertz's pressure is p = p_0 sqrt(1 - r^2/a^2) at the distance r from the middle (Johnson 1985, sections 4.2 and 4.3), so that p^2 is a straight
+/// line over r^2, whose value at r = 0 is p_0^2. The mean of r^2, weighted by p, is a^2/4 over a strip and 2 a^2/5 over a disk.
 pub(super) fn contact_pressure(
     solution: &Solution,
     along: usize,
@@ -41,7 +41,7 @@ pub(super) fn contact_pressure(
         let reading = [squares(&it.arm), it.stiffness * it.depth() / it.area];
         sides.entry(it.place / points).or_default().push(reading);
     }
-    // Only sides of cells that are in contact as a whole.
+    // Only sides of cells in full contact count.
     let whole = sides.values().filter(|it| it.len() == points as usize);
     let places = whole.map(|it| {
         let mean = |axis: usize| it.iter().map(|it| it[axis]).sum::<f64>() / f64::from(points);

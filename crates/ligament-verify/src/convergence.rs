@@ -13,7 +13,7 @@ use serde::Deserialize;
 
 use super::experiment::{Compute, Experiment, Findings};
 use super::places::repository;
-use super::published::{folder, known};
+use super::published::{folder, known_table};
 use super::table::{Extent, Labels};
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -27,7 +27,7 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute: Compute::Code(compute),
 };
 
-/// Label of the problem that stands for all of them.
+/// Label that stands for all problems.
 const ALL: &str = "all";
 
 /// A problem of the table.
@@ -38,13 +38,13 @@ struct Problem {
     case: PathBuf,
     /// Geometry, from the folder of meshes; without one the cells of the mesh are split, or the body is a lattice.
     geometry: Option<String>,
-    /// Numbers of the geometry that are sizes, m, at the size 1.
+    /// Numbers of the geometry for sizes, m, at the relative size 1.
     #[serde(default)]
     sizes: BTreeMap<String, f64>,
     /// Other numbers of the geometry.
     #[serde(default)]
     numbers: BTreeMap<String, f64>,
-    /// Settings on the case.
+    /// Settings that replace values of the case.
     #[serde(default)]
     set: Vec<String>,
 }
@@ -53,9 +53,9 @@ struct Problem {
 #[derive(Default)]
 struct Intervals {
     problems: BTreeMap<String, Problem>,
-    /// Results by the problem and its size.
+    /// Results by problem and size.
     known: BTreeMap<(String, String), Vec<Evaluated>>,
-    /// Places of the targets in all intervals so far.
+    /// Relative positions of the targets in all intervals so far.
     places: Vec<f64>,
 }
 
@@ -66,7 +66,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         problems: toml::from_str(&text).with_context(|| file.display().to_string())?,
         ..Intervals::default()
     };
-    let table = known("converge")?.judge(extent, |labels| intervals.value(labels))?;
+    let table = known_table("converge")?.judge(extent, |labels| intervals.value(labels))?;
     Ok(Findings {
         tables: vec![table],
         ..Findings::default()

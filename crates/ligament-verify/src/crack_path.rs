@@ -1,7 +1,7 @@
 //! Start, extent and path of a crack, from the broken bonds and the resulting damage.
 //!
-//! Apart from the height of its line independent of the lines of [`ligament_post::crack`]: published tables and the page of the papers were measured by points of large
-//! damage, which also show cracks that branch, crush or are shorter than a horizon, while lines omit such parts.
+//! Apart from the height of its line independent of the lines of [`ligament_post::crack`]: published tables and the page of the papers were measured
+//! by points of large damage, which also show cracks that branch, crush or are shorter than a horizon, while lines omit such parts.
 
 use std::collections::BTreeMap;
 
@@ -148,10 +148,10 @@ impl Crack {
         let mut reached: Vec<bool> = self.points.iter().map(is_at).collect();
         let mut front: Vec<usize> = (0..reached.len()).filter(|&it| reached[it]).collect();
         while let Some(last) = front.pop() {
-            let here = self.points[last];
+            let current = self.points[last];
             for (next, point) in self.points.iter().enumerate() {
-                let reach = here.horizon.max(point.horizon);
-                if !reached[next] && distance(point.at, [here.at; 2]) <= reach {
+                let reach = current.horizon.max(point.horizon);
+                if !reached[next] && distance(point.at, [current.at; 2]) <= reach {
                     reached[next] = true;
                     front.push(next);
                 }
@@ -199,8 +199,8 @@ impl Crack {
         (!self.points.is_empty()).then(|| [mean(0), mean(1)])
     }
 
-    /// The points of the crack up to the smaller one of two distances from the origin: the distances that its parts on both sides of the
-    /// line through the origin across `along` reach. `None` where one part is missing.
+    /// The points of the crack up to the smaller of the distances from the origin that its parts on both sides reach, where the line through the
+    /// origin across `along` divides it. `None` where one part is missing.
     pub(super) fn common_part(&self, along: [f64; 2]) -> Option<Self> {
         let reach = |sign: f64| {
             let side = self.part(|[x, y]| sign * (x * along[0] + y * along[1]) > 0.0);
@@ -263,8 +263,8 @@ pub(super) fn mean_height(lines: &[CrackLine], [from, to]: [f64; 2]) -> Option<f
     (width > 0.0).then(|| area / width)
 }
 
-/// Share of the broken bonds that cross none of the horizontal lines at some heights, m.
-pub(super) fn beside(solution: &Solution, lines: [f64; 2]) -> f64 {
+/// Share of the broken bonds that cross none of two horizontal lines, given by their heights, m.
+pub(super) fn share_off_lines(solution: &Solution, lines: [f64; 2]) -> f64 {
     let (system, intact) = (solution.model.plane(), &solution.outcome.state.intact);
     let height = |point: u32| system.cloud.positions[point as usize][1];
     let crosses = |ends: &[u32; 2]| {

@@ -8,8 +8,9 @@ use ligament::direction::{InDirection, over_direction};
 
 use super::case_run::CaseRun;
 
-/// The stiffness `k_n` or `k_t` of a case in a direction (degrees from x), the `smallest` or the `largest` one, the `spread` over the directions of its ratio to the modulus
-/// of the continuum (%), or, `turned_by_N`, the largest difference of the curve for axes turned by N degrees from the shifted curve, over the largest value.
+/// The stiffness `k_n` or `k_t` of a case in a direction (degrees from x), the `smallest` or the `largest` one, the `spread` over the directions of
+/// its ratio to the modulus of the continuum (%), or, `turned_by_N`, the largest difference of the curve for axes turned by N degrees from the
+/// shifted curve, over the largest value.
 pub(super) fn stiffness(case_run: &CaseRun, name: &str) -> anyhow::Result<f64> {
     let (stiffness, of) = name.split_once('.').context("no direction is named")?;
     let value: fn(&InDirection) -> f64 = match stiffness {
@@ -50,7 +51,7 @@ pub(super) fn stiffness(case_run: &CaseRun, name: &str) -> anyhow::Result<f64> {
     })
 }
 
-/// The curves of a model at every degree from 0 to 180, times pi t H^3/12.
+/// Stiffness curves of a model at every degree from 0 to 180, times pi t H^3/12.
 fn curves(model: &Model) -> anyhow::Result<Vec<InDirection>> {
     let horizon = model.fixed.horizon[0];
     let angles: Vec<f64> = (0..=180).map(|it| f64::from(it).to_radians()).collect();

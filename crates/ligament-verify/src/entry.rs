@@ -38,7 +38,7 @@ pub enum Reliability {
     Open {
         /// Value of an independent calculation, for the comparison.
         instead: PrintedNumber,
-        /// Knowledge about the value.
+        /// Evidence about the value.
         reason: String,
     },
     /// The value is reliable, and the method does not reach it within the tolerance.

@@ -1,4 +1,4 @@
-//! Places, times and speeds of fast cracks, from the broken bonds alone.
+//! Positions, times and speeds of fast cracks, from the broken bonds alone.
 
 use anyhow::Context;
 use ligament::Model;
@@ -37,8 +37,8 @@ pub(super) struct Branches {
 }
 
 impl Branches {
-    /// Branches of a crack from (`tip_x`, `tip_y`), whose bonds break more than `beside` (m) from the line of the notch; speeds are over a `window` of
-    /// time (s).
+    /// Branches of a crack from (`tip_x`, `tip_y`), whose bonds break more than `beside` (m) from the line of the notch; speeds are over a `window`
+    /// of time (s).
     pub(super) fn new(breaks: &[Break], number: Number<'_>) -> anyhow::Result<Self> {
         let tip = [number("tip_x")?, number("tip_y")?];
         let beside = number("beside")?;
@@ -63,15 +63,15 @@ impl Branches {
 pub(super) struct CracksOfNotches {
     /// Mean angle of the cracks with the x axis, degrees.
     pub(super) angle: f64,
-    /// Time at which the first one is a `horizon` away from its tip, s.
+    /// Time at which the first crack is a `horizon` away from its tip, s.
     pub(super) start: f64,
     /// Largest speed, m/s.
     pub(super) speed: f64,
 }
 
 impl CracksOfNotches {
-    /// Cracks from the notches with tips at (`tip_x`, `upper_tip`) and (`tip_x`, `lower_tip`), on their outer sides and steeper than 45 degrees; `middle`
-    /// is between them.
+    /// Cracks from the notches with tips at (`tip_x`, `upper_tip`) and (`tip_x`, `lower_tip`), on their outer sides and steeper than 45 degrees;
+    /// `middle` is between them.
     pub(super) fn new(breaks: &[Break], number: Number<'_>) -> anyhow::Result<Self> {
         let (middle, horizon) = (number("middle")?, number("horizon")?);
         let [mut angle, mut start, mut speed] = [0.0, f64::INFINITY, 0.0_f64];

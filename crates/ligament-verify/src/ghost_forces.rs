@@ -1,4 +1,4 @@
-//! Ghost forces: what the bonds of an inner point leave of its balance while the body has a uniform strain.
+//! Ghost forces: the unbalanced forces of the bonds of inner points under a uniform strain.
 //!
 //! In a continuum the stress is uniform and no force acts inside. Two neighbours of different horizons share all their bonds, so that
 //! momentum is never lost; but the bonds of one point need not balance.

@@ -1,6 +1,7 @@
 //! Cracks controlled by the fracture energy: failure stress of a plate with a central crack, energy and straightness of a crack.
 //!
-//! Numbers of the experiment: `half_width` of the plate and `half_length` of the central crack, `thickness`, `edge_tip` of the edge crack (m), `young` (Pa) and
+//! Numbers of the experiment: `half_width` of the plate and `half_length` of the central crack, `thickness`, `edge_tip` of the edge crack (m),
+//! `young` (Pa) and
 //! `fracture_energy` (J/m^2).
 
 use std::f64::consts::PI;
@@ -11,8 +12,7 @@ use ligament::run::Solution;
 use super::case_run::Number;
 use super::crack_path::ends;
 
-/// Shift of the part of the line whose crossings are counted, m. Bonds of a lattice cross at the points of the lattice, and the ends of
-/// that part should be between them.
+/// Shift of the counted part of the line, m. Bonds cross the line at points of the lattice, and the ends of that part should lie between them.
 const ASIDE: f64 = 1.1e-4;
 
 /// Distance from the crack within which the horizon is averaged: half the height of the fine strip of the meshes, m.
@@ -35,7 +35,7 @@ fn failure_stress(number: Number<'_>) -> anyhow::Result<f64> {
     Ok((toughness / (PI * half_length)).sqrt() / (width * secant.sqrt()))
 }
 
-/// Failure stress over the one by linear elastic fracture mechanics; the horizon over the half-length must be the label `delta/a`.
+/// Failure stress over the failure stress by linear elastic fracture mechanics; the horizon over the half-length must equal the label `delta/a`.
 pub(super) fn relative_strength(solution: &Solution, number: Number<'_>) -> anyhow::Result<f64> {
     let labelled = number("delta/a")?;
     let found = horizon(solution) / number("half_length")?;

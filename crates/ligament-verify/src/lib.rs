@@ -71,7 +71,7 @@ use report::{console, files, markdown, page, scoreboard};
 use table::Extent;
 use tally::Tally;
 
-/// Form in which an experiment is written.
+/// Source of an experiment: a module or a file.
 enum ExperimentSource {
     /// An experiment that is a module.
     Code(&'static Experiment),

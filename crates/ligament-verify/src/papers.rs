@@ -41,7 +41,7 @@ pub(super) struct Item {
     pub(super) place: String,
     /// Subject of the item.
     pub(super) content: String,
-    /// Comparison with the item.
+    /// Kind of comparison with the item.
     pub(super) comparison: Comparison,
     /// Remark: the reason why the item is not computed, or the substitute of printed values.
     pub(super) remark: String,
@@ -56,7 +56,7 @@ pub(super) enum Comparison {
     Drawn,
     /// The item is a result that is not computed.
     NotComputed,
-    /// Rows of tables compare the item.
+    /// The item is compared in rows of tables.
     Rows(Vec<Selection>),
 }
 

@@ -1,4 +1,4 @@
-//! Elastic constants and scatter of the patch test, and factors of bonds on a mesh that is turned.
+//! Elastic constants and scatter of the patch test, and factors of bonds on a rotated mesh.
 
 use anyhow::Context;
 use ligament::Model;
@@ -7,7 +7,7 @@ use ligament_mesh::{AnyMesh, gmsh};
 
 use super::case_run::CaseRun;
 
-/// Ratio of the Young's moduli of the body and of the material, along the axis where it differs more.
+/// Ratio of the Young's moduli of body and material, along the axis of the larger difference.
 pub(super) fn young(test: &PatchTest) -> anyhow::Result<f64> {
     let [x, y, _] = ratios_of_constants(test)?;
     Ok(further_from_one(x, y))
@@ -36,7 +36,7 @@ fn constants(test: &PatchTest) -> anyhow::Result<Constants> {
         .context("a body of several materials has no E")
 }
 
-/// The one of two ratios that is farther from 1.
+/// The ratio, of two, that is farther from 1.
 fn further_from_one(one: f64, other: f64) -> f64 {
     if (one - 1.0).abs() < (other - 1.0).abs() {
         other

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// The repository in which the program was built: cases, meshes and curves are read from there.
+/// Path of the repository in which the program was built, which has the cases, meshes and curves.
 pub(super) fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }

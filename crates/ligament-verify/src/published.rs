@@ -12,7 +12,8 @@
 //! ```
 //!
 //! The columns before `known` are the labels of an entry. `allowed` is `digits`, a share such as `3 %`, an amount in the unit of the table,
-//! two differences such as `-0.02 to 0.005`, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or `missed`.
+//! two differences such as `-0.02 to 0.005`, or `any`; `subset` is `fast` or `full`; `standing` is empty, `truncated`, `misprint`, `open` or
+//! `missed`.
 
 use std::path::{Path, PathBuf};
 
@@ -29,7 +30,7 @@ const COLUMNS: [&str; 6] = [
 ];
 
 /// The known values of a table, by the name of its file.
-pub(super) fn known(table: &str) -> anyhow::Result<KnownTable> {
+pub(super) fn known_table(table: &str) -> anyhow::Result<KnownTable> {
     let path = folder().join(format!("{table}.csv"));
     let text = std::fs::read_to_string(&path).with_context(|| path.display().to_string())?;
     Ok(known_values(table, &text)?)

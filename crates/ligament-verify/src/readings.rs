@@ -1,4 +1,4 @@
-//! Readings of the details that MPPD leaves open: number of its micropolar values that each reading meets (Tables 1 to 6).
+//! Interpretations of details that MPPD leaves open: the number of its micropolar values that each one meets (Tables 1 to 6).
 
 use anyhow::ensure;
 use ligament::run::Solution;
@@ -6,7 +6,7 @@ use ligament::run::Solution;
 use super::case_run::{CaseRun, ResultCache, displacement_at, largest_displacements};
 use super::experiment::{Compute, Experiment, Findings};
 use super::named_modes::Frequencies;
-use super::published::known;
+use super::published::known_table;
 use super::square_elements::SquareLoad;
 use super::table::{Extent, Labels, Row, Table};
 
@@ -43,16 +43,16 @@ const HALF_WIDTH: f64 = 0.305;
 /// Half-width between the outermost points, m.
 const MIDDLE: f64 = 0.3;
 
-/// Force on a point where the load is on one row, N.
+/// Force on a point under a load on one row, N.
 const FORCE: f64 = 100.0;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut cache = ResultCache::default();
-    let statics = known("mppd-readings-statics")?.judge(extent, |labels| {
+    let statics = known_table("mppd-readings-statics")?.judge(extent, |labels| {
         score(labels, &mut cache, || static_tables(labels))
     })?;
     let mut cache = ResultCache::default();
-    let frequencies = known("mppd-readings-frequencies")?.judge(extent, |labels| {
+    let frequencies = known_table("mppd-readings-frequencies")?.judge(extent, |labels| {
         score(labels, &mut cache, || modal_tables(labels))
     })?;
     Ok(Findings {
@@ -69,9 +69,8 @@ struct Reading {
     largest: [f64; 2],
     /// Values |u_x| and |u_y| in the middles of the right and the upper side.
     middle: [f64; 2],
-    /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, which does not depend on a rigid rotation;
-    /// twice.
-    of_sides: [f64; 2],
+    /// Mean of u_x at the middle of the upper side and u_y at the middle of the right side, independent of a rigid rotation, in both entries.
+    mean_of_sides: [f64; 2],
 }
 
 impl Reading {
@@ -80,13 +79,13 @@ impl Reading {
         Ok(Self {
             largest: largest_displacements(solution)?,
             middle: [at(MIDDLE, 0.0)[0].abs(), at(0.0, MIDDLE)[1].abs()],
-            of_sides: [0.5 * (at(0.0, MIDDLE)[0] + at(MIDDLE, 0.0)[1]); 2],
+            mean_of_sides: [0.5 * (at(0.0, MIDDLE)[0] + at(MIDDLE, 0.0)[1]); 2],
         })
     }
 }
 
 /// The case with a load.
-pub(super) fn case_of(load: SquareLoad) -> &'static str {
+pub(super) fn case_path(load: SquareLoad) -> &'static str {
     match load {
         SquareLoad::Traction => TRACTION,
         SquareLoad::Shear => SHEAR,
@@ -94,7 +93,7 @@ pub(super) fn case_of(load: SquareLoad) -> &'static str {
     }
 }
 
-/// Agreement of a reading with the printed values.
+/// Agreement of an interpretation with the printed values.
 #[derive(Debug, Clone, Copy)]
 struct Score {
     /// Number of values met to the printed digits.
@@ -104,7 +103,7 @@ struct Score {
     largest: f64,
 }
 
-/// The statistic of an entry (label `of`), for the tables under its reading.
+/// The statistic of an entry (label `of`), for the tables under its interpretation.
 fn score(
     labels: Labels<'_>,
     cache: &mut ResultCache<Score>,
@@ -145,22 +144,22 @@ fn is_micropolar(printed: Labels<'_>) -> anyhow::Result<bool> {
     Ok(printed.text("model")? == "MPPD" && printed.text("nu")? != "1/3")
 }
 
-/// Tables 1 to 3 under a reading.
+/// Tables 1 to 3 under an interpretation.
 fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let is_largest = reading.text("point")? == "largest";
     let mut cache = ResultCache::default();
     let mut table = |table: &str, load: SquareLoad| {
-        known(table)?.judge(Extent::Full, |printed| {
+        known_table(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? {
                 return Ok(f64::NAN);
             }
-            let case_run = loaded_on(CaseRun::from_file(case_of(load))?, load, rows);
+            let case_run = loaded_on(CaseRun::from_file(case_path(load))?, load, rows);
             let case_run =
                 with_law(case_run, reading)?.set("material.poisson", printed.number("nu")?);
             let found = cache.reading(&case_run, Reading::from_solution)?;
             let [x, y] = match load {
-                SquareLoad::Shear => found.of_sides,
+                SquareLoad::Shear => found.mean_of_sides,
                 SquareLoad::Traction if !is_largest => found.middle,
                 SquareLoad::Traction | SquareLoad::Bending => found.largest,
             };
@@ -179,12 +178,12 @@ fn static_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     ])
 }
 
-/// Tables 4 to 6 under a reading.
+/// Tables 4 to 6 under an interpretation.
 fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     let rows: u32 = reading.text("rows")?.parse()?;
     let mut cache = ResultCache::default();
     let mut table = |table: &str, mode: &str| {
-        known(table)?.judge(Extent::Full, |printed| {
+        known_table(table)?.judge(Extent::Full, |printed| {
             if !is_micropolar(printed)? || printed.text("of")? != "lattice" {
                 return Ok(f64::NAN);
             }
@@ -204,7 +203,7 @@ fn modal_tables(reading: Labels<'_>) -> anyhow::Result<Vec<Table>> {
     ])
 }
 
-/// A case run with the model of a reading.
+/// A case run with the model of an interpretation.
 fn with_law(case_run: CaseRun, reading: Labels<'_>) -> anyhow::Result<CaseRun> {
     Ok(case_run
         .set("model.law", reading.text("law")?)

@@ -31,7 +31,7 @@ impl Record {
         Ok(start + (end - start) * (time - early) / (late - early))
     }
 
-    /// Value in the first row from a time on, which may be rounded.
+    /// Value in the first row from a (possibly rounded) time on.
     pub(crate) fn from(&self, time: f64) -> anyhow::Result<f64> {
         let place = self.times.partition_point(|it| *it < time * (1.0 - 1e-9));
         let found = self.values.get(place).copied();
@@ -58,7 +58,7 @@ impl Record {
     }
 
     /// First time after `from` at which the values fall through zero, between rows by a straight line.
-    pub(crate) fn fall(&self, from: f64) -> anyhow::Result<f64> {
+    pub(crate) fn time_of_fall(&self, from: f64) -> anyhow::Result<f64> {
         self.falls(from).first().copied().context("no zero follows")
     }
 
@@ -112,7 +112,7 @@ impl Record {
         part.transform(omega)
     }
 
-    /// Phases, rad, by which another record is behind this one at multiples of a small angular frequency.
+    /// Phase lags, rad, of another record behind this one at multiples of a small angular frequency.
     fn delays(&self, other: &Self, step: f64, count: usize) -> Vec<[f64; 2]> {
         let mut last = 0.0;
         let mut delays = Vec::with_capacity(count);
@@ -206,7 +206,7 @@ mod tests {
         let falls = wave.falls(0.0);
         assert_eq!(falls.len(), 2);
         assert!((falls[0] - 0.1234 - PI / 2.0).abs() < 1e-5);
-        assert!((wave.fall(3.0).unwrap() - 0.1234 - 2.5 * PI).abs() < 1e-5);
-        assert!(wave.fall(9.0).is_err());
+        assert!((wave.time_of_fall(3.0).unwrap() - 0.1234 - 2.5 * PI).abs() < 1e-5);
+        assert!(wave.time_of_fall(9.0).is_err());
     }
 }

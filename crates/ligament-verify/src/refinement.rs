@@ -13,7 +13,7 @@ use ligament_study::meshing::gmsh_program::{MeshRequest, make_mesh};
 
 use super::experiment::{Compute, Experiment, Findings};
 use super::places::repository;
-use super::published::known;
+use super::published::known_table;
 use super::table::Extent;
 
 pub(super) const EXPERIMENT: Experiment = Experiment {
@@ -29,12 +29,12 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
     compute: Compute::Code(compute),
 };
 
-/// Values of the problems by what they are of.
+/// Values of the problems by name.
 type Values = BTreeMap<&'static str, f64>;
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut found: BTreeMap<String, Values> = BTreeMap::new();
-    let table = known("refine")?.judge(extent, |labels| {
+    let table = known_table("refine")?.judge(extent, |labels| {
         let (problem, of) = (labels.text("problem")?, labels.text("of")?);
         if !found.contains_key(problem) {
             found.insert(problem.to_owned(), values(problem)?);
@@ -71,8 +71,8 @@ fn solved(setup: Setup) -> anyhow::Result<Solution> {
     Ok(setup.solve(&mut NoObserver)?)
 }
 
-/// A refinement around given places, in the pass in which edges are halved twice.
-fn around(places: impl Iterator<Item = [f64; 2]>) -> Refine {
+/// A refinement around given places, in the pass that halves edges twice.
+fn refinement_around(places: impl Iterator<Item = [f64; 2]>) -> Refine {
     let place = |[x, y]: [f64; 2]| FinePlace {
         position: [x, y, 0.0],
         pass: 0,
@@ -94,13 +94,13 @@ fn line(from: [f64; 2], to: [f64; 2], count: usize) -> impl Iterator<Item = [f64
     })
 }
 
-/// Places so close everywhere in a square with a corner at the origin that all of its cells are refined.
+/// Places that cover a square with a corner at the origin so densely that all of its cells are refined.
 fn everywhere(side: f64, count: usize) -> Refine {
     let rows = line([0.0, 0.0], [0.0, side], count);
-    around(rows.flat_map(move |[_, y]| line([0.0, y], [side, y], count)))
+    refinement_around(rows.flat_map(move |[_, y]| line([0.0, y], [side, y], count)))
 }
 
-/// The setup on the mesh of its refinement by another horizon factor, without further refinement.
+/// The setup on its refined mesh with another horizon factor, without further refinement.
 fn on_mesh_by(factor: f64, setup: Setup) -> anyhow::Result<Setup> {
     let horizon = setup.horizon;
     let coarser = Setup {
@@ -129,7 +129,7 @@ fn first_break(solution: &Solution) -> anyhow::Result<f64> {
 fn square() -> anyhow::Result<Values> {
     let setup = setup("cases/verification/refined-square.toml", &[])?;
     let solution = solved(Setup {
-        refine: Some(around(line([0.02, 0.05], [0.08, 0.05], 61))),
+        refine: Some(refinement_around(line([0.02, 0.05], [0.08, 0.05], 61))),
         ..setup
     })?;
     let stress = first_break(&solution)? / 0.1;
@@ -210,7 +210,7 @@ fn edge_crack() -> anyhow::Result<Values> {
         meshed("plate.geo", &mesh, &numbers)?;
         let file = format!("mesh.file=\"{}\"", mesh.display());
         let cracked = || setup("cases/verification/refined-edge-crack.toml", &[&file]);
-        let ahead = || around(line([0.03, 0.05], [0.1, 0.05], 281));
+        let ahead = || refinement_around(line([0.03, 0.05], [0.1, 0.05], 281));
         let refined = |refine| -> anyhow::Result<Setup> {
             Ok(Setup {
                 refine: Some(refine),
@@ -235,7 +235,7 @@ fn disk() -> anyhow::Result<Values> {
     let setup = setup("cases/disk-stress/case.toml", &["fracture.stop.bonds=1"])?;
     let radius = 0.05;
     let solution = solved(Setup {
-        refine: Some(around(line(
+        refine: Some(refinement_around(line(
             [0.3 * radius, -0.5 * radius],
             [0.3 * radius, 0.5 * radius],
             101,

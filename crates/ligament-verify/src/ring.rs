@@ -19,7 +19,7 @@ pub(super) struct Ring {
     pub(super) pressure: f64,
 }
 
-/// Radial displacements of a ring over Lame's.
+/// Ratios of the radial displacements of a ring to Lame's solution.
 pub(super) struct RadialDisplacements {
     /// Mean ratio over the points of the inside and of the outside.
     pub(super) inside: f64,

@@ -28,7 +28,7 @@ pub(super) enum SquareLoad {
 }
 
 impl SquareLoad {
-    /// The load of a name.
+    /// The load with a name.
     pub(super) fn named(name: &str) -> anyhow::Result<Self> {
         match name {
             "traction" => Ok(Self::Traction),

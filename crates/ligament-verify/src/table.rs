@@ -64,7 +64,7 @@ pub struct Row {
     pub verdict: Verdict,
 }
 
-/// The labels of an entry, by their keys.
+/// Labels of an entry, by their keys.
 #[derive(Debug, Clone, Copy)]
 pub struct Labels<'a> {
     keys: &'a [String],

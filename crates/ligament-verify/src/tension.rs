@@ -2,7 +2,7 @@
 
 use super::case_run::{CaseRun, ResultCache, displacement_at, displacements};
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::known;
+use super::published::known_table;
 use super::table::Extent;
 use ligament::run::Solution;
 use ligament_output::csv::read::CsvTable;
@@ -44,7 +44,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let elements = elements.numbers(["zeta", "x", "y", "ux", "uy"])?;
     let mut cache = ResultCache::default();
     let mut edges: Vec<Edge> = Vec::new();
-    let table = known("omppd-tension")?.judge(extent, |labels| {
+    let table = known_table("omppd-tension")?.judge(extent, |labels| {
         let angle = labels.number("angle")?;
         let case_run = CaseRun::from_file(CASE)?.set("material.angle", angle.to_radians());
         let edge = cache.reading(&case_run, |it| {

@@ -2,12 +2,12 @@
 
 use anyhow::bail;
 
-/// Sides of a rectangle, and of a box, at the lower and the upper end of each axis.
+/// Names of the sides of a rectangle, then of the faces of a box, at the lower and the upper end of each axis.
 const SIDES: [[&str; 2]; 2] = [["left", "right"], ["bottom", "top"]];
 const FACES: [[&str; 2]; 3] = [["left", "right"], ["front", "back"], ["bottom", "top"]];
 
-/// The loads of two principal stresses (Pa) on a rectangle, with axes turned by an angle, or of three on a box, with axes turned about z and then about
-/// x, as an array in TOML.
+/// The loads of two principal stresses (Pa) on a rectangle, with axes turned by an angle, or of three on a box, with axes turned about z and then
+/// about x, as an array in TOML.
 pub(super) fn loads(principal: &[f64], degrees: f64) -> anyhow::Result<String> {
     let axes @ [[c, minus_s], [s, _]] = about_z(degrees);
     Ok(match *principal {

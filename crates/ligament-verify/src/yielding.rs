@@ -6,7 +6,7 @@ use ligament_post::yielding::{Family, PrincipalStretches, lattice, printed_orien
 
 use super::case_run::CaseRun;
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::known;
+use super::published::known_table;
 use super::table::{Extent, Labels, Table};
 use ligament_plot::plots::{Colour, Plot, Series};
 use ligament_study::yielding::criteria::{Combination, Strengths};
@@ -45,14 +45,14 @@ const RATIOS: [(f64, Colour); 5] = [
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let printed = |table: &str, criterion: &str| -> anyhow::Result<Table> {
         let combination = named(criterion)?;
-        known(table)?.judge(extent, |labels| {
+        known_table(table)?.judge(extent, |labels| {
             let directions = lattice::directions(labels.number("m")?);
             let worst = combination.printed_measure(&STRENGTHS, &directions, path(labels)?)?;
             Ok(100.0 * worst.context("nothing yields")?.error)
         })
     };
     let frictional = named("frictional")?;
-    let first_yield = known("first-yield-frictional")?.judge(extent, |labels| {
+    let first_yield = known_table("first-yield-frictional")?.judge(extent, |labels| {
         let directions = lattice::directions(labels.number("m")?);
         let criteria = frictional.criteria(&STRENGTHS, directions.len())?;
         let family = Family::from_directions(&directions, &criteria);
@@ -64,7 +64,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         printed("mppd-table-8", "sliding")?,
         printed("mppd-table-9", "frictional")?,
         first_yield,
-        known("bar-yield")?.judge(extent, bar_yield)?,
+        known_table("bar-yield")?.judge(extent, bar_yield)?,
     ];
     let plots = ["stretch", "sliding", "frictional"].map(over_orientation);
     Ok(Findings {

@@ -33,7 +33,7 @@ pub fn crack_energies(model: &Model, material: usize) -> Option<[CrackEnergy; 2]
     };
     let excluded: Vec<bool> = rim.map(is_excluded).collect();
     let whole = model.interior(&excluded);
-    let along = |normal| CrackEnergy::of_opening(system, &model.criteria, &whole, normal);
+    let along = |normal| CrackEnergy::for_normal(system, &model.criteria, &whole, normal);
     Some([along([1.0, 0.0])?, along([0.0, 1.0])?])
 }
 

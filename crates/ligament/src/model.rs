@@ -303,14 +303,19 @@ impl<const D: usize> Bonded<D> {
             names: &*part,
         };
         let bonded = bonded(described, &*part, points, &near.material_of_cell, watcher)?;
-        Ok(bonded.within(near, body, material_of_cell))
+        Ok(bonded.in_whole_body(near, body, material_of_cell))
     }
 
     /// The bonds of a near field in the whole body, with the elements of the far field.
-    fn within(self, near: NearField<D>, body: &dyn Geometry<D>, material_of_cell: &[u32]) -> Self {
+    fn in_whole_body(
+        self,
+        near: NearField<D>,
+        body: &dyn Geometry<D>,
+        material_of_cell: &[u32],
+    ) -> Self {
         Self {
             fixed: near.fields(self.fixed),
-            system: near.within(body, self.system, material_of_cell),
+            system: near.in_whole_body(body, self.system, material_of_cell),
             ..self
         }
     }

@@ -78,13 +78,13 @@ impl<const D: usize> NearField<D> {
     }
 
     /// The bonds of the near field in the whole body, with the elements of the far field; `material_of_cell` (n_cells) is of the whole body.
-    pub(crate) fn within(
+    pub(crate) fn in_whole_body(
         self,
         body: &dyn Geometry<D>,
         system: BondSystem<D>,
         material_of_cell: &[u32],
     ) -> BondSystem<D> {
-        let system = system.within(self.cloud, &self.points);
+        let system = system.in_whole_body(self.cloud, &self.points);
         body.with_far_field(system, &self.far_cells, material_of_cell)
     }
 

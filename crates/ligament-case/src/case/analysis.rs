@@ -8,7 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// What is computed.
+/// Kind of analysis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Analysis {
@@ -39,7 +39,7 @@ pub(super) fn solver_schema(generator: &mut SchemaGenerator) -> Schema {
     json_schema!({ "anyOf": [{ "const": "auto", "description": "All of it is chosen." }, keys] })
 }
 
-/// What a run writes.
+/// Files that a run writes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Output {
@@ -67,7 +67,7 @@ pub struct Output {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum StressField {
-    /// What the material carries, by its law, with principal values and the direction of the largest.
+    /// The stress that the material carries, by its law, with principal values and the direction of the largest.
     Material,
     /// The law of the material for the strain of the bonds that neither broke nor soften, with principal values.
     Effective,

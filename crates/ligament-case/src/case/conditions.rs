@@ -1,4 +1,5 @@
-//! `[[support]]`, `[[load]]`, `[[temperature]]` and `[[initial_velocity]]`: what holds, loads, heats and moves the body, with factors as functions of time.
+//! `[[support]]`, `[[load]]`, `[[temperature]]` and `[[initial_velocity]]`: what holds, loads, heats and moves the body, with factors as functions of
+//! time.
 
 use std::path::{Path, PathBuf};
 
@@ -35,7 +36,7 @@ pub struct Support {
     pub displacement: Option<Displacement>,
     /// An inclined roller: the direction along which the points are held while they are free across it, `[1.0, 1.0]` is at 45 degrees.
     pub normal: Option<Coordinates>,
-    /// Springs to the ground in the place of what holds, in total over the points.
+    /// Springs to the ground instead of fixed displacements, in total over the points.
     pub stiffness: Option<SpringStiffness>,
 }
 
@@ -59,7 +60,7 @@ impl Support {
     }
 }
 
-/// A velocity at time zero. Where several reach, the last of them holds.
+/// A velocity at time zero. Where several apply, the last one counts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InitialVelocity {
@@ -82,7 +83,7 @@ impl InitialVelocity {
     }
 }
 
-/// A change of temperature at load factor 1. Where several reach, the last of them holds.
+/// A change of temperature at load factor 1. Where several apply, the last one counts.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["change", "file", "mesh_field"])))]
@@ -106,7 +107,7 @@ pub struct Temperature {
 }
 
 impl Temperature {
-    /// Fills in missing keys; `folder` is that of the case file.
+    /// Fills in missing keys; `folder` is the folder of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         if let Some(file) = &mut self.file {
             complete_path(&key.child("file"), file, folder)?;
@@ -169,12 +170,12 @@ pub(super) const ACTIONS: [&str; 11] = [
     "pressure",
 ];
 
-/// A load, given as it is at load factor 1.
+/// A load, with its value at load factor 1.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&ACTIONS)))]
 pub struct Load {
-    /// Heads its column in `history.csv`; without it the name of the group, or `load-1` and so on where that cannot head a column.
+    /// Name of its column in `history.csv`; by default the name of the group, or `load-1` and so on where that cannot head a column.
     #[schemars(length(min = 1))]
     pub name: Option<String>,
     /// The points of this physical group of the mesh, or of this set or hole of the lattice.
@@ -188,7 +189,7 @@ pub struct Load {
     /// Prescribed velocities in a motion, m/s, of the rotation rad/s.
     #[schemars(transform = describe_rates)]
     pub velocity: Option<Displacement>,
-    /// Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2.
+    /// Prescribed accelerations in a motion, such as the acceleration of the ground, m/s^2, of the rotation rad/s^2.
     #[schemars(transform = describe_rates)]
     pub base_acceleration: Option<Displacement>,
     /// A force in total over the points, N.
@@ -208,11 +209,11 @@ pub struct Load {
     pub body_couple: Option<Couple>,
     /// A pressure on the outline of a group, Pa; positive pushes on the body.
     pub pressure: Option<f64>,
-    /// How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table.
+    /// Variation of the load in space: a factor (c - zero)/(one - zero), or the factor of a table.
     pub profile: Option<Profile>,
-    /// How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start.
+    /// Variation of the load in time, in a motion: a factor of the load. Without it the load is as given from the start.
     pub amplitude: Option<Amplitude>,
-    /// Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine.
+    /// Total stiffness of springs through which a `displacement` moves the points, N/m: the stiffness of a testing machine.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub stiffness: Option<f64>,
     /// Whether a `displacement` or `force` acts through a rigid platen that may tilt: it moves by the mean of its points.
@@ -226,7 +227,7 @@ pub struct Load {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["along", "file"])))]
 pub struct Profile {
-    /// The coordinate.
+    /// Coordinate along which the load varies.
     pub along: Option<Axis>,
     /// Coordinate in the mesh file at which the load is zero, m.
     pub zero: Option<f64>,
@@ -357,7 +358,7 @@ fn describe_rates(schema: &mut Schema) {
     for component in components.into_iter().flat_map(|it| it.values_mut()) {
         let words = component["description"].as_str().unwrap_or_default();
         let words = words.replace(", m.", ".").replace(", rad,", ",");
-        let words = words.replace("Rotation", "Of the rotation");
+        let words = words.replace("Rotation", "Component of the rotation");
         let words = words.replace("clockwise.", "clockwise, with rad in the place of m.");
         *component = json!({ "description": words, "type": component["type"] });
     }
@@ -413,7 +414,7 @@ pub enum Shape {
 }
 
 impl Amplitude {
-    /// Fills in missing keys; `folder` is that of the case file.
+    /// Fills in missing keys; `folder` is the folder of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         if let Some(file) = &mut self.file {
             complete_path(&key.child("file"), file, folder)?;

@@ -38,7 +38,7 @@ pub struct Rigid {
     pub velocity: Option<Vector>,
     /// Factor of the velocity as a function of time; without it 1.
     pub amplitude: Option<Amplitude>,
-    /// Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed.
+    /// Mass of a body that contact alone moves, in the plane for the whole thickness, kg; without it the motion is prescribed.
     #[schemars(transform = setup::Rigid::MASS.keywords())]
     pub mass: Option<f64>,
     /// Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn.
@@ -54,10 +54,10 @@ pub struct Rigid {
     #[serde(default = "one")]
     #[schemars(transform = ContactLaw::STIFFNESS.keywords())]
     pub stiffness: f64,
-    /// Groups whose outlines it meets; without it that of the whole body.
+    /// Groups whose outlines it can touch; by default the outline of the whole body.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub against: Vec<String>,
-    /// Whether it meets the faces of cracks as well.
+    /// Whether the rigid shape meets the faces of cracks as well.
     #[serde(default)]
     pub cracks: bool,
 }
@@ -81,7 +81,7 @@ fn one() -> f64 {
 }
 
 impl Rigid {
-    /// Fills in missing keys; `folder` is that of the case file.
+    /// Fills in missing keys; `folder` is the folder of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         require_column_name(|| key.child("name"), &self.name)?;
         match &mut self.amplitude {

@@ -4,11 +4,11 @@ use std::borrow::Cow;
 use std::path::PathBuf;
 
 use super::key_path::KeyPath;
-use super::overrides::as_option;
+use super::overrides::command_line_form;
 use ligament::error::Fault as SetupFault;
 use ligament::suggestion::hint;
 
-/// The tail of an error about a word: the nearest valid one, or all of them, however many.
+/// End of an error about a word: the nearest valid word, or all of them.
 fn hint_of_values(found: &str, valid: &[String]) -> String {
     match hint(found, valid, "valid values", '"') {
         nothing if nothing.is_empty() => format!("; valid values: \"{}\"", valid.join("\", \"")),
@@ -16,8 +16,8 @@ fn hint_of_values(found: &str, valid: &[String]) -> String {
     }
 }
 
-/// Place of what a key of other programs means, for an error.
-fn of_other_programs(key: &str) -> Option<&'static str> {
+/// Advice for an error on the place of a key that other programs have.
+fn place_for_foreign_key(key: &str) -> Option<&'static str> {
     ["critical_stretch", "epsilon_c"].contains(&key).then_some(
         "; a critical stretch is the `limit` of a [[fracture.criterion]] with kind = \"critical-stretch\"",
     )
@@ -29,7 +29,7 @@ pub enum Fault {
     /// The table has no such key.
     #[error(
         "unknown key `{key}` in {table}{}{}",
-        of_other_programs(key).unwrap_or_default(),
+        place_for_foreign_key(key).unwrap_or_default(),
         hint(key, valid, "valid keys", '`')
     )]
     UnknownKey {
@@ -110,10 +110,10 @@ pub enum Fault {
         /// Valid words.
         valid: Vec<String>,
     },
-    /// A fault of the case's setup: a name that does not exist, or a value out of range.
+    /// A fault of the setup: a name that does not exist, or a value out of range.
     #[error(transparent)]
     Setup(#[from] SetupFault),
-    /// Keys of which exactly one must be given.
+    /// Alternative keys: exactly one must be given.
     #[error(
         "needs exactly one of {}; found {}",
         quoted(valid, "none"),
@@ -212,7 +212,7 @@ pub enum Location {
         path: PathBuf,
     },
     /// An override on the command line.
-    #[error("{}", as_option(given))]
+    #[error("{}", command_line_form(given))]
     Override {
         /// The override as given, `key=value` or `-key`.
         given: String,
@@ -239,7 +239,7 @@ pub enum CaseError {
         message: String,
     },
     /// A `--set` or `--unset` could not be applied.
-    #[error("{}: {reason}", as_option(given))]
+    #[error("{}: {reason}", command_line_form(given))]
     Override {
         /// The override as given.
         given: String,

@@ -148,7 +148,7 @@ impl CaseFile {
         resolved::to_toml(&self.case)
     }
 
-    /// Name of the case: that of its folder if the file is `case.toml` or `case.resolved.toml`, otherwise that of the file without its
+    /// Name of the case: the name of its folder if the file is `case.toml` or `case.resolved.toml`, otherwise the name of the file without its
     /// extension.
     pub fn name(&self) -> String {
         self.source.name(&["case", "case.resolved"])

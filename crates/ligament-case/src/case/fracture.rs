@@ -28,10 +28,10 @@ const MOST_STEPS: u32 = 1_000_000;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fracture {
-    /// What drives the load.
+    /// Control of the load.
     #[serde(default)]
     pub control: Control,
-    /// The load steps: so many equal ones up to load factor 1, or a list of load factors. With stages each of them has its own.
+    /// The load steps: a number of equal steps up to load factor 1, or a list of load factors. With stages each stage has its own.
     pub steps: Option<Steps>,
     /// Bonds broken at most between two solutions.
     #[schemars(range(min = 1), extend("default" = stepped().rule.bonds_per_iteration))]
@@ -42,7 +42,7 @@ pub struct Fracture {
     /// Rounds of breaking at most in a load step.
     #[schemars(range(min = 1), extend("default" = stepped().round_limit))]
     pub max_iterations: Option<usize>,
-    /// Parts into which the load step of the first breakage is divided after it; 0: not divided.
+    /// Number of parts into which the load step of the first breakage is divided after it; 0 for no division.
     #[schemars(range(max = MOST_STEPS), extend("default" = stepped().refine_first_break))]
     pub refine_first_break: Option<usize>,
     /// Bonds closer than this (relative) to the worst one break together with it.
@@ -58,13 +58,13 @@ pub struct Fracture {
     pub stop: StopRules,
     /// A strength or a fracture energy that varies over the body at random; both as a list of two tables.
     pub scatter: Option<Scatters>,
-    /// When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
+    /// Criteria for the failure of bonds: the first that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`).
     #[serde(rename = "criterion")]
     #[schemars(length(min = 1))]
     pub criteria: Option<Vec<Choice>>,
 }
 
-/// What drives the load.
+/// Control of the load.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Control {
@@ -86,8 +86,8 @@ pub enum Steps {
     Factors(#[schemars(length(min = 1))] Vec<f64>),
 }
 
-/// Puts the corners of curves of softening, `after = { table = "..." }`, in the place of their tables, which are relative to the folder of the
-/// case: results then hold the curve itself.
+/// Replaces the tables of softening curves, `after = { table = "..." }`, relative to the folder of the case, by their corners, so that results
+/// contain the curve itself.
 pub(super) fn read_curves(document: &mut Node, folder: &Path) -> Result<(), KeyFault> {
     let criteria = document
         .get_mut("fracture")
@@ -145,7 +145,7 @@ fn energy_tolerance() -> f64 {
 }
 
 impl Fracture {
-    /// Fills in missing keys of the load steps; with stages, these are those of the stages.
+    /// Fills in missing keys of the load steps, which a case with stages has there.
     pub(super) fn complete(&mut self, key: &KeyPath, is_staged: bool) -> Result<(), KeyFault> {
         if self.control == Control::Stepped {
             let settings = self.stepping(key, is_staged)?;
@@ -187,8 +187,8 @@ impl Fracture {
         })
     }
 
-    /// Breakages in implicit steps of a motion, from others for the keys that are not given.
-    pub(super) fn of_steps(&self, default: StepBreakages) -> StepBreakages {
+    /// Breakages in implicit steps of a motion, with `default` for missing keys.
+    pub(super) fn step_breakages(&self, default: StepBreakages) -> StepBreakages {
         StepBreakages {
             rule: self.rule(default.rule),
             rounds: self.max_iterations.unwrap_or(default.rounds),
@@ -260,7 +260,7 @@ pub struct Scatters(pub Vec<Scatter>);
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scatter {
-    /// What varies.
+    /// Property that varies.
     pub of: Scattered,
     /// Distribution of the factors.
     #[serde(default)]
@@ -271,7 +271,7 @@ pub struct Scatter {
     /// Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`.
     #[schemars(transform = scatter::Distribution::DEVIATION.keywords())]
     pub deviation: Option<f64>,
-    /// Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's.
+    /// Seed of the random numbers: another seed gives another specimen. The default is 0; the seed of a second property follows from the first.
     pub seed: Option<u64>,
     /// Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself.
     #[serde(default)]

@@ -14,7 +14,7 @@ pub(super) struct Settings {
     pub(super) analysis: Option<Analysis>,
     /// Scheme of a motion.
     pub(super) scheme: Option<Scheme>,
-    /// How loads rise in a fracture analysis.
+    /// Control of the loads in a fracture analysis.
     pub(super) control: Option<Control>,
     /// Whether the case has stages.
     pub(super) has_stages: bool,
@@ -22,7 +22,7 @@ pub(super) struct Settings {
 
 /// Keys that do not apply with a setting.
 struct IneffectiveKeys {
-    /// Setting of the case with which they do not apply.
+    /// Setting of the case with which the keys do not apply.
     with: CaseSetting,
     /// Section that has the keys; empty for keys outside of all sections.
     section: &'static str,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Paths of repeatable sections, those of a study last.
+/// Paths of repeatable sections, first of a case, then of a study.
 const REPEATED: [&[&str]; 12] = [
     &["interface"],
     &["precrack"],

@@ -15,7 +15,7 @@ use super::values::{RANGE, UNIT};
 
 static SCHEMA: LazyLock<Json> = LazyLock::new(schema);
 
-/// Unit of the number at a key path, if any: its own, or that of the enclosing table or list.
+/// Unit of the number at a key path, if any: its own unit, or the unit of the enclosing table or list.
 pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     let (mut schema, mut unit) = (&*SCHEMA, None);
     for part in &key.0 {
@@ -25,7 +25,7 @@ pub fn unit_of(key: &KeyPath) -> Option<&'static str> {
     unit.filter(|_| schema["type"] != "object")
 }
 
-/// Paths of the keys of this name in the sections of a case, an entry of a list as its first: `material.young`, `load.0.force`.
+/// Paths of the keys of this name in the sections of a case, with the index 0 for entries of lists: `material.young`, `load.0.force`.
 pub(super) fn in_sections(name: &str) -> Vec<String> {
     let sections = SCHEMA["properties"].as_object().into_iter().flatten();
     let has = |(section, schema): (&String, &Json)| {
@@ -49,7 +49,7 @@ fn table_of(schema: &Json) -> &Json {
     table.unwrap_or(schema)
 }
 
-/// The schema of a key or an element within a schema; elements without a schema have that of their list.
+/// The schema of a key or an element within a schema; elements without a schema have the schema of their list.
 fn schema_below<'a>(schema: &'a Json, part: &str) -> Option<&'a Json> {
     if part.parse::<usize>().is_ok() {
         return Some(schema.get("items").unwrap_or(schema));
@@ -79,7 +79,7 @@ pub(crate) fn check_dimensions(document: &Node, setup: Setup) -> Result<Setup, K
     Ok(setup)
 }
 
-/// Checks a value and those below it. Numbers in lists are left to the sections.
+/// Checks a value and the values below it. Sections check numbers in lists.
 fn check_below(node: &Node, schema: &Json, key: &KeyPath, check: Check) -> Result<(), KeyFault> {
     check(node, schema, key)?;
     let child = |node: &Node, part: &str| match schema_below(schema, part) {

@@ -53,7 +53,7 @@ pub struct LatticeSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["circle", "rectangle", "polygon", "outside"])))]
 pub struct Hole {
-    /// Makes the cells at its rim a `group`; several holes may share it.
+    /// Name of the `group` of the cells at its rim; several holes may share it.
     #[schemars(length(min = 1))]
     pub name: Option<String>,
     /// A disk, m.
@@ -72,16 +72,16 @@ pub struct Hole {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["bottom", "top", "left", "right", "box", "circle", "polygon"])))]
 pub struct CellSet {
-    /// So many rows from the bottom.
+    /// Number of rows from the bottom.
     #[schemars(range(min = 1))]
     pub bottom: Option<u32>,
-    /// So many rows from the top.
+    /// Number of rows from the top.
     #[schemars(range(min = 1))]
     pub top: Option<u32>,
-    /// So many columns from the left.
+    /// Number of columns from the left.
     #[schemars(range(min = 1))]
     pub left: Option<u32>,
-    /// So many columns from the right.
+    /// Number of columns from the right.
     #[schemars(range(min = 1))]
     pub right: Option<u32>,
     /// Cells whose centre lies in a rectangle, by two opposite corners, m.
@@ -138,7 +138,7 @@ pub struct SolidLatticeSection {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["sphere", "cylinder", "box", "outside_sphere", "outside_cylinder"])))]
 pub struct SolidHoleKeys {
-    /// Makes the cells at its surface a `group`; several holes may share it.
+    /// Name of the `group` of the cells at its surface; several holes may share it.
     #[schemars(length(min = 1))]
     pub name: Option<String>,
     /// A ball, m.
@@ -149,7 +149,7 @@ pub struct SolidHoleKeys {
     pub r#box: Option<[[f64; 3]; 2]>,
     /// Everything outside of a ball, m.
     pub outside_sphere: Option<Sphere>,
-    /// Everything outside of a cylinder that goes on beyond its ends, m.
+    /// Everything outside of an infinite cylinder, m.
     pub outside_cylinder: Option<Cylinder>,
 }
 
@@ -158,22 +158,22 @@ pub struct SolidHoleKeys {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["left", "right", "front", "back", "bottom", "top", "box", "sphere", "cylinder"])))]
 pub struct SolidCellSetKeys {
-    /// So many layers from the lowest x.
+    /// Number of layers from the lowest x.
     #[schemars(range(min = 1))]
     pub left: Option<u32>,
-    /// So many layers from the highest x.
+    /// Number of layers from the highest x.
     #[schemars(range(min = 1))]
     pub right: Option<u32>,
-    /// So many layers from the lowest y.
+    /// Number of layers from the lowest y.
     #[schemars(range(min = 1))]
     pub front: Option<u32>,
-    /// So many layers from the highest y.
+    /// Number of layers from the highest y.
     #[schemars(range(min = 1))]
     pub back: Option<u32>,
-    /// So many layers from the lowest z.
+    /// Number of layers from the lowest z.
     #[schemars(range(min = 1))]
     pub bottom: Option<u32>,
-    /// So many layers from the highest z.
+    /// Number of layers from the highest z.
     #[schemars(range(min = 1))]
     pub top: Option<u32>,
     /// Cells whose centre lies in a box, by two opposite corners, m.
@@ -207,7 +207,7 @@ pub struct Cylinder {
 }
 
 impl LatticeSection {
-    /// What the section says of the lattice.
+    /// The lattice of the section.
     pub(crate) fn grid(&self) -> Grid<2, Shape> {
         let holes = self.remove.iter();
         let sets = self.sets.iter();
@@ -225,7 +225,7 @@ impl LatticeSection {
 }
 
 impl SolidLatticeSection {
-    /// What the section says of the lattice.
+    /// The lattice of the section.
     pub(crate) fn grid(&self) -> Grid<3, SolidShape> {
         let holes = self.remove.iter();
         let sets = self.sets.iter();
@@ -242,7 +242,7 @@ impl SolidLatticeSection {
     }
 }
 
-/// Values by the keys of which a table has one.
+/// Values by alternative keys, exactly one of them given.
 type Choices<T> = Vec<(&'static str, Option<T>)>;
 
 impl Hole {
@@ -304,7 +304,7 @@ impl SolidCellSetKeys {
     }
 }
 
-/// What a section says of a lattice in D dimensions.
+/// Content of a section for a lattice in D dimensions.
 pub(crate) struct Grid<const D: usize, S> {
     /// Key of the section.
     section: &'static str,

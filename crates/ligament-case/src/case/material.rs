@@ -65,7 +65,7 @@ pub struct Orthotropic {
     /// Shear modulus in the plane, Pa.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub shear_modulus: f64,
-    /// From the x axis to the axis 1, counter-clockwise, rad.
+    /// Angle from the x axis to axis 1, counter-clockwise, rad.
     #[serde(default)]
     pub angle: f64,
     /// Young's modulus across the plane, Pa; for plane strain.
@@ -203,7 +203,7 @@ impl Expansion {
 struct Kind {
     /// Keys of the constants of this kind only, with their schemas.
     constants: Map<String, Json>,
-    /// The required ones of them.
+    /// Required keys of the constants.
     needed: Json,
     /// Optional coefficients of expansion along axes.
     expansion: &'static [&'static str],
@@ -218,7 +218,7 @@ const ALONG_AXES: [&str; 3] = [
     "thermal_expansion_3",
 ];
 
-/// The kinds; keys of a later one decide before those of an earlier one.
+/// The kinds; keys of a later kind take precedence over keys of an earlier one.
 static KINDS: LazyLock<[Kind; 3]> = LazyLock::new(|| {
     [
         Kind::new::<Isotropic>(&[], |table, key| {
@@ -287,7 +287,7 @@ impl Kind {
     }
 }
 
-/// The place of a material.
+/// The group of the body that a material fills.
 #[derive(Debug, Deserialize, JsonSchema)]
 struct MaterialGroup {
     /// The physical surface of the mesh, or the set of the lattice, that the material fills.
@@ -328,7 +328,7 @@ fn key_of(name: Option<&String>) -> KeyPath {
     name.map_or(section.clone(), |name| section.child(name))
 }
 
-/// Reads the section: one material, or a table for each of several.
+/// Reads the section: one material, or one table for each material.
 pub(super) fn read(section: &Node) -> Result<Vec<Material>, KeyFault> {
     let key = key_of(None);
     let is_table = |node: &Node| matches!(node.value, Value::Table(_));
@@ -383,7 +383,7 @@ fn read_one(table: &Node, name: Option<String>) -> Result<Material, KeyFault> {
 }
 
 /// Skips the section, which [`read`] decodes in its two forms.
-pub(super) fn later<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Material>, D::Error> {
+pub(super) fn skip<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Material>, D::Error> {
     IgnoredAny::deserialize(deserializer).map(|_| Vec::new())
 }
 

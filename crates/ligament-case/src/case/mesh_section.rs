@@ -65,7 +65,7 @@ impl MeshSection {
         self.coordinates.unwrap_or_default().0
     }
 
-    /// Fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
+    /// Fills in missing keys; `folder` is the folder of the case file, `body` the kind of a body in memory.
     pub(super) fn complete(
         &mut self,
         key: &KeyPath,

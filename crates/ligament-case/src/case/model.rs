@@ -47,25 +47,25 @@ pub struct ModelSection {
     pub allow_unstable: bool,
     /// What carries the stiffness that bonds cannot have above the Poisson's ratio of central forces (1/3 in plane stress, else 1/4).
     #[serde(default, skip_serializing_if = "by_cells")]
-    #[schemars(extend("description" = laws_text("What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3)", |it| it.options.poisson.is_some())))]
+    #[schemars(extend("description" = laws_text("Carrier of the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3)", |it| it.options.poisson.is_some())))]
     pub poisson: Option<PoissonForm>,
-    /// Where the constants of the law come from.
-    #[schemars(extend("description" = laws_text("Where the constants of the law come from", |it| it.options.calibration.is_some())))]
+    /// Origin of the constants of the law.
+    #[schemars(extend("description" = laws_text("Origin of the constants of the law", |it| it.options.calibration.is_some())))]
     pub calibration: Option<Calibration>,
     /// Stiffness against relative rotation.
     #[schemars(extend("description" = laws_text("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
     pub rotational_stiffness: Option<RotationalStiffness>,
-    /// Stiffness against relative rotation over that of the law; 1 without the key.
-    #[schemars(transform = RotationalScale::FACTOR.keywords(), extend("description" = laws_text("Stiffness against relative rotation over that of the law; 1 without the \
+    /// Stiffness against relative rotation over the stiffness of the law; 1 without the key.
+    #[schemars(transform = RotationalScale::FACTOR.keywords(), extend("description" = laws_text("Stiffness against relative rotation over the stiffness of the law; 1 without the \
         key", |it| it.shear_form.is_some())))]
     pub rotational_factor: Option<f64>,
     /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
     /// `rotational_factor`.
     #[schemars(transform = RotationalScale::LENGTH.keywords())]
     pub cosserat_length: Option<f64>,
-    /// How the bonds of `mbb-pd` resist their strains.
+    /// Strains that the bonds of `mbb-pd` resist.
     pub form: Option<Form>,
-    /// What the strains of `mbb-pd` are taken over.
+    /// Distances in the denominators of the strains of `mbb-pd`.
     pub strains: Option<Strains>,
 }
 
@@ -131,7 +131,7 @@ impl ModelSection {
         }
     }
 
-    /// Size of the rotational stiffness.
+    /// Scale of the rotational stiffness.
     pub(super) fn rotational_scale(&self) -> RotationalScale {
         let factor = self.rotational_factor.unwrap_or(1.0);
         let length = self.cosserat_length.map(RotationalScale::CosseratLength);
@@ -145,7 +145,7 @@ impl ModelSection {
     }
 }
 
-/// Description of a key with the laws to which it applies.
+/// Description of a key, with the laws to which it applies.
 fn laws_text(what: &str, takes: fn(&BondLaw) -> bool) -> String {
     let laws = LAWS.into_iter().filter(|it| takes(it));
     let words: Vec<String> = laws.map(|it| format!("`{}`", it.word)).collect();
@@ -160,7 +160,7 @@ pub struct Correction {
     pub alpha: Option<Alpha>,
     /// The correction of surfaces; without it as in the paper of the law.
     pub surface: Option<Word<Surface>>,
-    /// How the change of a sweep of the domain correction is measured.
+    /// Measure of the change in a sweep of the domain correction.
     pub rule: Option<Word<Option<StopRule>>>,
     /// Change of a sweep below which the domain correction has converged.
     #[schemars(extend("exclusiveMinimum" = 0))]
@@ -177,10 +177,10 @@ pub struct Correction {
     /// Largest factor of the patch correction over the uncorrected one.
     #[schemars(transform = Settings::HIGHEST.keywords(), extend("default" = Settings::DEFAULT.highest))]
     pub largest_factor: Option<f64>,
-    /// Weight of the equations of moments against those of forces in the patch correction.
+    /// Weight of the equations of moments relative to the equations of forces in the patch correction.
     #[schemars(transform = Settings::MOMENT_WEIGHT.keywords(), extend("default" = Settings::DEFAULT.moment_weight))]
     pub moment_weight: Option<f64>,
-    /// Regularisation of the patch correction, which lets go where its equations cannot be met.
+    /// Regularisation of the patch correction, for equations that cannot be satisfied.
     #[schemars(transform = Settings::REGULARISATION.keywords(), extend("default" = Settings::DEFAULT.regularisation))]
     pub regularisation: Option<f64>,
     /// The body that the correction sees.

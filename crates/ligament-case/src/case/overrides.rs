@@ -25,7 +25,7 @@ pub fn parts(given: &str) -> (&str, Option<&str>) {
 }
 
 /// An override in the form of the command line: `--set key=value` or `--unset key`.
-pub(super) fn as_option(given: &str) -> String {
+pub(super) fn command_line_form(given: &str) -> String {
     match given.strip_prefix(UNSET) {
         Some(key) => format!("--unset {key}"),
         None => format!("--set {given}"),

@@ -94,13 +94,13 @@ impl JsonSchema for Coordinates {
 #[serde(deny_unknown_fields)]
 #[schemars(extend("minProperties" = 1))]
 pub struct Vector {
-    /// Along x, in the unit of the force.
+    /// Component along x, in the unit of the vector.
     #[serde(default)]
     pub x: f64,
-    /// Along y, in the unit of the force.
+    /// Component along y, in the unit of the vector.
     #[serde(default)]
     pub y: f64,
-    /// Along z of a solid, in the unit of the force.
+    /// Component along z of a solid, in the unit of the vector.
     pub z: Option<f64>,
 }
 
@@ -243,17 +243,17 @@ impl Region {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FarField {
-    /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
+    /// Parts of the body that keep their bonds: the cells with all corners in one of them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub near: Vec<Region>,
     /// Share of the strength of a material, up to 1, that the largest principal stress of elements may reach (under pressure the smallest one over
-    /// `compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without it the
-    /// near field stays as it is.
+    /// `compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without
+    /// it the near field stays as it is.
     pub strength_share: Option<f64>,
 }
 
 impl FarField {
-    /// Takes the places of a growth into the near field.
+    /// Adds the places of a growth to the near field.
     pub(super) fn grow(&mut self, growth: &Growth) {
         let corners = growth.places.iter().filter_map(|it| match it {
             Place::Box(corners) => {
@@ -275,7 +275,7 @@ impl FarField {
     }
 }
 
-/// The place of a table, which must have exactly one.
+/// The place that a table names, which must be exactly one.
 pub(super) fn place(
     key: &KeyPath,
     group: Option<&String>,
@@ -290,7 +290,7 @@ pub(super) fn place(
     one_of(key, places)
 }
 
-/// The place of a table, which has at most one; without any the whole body.
+/// The place that a table names, at most one; without any the whole body.
 pub(super) fn place_or_everywhere(
     key: &KeyPath,
     group: Option<&String>,

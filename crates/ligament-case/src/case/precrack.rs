@@ -29,10 +29,10 @@ pub struct Precrack {
     /// Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
     /// `radius`.
     pub centre: Option<Coordinates>,
-    /// From end to end of a straight crack, m.
+    /// Length of a straight crack, m.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub length: Option<f64>,
-    /// From the x axis to a straight crack, counter-clockwise, rad.
+    /// Angle from the x axis to a straight crack, counter-clockwise, rad.
     pub angle: Option<f64>,
     /// Normal of a disk in a solid.
     pub normal: Option<Coordinates>,

@@ -17,7 +17,7 @@ use ligament_model::stress::domain_integral::TipQuantity;
 #[serde(deny_unknown_fields)]
 #[schemars(extend("oneOf" = exactly_one(&["between", "at", "section", "group", "tip"])))]
 pub struct Probe {
-    /// Heads its column in `history.csv`; each name once.
+    /// Name of its column in `history.csv`, another one for each probe.
     #[schemars(length(min = 1))]
     pub name: String,
     /// Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`.

@@ -67,7 +67,7 @@ fn pass_number() -> u32 {
 }
 
 impl Refine {
-    /// Completes the path of the table; `folder` is that of the case file.
+    /// Completes the path of the table; `folder` is the folder of the case file.
     pub(super) fn complete(&mut self, key: &KeyPath, folder: &Path) -> Result<(), KeyFault> {
         match &mut self.places {
             Some(file) => complete_path(&key.child("places"), file, folder),

@@ -44,11 +44,11 @@ pub struct Case {
     /// One line on what the case is.
     #[serde(default)]
     pub title: String,
-    /// What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
+    /// Kind of analysis; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
     /// `static`.
     pub analysis: Option<Analysis>,
-    /// Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load, otherwise
-    /// the temperature, otherwise the first rigid body that moves.
+    /// Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load,
+    /// otherwise the temperature, otherwise the first rigid body that moves.
     pub curve: Option<String>,
     /// The body, meshed by Gmsh; or a `[lattice]`.
     pub mesh: Option<MeshSection>,
@@ -59,7 +59,7 @@ pub struct Case {
     /// The material of the whole body; or a table `[material.NAME]` with a `group` for each of several.
     #[serde(
         rename = "material",
-        deserialize_with = "material::later",
+        deserialize_with = "material::skip",
         serialize_with = "material::serialize"
     )]
     #[schemars(schema_with = "material::schema")]
@@ -75,7 +75,7 @@ pub struct Case {
     /// Cracks and slots that are there from the start.
     #[serde(rename = "precrack", default, skip_serializing_if = "Vec::is_empty")]
     pub precracks: Vec<Precrack>,
-    /// What holds the body; nothing need.
+    /// Supports of the body, which needs none.
     #[serde(rename = "support", default, skip_serializing_if = "Vec::is_empty")]
     pub supports: Vec<Support>,
     /// Loads as they are at load factor 1; the first is the axis of the force-displacement curve.
@@ -84,7 +84,7 @@ pub struct Case {
     /// Stages one after the other, in which each load follows a factor of its own; without any all grow with one load factor.
     #[serde(rename = "stage", default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<Stage>,
-    /// Changes of temperature at load factor 1; where several reach, the last holds.
+    /// Changes of temperature at load factor 1; where several apply, the last one counts.
     #[serde(rename = "temperature", default, skip_serializing_if = "Vec::is_empty")]
     pub temperatures: Vec<Temperature>,
     /// Velocities at time zero of a motion.
@@ -115,15 +115,15 @@ pub struct Case {
     pub probes: Vec<Probe>,
     /// How bonds break; without it the case is one linear elastic solution.
     pub fracture: Option<Fracture>,
-    /// Natural modes that are wanted, with `analysis = "modal"`.
+    /// Requested natural modes, with `analysis = "modal"`.
     pub modal: Option<ModalSettings>,
     /// A motion in time under loads that depend on time.
     pub motion: Option<MotionSettings>,
-    /// How the equations are solved; nothing need be said.
+    /// Solution of the equations; all keys are optional.
     #[serde(default, deserialize_with = "analysis::read_solver")]
     #[schemars(schema_with = "analysis::solver_schema")]
     pub solver: SolverSettings,
-    /// What a run writes.
+    /// Files that a run writes.
     #[serde(default)]
     pub output: Output,
 }
@@ -137,7 +137,7 @@ fn optional<T, U>(
 }
 
 impl Case {
-    /// Reads a parsed document and fills in missing keys; `folder` is that of the case file, `body` the kind of a body in memory.
+    /// Reads a parsed document and fills in missing keys; `folder` is the folder of the case file, `body` the kind of a body in memory.
     pub(super) fn read(
         document: &Node,
         folder: &Path,
@@ -304,7 +304,7 @@ impl Case {
         scale.into_iter().chain(missing).chain(angles).collect()
     }
 
-    /// The setup of the case on a given body, in place of that of the case, with its tables.
+    /// The setup of the case with its tables, on a given body.
     pub(crate) fn setup_on(&self, body: AnyBody, tables: Tables) -> Result<Setup, KeyFault> {
         let dimensions = body.dimensions();
         let law = self.model.law;
@@ -363,8 +363,8 @@ impl Case {
         })
     }
 
-    /// Papers of the law, the corrections, the criteria with what bonds do after them, random properties and the motion, as texts with keys
-    /// of the references; each text stands once.
+    /// Papers of the law, the corrections, the criteria and laws of softening, random properties and the motion, as texts with keys of the
+    /// references, each once.
     pub fn sources(&self) -> Vec<&'static str> {
         let mut found = vec![self.model.law.row.source];
         found.extend(self.correction.alpha.map(Alpha::source));
@@ -401,7 +401,7 @@ impl Case {
         each
     }
 
-    /// Takes the places of a growth into the near field.
+    /// Adds the places of a growth to the near field.
     pub fn grow(&mut self, growth: &Growth) {
         if let Some(far_field) = &mut self.far_field {
             far_field.grow(growth);
@@ -416,7 +416,7 @@ impl Case {
                 }
                 let fracture = self.fracture.as_ref();
                 let breakages =
-                    fracture.map_or(motion.breakages, |it| it.of_steps(motion.breakages));
+                    fracture.map_or(motion.breakages, |it| it.step_breakages(motion.breakages));
                 setup::Analysis::Motion(MotionSettings {
                     breakages,
                     ..*motion
@@ -440,7 +440,7 @@ impl Case {
         })
     }
 
-    /// Checks conditions between sections that the setup does not check.
+    /// Checks conditions across sections, beyond the checks of the setup.
     fn check_across_sections(&self) -> Result<(), KeyFault> {
         let law = self.model.law.row;
         let has_traction = self.output.stress.contains(&StressField::Traction);

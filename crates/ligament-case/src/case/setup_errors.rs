@@ -100,7 +100,7 @@ impl Case {
         }
     }
 
-    /// Key path of the section that makes a field of the setup.
+    /// Key path of the section that determines a field of the setup.
     fn section_of(&self, field: Field) -> KeyPath {
         let section = match field.name {
             "body" if self.mesh.is_some() => "mesh",
@@ -120,7 +120,7 @@ impl Case {
         KeyPath(section.split('.').map(str::to_owned).collect())
     }
 
-    /// The key of a point of a pre-crack that equals its predecessor, or of all points.
+    /// The key of a repeated point of a pre-crack, or of its list of points.
     fn repeated_point(&self, index: usize, points: KeyPath) -> KeyPath {
         let given = self.precracks[index].points.iter();
         let mut pairs = given.flat_map(|points| points.windows(2));
@@ -130,7 +130,7 @@ impl Case {
         }
     }
 
-    /// The fault of two rows of a table of temperatures or factors for one point.
+    /// The fault of a table of temperatures or factors with two rows for one point.
     fn row_twice(&self, field: Field, place: &str, samples: [usize; 2]) -> Fault {
         let file = field.index.and_then(|index| match field.name {
             "loads" => self.loads[index].profile.as_ref()?.file.as_ref(),
@@ -147,7 +147,7 @@ impl Case {
     }
 }
 
-/// The key of a material that is responsible for a part of the setup's material.
+/// Key of a material section for a constant of the setup's material.
 fn key_of_material(part: &'static str) -> &'static str {
     match part {
         "elasticity.poisson" => "poisson_12",

@@ -9,13 +9,13 @@ use super::keys::{in_sections, unit_of};
 use super::mesh_section::BodyKind;
 use super::overrides;
 
-/// What the names of case files may end in before their extension, by which editors tell them from other TOML files.
+/// Ending that names of case files may have before their extension, by which editors distinguish them from other TOML files.
 const KIND: &str = ".ligament";
 
 /// The parsed text of a case or a study, with its file and overrides.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// The file, as it was given.
+    /// Path of the file as it was given.
     pub path: PathBuf,
     /// Text of the file; empty for a document in memory.
     pub text: String,
@@ -81,7 +81,7 @@ impl Source {
         Ok(source)
     }
 
-    /// Name of the source: that of its folder if the file has one of the `usual` names, otherwise that of the file without its extension.
+    /// Name of the source: the name of its folder if the file has one of the `usual` names, otherwise the name of the file without its extension.
     pub fn name(&self, usual: &[&str]) -> String {
         let stem = self.path.file_stem().unwrap_or_default();
         let stem = stem.to_string_lossy();

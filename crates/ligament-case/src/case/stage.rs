@@ -15,7 +15,7 @@ use ligament::setup;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Stage {
-    /// Stands in `history.csv`; without it `stage-1` and so on.
+    /// Name in `history.csv`; by default `stage-1` and so on.
     #[schemars(length(min = 1))]
     pub name: Option<String>,
     /// Factors that loads go to, by the names of the loads; `temperature` for the temperatures. All others keep theirs, which is 0 at
@@ -25,8 +25,8 @@ pub struct Stage {
     /// Equal load steps of the stage; not on the exact path, nor in an elastic analysis.
     #[schemars(transform = setup::Stage::STEPS.keywords())]
     pub steps: Option<usize>,
-    /// What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
-    /// peaks and snap-backs. Without it the factors grow.
+    /// A quantity that grows in equal steps over the stage, while the loads follow in fixed proportion, past peaks and snap-backs. Without it the
+    /// factors of the loads grow.
     pub control: Option<Control>,
 }
 
@@ -50,8 +50,8 @@ pub struct Control {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Quantity {
-    /// The energy that bonds have taken for good since the loading began, a column of `history.csv`: in load steps of bonds that soften; along
-    /// the exact path it says how far the stage goes.
+    /// The energy that bonds have dissipated since the loading began, a column of `history.csv`: in load steps with softening bonds; along the exact
+    /// path it determines the end of the stage.
     DissipatedEnergy,
 }
 
@@ -68,7 +68,7 @@ pub enum Factors {
     Table(#[schemars(length(min = 1))] Vec<[f64; 2]>),
 }
 
-/// Leaves the description to the forms.
+/// Removes the description, which the alternatives contain.
 fn without_description(schema: &mut Schema) {
     schema.remove("description");
 }

@@ -41,7 +41,7 @@ pub fn require(
     Err(KeyFault::new(key(), fault))
 }
 
-/// The given value among keys of which a table must have exactly one.
+/// The value of the given one among alternative keys of a table.
 pub fn one_of<T>(
     table: &KeyPath,
     given: impl IntoIterator<Item = (&'static str, Option<T>)>,
@@ -104,7 +104,7 @@ pub(super) fn refuse(
     Err(KeyFault::new(table.child(key), fault))
 }
 
-/// The first key of a section that is given, of some that are optional.
+/// The first given key among optional keys of a section.
 pub(super) fn first_given(section: &impl Serialize, keys: &[&'static str]) -> Option<&'static str> {
     let section = serde_json::to_value(section).unwrap_or_default();
     let mut keys = keys.iter().copied();
@@ -132,7 +132,7 @@ pub(super) fn metre() -> f64 {
     1.0
 }
 
-/// Refuses names that cannot be columns of a table of comma-separated values.
+/// Refuses names that cannot head a column of a CSV table.
 pub fn require_column_name(key: impl Fn() -> KeyPath, name: &str) -> Result<(), KeyFault> {
     require_no_formula(&key, "name", name)?;
     let is_seen = !name.contains(is_unseen);
@@ -177,7 +177,7 @@ pub fn require_unique<'a>(
     Ok(())
 }
 
-/// Value of a key that may have several forms: a number, which may be whole, a word, a list, mostly of numbers, or a table.
+/// Value of a key with several forms: a number, a word, a list, mostly of numbers, or a table.
 pub(super) enum Form<Element = f64, Keys = IgnoredAny> {
     Number(f64, Option<i64>),
     Word(String),

@@ -1,4 +1,4 @@
-//! Values of the libraries with data that are words in a case file.
+//! Values with data from other crates that are words in a case file.
 
 use std::borrow::Cow;
 

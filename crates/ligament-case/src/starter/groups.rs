@@ -24,11 +24,11 @@ pub(super) struct SupportAndLoad<const D: usize> {
     pub(super) axis: usize,
     /// Direction from the support to the load along the axis: 1 or -1.
     pub(super) away: f64,
-    /// Whether the load is moved towards the support, such as a platen.
+    /// Whether the load moves towards the support, as a platen does.
     pub(super) presses: bool,
     /// Distance of the outermost supports of a beam, m; 0 for other bodies.
     pub(super) span: f64,
-    /// Description of the choice, for a comment.
+    /// Description of the choice, for a comment in the case.
     pub(super) found: &'static str,
 }
 
@@ -58,7 +58,7 @@ const HALF_A_PLATEN: f64 = 1.5;
 /// Share of the body's extent within which a group counts as lying at its end.
 const AT_THE_END: f64 = 0.1;
 
-/// Data of a mesh in D dimensions for the choice of ends.
+/// Groups and nodes of a mesh in D dimensions for the choice of ends.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct MeshGroups<'a, const D: usize> {
     /// Physical groups.
@@ -160,7 +160,7 @@ impl<'a, const D: usize> MeshGroups<'a, D> {
             })
     }
 
-    /// The best group with one of the words in its name: groups of sides of cells precede those of cells, of edges or of points, and groups
+    /// The best group with one of the words in its name: groups of sides of cells precede groups of cells, of edges or of points, and groups
     /// with more nodes precede others.
     fn best(&self, words: &[&str]) -> Option<&'a Group> {
         let is_part = |group: &&Group| 4 * group.cells.len() < self.n_cells;

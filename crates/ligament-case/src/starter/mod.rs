@@ -58,7 +58,7 @@ pub enum StarterError {
     NeedsPlane(Law),
 }
 
-/// The starter case of a mesh file; `folder` is that of the case file.
+/// The starter case of a mesh file; `folder` is the folder of the case file.
 ///
 /// # Errors
 ///
@@ -109,7 +109,7 @@ fn named<'a, const D: usize>(
     }
 }
 
-/// Refuses a law for a mesh, or for that of a solid.
+/// Refuses a law for a mesh, or for the mesh of a solid.
 fn check_law(law: Law, is_solid: bool) -> Result<(), StarterError> {
     if law.row.needs_lattice {
         return Err(StarterError::NeedsLattice(law));
@@ -261,9 +261,9 @@ fn starter<const D: usize>(
 
 /// The path of a file relative to a folder, with slashes; absolute if there is no relative path.
 fn relative(path: &Path, folder: &Path) -> String {
-    let here = Path::new(".");
+    let current = Path::new(".");
     let folder = if folder.as_os_str().is_empty() {
-        here
+        current
     } else {
         folder
     };

@@ -1,4 +1,4 @@
-//! Multilevel bisection (Hendrickson and Leland 1995; Karypis and Kumar 1998): a graph is coarsened by matchings, the coarsest graph is
+//! Multilevel bisection (Hendrickson and Leland 1995; Karypis and Kumar 1998): a graph is coarsen by matchings, the coarsest graph is
 //! bisected, and the bisection is improved on each graph on the way back.
 //!
 //! Edges between the sides measure the length of a cut on every level. A separator of coarse vertices does not, because they may be wider than
@@ -19,20 +19,20 @@ const STARTS: usize = 4;
 
 impl Graph {
     /// Side of each vertex, or the separator between them, shape (n).
-    pub(super) fn divided(&self) -> Vec<u8> {
-        let mut division = self.bisected(HEAVIEST * self.total() / COARSEST as u32);
+    pub(super) fn partition(&self) -> Vec<u8> {
+        let mut division = self.bisect(HEAVIEST * self.total_weight() / COARSEST as u32);
         division.separate();
         division.refine();
         division.sides
     }
 
     /// A bisection; merged vertices weigh `heaviest` at most.
-    fn bisected(&self, heaviest: u32) -> Division<'_> {
+    fn bisect(&self, heaviest: u32) -> Division<'_> {
         if self.len() > COARSEST {
-            let (coarse, coarse_of) = self.coarsened(heaviest);
+            let (coarse, coarse_of) = self.coarsen(heaviest);
             // A hub leaves most vertices unmatched.
             if 10 * coarse.len() < 9 * self.len() {
-                let sides = coarse.bisected(heaviest).sides;
+                let sides = coarse.bisect(heaviest).sides;
                 let sides = coarse_of.iter().map(|&it| sides[it as usize]);
                 let mut division = Division::new(self, sides.collect());
                 division.refine();
@@ -40,7 +40,7 @@ impl Graph {
             }
         }
         let grown = |k: usize| {
-            let reached = self.reached(
+            let reached = self.breadth_first(
                 (k * self.len() / STARTS) as u32,
                 &mut vec![false; self.len()],
             );
@@ -61,7 +61,7 @@ impl Graph {
     ///
     /// In the order of their numbers, vertices are merged with the unmatched neighbour of the largest ratio of the edge's squared weight to the
     /// neighbour's weight (Holtgrewe, Sanders and Schulz 2010), the first one among equals.
-    fn coarsened(&self, heaviest: u32) -> (Self, Vec<u32>) {
+    fn coarsen(&self, heaviest: u32) -> (Self, Vec<u32>) {
         const UNMATCHED: u32 = u32::MAX;
         let mut coarse_of = vec![UNMATCHED; self.len()];
         let mut pairs: Vec<[u32; 2]> = Vec::with_capacity(self.len());
@@ -88,7 +88,7 @@ impl Graph {
         (self.merged(&pairs, &coarse_of), coarse_of)
     }
 
-    /// The graph of pairs of vertices; a single vertex is a pair with itself.
+    /// The coarse graph, with a vertex for each pair of vertices; an unmatched vertex is paired with itself.
     fn merged(&self, pairs: &[[u32; 2]], coarse_of: &[u32]) -> Self {
         let mut coarse = Self::with_capacity(pairs.len());
         // Place of each coarse vertex among the edges of the latest one that reached it.

@@ -29,7 +29,7 @@ pub(super) struct Division<'a> {
 }
 
 impl<'a> Division<'a> {
-    /// A division from the side of each vertex.
+    /// Creates the division with the given side of each vertex, shape (n).
     pub(super) fn new(graph: &'a Graph, sides: Vec<u8>) -> Self {
         let mut division = Self {
             graph,
@@ -175,7 +175,7 @@ impl<'a> Division<'a> {
         self.put(vertex, side);
         if candidates.has_separator {
             first += 1;
-            for other in graph.at(vertex) {
+            for other in graph.neighbours(vertex) {
                 if self.sides[other as usize] == 1 - side {
                     moves.push((other, 1 - side));
                     self.put(other, SEPARATOR);
@@ -185,7 +185,7 @@ impl<'a> Division<'a> {
         // Only moves after vertices that left the other side gain more than before.
         for &(gone, _) in &moves[first..] {
             candidates.enter(self, gone, 1 - side);
-            for other in graph.at(gone).chain([gone]) {
+            for other in graph.neighbours(gone).chain([gone]) {
                 candidates.enter(self, other, side);
             }
         }

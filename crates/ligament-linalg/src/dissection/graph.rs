@@ -67,7 +67,7 @@ impl Graph {
         (Self::new(neighbours), firsts)
     }
 
-    /// A graph without vertices, with memory for some.
+    /// An empty graph with memory for a number of vertices.
     pub(super) fn with_capacity(n_vertices: usize) -> Self {
         let mut starts = Vec::with_capacity(n_vertices + 1);
         starts.push(0);
@@ -95,7 +95,7 @@ impl Graph {
     }
 
     /// Weight of all vertices.
-    pub(super) fn total(&self) -> u32 {
+    pub(super) fn total_weight(&self) -> u32 {
         self.weights.iter().sum()
     }
 
@@ -106,18 +106,18 @@ impl Graph {
     }
 
     /// Neighbours of a vertex.
-    pub(super) fn at(&self, vertex: u32) -> impl Iterator<Item = u32> + use<'_> {
+    pub(super) fn neighbours(&self, vertex: u32) -> impl Iterator<Item = u32> + use<'_> {
         self.edges(vertex).iter().map(|&(other, _)| other)
     }
 
-    /// The graph of some vertices with unit weights, ascending.
-    pub(super) fn part(&self, vertices: &[u32]) -> Self {
+    /// Subgraph of some vertices, ascending, with unit weights.
+    pub(super) fn subgraph(&self, vertices: &[u32]) -> Self {
         let mut number = vec![u32::MAX; self.len()];
         for (place, &vertex) in (0..).zip(vertices) {
             number[vertex as usize] = place;
         }
         Self::new(vertices.iter().map(|&vertex| {
-            let numbers = self.at(vertex).map(|other| number[other as usize]);
+            let numbers = self.neighbours(vertex).map(|other| number[other as usize]);
             numbers.filter(|it| *it != u32::MAX)
         }))
     }
@@ -127,15 +127,15 @@ impl Graph {
         let mut is_found = vec![false; self.len()];
         let firsts = 0..self.len() as u32;
         let mut components: Vec<Vec<u32>> = firsts
-            .map(|first| self.reached(first, &mut is_found))
+            .map(|first| self.breadth_first(first, &mut is_found))
             .collect();
         components.retain(|it| !it.is_empty());
         components.iter_mut().for_each(|it| it.sort_unstable());
         components
     }
 
-    /// Vertices that a breadth-first search finds anew, in its order.
-    pub(super) fn reached(&self, start: u32, is_found: &mut [bool]) -> Vec<u32> {
+    /// Vertices that a breadth-first search finds, without those found before, in its order.
+    pub(super) fn breadth_first(&self, start: u32, is_found: &mut [bool]) -> Vec<u32> {
         let mut found = Vec::new();
         let mut find = |vertex: u32, found: &mut Vec<u32>| {
             if !std::mem::replace(&mut is_found[vertex as usize], true) {
@@ -146,7 +146,7 @@ impl Graph {
         let mut next = 0;
         while let Some(&vertex) = found.get(next) {
             next += 1;
-            for other in self.at(vertex) {
+            for other in self.neighbours(vertex) {
                 find(other, &mut found);
             }
         }

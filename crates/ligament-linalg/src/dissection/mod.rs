@@ -41,14 +41,14 @@ fn order(graph: &Graph, numbers: Vec<u32>, depth: usize) -> Vec<u32> {
     }
     let of_part = |vertices: Vec<u32>| {
         let numbers = vertices.iter().map(|&it| numbers[it as usize]).collect();
-        order(&graph.part(&vertices), numbers, depth + 1)
+        order(&graph.subgraph(&vertices), numbers, depth + 1)
     };
     let components = graph.components();
     if components.len() > 1 {
         return components.into_iter().flat_map(of_part).collect();
     }
     let mut parts = [const { Vec::new() }; 3];
-    for (vertex, side) in (0..).zip(graph.divided()) {
+    for (vertex, side) in (0..).zip(graph.partition()) {
         parts[side as usize].push(vertex);
     }
     let [lower, upper, separator] = parts;
@@ -98,7 +98,7 @@ mod tests {
             let of_grid = grid(20);
             let edges = (0..400).flat_map(move |a| {
                 of_grid
-                    .at(a)
+                    .neighbours(a)
                     .collect::<Vec<_>>()
                     .into_iter()
                     .map(move |b| (a, b))
@@ -131,13 +131,13 @@ mod tests {
                 1,
             ),
         ] {
-            let sides = graph.divided();
+            let sides = graph.partition();
             let side = |it: u32| sides[it as usize];
             let count = |of: u8| sides.iter().filter(|it| **it == of).count();
             for vertex in 0..graph.len() as u32 {
                 assert!(
                     graph
-                        .at(vertex)
+                        .neighbours(vertex)
                         .all(|other| side(vertex) + side(other) != 1),
                     "{name}"
                 );
@@ -156,7 +156,7 @@ mod tests {
         let pattern = Pattern::new(starts, rows).unwrap();
         let (graph, firsts) = Graph::compressed(&pattern);
         assert_eq!(firsts, [0, 2, 4, 5]);
-        let neighbours = [0, 1, 2].map(|it| graph.at(it).collect::<Vec<_>>());
+        let neighbours = [0, 1, 2].map(|it| graph.neighbours(it).collect::<Vec<_>>());
         assert_eq!(neighbours, [vec![1], vec![0, 2], vec![1]]);
         // Unknowns 0 to 3 are neighbours of each other, and 4 is one of 3 alone.
         let pattern = Pattern::new(

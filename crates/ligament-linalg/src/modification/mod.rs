@@ -28,7 +28,7 @@ pub use square::VANISHING_PIVOT;
 pub(crate) struct Modification {
     supernode_of_row: Vec<u32>,
     /// Terms in progress, row by row, shape (n, TERMS_AT_ONCE); zero between two updates.
-    on_the_way: Vec<f64>,
+    terms_in_progress: Vec<f64>,
     /// Supernodes still to be visited, smallest first.
     touched: BinaryHeap<Reverse<u32>>,
     is_touched: Vec<bool>,
@@ -46,7 +46,7 @@ pub(crate) struct Target<'a> {
     /// Number of negative pivots; updated with the factor.
     pub(crate) negative_pivots: &'a mut usize,
     /// Digest of the entries from which each panel was computed, shape (n_supernodes); None after an update.
-    pub(crate) made_from: &'a mut [Option<u64>],
+    pub(crate) entry_digests: &'a mut [Option<u64>],
 }
 
 impl Target<'_> {
@@ -66,7 +66,7 @@ impl Modification {
     pub(crate) fn new(supernodes: Supernodes<'_>) -> Self {
         let supernode_of_row = supernodes.supernode_of_rows();
         Self {
-            on_the_way: vec![0.0; TERMS_AT_ONCE * supernode_of_row.len()],
+            terms_in_progress: vec![0.0; TERMS_AT_ONCE * supernode_of_row.len()],
             supernode_of_row,
             touched: BinaryHeap::new(),
             is_touched: vec![false; supernodes.len()],
@@ -101,7 +101,7 @@ impl Modification {
                 right_hand_side,
             };
             if let Err(vanishing) = pass.pass() {
-                self.on_the_way.fill(0.0);
+                self.terms_in_progress.fill(0.0);
                 self.is_touched.fill(false);
                 self.touched.clear();
                 return Err(vanishing);
@@ -123,7 +123,7 @@ impl Modification {
         for (index, term) in terms.iter().enumerate() {
             for &(unknown, value) in &term.entries {
                 let row = row_of_unknown[unknown];
-                let w = &mut self.on_the_way[TERMS_AT_ONCE * row + index];
+                let w = &mut self.terms_in_progress[TERMS_AT_ONCE * row + index];
                 diagonal[row].add(term.weight * value * (2.0 * *w + value));
                 *w += value;
                 self.touch(row);
@@ -163,7 +163,7 @@ impl TreePass<'_, '_> {
     /// Updates the panel of a supernode and applies it to the right-hand side.
     fn visit(&mut self, supernode: usize) -> Result<(), VanishingPivot> {
         let Modification {
-            on_the_way,
+            terms_in_progress,
             terms,
             column,
             ..
@@ -176,10 +176,10 @@ impl TreePass<'_, '_> {
             column.extend_from_slice(&right_hand_side[columns.clone()]);
             column.resize(columns.len() + below.len(), 0.0);
         }
-        if terms.gather(columns.clone(), below, on_the_way) {
+        if terms.gather(columns.clone(), below, terms_in_progress) {
             let right_hand_side = self.right_hand_side.is_some().then_some(&mut column[..]);
             change_panel(self.target, supernode, terms, right_hand_side)?;
-            terms.scatter(columns.clone(), below, on_the_way);
+            terms.scatter(columns.clone(), below, terms_in_progress);
         } else if self.right_hand_side.is_some() {
             substitution::forward_in(self.target.panels(), supernode, column);
         }
@@ -215,7 +215,7 @@ fn change_panel(
             right_hand_side,
         },
     };
-    target.made_from[supernode] = None;
+    target.entry_digests[supernode] = None;
     let more_negative = panel.change();
     let more_negative = more_negative.map_err(|column| VanishingPivot(columns.start + column))?;
     *target.negative_pivots = target.negative_pivots.wrapping_add_signed(more_negative);

@@ -31,11 +31,12 @@ impl Terms {
         &mut self,
         columns: Range<usize>,
         below: &[usize],
-        on_the_way: &mut [f64],
+        terms_in_progress: &mut [f64],
     ) -> bool {
         let n_terms = self.weights.len();
         self.active.clear();
-        let in_columns = &on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end];
+        let in_columns =
+            &terms_in_progress[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end];
         self.active.extend((0..n_terms).filter(|&term| {
             in_columns
                 .chunks_exact(TERMS_AT_ONCE)
@@ -49,12 +50,12 @@ impl Terms {
         self.rows.clear();
         self.rows.resize(self.active.len() * self.height, 0.0);
         for (local, row) in columns.clone().chain(below.iter().copied()).enumerate() {
-            let values = &on_the_way[TERMS_AT_ONCE * row..][..n_terms];
+            let values = &terms_in_progress[TERMS_AT_ONCE * row..][..n_terms];
             for (place, &term) in self.active.iter().enumerate() {
                 self.rows[place * self.height + local] = values[term];
             }
         }
-        on_the_way[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end].fill(0.0);
+        terms_in_progress[TERMS_AT_ONCE * columns.start..TERMS_AT_ONCE * columns.end].fill(0.0);
         !self.active.is_empty()
     }
 
@@ -69,13 +70,13 @@ impl Terms {
         &mut self,
         columns: Range<usize>,
         below: &[usize],
-        on_the_way: &mut [f64],
+        terms_in_progress: &mut [f64],
     ) {
         for (&term, &weight) in self.active.iter().zip(&self.active_weights) {
             self.weights[term] = weight;
         }
         for (local, &row) in below.iter().enumerate() {
-            let values = &mut on_the_way[TERMS_AT_ONCE * row..][..TERMS_AT_ONCE];
+            let values = &mut terms_in_progress[TERMS_AT_ONCE * row..][..TERMS_AT_ONCE];
             for (place, &term) in self.active.iter().enumerate() {
                 values[term] = self.rows[place * self.height + columns.len() + local];
             }

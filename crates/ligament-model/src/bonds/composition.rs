@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::first::first_bonds;
+use super::first_bonds::first_bonds;
 use super::parts::{Parts, Side};
 use super::retained::retained;
 use crate::cloud::PointCloud;
@@ -44,8 +44,8 @@ impl Composition {
         }
         let ways = BondTracer::new(parts, ends, cloud);
         let found: Vec<(u32, Vec<f64>)> = (cloud.curve.par_chunks(BLOCK))
-            .filter(|block| ways.may_differ(ways.around(block)))
-            .flat_map_iter(|block| block.iter().flat_map(|&point| ways.of_point(point)))
+            .filter(|block| ways.may_differ(ways.box_around(block)))
+            .flat_map_iter(|block| block.iter().flat_map(|&point| ways.trace_bonds_from(point)))
             .collect();
         Self::from_found(found, cloud.n_materials)
     }
@@ -65,7 +65,7 @@ impl Composition {
     }
 
     /// Fractions of the length of a bond in the materials (n_materials); `None` where its ends determine its materials.
-    pub fn of_bond(&self, bond: usize) -> Option<&[f64]> {
+    pub fn fractions(&self, bond: usize) -> Option<&[f64]> {
         let place = self.bonds.binary_search(&(bond as u32)).ok()?;
         Some(&self.shares[place * self.n_materials..][..self.n_materials])
     }
@@ -151,13 +151,13 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
     }
 
     /// Bonds whose first end is a point.
-    fn own(&self, point: u32) -> std::ops::Range<usize> {
+    fn bonds_from(&self, point: u32) -> std::ops::Range<usize> {
         self.first_bond[point as usize]..self.first_bond[point as usize + 1]
     }
 
     /// The box around some points and the bonds whose first ends they are.
-    fn around(&self, points: &[u32]) -> AABB<[f64; D]> {
-        let others = points.iter().flat_map(|&point| self.own(point));
+    fn box_around(&self, points: &[u32]) -> AABB<[f64; D]> {
+        let others = points.iter().flat_map(|&point| self.bonds_from(point));
         let others = others.map(|bond| self.ends[bond][1]);
         let all = points.iter().copied().chain(others);
         let [lower, upper] = bounding_box(all.map(|it| self.cloud.positions[it as usize]));
@@ -173,8 +173,8 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
     }
 
     /// Bonds whose first end is a point and whose ends do not determine their materials, with their fractions (n_materials).
-    fn of_point(&self, point: u32) -> Vec<(u32, Vec<f64>)> {
-        let around = self.around(&[point]);
+    fn trace_bonds_from(&self, point: u32) -> Vec<(u32, Vec<f64>)> {
+        let around = self.box_around(&[point]);
         if !self.may_differ(around) {
             return Vec::new();
         }
@@ -190,9 +190,9 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         let near: Vec<Near<D>> = near.collect();
         let of_bond = |bond: usize| {
             let shares = self.shares(bond, &near)?;
-            (!self.is_told(bond, &shares)).then_some((bond as u32, shares))
+            (!self.ends_determine_material(bond, &shares)).then_some((bond as u32, shares))
         };
-        self.own(point).filter_map(of_bond).collect()
+        self.bonds_from(point).filter_map(of_bond).collect()
     }
 
     /// Fractions of the length of a bond in the materials (n_materials), from all parts that it may cross; `None` where it runs along
@@ -202,7 +202,7 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         let slack = INCLUSION_TOLERANCE * self.cloud.spacing[a].min(self.cloud.spacing[b]);
         let ends = [self.cloud.positions[a], self.cloud.positions[b]];
         let passed = near.iter().filter_map(|part| {
-            let [from, to] = part.passed(ends, slack)?;
+            let [from, to] = part.interval_of_line(ends, slack)?;
             (to - from > SHORTEST_PIECE).then_some((from, to, part.material))
         });
         let passed: Vec<(f64, f64, u32)> = passed.collect();
@@ -211,11 +211,11 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         let mut lengths = vec![0.0; self.cloud.n_materials];
         for piece in places.windows(2) {
             let (length, middle) = (piece[1] - piece[0], 0.5 * (piece[0] + piece[1]));
-            let mut here = passed.iter().filter(|it| it.0 < middle && middle < it.1);
-            let Some(&(.., material)) = here.next() else {
+            let mut containing = passed.iter().filter(|it| it.0 < middle && middle < it.1);
+            let Some(&(.., material)) = containing.next() else {
                 continue;
             };
-            if length > SHORTEST_PIECE && here.all(|it| it.2 == material) {
+            if length > SHORTEST_PIECE && containing.all(|it| it.2 == material) {
                 lengths[material as usize] += length;
             }
         }
@@ -223,8 +223,8 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
         (total > 0.0).then(|| lengths.into_iter().map(|it| it / total).collect())
     }
 
-    /// Whether a bond lies in one material only, which is the only one that both ends contain.
-    fn is_told(&self, bond: usize, shares: &[f64]) -> bool {
+    /// Whether a bond lies in one material only, the only one that both ends contain.
+    fn ends_determine_material(&self, bond: usize, shares: &[f64]) -> bool {
         let [first, second] = self.ends[bond].map(|end| self.cloud.shares(end as usize));
         let common = first.iter().zip(second).map(|(a, b)| *a > 0.0 && *b > 0.0);
         common
@@ -236,7 +236,7 @@ impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
 
 impl<const D: usize> Near<D> {
     /// Interval of a line within the part, from 0 at its first end to 1 at its second; `None` where the line misses the part.
-    fn passed(&self, [start, end]: [[f64; D]; 2], slack: f64) -> Option<[f64; 2]> {
+    fn interval_of_line(&self, [start, end]: [[f64; D]; 2], slack: f64) -> Option<[f64; 2]> {
         let [lower, upper] = bounding_box([start, end]);
         let around = [lower.map(|x| x - slack), upper.map(|x| x + slack)];
         if !boxes_meet(around, self.bounds) {

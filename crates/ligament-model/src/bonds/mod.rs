@@ -1,7 +1,7 @@
 //! Dual-horizon bonds: one record for each pair of points, at least one of which lies in the horizon of the other.
 
 pub mod composition;
-mod first;
+mod first_bonds;
 pub mod hole;
 pub mod outline;
 pub mod parts;
@@ -49,7 +49,7 @@ impl<const D: usize> BondSet<D> {
         self.ends.len()
     }
 
-    /// Number of bonds of the whole body between the points of a cloud, part of which are on this process.
+    /// Number of bonds of the whole body, for a cloud whose points are distributed over processes.
     pub fn count(&self, cloud: &PointCloud<D>) -> usize {
         let owned = self.ends.iter();
         let owned = owned.filter(|it| cloud.subdomain.owns_bond(**it));
@@ -75,7 +75,7 @@ impl<const D: usize> BondSet<D> {
             .collect()
     }
 
-    /// The set of the bonds for which `keep` (n_bonds) is true.
+    /// The subset of bonds for which `keep` (n_bonds) is true.
     pub fn retained(self, keep: &[bool]) -> Self {
         let ends: Arc<[[u32; 2]]> = retained(self.ends.to_vec(), keep).into();
         let incidence = Incidence::new(&ends, self.incidence.n_points());
@@ -89,7 +89,7 @@ impl<const D: usize> BondSet<D> {
         }
     }
 
-    /// The bonds with their composition, traced through the parts of the body.
+    /// The bond set with its composition, traced through the convex parts of the body.
     pub fn through(self, parts: &impl Parts<D>, cloud: &PointCloud<D>) -> Self {
         Self {
             composition: Composition::new(parts, &self.ends, cloud),

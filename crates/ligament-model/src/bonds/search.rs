@@ -111,7 +111,7 @@ fn in_order(found: Vec<Vec<[u32; 2]>>, n_points: usize) -> Vec<[u32; 2]> {
     ends
 }
 
-/// Whether the query around `point` records the pair: that of the lower point does where its horizon contains the other, else that of the
+/// Whether the query around `point` records the pair: the query of the lower point does where its horizon contains the other, else the query of the
 /// upper point.
 fn is_recorded_by<const D: usize>(
     point: u32,

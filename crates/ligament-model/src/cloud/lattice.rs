@@ -136,7 +136,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         found.ok().map(|point| point as u32)
     }
 
-    /// A cell that may lie beyond the box; `None` if it does.
+    /// Index of a cell inside the box; `None` beyond it.
     fn in_box(&self, cell: [i64; D]) -> Option<[u32; D]> {
         let mut inside = [0; D];
         for axis in 0..D {
@@ -183,7 +183,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
             let cell = *cell;
             let upwards = sides().skip(1).step_by(2);
             upwards.filter_map(move |normal| {
-                Some((point, normal, self.point_in(beside(cell, normal))?))
+                Some((point, normal, self.point_in(cell_behind(cell, normal))?))
             })
         };
         (0..).zip(&self.cells).flat_map(of_cell).collect()
@@ -196,7 +196,7 @@ impl<const D: usize, S: Region<D>> Lattice<D, S> {
         let mut faces = Vec::new();
         for (point, &cell) in (0..).zip(&self.cells) {
             for normal in sides() {
-                let next = beside(cell, normal);
+                let next = cell_behind(cell, normal);
                 if self.point_in(next).is_some() {
                     continue;
                 }
@@ -281,7 +281,7 @@ fn sides<const D: usize>() -> impl Iterator<Item = [i8; D]> {
 }
 
 /// The cell behind a side of a cell.
-fn beside<const D: usize>(cell: [u32; D], normal: [i8; D]) -> [i64; D] {
+fn cell_behind<const D: usize>(cell: [u32; D], normal: [i8; D]) -> [i64; D] {
     std::array::from_fn(|axis| i64::from(cell[axis]) + i64::from(normal[axis]))
 }
 
@@ -299,7 +299,7 @@ impl<const D: usize> PointCloud<D> {
     }
 
     /// A point at the centre of each cell of a lattice, not yet with volumes, materials and their order along a curve, which
-    /// [`PointCloud::with_cells`] adds to all points or to those of a part.
+    /// [`PointCloud::with_cells`] adds to all points or to a part.
     ///
     /// The nearest distance is the shortest side for every point, also where a hole removed its neighbours: horizons based on it are
     /// unified.

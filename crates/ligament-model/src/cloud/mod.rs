@@ -55,8 +55,7 @@ pub struct PointCloud<const D: usize = 2> {
 pub(crate) type NumberedPoint<const D: usize = 2> = GeomWithData<[f64; D], u32>;
 
 impl<const D: usize> PointCloud<D> {
-    /// Sides of the cell of a point, m: those of the cells of a lattice; on a mesh those of the square with the point's area V/t, or of the
-    /// cube with its volume.
+    /// Sides of the cell of a point, m: a cell of a lattice; on a mesh the square with the point's area V/t, or the cube with its volume.
     pub fn cell_size(&self, point: u32) -> [f64; D] {
         self.lattice_cell.unwrap_or_else(|| {
             let size = self.volumes[point as usize] / self.thickness;
@@ -100,7 +99,7 @@ impl<const D: usize> PointCloud<D> {
         all
     }
 
-    /// A value for each of some points, and `of_others` for the other points, shape (n_points).
+    /// Values of `points` by a function, and one value for all other points, shape (n_points).
     fn over_some<T: Copy + Send>(
         &self,
         points: &[u32],
@@ -249,7 +248,7 @@ impl<const D: usize> PointCloud<D> {
         (0..self.len()).map(is_near).collect()
     }
 
-    /// Some of the points (ascending), among them all owned ones, with what the cloud has of them.
+    /// The cloud of some of its points (ascending), among them all owned ones.
     pub fn part(&self, points: &[u32]) -> Self {
         let indices = || points.iter().map(|&it| it as usize);
         let along_curve = self.curve.iter();
@@ -267,7 +266,7 @@ impl<const D: usize> PointCloud<D> {
         }
     }
 
-    /// Volumes of some points, m^3, and fractions of the materials in them; empty where the cloud does not have them yet.
+    /// Volumes of some points, m^3, and their material fractions; empty before the cloud has them.
     pub fn volumes_at(&self, points: &[u32]) -> [Vec<f64>; 2] {
         let n = self.n_materials;
         let indices = || points.iter().map(|&it| it as usize);

@@ -44,7 +44,7 @@ pub fn iterate<const D: usize>(
     sweeps.correct(families, length_factor)
 }
 
-/// Ratio of the strain energy density of every point to that of the continuum, for each of [`StrainMode::all`], with half the energy of a
+/// Ratio of the strain energy density of every point to the density of the continuum, for each of [`StrainMode::all`], with half the energy of a
 /// bond at either end.
 pub fn energy_ratios<const D: usize>(
     bonds: &BondSet<D>,

@@ -23,7 +23,7 @@ pub(super) struct Families<'a, const D: usize> {
     before: Vec<[f64; D]>,
 }
 
-/// Coefficients of a sweep: the members of the families, and arrays over them.
+/// Members of the families with the coefficients of a sweep.
 struct Coefficients<'a, const D: usize> {
     members: Members<'a, D>,
     /// Squares of the direction cosines along each axis.
@@ -105,7 +105,7 @@ impl<const D: usize> SweptFamilies for Families<'_, D> {
     }
 
     fn into_domain_factors(self) -> Vec<f64> {
-        self.coefficients.members.of_bonds(&self.domain_factor)
+        self.coefficients.members.bond_values(&self.domain_factor)
     }
 }
 

@@ -105,7 +105,7 @@ impl<'a, const D: usize> Members<'a, D> {
             });
     }
 
-    /// An array over the members, divided into those of the points of each block.
+    /// An array over the members, divided by blocks of points.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let mut blocks = Vec::new();
         for first in (0..self.n_points()).step_by(BLOCK) {
@@ -118,9 +118,9 @@ impl<'a, const D: usize> Members<'a, D> {
     }
 
     /// Value of each bond from the values of its members, which are equal at both ends, shape (n_bonds).
-    pub(crate) fn of_bonds<T: Copy + Default + Send + Sync>(&self, values: &[T]) -> Vec<T> {
+    pub(crate) fn bond_values<T: Copy + Default + Send + Sync>(&self, values: &[T]) -> Vec<T> {
         if !self.cloud.subdomain.is_whole() {
-            return self.of_known_bonds(values);
+            return self.values_of_local_bonds(values);
         }
         // Bonds with the same first end are consecutive, at the end of its family.
         let of_others = self.cloud.over_points(|point| {
@@ -148,7 +148,7 @@ impl<'a, const D: usize> Members<'a, D> {
     }
 
     /// Value of each bond of this process, whose first end may be a point of another process.
-    fn of_known_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+    fn values_of_local_bonds<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut of_bonds = vec![T::default(); self.bonds.len()];
         let families = self.order.owned().iter();
         let members = families.flat_map(|&point| self.bonds.incidence.at(point));

@@ -27,7 +27,7 @@ const SHEARS: [[&str; 2]; 3] = [
     ["energy_ratio_shear_yz", "shear yz"],
 ];
 
-/// A homogeneous strain of size one, for which the energy at a point is compared with that of the continuum.
+/// A homogeneous strain of size one, for which the energy at a point is compared with the energy of the continuum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StrainMode<const D: usize> {
     /// Names of the energy ratio in results and in text.

@@ -59,12 +59,12 @@ impl<'a> SweepOrder<'a> {
         indices
     }
 
-    /// Replaces the values at ghosts by those of their owners, by index.
+    /// Replaces the values at ghosts by the values of their owners, by index.
     pub(crate) fn update_ghosts<const N: usize>(&self, values: &mut [[f64; N]]) {
         self.ghosts.update(values.as_flattened_mut(), N);
     }
 
-    /// Value of each point of the cloud from those of owned points, by index.
+    /// Value of each point of the cloud from the values of owned points, by index.
     pub(crate) fn of_points(&self, values: &[f64]) -> Vec<f64> {
         let mut of_points = vec![0.0; self.subdomain.n_points()];
         for (&point, &value) in self.owned().iter().zip(values) {

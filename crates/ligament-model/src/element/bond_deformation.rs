@@ -63,7 +63,7 @@ impl BondDeformation {
         }
     }
 
-    /// The deformation less another one.
+    /// The deformation minus another one.
     #[inline]
     pub fn less(&self, other: &Self) -> Self {
         Self {

@@ -101,19 +101,19 @@ pub struct Rigidities {
 
 impl Rigidities {
     /// Axial and shear rigidities of all bonds, J.
-    pub fn of_springs(&self) -> impl Iterator<Item = &f64> {
+    pub fn spring_rigidities(&self) -> impl Iterator<Item = &f64> {
         self.axial.iter().chain(&self.shear)
     }
 
     /// Whether every bond resists stretch and shear, so that the stiffness is definite; collective.
     pub fn all_positive(&self, subdomain: &Subdomain) -> bool {
-        !subdomain.any(!self.of_springs().all(|&rigidity| rigidity > 0.0))
+        !subdomain.any(!self.spring_rigidities().all(|&rigidity| rigidity > 0.0))
     }
 
     /// Whether some bond has a negative stiffness, so that the stiffness of the body may be indefinite; collective.
     pub fn some_negative(&self, subdomain: &Subdomain) -> bool {
         let is_negative = if self.strain.is_empty() {
-            self.of_springs().any(|&rigidity| rigidity < 0.0)
+            self.spring_rigidities().any(|&rigidity| rigidity < 0.0)
         } else {
             !self.strain.iter().all(StrainStiffness::is_positive)
         };
@@ -199,7 +199,7 @@ impl StiffnessFactors {
         rotational: 0.0,
     };
 
-    /// Whether some factor differs from that of `other` by more than a relative tolerance.
+    /// Whether a factor differs from its value in `other` by more than a relative tolerance.
     #[inline]
     pub fn is_off(&self, other: &Self, tolerance: f64) -> bool {
         let is_off = |one: f64, other: f64| (one - other).abs() > tolerance * one.max(other);
@@ -226,7 +226,7 @@ pub trait Element<const D: usize, const M: usize>:
     /// Deformation of the bond.
     type Deformation: Deformation;
 
-    /// What the elements of a body share beside its bonds and rigidities: the lattice of imaginary elements, nothing for pairs.
+    /// Data shared by the elements of a body: the lattice of imaginary elements, nothing for pairs.
     type Lattice: std::fmt::Debug + Send + Sync + 'static;
 
     /// The element of a bond with its whole stiffness, while the bonds marked in `intact` (n_bonds) are unbroken.
@@ -257,7 +257,7 @@ pub trait Element<const D: usize, const M: usize>:
     /// Deformation in a uniform strain without rotations.
     fn deformation_in(&self, strain: &SymTensor<D>) -> Self::Deformation;
 
-    /// 1/2 u^T K u', J, for two deformations of the same bond.
+    /// Energy 1/2 u^T K u', J, for two deformations of the same bond.
     fn mutual_energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64;
 
     /// Adds the internal forces and moments K u on the coupled points, N and N m.

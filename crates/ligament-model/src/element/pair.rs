@@ -40,7 +40,7 @@ pub trait PairMechanics<const D: usize, const M: usize> {
     /// Deformation in a uniform strain eps without rotations: s = n . eps n; the shear deformation is the rest of eps n.
     fn in_strain(&self, strain: &SymTensor<D>) -> Self::Deformation;
 
-    /// 1/2 u^T K u', J, for two deformations of the same bond.
+    /// Energy 1/2 u^T K u', J, for two deformations of the same bond.
     fn energy(&self, one: &Self::Deformation, other: &Self::Deformation) -> f64;
 
     /// Internal forces and moments K u at the ends A and B, N and N m.
@@ -77,7 +77,7 @@ impl<const D: usize, const M: usize> Pair<D, M> {
         }
     }
 
-    /// Deformation that criteria measure, for the motions of the ends A and B, less that of a thermal strain.
+    /// Deformation that criteria measure, for the motions of the ends A and B, less the deformation by a thermal strain.
     pub fn measured(&self, ends: [[f64; M]; 2], free: Option<&SymTensor<D>>) -> BondDeformation
     where
         Self: PairMechanics<D, M>,

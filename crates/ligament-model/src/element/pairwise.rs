@@ -38,7 +38,7 @@ pub struct PairwiseElement {
     ends: [u32; 2],
     /// Vector from A to B, m.
     offset: [f64; 2],
-    /// Ratio of the printed psi to that of the energy, for the rows (xx, yy, xy).
+    /// Ratio of the printed psi to the psi of the energy, for the rows (xx, yy, xy).
     row_factors: [f64; 3],
     /// Coefficients from psi c S V_A V_B |xi| of the rows to the force on the second end, 1/m.
     of_rows: [[f64; 3]; 2],
@@ -148,9 +148,13 @@ impl Element<2, 2> for PairwiseElement {
     #[inline]
     fn mutual_energy(&self, one: &BondDeformation, other: &BondDeformation) -> f64 {
         let [to_x, to_y] = self.of_rows;
-        let feels = [to_x[0] != 0.0, to_y[1] != 0.0, to_x[2] != 0.0];
-        let rows = self.rows(one).into_iter().zip(other.strain()).zip(feels);
-        let felt = rows.filter(|(_, feels)| *feels);
+        let is_affected_by = [to_x[0] != 0.0, to_y[1] != 0.0, to_x[2] != 0.0];
+        let rows = self
+            .rows(one)
+            .into_iter()
+            .zip(other.strain())
+            .zip(is_affected_by);
+        let felt = rows.filter(|(_, is_affected_by)| *is_affected_by);
         0.5 * felt.map(|((row, strain), _)| row * strain).sum::<f64>()
     }
 

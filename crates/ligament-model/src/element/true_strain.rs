@@ -1,8 +1,7 @@
 //! Element of MBB-PD with true strains: differences of displacements over differences of the deformed positions (eqs 12 to 15 with Y; eq.
 //! 6).
 //!
-//! The true strain of a quotient is eps/(1 + eps) of the small one eps. Forces are those of the small-strain element for the stresses of the
-//! true strains, so that they do work on differences over the distances before the deformation, as the printed force densities do with the
+//! The true strain of a quotient is eps/(1 + eps) of the small one eps. The small-strain element gives the forces for the stresses of the true strains, so that they do work on differences over the distances before the deformation, as the printed force densities do with the
 //! volumes before it. A row under the stress sigma then has eps/(1 + eps) = sigma/E: it is longer by 1/(1 - sigma/E) than with small
 //! strains.
 //!

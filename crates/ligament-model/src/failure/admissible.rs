@@ -1,4 +1,4 @@
-//! Where on a line of deformations no criterion breaks a bond.
+//! Interval of a line of deformations in which no criterion breaks a bond.
 
 use rayon::prelude::*;
 
@@ -8,11 +8,11 @@ use super::state_variables::CriteriaInState;
 use crate::deformation::{Deformation, Deformations, SpaceDeformation};
 use crate::element::BondDeformation;
 
-/// Bonds that make a task worth while.
+/// Least number of bonds for a parallel task.
 const TASK: usize = 4096;
 
 impl Criteria {
-    /// The first criterion whose measure is not known along lines, for some bond.
+    /// The first criterion whose measure has no closed form along lines, for some bond.
     pub fn unknown_along_lines(&self) -> Option<&Criterion> {
         let is_unknown = |it: &&Criterion| {
             let mut bonds = 0..it.limit.len();
@@ -24,17 +24,17 @@ impl Criteria {
 }
 
 impl CriteriaInState<'_> {
-    /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `here` + t `slopes`; None where some
-    /// does for every t. These are the criteria here, and `rates` are those of the slopes.
+    /// The t, within `reach`, for which no criterion breaks an intact bond with the deformation `start` + t `slopes`; None where some
+    /// does for every t. `self` has the criteria at t = 0, `rates` their rates along the slopes.
     pub fn admissible(
         &self,
         rates: &Self,
         intact: &[bool],
-        [here, slopes]: [&Deformations; 2],
+        [start, slopes]: [&Deformations; 2],
         reach: Interval,
     ) -> Option<Interval> {
-        let line = [here, slopes];
-        if SpaceDeformation::of_bonds(here).is_empty() {
+        let line = [start, slopes];
+        if SpaceDeformation::of_bonds(start).is_empty() {
             self.admissible_along(rates, intact, line.map(BondDeformation::of_bonds), reach)
         } else {
             self.admissible_along(rates, intact, line.map(SpaceDeformation::of_bonds), reach)
@@ -45,41 +45,41 @@ impl CriteriaInState<'_> {
         &self,
         rates: &Self,
         intact: &[bool],
-        [here, slopes]: [&[B]; 2],
+        [start, slopes]: [&[B]; 2],
         reach: Interval,
     ) -> Option<Interval> {
-        let of_task = |(task, (here, slopes)): (usize, (&[B], &[B]))| {
-            let bonds = (task * TASK..).zip(here.iter().zip(slopes));
+        let of_task = |(task, (start, slopes)): (usize, (&[B], &[B]))| {
+            let bonds = (task * TASK..).zip(start.iter().zip(slopes));
             let mut of_intact = bonds.filter(|(bond, _)| intact[*bond]);
-            of_intact.try_fold(reach, |interval, (bond, (here, slope))| {
-                both(interval, self.within(rates, bond, [here, slope])?)
+            of_intact.try_fold(reach, |interval, (bond, (start, slope))| {
+                intersection(interval, self.interval(rates, bond, [start, slope])?)
             })
         };
-        let tasks = here.par_chunks(TASK).zip(slopes.par_chunks(TASK));
+        let tasks = start.par_chunks(TASK).zip(slopes.par_chunks(TASK));
         let of_tasks: Vec<Option<Interval>> = tasks.enumerate().map(of_task).collect();
         let mut of_tasks = of_tasks.into_iter();
-        of_tasks.try_fold(reach, |interval, of_task| both(interval, of_task?))
+        of_tasks.try_fold(reach, |interval, of_task| intersection(interval, of_task?))
     }
 
-    /// The t for which no criterion breaks a bond with the deformation `here` + t `slope`; None where some does for every t.
-    fn within<B: AlongLine>(&self, rates: &Self, bond: usize, line: [&B; 2]) -> Option<Interval> {
+    /// The t for which no criterion breaks a bond with the deformation `start` + t `slope`; None where some does for every t.
+    fn interval<B: AlongLine>(&self, rates: &Self, bond: usize, line: [&B; 2]) -> Option<Interval> {
         let of = |interval: Interval, (place, it): (usize, &Criterion)| {
             let limit = self.break_limit(place, bond);
             let of_criterion = if limit.is_finite() {
                 let stress = [self, rates].map(|it| it.stress(place, bond));
                 it.measure
-                    .within(line, it.coefficients(bond), stress, limit)?
+                    .interval_within(line, it.coefficients(bond), stress, limit)?
             } else {
                 EVERYWHERE
             };
-            both(interval, of_criterion)
+            intersection(interval, of_criterion)
         };
         let mut list = self.criteria().list.iter().enumerate();
         list.try_fold(EVERYWHERE, of)
     }
 }
 
-fn both(one: Interval, other: Interval) -> Option<Interval> {
+fn intersection(one: Interval, other: Interval) -> Option<Interval> {
     let both = [one[0].max(other[0]), one[1].min(other[1])];
     (both[0] <= both[1]).then_some(both)
 }

@@ -1,4 +1,4 @@
-//! Where a bond stays within its limit while its deformation goes along a line, in closed form.
+//! Closed forms of the interval of a line of deformations in which a bond stays within its limit.
 //!
 //! With d(t) = d_0 + t d_1 a measure is the largest of some linear functions of t, or the root of a quadratic one where the bond
 //! is stretched. In space shear and relative rotation are vectors: |gamma_0 + t gamma_1|^2 is a quadratic function of t that is no square
@@ -10,17 +10,17 @@ use crate::deformation::{Deformation, SpaceDeformation};
 use crate::element::BondDeformation;
 use crate::tensor::dot;
 
-/// All t from the first to the second.
+/// Interval of t from the first bound to the second.
 pub type Interval = [f64; 2];
 
-/// All t, to both sides without an end.
+/// The unbounded interval.
 pub const EVERYWHERE: Interval = [f64::NEG_INFINITY, f64::INFINITY];
 
 const NOWHERE: Interval = [f64::INFINITY, f64::NEG_INFINITY];
 
-/// A deformation whose strains are asked for along a line: from one deformation on, with the slope of another.
+/// A deformation whose strains along a line d_0 + t d_1 are known.
 pub(super) trait AlongLine: Deformation {
-    /// A strain of which measures take the size: a number in the plane, a vector in space.
+    /// Type of shear and relative rotation, whose size enters measures: a number in the plane, a vector in space.
     type Sized: Strain;
 
     /// The strains along the line.
@@ -40,7 +40,7 @@ type Linear = [f64; 2];
 /// The function a t^2 + b t + c.
 type Quadratic = [f64; 3];
 
-/// A strain along a line of which measures take the size.
+/// A strain along a line whose size enters measures.
 pub(super) trait Strain: Copy {
     /// The strain times a factor.
     fn times(self, factor: f64) -> Self;
@@ -48,7 +48,7 @@ pub(super) trait Strain: Copy {
     /// Square of its size times a factor q.
     fn square_times(self, q: f64) -> Quadratic;
 
-    /// Where the sum of its size and another strain is at most a limit; empty (the first is larger) where it nowhere is.
+    /// Interval in which the sum of its size and another strain is at most a limit; empty (first bound larger) if there is none.
     fn beside_at_most(self, other: Linear, limit: f64) -> Interval;
 }
 
@@ -89,7 +89,7 @@ impl Strain for Linear {
 
     fn beside_at_most(self, [value, slope]: Linear, limit: f64) -> Interval {
         let plus = at_most([value + self[0], slope + self[1]], limit);
-        both(plus, at_most([value - self[0], slope - self[1]], limit))
+        intersection(plus, at_most([value - self[0], slope - self[1]], limit))
     }
 }
 
@@ -115,13 +115,13 @@ impl Strain for [[f64; 3]; 2] {
         match roots(beyond).filter(|_| beyond[0] < 0.0) {
             Some([_, upper]) if slope > 0.0 => [upper, f64::INFINITY],
             Some([lower, _]) => [f64::NEG_INFINITY, lower],
-            None => both(quadratic(beyond), at_most(other, limit)),
+            None => intersection(quadratic(beyond), at_most(other, limit)),
         }
     }
 }
 
 impl Measure {
-    /// Whether [`Measure::within`] knows the measure with these coefficients.
+    /// Whether [`Measure::interval_within`] has a closed form for the measure with these coefficients.
     pub(super) fn is_known_along_lines(self, coefficients: &[f64]) -> bool {
         match self {
             Self::Tension
@@ -143,7 +143,7 @@ impl Measure {
     /// # Panics
     ///
     /// Panics for measures that are not [known along lines](Measure::is_known_along_lines).
-    pub(super) fn within<B: AlongLine>(
+    pub(super) fn interval_within<B: AlongLine>(
         self,
         line: [&B; 2],
         coefficients: &[f64],
@@ -154,8 +154,8 @@ impl Measure {
         let (stretch, shear) = (of_ends.stretch, of_ends.shear);
         let q = coefficients.first().copied().unwrap_or(0.0);
         let mixed = |axis: usize| {
-            let [here, slope] = line.map(|it| it.measured().strain());
-            let [opening, sliding] = [axis, 2].map(|it| [here[it], slope[it]]);
+            let [start, slope] = line.map(|it| it.measured().strain());
+            let [opening, sliding] = [axis, 2].map(|it| [start[it], slope[it]]);
             root(opening, sliding.square_times(q), limit)
         };
         let interval = match self {
@@ -186,7 +186,7 @@ impl Measure {
     }
 }
 
-/// Where a strain is at most a limit; empty (the first is larger) where it nowhere is.
+/// Interval in which a strain is at most a limit; empty (first bound larger) if there is none.
 fn at_most([value, slope]: Linear, limit: f64) -> Interval {
     let reached = (limit - value) / slope;
     match slope {
@@ -197,17 +197,17 @@ fn at_most([value, slope]: Linear, limit: f64) -> Interval {
     }
 }
 
-/// Where sqrt(max(s, 0)^2 + g), g = q |gamma|^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
+/// Interval in which sqrt(max(s, 0)^2 + g), g = q |gamma|^2, is at most a limit: where the quadratic is while the bond is stretched, and g alone
 /// elsewhere. Where q is negative and the quadratic bends down, up to its first root beyond s = 0.
 fn root(s: Linear, g: Quadratic, limit: f64) -> Interval {
     let [a, b, c] = s.square_times(1.0);
     let sliding = quadratic([g[0], g[1], g[2] - limit * limit]);
     let stretched = quadratic([a + g[0], b + g[1], c + g[2] - limit * limit]);
     let (closed, open) = (at_most(s, 0.0), at_most(s.times(-1.0), 0.0));
-    hull(both(sliding, closed), both(stretched, open))
+    hull(intersection(sliding, closed), intersection(stretched, open))
 }
 
-/// Where a t^2 + b t + c is at most zero; one that bends down is taken at the side of its roots on which t = 0 lies.
+/// Interval in which a t^2 + b t + c is at most zero; where the parabola bends down, the part on the side of t = 0.
 fn quadratic([a, b, c]: Quadratic) -> Interval {
     if a == 0.0 {
         return at_most([c, b], 0.0);
@@ -221,7 +221,7 @@ fn quadratic([a, b, c]: Quadratic) -> Interval {
     }
 }
 
-/// The smaller and the larger root of a t^2 + b t + c with a that is not zero; None without any.
+/// The smaller and the larger root of a t^2 + b t + c with a nonzero; None without real roots.
 fn roots([a, b, c]: Quadratic) -> Option<[f64; 2]> {
     let discriminant = b * b - 4.0 * a * c;
     if discriminant < 0.0 {
@@ -233,11 +233,11 @@ fn roots([a, b, c]: Quadratic) -> Option<[f64; 2]> {
     Some([one.min(other), one.max(other)])
 }
 
-fn both(one: Interval, other: Interval) -> Interval {
+fn intersection(one: Interval, other: Interval) -> Interval {
     [one[0].max(other[0]), one[1].min(other[1])]
 }
 
-/// The interval that spans both; an empty one adds nothing.
+/// The smallest interval that contains both intervals; an empty one adds nothing.
 fn hull(one: Interval, other: Interval) -> Interval {
     let is_empty = |it: Interval| it[0] > it[1];
     match (is_empty(one), is_empty(other)) {
@@ -266,13 +266,13 @@ mod tests {
 
     /// Closed forms against a search along the line in fine steps.
     fn assert_as_searched<B: AlongLine>(line: [&B; 2], measures: &[Measure], q: f64) {
-        let [here, slope] = line;
+        let [start, slope] = line;
         for measure in measures {
             let value = |t: f64| {
-                let at = here.less(&slope.scaled(-t)).measured();
+                let at = start.less(&slope.scaled(-t)).measured();
                 measure.value(&at, &[q], StressAcross::default)
             };
-            let interval = measure.within(line, &[q], [StressAcross::default(); 2], 0.8);
+            let interval = measure.interval_within(line, &[q], [StressAcross::default(); 2], 0.8);
             // Where q is negative the measure may fall again: beyond the first place where it is at its limit nothing is asked.
             let steps = if q > 0.0 { -4000..=4000 } else { 0..=4000 };
             let mut passed = false;
@@ -297,8 +297,8 @@ mod tests {
             ([0.1, 0.0, 0.0], [0.0, 1.0, 0.2]),
             ([-0.2, 0.3, 0.0], [0.7, 0.0, 0.0]),
         ];
-        for (here, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
-            let line = [&here, &slope];
+        for (start, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
+            let line = [&start, &slope];
             assert_as_searched(line, &OF_PAIRS, 0.4);
             assert_as_searched(line, &[Measure::MixedModeX, Measure::MixedModeY], 0.4);
         }
@@ -322,8 +322,8 @@ mod tests {
             shear: [x, y, z],
             rotation: [z, 0.5 * x, -y],
         };
-        for (here, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
-            let line = [&here, &slope];
+        for (start, slope) in lines.map(|(a, b)| (deformation(a), deformation(b))) {
+            let line = [&start, &slope];
             assert_as_searched(line, &OF_PAIRS, 0.4);
             assert_as_searched(line, &OF_PAIRS, 2.0);
             assert_as_searched(line, &[Measure::Energy], -0.2);
@@ -341,13 +341,13 @@ mod tests {
             ([-0.4, 0.6, 0.2, 0.0], [0.0, 0.0, 0.0, 0.0]),
         ];
         let line = [0.1, -0.2].map(|stretch| deformation([stretch, 0.4, 0.0]));
-        for (here, slope) in stresses {
-            let of_line = [here, slope].map(|[normal, x, y, z]| StressAcross {
+        for (start, slope) in stresses {
+            let of_line = [start, slope].map(|[normal, x, y, z]| StressAcross {
                 normal,
                 shear: [x, y, z],
             });
             for measure in [Measure::NormalStress, Measure::CoulombStress] {
-                let interval = measure.within([&line[0], &line[1]], &[0.7], of_line, 0.8);
+                let interval = measure.interval_within([&line[0], &line[1]], &[0.7], of_line, 0.8);
                 for place in -4000..=4000 {
                     let t = f64::from(place) * 1e-3;
                     let at = || of_line[0].plus(&of_line[1], t);
@@ -362,13 +362,23 @@ mod tests {
 
     #[test]
     fn a_bond_that_slides_too_far_is_beyond_its_limit_wherever_it_closes() {
-        let (here, slope) = (deformation([0.0, 3.0, 0.0]), deformation([1.0, 0.0, 0.0]));
+        let (start, slope) = (deformation([0.0, 3.0, 0.0]), deformation([1.0, 0.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&here, &slope], &[0.5], [StressAcross::default(); 2], 1.0),
+            Measure::Energy.interval_within(
+                [&start, &slope],
+                &[0.5],
+                [StressAcross::default(); 2],
+                1.0
+            ),
             None
         );
         assert_eq!(
-            Measure::Tension.within([&here, &slope], &[], [StressAcross::default(); 2], 1.0),
+            Measure::Tension.interval_within(
+                [&start, &slope],
+                &[],
+                [StressAcross::default(); 2],
+                1.0
+            ),
             Some([f64::NEG_INFINITY, 1.0])
         );
     }
@@ -376,9 +386,14 @@ mod tests {
     /// With q < 0 the quadratic bends down where shear grows faster than stretch: never beyond its limit here.
     #[test]
     fn a_negative_shear_stiffness_takes_from_the_measure() {
-        let (here, slope) = (deformation([0.5, 0.0, 0.0]), deformation([0.1, 1.0, 0.0]));
+        let (start, slope) = (deformation([0.5, 0.0, 0.0]), deformation([0.1, 1.0, 0.0]));
         assert_eq!(
-            Measure::Energy.within([&here, &slope], &[-0.5], [StressAcross::default(); 2], 1.0),
+            Measure::Energy.interval_within(
+                [&start, &slope],
+                &[-0.5],
+                [StressAcross::default(); 2],
+                1.0
+            ),
             Some(EVERYWHERE)
         );
         assert!(!Measure::PrintedMixed.is_known_along_lines(&[0.5]));

@@ -1,4 +1,4 @@
-//! What the limits of bonds are made from.
+//! Input of the limits of bonds: body, materials and law.
 
 use super::crack_energies::Lattice;
 use super::joint::{crosses, shares_of_length};
@@ -20,17 +20,16 @@ pub struct Basis<'a, const D: usize = 2> {
     pub materials: &'a [Material],
     /// Interfaces between two materials, by their indices, with strengths of their own, shape (n_joints).
     pub joints: &'a [[usize; 2]],
-    /// The elastic constants that the law makes of those of each material, and those of its bonds; none with axes, shape (n_materials).
+    /// Elastic constants of each material under the law, and of its bonds; None for a material with axes, shape (n_materials).
     pub constants: Vec<Option<VolumetricSplit>>,
     /// The bonds as a lattice far from its edges, for those with strains of their own; in the plane alone.
     pub lattice: Option<Lattice>,
-    /// Factors by which properties vary at random, each another one.
+    /// Random factors, each of another property.
     pub scatter: &'a [Factors],
 }
 
 impl<const D: usize> Basis<'_, D> {
-    /// A value of each of `materials`, from the constants that the law makes of its own; infinite where it has none, shape
-    /// (n).
+    /// A value of each of `materials` from its constants under the law; infinite where it has none, shape (n).
     pub fn each(&self, value: impl Fn(&VolumetricSplit, &Material) -> Option<f64>) -> Vec<f64> {
         let value = |(constants, material): (&Option<VolumetricSplit>, &Material)| {
             value(constants.as_ref()?, material)
@@ -63,7 +62,7 @@ impl<const D: usize> Basis<'_, D> {
         limits.map(|(_, material)| material).collect()
     }
 
-    /// Springs in series: the modulus of a bond from those of its materials (Pa), 1/sum of phi_i/M_i with the fractions phi_i of its length.
+    /// Springs in series: the modulus of a bond from the moduli of its materials (Pa), 1/sum of phi_i/M_i with the fractions phi_i of its length.
     pub(super) fn in_series(&self, bond: usize, moduli: &[f64]) -> f64 {
         if let [only] = moduli {
             return *only;
@@ -114,7 +113,7 @@ impl<const D: usize> Basis<'_, D> {
             .unwrap_or((f64::INFINITY, 0))
     }
 
-    /// The limits that are given, or the smallest of those of the materials, like [`weakest`](Self::weakest).
+    /// The given limits, or the smallest limits of the materials, like [`weakest`](Self::weakest).
     pub(super) fn given_or(
         &self,
         given: Option<f64>,
@@ -146,7 +145,7 @@ impl Basis<'_> {
     /// # Panics
     ///
     /// Panics where the bonds are none of a [`lattice`](Self::lattice) in a plane.
-    pub(super) fn of_plane(&self) -> (Plane, &Lattice) {
+    pub(super) fn plane_and_lattice(&self) -> (Plane, &Lattice) {
         match (self.space, &self.lattice) {
             (Space::Plane(plane), Some(lattice)) => (plane, lattice),
             _ => panic!("bonds with strains of their own are those of a lattice in a plane"),

@@ -7,7 +7,7 @@ use super::basis::Basis;
 use super::hooke::modulus;
 use super::kind::{Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use super::of_stress::of_stress;
+use super::stress_limits::stress_limits;
 use super::unfit::NoLimit;
 
 /// Reason why bonds break at once where a stress lets them fail.
@@ -35,5 +35,5 @@ pub(super) fn tensile<const D: usize>(basis: &Basis<'_, D>) -> Limits {
     let strains = basis.each(|constants, material| {
         Some(material.tensile_strength? / modulus(&constants.bonds, basis.space))
     });
-    of_stress(basis, &strains, |_, it| it.coefficients())
+    stress_limits(basis, &strains, |_, it| it.coefficients())
 }

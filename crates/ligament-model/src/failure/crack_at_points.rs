@@ -1,4 +1,4 @@
-//! Critical stretches of the points of a lattice, from the bonds that they have left (MBB-PD eqs 21 to 23, C.4, C.7, C.9).
+//! Critical stretches of the points of a lattice, from their unbroken bonds (MBB-PD eqs 21 to 23, C.4, C.7, C.9).
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::element::imaginary::{SymmetricEntries, matrix};
 use crate::material::Material;
 use crate::scatter::Scattered;
 
-/// The deformation that a crack is taken to have.
+/// Mode of deformation of a crack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     /// Mode I.
@@ -31,11 +31,11 @@ pub enum Mode {
 pub struct CrackAtPoints {
     ends: Arc<[[u32; 2]]>,
     incidence: Arc<Incidence>,
-    /// Share of each bond in the energy of the crack beside each of its ends over the square of s_c, shape (n_bonds), J/m^2.
+    /// Contribution of each bond to the energy of the crack beside each of its ends over the square of s_c, shape (n_bonds), J/m^2.
     energies: Vec<f64>,
     /// G_Ic, G_IIc and eta of each point, shape (n_points).
     toughness: Vec<[f64; 3]>,
-    /// What the energies of the modes are made of; empty where no point asks for them.
+    /// Terms of the energies of the modes; empty where no point needs them.
     releases: Vec<Release>,
     mode: Mode,
 }
@@ -52,7 +52,7 @@ impl CrackAtPoints {
     pub fn new(mode: Mode, basis: &Basis<'_>) -> Self {
         let (bonds, cloud) = (&basis.system.bonds, &basis.system.cloud);
         let stiffness: &[_] = &basis.system.rigidities.strain;
-        let (_, lattice) = basis.of_plane();
+        let (_, lattice) = basis.plane_and_lattice();
         let [dx, dy] = lattice.spacing;
         let area = 2.0 * dx * lattice.thickness;
         let of_bond = |((direction, &length), density): ((&[f64; 2], &f64), SymmetricEntries)| {
@@ -202,7 +202,7 @@ fn energy(mode: Mode, [x, y]: [f64; 2], entries: SymmetricEntries) -> f64 {
     (of_1 * row_1 + 0.5 * tan * of_6 * row_6) * x + (of_2 * row_2 + 0.5 * cot * of_6 * row_6) * y
 }
 
-/// G_Ic, G_IIc and eta of a material; one that lacks an energy never fails.
+/// G_Ic, G_IIc and eta of a material; a material without energies never fails.
 fn toughness(material: &Material) -> [f64; 3] {
     let opening = material.fracture_energy.unwrap_or(f64::INFINITY);
     let sliding = material.fracture_energy_sliding.unwrap_or(opening);

@@ -15,7 +15,7 @@ use crate::horizon::INCLUSION_TOLERANCE;
 pub enum Components {
     /// Each bond resists all three strains.
     All,
-    /// Bonds along x and along y resist the strain along themselves alone, the others all three.
+    /// Bonds along x and along y resist only the strain in their own direction, all others resist all three strains.
     OwnRows,
 }
 
@@ -41,7 +41,7 @@ pub struct Toughness {
     pub sliding: f64,
 }
 
-/// Limits of the bonds.
+/// Critical stretches and angles of the bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
     /// Critical stretches of mode I s_I for a crack that opens along x, and along y.
@@ -54,9 +54,9 @@ pub struct Limits {
 /// of the strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrackEnergies {
-    /// Sums for a crack that opens along x, and along y, times the square of the stretch.
+    /// Sums for cracks that open along x and along y, per squared stretch.
     pub opening: [f64; 2],
-    /// Sums for a crack that lies across x, and across y, and slides, times the square of the angle.
+    /// Sums for cracks across x and across y that slide, per squared angle.
     pub sliding: [f64; 2],
 }
 
@@ -187,7 +187,7 @@ impl Lattice {
 }
 
 impl CrackEnergies {
-    /// The limits at which cracks take the fracture energies of their modes.
+    /// The limits at which the energies of cracks equal the fracture energies of their modes.
     pub fn limits(&self, toughness: &Toughness) -> Limits {
         Limits {
             stretch: self.opening.map(|it| (toughness.opening / it).sqrt()),

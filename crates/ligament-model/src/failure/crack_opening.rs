@@ -1,4 +1,4 @@
-//! Energy that a straight crack spends: what the bonds across it take until the crack has opened so far that each of them broke.
+//! Energy of a straight crack: the energy that the bonds across it dissipate until the opening has broken each of them.
 //!
 //! The halves of the body are rigid and move apart by w along the normal n of the crack. A bond of the length l whose direction has the
 //! angle phi to n is stretched by s = w cos(phi)/l and slides by gamma = w sin(phi)/l. It breaks by the criterion that it meets first, at
@@ -13,7 +13,7 @@
 //!
 //! (Silling and Askari 2005, eq. 26, as a sum over the bonds that there are, with their shear and with any criterion).
 //!
-//! A bond that lies nearly along the crack comes to its limit of stretch only when the crack is wide open, w = s_0 l/cos(phi), and would have
+//! A bond that lies nearly along the crack reaches its limit of stretch only when the crack is wide open, w = s_0 l/cos(phi), and would have
 //! taken R_t s_0^2 tan(phi)^2/2 in shear until then: the sum over all directions has no limit, and one bond along a row of points could outweigh
 //! all others. No crack opens across such a bond. Its ends lie side by side, and a crack passes both of them on the same side. So bonds count
 //! whose ends are apart across the crack by a quarter of the distance of points at least (`PASSED`), the others as never broken.
@@ -24,26 +24,25 @@ use super::starting::Surface;
 use crate::element::BondDeformation;
 use crate::system::BondSystem;
 
-/// Distance of the ends of a bond across a crack, over that of points, below which the crack passes the bond by.
+/// Distance of the ends of a bond across a crack over the spacing of the points, below which the crack bypasses the bond.
 ///
 /// On irregular meshes the energies hardly depend on it between 0.1 and 0.45 (2.51 to 2.49 and 2.92 to 2.90 J/m^2 in a plate of 1,544 points by
 /// `tension` at a Poisson's ratio of 0.2), and of lattices it takes no bond away.
 const PASSED: f64 = 0.25;
 
-/// Energy that straight cracks across one direction spend.
+/// Energy dissipated by straight cracks with one normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrackEnergy {
     /// Energy per area of the crack G, J/m^2.
     pub per_area: f64,
-    /// Share of the bonds across a crack that no opening breaks, and that a crack passes by.
+    /// Fraction of the bonds across a crack that no opening breaks or that a crack bypasses.
     pub unbroken: f64,
 }
 
 impl CrackEnergy {
-    /// The energy of cracks with a normal, a vector of length one, among the points marked in `among` (n_points). A bond counts with one
-    /// half at each of its ends. None without such points, and for bonds with strains of their own, which the opening of a crack does not
-    /// tell.
-    pub fn of_opening(
+    /// The energy of cracks with a unit normal among the points marked in `among` (n_points). A bond counts one half at each of its ends. None
+    /// without such points, and for imaginary elements, whose strains do not follow from the opening.
+    pub fn for_normal(
         system: &BondSystem,
         criteria: &Criteria,
         among: &[bool],
@@ -64,7 +63,7 @@ impl CrackEnergy {
             let opened = BondDeformation::new([cosine / length, sine / length, 0.0]);
             let spacing = ends.map(|end| system.cloud.spacing[end as usize]);
             let is_passed = length * cosine < PASSED * spacing[0].min(spacing[1]);
-            let taken = (!is_passed).then(|| taken(system, criteria, bond, &opened));
+            let taken = (!is_passed).then(|| dissipated_energy(system, criteria, bond, &opened));
             match taken.flatten() {
                 Some(taken) => energy += met * taken,
                 None => unbroken += met,
@@ -82,8 +81,8 @@ impl CrackEnergy {
     }
 }
 
-/// Energy that a bond takes until it breaks while its deformation grows in proportion to the given one, J; None if it never breaks.
-fn taken(
+/// Energy that a bond dissipates until it breaks under a proportional growth of a deformation, J; None if it never breaks.
+fn dissipated_energy(
     system: &BondSystem,
     criteria: &Criteria,
     bond: usize,
@@ -92,9 +91,9 @@ fn taken(
     let ends = criteria.list.iter().filter_map(|criterion| {
         let measure = criterion.measure(bond, growing);
         let limit = match criterion.starting() {
-            // An opening pulls, and does not come to the surface of shear.
+            // An opening is a tension, which does not reach the shear condition.
             Some(starting) if starting.surface != Surface::Tension => f64::INFINITY,
-            // Wherever the bond begins, it takes what a brittle bond with its fracture energy does.
+            // Wherever the bond begins to soften, it dissipates as much as a brittle bond with its fracture energy.
             Some(starting) => starting.critical[bond],
             None => criterion.break_limit(bond),
         };

@@ -16,7 +16,7 @@ use crate::stress::point_strain::StrainAround;
 pub struct Criterion {
     /// Name of the criterion in results, which begins with the word of its kind.
     pub name: &'static str,
-    /// Place of its choice among those of the criteria.
+    /// Index of its choice in the list of choices.
     pub choice: usize,
     /// Measure of the deformation that has the limit.
     pub measure: Measure,
@@ -24,9 +24,9 @@ pub struct Criterion {
     pub limit: Arc<Vec<f64>>,
     /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
     pub coefficient: Arc<Vec<f64>>,
-    /// What happens after the limit.
+    /// Law after the limit.
     pub after: AfterLimit,
-    /// What its limits or its measure follow while the body deforms and bonds break; None where both depend on the bond alone.
+    /// Surroundings of the bonds on which the limits or the measure depend; None where both depend on the bond alone.
     pub surroundings: Option<Arc<Surroundings>>,
 }
 
@@ -44,12 +44,12 @@ impl Criterion {
         }
     }
 
-    /// Whether the measure follows the stress around the bonds.
+    /// Whether the measure depends on the stress around the bonds.
     pub fn follows_stress(&self) -> bool {
         matches!(self.surroundings.as_deref(), Some(Surroundings::Stress))
     }
 
-    /// Where bonds begin to soften, if the stress around them says so.
+    /// Condition on the stress around bonds at which they begin to soften, if there is one.
     pub fn starting(&self) -> Option<&Starting> {
         match self.surroundings.as_deref()? {
             Surroundings::Starting(starting) => Some(starting),
@@ -57,7 +57,7 @@ impl Criterion {
         }
     }
 
-    /// Whether the limits follow the bonds that are left.
+    /// Whether the limits depend on the unbroken bonds.
     pub fn limits_follow_bonds(&self) -> bool {
         matches!(
             self.surroundings.as_deref(),
@@ -78,7 +78,7 @@ impl Criterion {
         }
     }
 
-    /// The measure of a deformation of a bond without stress around it.
+    /// Value of the measure for the deformation of a bond, with zero stress around the bond.
     #[inline]
     pub fn measure(&self, bond: usize, deformation: &BondDeformation) -> f64 {
         let coefficients = self.coefficients(bond);
@@ -128,7 +128,7 @@ impl Criterion {
 /// Distance of a bond from its breakage.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Verdict {
-    /// Number of the criterion that decides.
+    /// Number of the decisive criterion.
     pub criterion: usize,
     /// Measure of the bond's deformation.
     pub measure: f64,
@@ -152,18 +152,18 @@ pub struct Criteria {
 }
 
 impl Criteria {
-    /// Whether bonds may do anything but break at once.
+    /// Whether some bonds may soften instead of breaking at once.
     pub fn soften(&self) -> bool {
         self.list.iter().any(|it| !it.after.is_brittle())
     }
 }
 
-/// What limits and measures of bonds follow while the body deforms and bonds break.
+/// Surroundings of bonds on which limits and measures depend while the body deforms and bonds break.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Surroundings {
-    /// Limits follow the bonds that are left at the points.
+    /// The limits depend on the unbroken bonds of the points.
     CrackAtPoints(CrackAtPoints),
-    /// Measures follow the stress around the bonds ([`Moduli`](super::hooke::Moduli)).
+    /// The measures depend on the stress around the bonds ([`Moduli`](super::hooke::Moduli)).
     Stress,
     /// Bonds begin to soften by the stress around them.
     Starting(Starting),

@@ -47,9 +47,9 @@ fn check(choice: &Choice) -> Result<(), Unfit> {
     }
 }
 
-/// The limits of [`stretch::TENSION`], with kappa/l.
+/// Limits of [`stretch::TENSION`], with the coefficient kappa/l.
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
-    let limit = stretch::of_strength(choice, basis, stretch::limit);
+    let limit = stretch::limits_from_strength(choice, basis, stretch::limit);
     let distance = choice.fibre_distance.unwrap_or_default();
     let lengths = basis.system.bonds.length.iter();
     let coefficient = lengths.map(|length| distance / length).collect();

@@ -17,7 +17,7 @@ pub static CRITICAL_STRETCH: Kind = Kind {
         "critical-stretch",
         "Stretch, from the `fracture_energy` or a `limit`.",
         &[Measure::Tension],
-        PerSpace::both(of_stretch, of_stretch),
+        PerSpace::both(stretch_limits, stretch_limits),
     )
 };
 
@@ -30,11 +30,11 @@ pub static BOND_ENERGY: Kind = Kind {
         "bond-energy",
         "Energy of stretch and sliding, from the `fracture_energy` or a `limit`; where bonds soften, from the `tensile_strength`.",
         &[Measure::Energy],
-        PerSpace::both(of_energy, of_energy),
+        PerSpace::both(energy_limits, energy_limits),
     )
 };
 
-fn of_stretch<const D: usize>(
+fn stretch_limits<const D: usize>(
     choice: &Choice,
     basis: &Basis<'_, D>,
 ) -> Result<Vec<Limits>, NoLimit> {
@@ -45,8 +45,8 @@ fn of_stretch<const D: usize>(
     Ok(vec![Limits::without_coefficient(limit)])
 }
 
-/// Limits with k_t/k_n of each bond; 0 where the bond has no stiffness at all.
-fn of_energy<const D: usize>(
+/// Limits with k_t/k_n of each bond; 0 for a bond without stiffness.
+fn energy_limits<const D: usize>(
     choice: &Choice,
     basis: &Basis<'_, D>,
 ) -> Result<Vec<Limits>, NoLimit> {
@@ -62,7 +62,7 @@ fn of_energy<const D: usize>(
     Ok(vec![Limits::new(limit, shear_ratios)])
 }
 
-/// Stretches at which bonds begin to soften so that a body has its tensile strength (n_materials).
+/// Stretches at which bonds of each material (n_materials) begin to soften for its tensile strength.
 fn stretches_at_strength<const D: usize>(basis: &Basis<'_, D>) -> Vec<f64> {
     basis.each(|constants, material| {
         let strength = (TENSILE_STRENGTH.value)(material)?;
@@ -70,7 +70,7 @@ fn stretches_at_strength<const D: usize>(basis: &Basis<'_, D>) -> Vec<f64> {
     })
 }
 
-/// Stretch at which bonds of equal energy begin to soften for the tensile strength F (Pa):
+/// Stretch at which softening begins in bonds of equal energy for the tensile strength F (Pa):
 ///
 /// s_0 = F/(chi E).
 ///
@@ -92,7 +92,7 @@ fn stretches_at_strength<const D: usize>(basis: &Basis<'_, D>) -> Vec<f64> {
 pub fn stretch_at_strength(material: &Isotropic, strength: f64, space: impl Into<Space>) -> f64 {
     const PARTS: u32 = 1000;
     let space = space.into();
-    let Isotropic { young, poisson } = material.of_bar(space);
+    let Isotropic { young, poisson } = material.bar_constants(space);
     match space {
         Space::Plane(_) => {
             let a = 4.0 * poisson / (1.0 + poisson);
@@ -192,7 +192,7 @@ pub fn mean_lengths<const D: usize>(system: &BondSystem<D>) -> Vec<f64> {
     let of_point = |point: u32| {
         let (mut sum, mut weights) = (0.0, 0.0);
         for &bond in system.bonds.incidence.at(point) {
-            // The volume of the point itself is in all of them.
+            // The volume of the point itself cancels.
             let weight = system.rigidities.axial[bond as usize];
             sum += weight * system.bonds.length[bond as usize];
             weights += weight;

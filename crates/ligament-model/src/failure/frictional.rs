@@ -31,7 +31,7 @@ pub static FRICTIONAL: Kind = Kind {
     )
 };
 
-/// The limit a is that of sliding without stretch, and says nothing of how it falls with the stretch.
+/// Checks that a given limit `a` of sliding without stretch has the angle by which it decreases with the stretch.
 fn check(choice: &Choice) -> Result<(), Unfit> {
     match (choice.limit, choice.friction_angle) {
         (Some(_), None) => Err(Unfit::Missing {
@@ -53,7 +53,7 @@ fn check(choice: &Choice) -> Result<(), Unfit> {
     }
 }
 
-/// Friction makes sliding harder under compression, so that the compressive strength is the larger one.
+/// Refuses a compressive strength below the tensile one, because friction makes sliding harder under compression.
 fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     if choice.friction_angle.is_some() {
         return Ok(());
@@ -94,7 +94,7 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
         };
         let found = condition(constants, [tensile, compressive], space, calibration);
         let fault = NoLimit::NoFriction {
-            poisson: constants.of_bar(space).poisson,
+            poisson: constants.bar_constants(space).poisson,
             tensile,
             compressive,
         };
@@ -157,7 +157,7 @@ pub fn condition(
     calibration: Calibration,
 ) -> Option<Friction> {
     let space = space.into();
-    let poisson = material.of_bar(space).poisson;
+    let poisson = material.bar_constants(space).poisson;
     let limit = stretch::limit(material, tensile, space);
     let sin_phi = (compressive - tensile) / (compressive + tensile);
     match calibration {
@@ -192,7 +192,7 @@ pub fn with_slope(
     (slope, calibration): (f64, Calibration),
 ) -> Friction {
     let space = space.into();
-    let poisson = material.of_bar(space).poisson;
+    let poisson = material.bar_constants(space).poisson;
     let limit = stretch::limit(material, tensile, space);
     let per_limit = match calibration {
         Calibration::Printed => {

@@ -38,7 +38,7 @@ pub struct StressAcross {
 }
 
 impl StressAcross {
-    /// The stress and another one times a factor.
+    /// The sum of the stress and `factor` times another one.
     #[inline]
     pub(super) fn plus(&self, other: &Self, factor: f64) -> Self {
         let shear = self.shear.iter().zip(&other.shear);
@@ -75,12 +75,12 @@ impl Moduli {
         }
     }
 
-    /// The coefficients from which they [come](Self::from_coefficients).
+    /// The moduli as [coefficients](Self::from_coefficients) of a measure.
     pub(super) fn coefficients(&self) -> [f64; 4] {
         [self.lateral, self.shear, self.bar, self.along]
     }
 
-    /// Stress across a bond from its own stretch and the strain of the points around it; of a bar where that is not known.
+    /// Stress across a bond from its own stretch and the strain of the points around it; the stress of a bar if the strain is not known.
     #[inline]
     pub fn stress_across(&self, stretch: f64, around: Option<StrainAround>) -> StressAcross {
         match around {
@@ -105,11 +105,12 @@ impl Moduli {
 
     /// Moduli of a material in a space.
     pub fn new(material: &Isotropic, space: Space) -> Self {
-        let (nu, along) = (across(material, space).poisson, modulus(material, space));
+        let nu = plane_stress_constants(material, space).poisson;
+        let along = modulus(material, space);
         Self {
             lateral: nu,
             shear: 1.0 - nu,
-            bar: material.of_bar(space).young / along,
+            bar: material.bar_constants(space).young / along,
             along,
         }
     }
@@ -117,12 +118,12 @@ impl Moduli {
 
 /// Modulus E' of a strain along one direction alone, Pa.
 pub fn modulus(material: &Isotropic, space: Space) -> f64 {
-    let Isotropic { young, poisson: nu } = across(material, space);
+    let Isotropic { young, poisson: nu } = plane_stress_constants(material, space);
     young / (1.0 - nu * nu)
 }
 
 /// The constants with which the equations of plane stress describe strains in a plane, and in space.
-fn across(material: &Isotropic, space: Space) -> Isotropic {
+fn plane_stress_constants(material: &Isotropic, space: Space) -> Isotropic {
     material.in_plane(match space {
         Space::Plane(plane) => plane,
         Space::Solid => Plane::Strain,

@@ -1,6 +1,6 @@
-//! Bonds across the joint of two materials, and what their limits are made of.
+//! Bonds across the interface of two materials, and the materials that determine their limits.
 //!
-//! A bond has the strengths of the material in which it lies. Across a joint it has the smaller ones, or those of an interface that is given there,
+//! A bond has the strengths of the material in which it lies. Across a joint it has the smaller strengths, or the strengths of an interface there,
 //! and under one stress it is stretched by the mean over its length of the strains of its materials: so is its limit.
 //!
 //! Points lie on the interface itself, and have cells of both materials. At an interface that is given they belong to the first material, so
@@ -19,7 +19,7 @@ pub fn crosses<const D: usize>(
     bond: usize,
     between: [usize; 2],
 ) -> bool {
-    let within = bonds.composition.of_bond(bond);
+    let within = bonds.composition.fractions(bond);
     let sides = bonds.ends[bond].map(|end| {
         let shares = cloud.shares(end as usize);
         between.into_iter().find(|&material| shares[material] > 0.0)
@@ -41,7 +41,7 @@ pub(super) fn shares_of_length<const D: usize>(
         let shares = numbered.map(|(material, share)| (material, share / total));
         shares.filter(|it| it.1 > 0.0).collect()
     };
-    if let Some(shares) = bonds.composition.of_bond(bond) {
+    if let Some(shares) = bonds.composition.fractions(bond) {
         return present(shares.to_vec());
     }
     let [a, b] = bonds.ends[bond].map(|end| cloud.shares(end as usize));

@@ -1,4 +1,4 @@
-//! What a kind of failure criterion is, and the choice of one.
+//! Kinds of failure criteria, and the choice of a criterion.
 
 use std::sync::Arc;
 
@@ -18,32 +18,32 @@ use crate::scatter::Scattered;
 pub struct Kind {
     /// Word of the kind in case files and in results.
     pub word: &'static str,
-    /// Sentence that says what fails, and where the limit comes from.
+    /// Sentence on the failure and the origin of the limit.
     pub words: &'static str,
     /// Papers of the condition and of its limit, by the keys of the references, with their equations; empty without any.
     pub source: &'static str,
     /// Measures of a bond's deformation; the kind stands for a [`Criterion`](super::Criterion) of each.
     pub measures: &'static [Measure],
-    /// Properties of a material that the limits come from, unless they are given.
+    /// Material properties that determine the limits, unless limits are given.
     pub takes: &'static [Property],
     /// Fields of a [`Choice`] that the kind takes.
     pub keys: &'static [&'static str],
-    /// Reason why bonds always break at their limit, if they do.
+    /// Reason why bonds always break at their limit; None if they may soften.
     pub brittle_because: Option<&'static str>,
-    /// Reason why bonds never do, if they do not.
+    /// Reason why bonds never break at their limit; None if they may.
     pub softens_because: Option<&'static str>,
-    /// Further check of what is chosen of the kind.
+    /// Further check of a choice of the kind.
     pub check: fn(&Choice) -> Result<(), Unfit>,
     /// Further check of a material, beyond the properties that the kind [takes](Self::takes).
     pub suits: fn(&Choice, &Material) -> Result<(), Unfit>,
-    /// What makes the limits of the bonds.
+    /// Functions that compute the limits of the bonds.
     pub limits: PerSpace,
 }
 
-/// What makes limits of bonds in D dimensions, for each of the measures of a kind.
+/// Function that computes the limits of bonds in D dimensions, for each measure of a kind.
 pub type MakeLimits<const D: usize> = fn(&Choice, &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit>;
 
-/// What makes the limits of a kind in the plane and in space.
+/// Functions that compute the limits of a kind in the plane and in space.
 #[derive(Debug, Clone, Copy)]
 pub struct PerSpace {
     /// Limits in the plane.
@@ -53,7 +53,7 @@ pub struct PerSpace {
 }
 
 impl PerSpace {
-    /// Limits in the plane and in space, which one function makes.
+    /// Limits in the plane and in space by one generic function.
     pub(super) const fn both(plane: MakeLimits<2>, solid: MakeLimits<3>) -> Self {
         Self {
             plane,
@@ -66,13 +66,13 @@ impl PerSpace {
         Self { plane, solid: None }
     }
 
-    /// What makes the limits in D dimensions; None for a kind that does not exist there.
+    /// The function for the limits in D dimensions; None for a kind that does not exist there.
     pub(super) fn in_dimension<const D: usize>(self) -> Option<MakeLimits<D>> {
         cast(self.plane).or_else(|| cast(self.solid?))
     }
 }
 
-/// A property of materials that limits come from.
+/// A material property that determines limits.
 #[derive(Debug, Clone, Copy)]
 pub struct Property {
     /// Field of a [`Material`] that holds the property.
@@ -111,11 +111,11 @@ pub struct Limits {
     pub limit: Vec<f64>,
     /// Coefficients of the measure for each bond; empty where the measure has none, shape (n_bonds, n).
     pub coefficient: Vec<f64>,
-    /// What the limits or the measure follow while the body deforms and bonds break; None where both depend on the bond alone.
+    /// Surroundings of the bonds on which the limits or the measure depend; None where both depend on the bond alone.
     pub surroundings: Option<Arc<Surroundings>>,
-    /// Whether bonds break there, whatever they do after other limits of the kind.
+    /// Whether bonds break at these limits, although they may soften after other limits of the kind.
     pub is_brittle: bool,
-    /// Name of the criterion in results, where neither the kind nor the measure names it.
+    /// Name of the criterion in results; None for the name from kind and measure.
     pub name: Option<&'static str>,
 }
 
@@ -149,7 +149,7 @@ crate::case_type! {
     /// A criterion of failure.
     #[derive(Debug, Clone, PartialEq)]
     pub struct Choice {
-        /// What fails, and where its limit comes from.
+        /// Kind of failure and origin of the limit.
         pub kind: Kind,
         /// Stretch, shortening or sliding at which a bond fails, in the place of the strength or the energy of the material.
         #[range("exclusiveMinimum" = 0)]
@@ -160,11 +160,11 @@ crate::case_type! {
         /// Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`.
         #[range("exclusiveMinimum" = 0)]
         pub critical_angle: Option<f64>,
-        /// How the limit of `frictional` comes from the strengths.
+        /// Derivation of the limit of `frictional` from the strengths.
         #[case(schemars(extend("default" = Calibration::default())))]
         pub calibration: Option<Calibration>,
-        /// Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
-        /// compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
+        /// Angle of friction, rad. For `mohr-coulomb` it is the angle phi of the material; for `frictional` the angle beta of a bond, in the place of
+        /// the compressive strength: compression by s makes its limit of sliding larger by s tan(beta).
         #[range("minimum" = 0)]
         pub friction_angle: Option<f64>,
         /// Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`.
@@ -173,10 +173,11 @@ crate::case_type! {
         /// Distance of the outermost fibre from the axis of a bond, m; of `fibre`.
         #[range("minimum" = 0)]
         pub fibre_distance: Option<f64>,
-        /// What a bond does after its limit: a word, or a curve of stress over the opening of a crack.
+        /// Behaviour of a bond after its limit: a word, or a curve of stress over the opening of a crack.
         #[case(serde(default))]
         pub after: Law,
-        /// Deformation at which a force that falls to zero is gone, over that at the limit: of `linear` above 1, of `two-branch` above 3; without it so that the `fracture_energy` comes out.
+        /// Deformation at which the force has fallen to zero, over the deformation at the limit: above 1 for `linear`, above 3 for `two-branch`;
+        /// without it the value that gives the `fracture_energy`.
         #[range("exclusiveMinimum" = 1)]
         pub end: Option<f64>,
         /// Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out.
@@ -205,7 +206,7 @@ impl PartialEq for Kind {
 }
 
 impl Kind {
-    /// A kind by which bonds may do anything after their limit, and that asks nothing of a material but what it takes.
+    /// A kind that allows every law after the limit and has no further condition on materials.
     pub(super) const fn new(
         word: &'static str,
         words: &'static str,
@@ -227,12 +228,12 @@ impl Kind {
         }
     }
 
-    /// Whether the kind looks at strains of the bond's own.
+    /// Whether the kind measures strains of an imaginary element.
     pub fn takes_strains(&self) -> bool {
         self.measures.iter().any(|it| it.takes_strains())
     }
 
-    /// The key of its own limit, the first of them where it has several.
+    /// The key of the limit of the kind, the first of several.
     pub fn own_limit(&self) -> Option<&'static str> {
         let limits = Choice::from(*self).own_limits();
         let mut keys = self.keys.iter();
@@ -240,7 +241,7 @@ impl Kind {
             .copied()
     }
 
-    /// The key that spares a property of the material.
+    /// The key that replaces a property of the material.
     fn instead_of(&self, property: &Property) -> Option<&'static str> {
         if property.key == COMPRESSIVE_STRENGTH.key {
             let spares = ["cohesion", "friction_angle"];
@@ -252,7 +253,7 @@ impl Kind {
 }
 
 impl From<Kind> for Choice {
-    /// The kind with limits from the material, by which bonds break at once.
+    /// The kind with limits from the material and brittle bonds.
     fn from(kind: Kind) -> Self {
         Self {
             kind,
@@ -271,7 +272,7 @@ impl From<Kind> for Choice {
 }
 
 impl Choice {
-    /// The limits that it may have of its own, by their keys.
+    /// Given limits of the choice by their keys.
     pub fn own_limits(&self) -> [(&'static str, Option<f64>); 3] {
         [
             ("limit", self.limit),
@@ -291,19 +292,19 @@ impl Choice {
         self
     }
 
-    /// What is given for the parameters of the laws of softening, by their keys.
+    /// Given parameters of the laws of softening by their keys.
     pub(super) fn parameters(&self) -> [(&'static str, Option<f64>); 2] {
         [("end", self.end), ("scale", self.scale)]
     }
 
-    /// The parameter of the law of softening; None where the law has none, and where the fracture energy of the material decides about it.
+    /// The parameter of the law of softening; None where the law has none or the fracture energy determines it.
     pub fn parameter(&self) -> Option<f64> {
         let key = self.after.parameter?.key;
         let mut given = self.parameters().into_iter();
         given.find(|it| it.0 == key)?.1
     }
 
-    /// Properties of each material that the limits come from.
+    /// Properties of each material that determine the limits.
     pub fn takes(&self) -> &'static [Property] {
         let is_given = self.own_limits().iter().any(|(_, limit)| limit.is_some());
         // With a cohesion the angle alone does not say how strong the material is under pressure.
@@ -322,12 +323,12 @@ impl Choice {
         can && self.limit.is_none() && self.parameter().is_none()
     }
 
-    /// Whether bonds begin to soften where the stress around them says so.
+    /// Whether the stress around bonds decides when they begin to soften.
     fn begins_by_stress(&self) -> bool {
         self.after.softens && self.kind.measures.iter().any(|it| it.takes_stress())
     }
 
-    /// The property whose random factor is that of the limits: given ones stand in the place of a strength.
+    /// The property whose random factor scales the limits; given limits vary like a strength.
     pub fn limits_from(&self) -> Scattered {
         let mut takes = self.takes().iter();
         match takes.any(|it| it.key == FRACTURE_ENERGY.key) || self.begins_by_stress() {
@@ -336,8 +337,8 @@ impl Choice {
         }
     }
 
-    /// Whether a random factor of a property changes anything.
-    pub fn feels(&self, of: Scattered) -> bool {
+    /// Whether a random factor of a property has an effect.
+    pub fn is_affected_by(&self, of: Scattered) -> bool {
         let of_softening =
             of == Scattered::FractureEnergy && self.parameter_from_energy().is_some();
         // What lets bonds begin to soften is a strength, and what lets them end an energy.
@@ -345,14 +346,14 @@ impl Choice {
         self.limits_from() == of || of_softening || of_beginning
     }
 
-    /// Whether a bond takes all of the fracture energy up to its limit.
+    /// Whether a bond dissipates the whole fracture energy by breaking at its limit.
     pub fn spends_fracture_energy(&self) -> bool {
         let mut takes = self.takes().iter();
         let is_taken = takes.any(|it| it.key == FRACTURE_ENERGY.key);
         is_taken && !self.kind.takes_strains() && self.kind.softens_because.is_none()
     }
 
-    /// The key of the law of softening whose parameter comes from the fracture energy, if it does.
+    /// The key of the softening parameter if the fracture energy determines it.
     pub fn parameter_from_energy(&self) -> Option<&'static str> {
         let key = self.after.parameter.map(|it| it.key);
         key.filter(|_| self.parameter().is_none())
@@ -362,7 +363,7 @@ impl Choice {
     ///
     /// # Errors
     ///
-    /// If it has axes or lacks a property; if two of its properties do not go together.
+    /// If it has axes or lacks a property; if two of its properties are incompatible.
     pub fn suits(&self, material: &Material) -> Result<(), Unfit> {
         let kind = &self.kind;
         let of_limits = self.takes().iter().map(|it| (it, kind.instead_of(it)));

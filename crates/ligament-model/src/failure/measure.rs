@@ -1,4 +1,4 @@
-//! How a criterion looks at the deformation of a bond.
+//! Measures of the deformation of a bond.
 
 use super::hooke::StressAcross;
 use crate::element::BondDeformation;
@@ -49,11 +49,12 @@ pub enum Measure {
     PrintedOpening,
     /// Stretch or angle in mode II: as in mode I, but of others abs(phi) (eq. C.6).
     PrintedSliding,
-    /// Stretch or angle in both modes: as in mode I, but of others abs(phi)/(1 +- sin(theta)) (eqs 24, C.10), with the plus where phi has the sign that opening gives it.
+    /// Stretch or angle in both modes: as in mode I, but of others abs(phi)/(1 +- sin(theta)) (eqs 24, C.10), with the plus where phi has the sign
+    /// that opening gives it.
     PrintedMixed,
 }
 
-/// What a measure looks at.
+/// Input of a measure.
 #[derive(PartialEq)]
 enum Sight {
     Stretch,
@@ -118,27 +119,27 @@ impl Measure {
         }
     }
 
-    /// Whether the measure looks at strains of the bond's own, and not at the relative motion of its ends.
+    /// Whether the measure uses strains of an imaginary element instead of the relative motion of the ends.
     pub fn takes_strains(self) -> bool {
         self.looks_at() == Sight::OwnStrains
     }
 
-    /// Whether the measure looks at the stress around the bond, and not at the relative motion of its ends alone.
+    /// Whether the measure uses the stress around the bond, and not the relative motion of its ends alone.
     pub fn takes_stress(self) -> bool {
         self.looks_at() == Sight::Stress
     }
 
-    /// Whether the measure looks at the rotations of the points.
+    /// Whether the measure uses the rotations of the points.
     pub fn takes_rotations(self) -> bool {
         self.looks_at() == Sight::Bending
     }
 
-    /// Whether the measure looks at the sliding of a bond between two points.
+    /// Whether the measure uses the sliding of a bond between two points.
     pub fn takes_sliding(self) -> bool {
         self.needs_shear_stiffness() || self.looks_at() == Sight::Sliding
     }
 
-    /// Whether the shear stiffness of a bond decides how much its sliding counts.
+    /// Whether the shear stiffness of a bond scales its sliding in the measure.
     pub fn needs_shear_stiffness(self) -> bool {
         self.looks_at() == Sight::Energy
     }
@@ -154,7 +155,7 @@ impl Measure {
         words.trim_start().to_owned()
     }
 
-    /// The noun for the measure; empty where the formula says enough.
+    /// The noun for the measure; empty where the formula is sufficient.
     fn noun(self) -> &'static str {
         match self {
             Self::Tension => "stretch",
@@ -283,7 +284,7 @@ impl Measure {
     ///
     /// # Panics
     ///
-    /// Panics for a measure of strains of the bond's own, which are those of the body in all directions, and of the stress around it.
+    /// Panics for measures of imaginary strains, which are the strains of the body in all directions, and of the stress around a bond.
     pub fn worst_directions(self, coefficient: f64, mean: f64, deviator: f64) -> [f64; 5] {
         match self {
             Self::Tension | Self::Fibre => [1.0; 5],
@@ -372,12 +373,12 @@ pub enum Weakened {
     Crushing,
     /// Resistance to shear.
     Sliding,
-    /// All resistance, where shear under pressure crushes the material.
+    /// Resistance to every deformation, where shear under pressure crushes the material.
     Whole,
 }
 
 impl Weakened {
-    /// Whether damage of this kind shows in the field of another one: what takes all resistance is a shear failure.
+    /// Whether damage of this kind counts in the field of another one: loss of all resistance is a shear failure.
     pub fn shows_as(self, way: Self) -> bool {
         self == way || (self == Self::Whole && way == Self::Sliding)
     }

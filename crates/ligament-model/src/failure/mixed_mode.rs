@@ -1,7 +1,7 @@
 //! The criterion of bonds with strains of their own (MBB-PD): opening along x and along y, each mixed with shear.
 
 use super::basis::Basis;
-use super::crack_energies::{Limits as OfModes, Toughness};
+use super::crack_energies::{Limits as ModeLimits, Toughness};
 use super::kind::{Choice, FRACTURE_ENERGY, Kind, Limits, PerSpace};
 use super::measure::Measure;
 use super::unfit::Unfit;
@@ -26,14 +26,14 @@ pub static MIXED_MODE: Kind = Kind {
 };
 
 /// Limits and coefficients of the bonds of a material.
-struct OfMaterial {
+struct MaterialLimits {
     /// s_I of opening along x and along y; infinite where it never fails.
     stretch: [f64; 2],
-    /// q along x and along y, G_IIc/G_Ic, eta.
+    /// Coefficients along x and along y: q, G_IIc/G_Ic and eta.
     coefficients: [[f64; 3]; 2],
 }
 
-/// Between two fracture energies the exponent says what a mixture of both modes takes.
+/// Refuses two fracture energies without the exponent for mixed modes.
 pub(super) fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     let differ =
         (material.fracture_energy_sliding).is_some_and(|it| Some(it) != material.fracture_energy);
@@ -50,24 +50,24 @@ pub(super) fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
 ///
 /// A bond of several materials has the coefficients of the softest of them, with the energies of the weakest.
 fn limits(choice: &Choice, basis: &Basis<'_>) -> Vec<Limits> {
-    let of_materials: Vec<OfMaterial> = match (choice.critical_stretch, choice.critical_angle) {
+    let of_materials: Vec<MaterialLimits> = match (choice.critical_stretch, choice.critical_angle) {
         (Some(stretch), Some(angle)) => {
-            let limits = OfModes {
+            let limits = ModeLimits {
                 stretch: [stretch; 2],
                 angle: [angle; 2],
             };
             let each = basis.materials.iter();
-            each.map(|_| of_material(&limits, 1.0, 1.0)).collect()
+            each.map(|_| material_limits(&limits, 1.0, 1.0)).collect()
         }
         _ => (basis.materials.iter())
-            .map(|it| of_energies(it, basis))
+            .map(|it| limits_from_energies(it, basis))
             .collect(),
     };
     let axes = [0, 1].map(|axis| opening(axis, &of_materials, basis));
     axes.into()
 }
 
-fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limits {
+fn opening(axis: usize, of_materials: &[MaterialLimits], basis: &Basis<'_>) -> Limits {
     let bonds = &basis.system.bonds;
     let stretches: Vec<f64> = of_materials.iter().map(|it| it.stretch[axis]).collect();
     let materials = basis.weakest_materials(&stretches);
@@ -87,29 +87,29 @@ fn opening(axis: usize, of_materials: &[OfMaterial], basis: &Basis<'_>) -> Limit
     Limits::new(limit, coefficient.copied().collect())
 }
 
-/// From the fracture energies of a material; none means that it never fails.
-fn of_energies(material: &Material, basis: &Basis<'_>) -> OfMaterial {
+/// Limits from the fracture energies of a material; one without them never fails.
+fn limits_from_energies(material: &Material, basis: &Basis<'_>) -> MaterialLimits {
     let Some(opening) = material.fracture_energy else {
-        return OfMaterial {
+        return MaterialLimits {
             stretch: [f64::INFINITY; 2],
             coefficients: [[0.0, 1.0, 1.0]; 2],
         };
     };
     let sliding = material.fracture_energy_sliding.unwrap_or(opening);
-    let (plane, lattice) = basis.of_plane();
+    let (plane, lattice) = basis.plane_and_lattice();
     let energies = lattice.crack_energies(&material.elasticity.plane_stiffness(plane));
     let of_modes = |sliding| energies.limits(&Toughness { opening, sliding });
     let exponent = material.mixed_mode_exponent.unwrap_or(1.0);
-    of_material(&of_modes(opening), sliding / opening, exponent)
+    material_limits(&of_modes(opening), sliding / opening, exponent)
 }
 
-/// From the limits of modes that are equally tough.
-fn of_material(limits: &OfModes, ratio: f64, exponent: f64) -> OfMaterial {
+/// Limits from given limits of both modes with equal toughness.
+fn material_limits(limits: &ModeLimits, ratio: f64, exponent: f64) -> MaterialLimits {
     let of_axis = |axis: usize| {
         let share = (limits.stretch[axis] / limits.angle[axis]).powi(2);
         [share, ratio, exponent]
     };
-    OfMaterial {
+    MaterialLimits {
         stretch: limits.stretch,
         coefficients: [0, 1].map(of_axis),
     }

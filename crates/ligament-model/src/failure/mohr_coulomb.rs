@@ -3,7 +3,7 @@
 //! A brittle bond breaks where on the plane across it sigma_n = F_t, or |tau| + sigma_n tan(phi) = c. The plane across a bond is one of
 //! those on which a body may slide; of a family of bonds the planes have all directions, and the worst of them decides as in a continuum.
 //!
-//! A bond that softens begins where the stress around it comes to the surface on any plane, as with [`super::rankine`]: by tension where sigma_1
+//! Softening begins where the stress around a bond reaches the surface on any plane, as with [`super::rankine`]: by tension where sigma_1
 //! = F_t, and by shear where
 //!
 //! (sigma_1 - sigma_3)/(2 cos(phi)) + (sigma_1 + sigma_3)/2 tan(phi) = c,
@@ -20,9 +20,9 @@ use super::bond_rankine::tensile;
 use super::hooke::modulus;
 use super::kind::{COMPRESSIVE_STRENGTH, Choice, Kind, Limits, PerSpace, TENSILE_STRENGTH};
 use super::measure::Measure;
-use super::of_stress::of_stress;
 use super::rankine;
 use super::starting::Surface;
+use super::stress_limits::stress_limits;
 use super::unfit::{NoLimit, Unfit};
 use crate::material::Material;
 
@@ -70,7 +70,7 @@ fn check(choice: &Choice) -> Result<(), Unfit> {
     }
 }
 
-/// Without an angle both strengths must leave one.
+/// Refuses strengths that leave no angle of friction, where none is given.
 fn suits(choice: &Choice, material: &Material) -> Result<(), Unfit> {
     match (material.tensile_strength, material.compressive_strength) {
         (Some(tensile), Some(compressive))
@@ -110,7 +110,7 @@ impl Friction {
     }
 }
 
-/// Limits F_t/E' of tension and c/E' of shear, by which brittle bonds break, or from which those begin that soften.
+/// Limits F_t/E' of tension and c/E' of shear, at which brittle bonds break or softening begins.
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let friction = |material: &Material| {
         if let (Some(cohesion), Some(angle)) = (choice.cohesion, choice.friction_angle) {
@@ -130,15 +130,15 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
     let slopes: Vec<f64> = (basis.materials.iter())
         .map(|it| friction(it).map_or(0.0, |it| it.slope))
         .collect();
-    let sheared = of_stress(basis, &cohesions, |material, it| {
+    let sheared = stress_limits(basis, &cohesions, |material, it| {
         let [lateral, shear, bar, along] = it.coefficients();
         [lateral, shear, bar, along, slopes[material]]
     });
     if !choice.after.softens {
         return Ok(named([(tensile(basis), TENSION), (sheared, SHEAR)]));
     }
-    let [never_pulled, pulled] = rankine::of_tension(basis, &[2, 1]);
-    let [never_sheared, sheared] = of_shear(basis, sheared);
+    let [never_pulled, pulled] = rankine::tension_limits(basis, &[2, 1]);
+    let [never_sheared, sheared] = shear_limits(basis, sheared);
     Ok(named([
         (never_pulled, "mohr-coulomb-tension-at-once"),
         (never_sheared, "mohr-coulomb-shear-at-once"),
@@ -159,11 +159,11 @@ fn named<const N: usize>(limits: [(Limits, &'static str); N]) -> Vec<Limits> {
     limits.into_iter().map(name).collect()
 }
 
-/// Limits of bonds that never began to soften by shear, and of those that did, from the limits c/E' where bonds begin.
+/// Limits of bonds that never began to soften by shear and limits of softening ones, from the limits c/E' at the start of softening.
 ///
 /// A bond that never began breaks where the stress on the plane across it shears it by gamma = e_c/sqrt(k_t/k_n), the angle at which it would
 /// have the whole energy.
-fn of_shear<const D: usize>(basis: &Basis<'_, D>, of_stress: Limits) -> [Limits; 2] {
+fn shear_limits<const D: usize>(basis: &Basis<'_, D>, of_stress: Limits) -> [Limits; 2] {
     let energy = basis.each(|_, it| it.fracture_energy_sliding.or(it.fracture_energy));
     let slope = of_stress.coefficient.chunks_exact(5).map(|it| it[4]);
     let surface = Surface::Shear {
@@ -177,7 +177,7 @@ fn of_shear<const D: usize>(basis: &Basis<'_, D>, of_stress: Limits) -> [Limits;
         *limit = 0.5 * moduli.shear * starting.critical[bond] / ratio.sqrt();
     }
     never_began.is_brittle = true;
-    [never_began, rankine::of_energy(starting, basis)]
+    [never_began, rankine::energy_limits(starting, basis)]
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@
 //! (A.5), whose shear strain is the third row of (A.6), S_xy + S_xx cot(theta) + S_yy tan(theta). The strain S_xy of the rectangle
 //! (eq. 15) in its place is zero on the line of a crack that opens: no shear bond would ever break there.
 //!
-//! The printed sums are those of a crack along x; bonds along x have the same s_c. A bond breaks by the smaller s_c of its ends.
+//! The printed sums are for a crack along x; bonds along x have the same s_c. A bond breaks by the smaller s_c of its ends.
 
 use std::sync::Arc;
 

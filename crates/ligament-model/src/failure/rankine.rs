@@ -55,9 +55,9 @@ pub(super) fn check(choice: &Choice) -> Result<(), Unfit> {
     }
 }
 
-/// Limits of bonds that never began to soften, and of those that did: none before they do.
+/// Limits of bonds that never began to soften, and of softening bonds, which have none before.
 fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
-    let [never_began, begun] = of_tension(basis, &[1]);
+    let [never_began, begun] = tension_limits(basis, &[1]);
     let name = Some("rankine-at-once");
     let never_began = Limits {
         name,
@@ -67,9 +67,9 @@ fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits
     Ok(vec![never_began, Limits { name, ..begun }])
 }
 
-/// Limits of bonds that never began to soften by tension, and of those that did; places of all criteria of bonds that never began, counted
-/// back from that of those that did.
-pub(super) fn of_tension<const D: usize>(
+/// Limits of bonds that never began to soften by tension, and of softening bonds. `never_began` has the positions of all criteria of the former,
+/// counted back from that of the latter.
+pub(super) fn tension_limits<const D: usize>(
     basis: &Basis<'_, D>,
     never_began: &'static [usize],
 ) -> [Limits; 2] {
@@ -86,11 +86,11 @@ pub(super) fn of_tension<const D: usize>(
         *limit = largest * moduli.bar;
     }
     of_stress.is_brittle = true;
-    [of_stress, of_energy(starting, basis)]
+    [of_stress, energy_limits(starting, basis)]
 }
 
-/// Where bonds begin to soften, from the limits of a measure of stress, with the coefficients of its moduli, and the fracture energies of
-/// the materials (n_materials) that they take.
+/// Condition for the start of softening, from the limits of a measure of stress with the coefficients of its moduli, and the fracture energies
+/// (n_materials).
 pub(super) fn starting<const D: usize>(
     basis: &Basis<'_, D>,
     surface: Surface,
@@ -126,8 +126,8 @@ pub(super) fn shear_ratio(moduli: &Moduli, space: Space) -> f64 {
     ratio.max(0.0)
 }
 
-/// Limits of the energy of bonds of which none began.
-pub(super) fn of_energy<const D: usize>(starting: Starting, basis: &Basis<'_, D>) -> Limits {
+/// Limits of the energy of bonds before any begins to soften.
+pub(super) fn energy_limits<const D: usize>(starting: Starting, basis: &Basis<'_, D>) -> Limits {
     let ratio = |it: &Moduli| shear_ratio(it, basis.space);
     Limits {
         limit: vec![f64::INFINITY; starting.strength.len()],

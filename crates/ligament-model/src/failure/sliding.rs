@@ -21,7 +21,7 @@ pub static SLIDING: Kind = Kind {
 };
 
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
-    let limit = stretch::of_strength(choice, basis, limit);
+    let limit = stretch::limits_from_strength(choice, basis, limit);
     Ok(vec![Limits::without_coefficient(limit)])
 }
 
@@ -29,6 +29,6 @@ fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<L
 /// 45 degrees to a bar that carries its tensile strength F_t (Pa). In space it is F_t (1 + nu)/(2 E), as in plane stress.
 pub fn limit(material: &Isotropic, tensile_strength: f64, space: impl Into<Space>) -> f64 {
     let space = space.into();
-    let poisson = material.of_bar(space).poisson;
+    let poisson = material.bar_constants(space).poisson;
     0.5 * (1.0 + poisson) * stretch::limit(material, tensile_strength, space)
 }

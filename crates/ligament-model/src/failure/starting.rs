@@ -1,23 +1,23 @@
-//! Bonds that begin to soften by the stress around them, at whatever deformation they have then.
+//! Start of softening by the stress around a bond, at an arbitrary deformation of the bond.
 
 use super::hooke::Moduli;
 
-/// Share of the largest principal stress by which a bond must be pulled across to begin: a stray principal stress in a direction in
-/// which nothing opens, as at the edge of a platen, begins nothing.
+/// Least fraction of the largest principal stress across a bond that begins to soften: a principal stress in a direction in which nothing opens, as
+/// at the edge of a platen, starts no softening.
 pub const SHARE: f64 = 0.25;
 
-/// Deformation over F_t/E below which no bond begins: one that hardly takes part has none to speak of, and would never end.
+/// Deformation over F_t/E below which no bond begins to soften, because it would never break.
 const LEAST: f64 = 0.5;
 
-/// By how much the energy of the whole life of a bond exceeds the least that its law of softening takes.
+/// Least ratio of the dissipated energy of a bond to the smallest energy that its law of softening allows.
 const BEYOND_LEAST: f64 = 1.001;
 
-/// What the stress around a bond must come to for the bond to begin.
+/// Stress condition at which a bond begins to soften.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Surface {
-    /// The largest principal stress comes to the tensile strength F_t, and pulls the bond across.
+    /// The largest principal stress reaches the tensile strength F_t and pulls across the bond.
     Tension,
-    /// On some plane |tau| + sigma_n tan(phi) comes to the cohesion c. Bonds of all directions begin then: any of them left sound, or stiff
+    /// On some plane |tau| + sigma_n tan(phi) reaches the cohesion c. Bonds of all directions then begin to soften: an undamaged bond, or one stiff
     /// under pressure, would be a strut that carries more than the strength.
     Shear {
         /// tan(phi), shape (n_bonds).
@@ -25,18 +25,18 @@ pub enum Surface {
     },
 }
 
-/// Where bonds begin to soften.
+/// Stress conditions at which the bonds begin to soften.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Starting {
-    /// The surface that the stress comes to.
+    /// Stress condition, a surface in the space of stresses.
     pub(crate) surface: Surface,
     /// F_t/E' or c/E', shape (n_bonds); infinite where a bond never fails.
     pub(super) strength: Vec<f64>,
-    /// Critical stretch e_c of brittle bonds of the fracture energy that a bond takes, shape (n_bonds).
+    /// Critical stretch e_c of brittle bonds with the same fracture energy, shape (n_bonds).
     pub(super) critical: Vec<f64>,
     /// Moduli of the bonds, shape (n_bonds).
     pub(super) moduli: Vec<Moduli>,
-    /// Places of the criteria by which bonds break that never began, counted back from this one in the list.
+    /// Positions, counted back from this criterion in the list, of the criteria for bonds that never began to soften.
     pub(super) never_began: &'static [usize],
 }
 
@@ -46,12 +46,12 @@ impl Starting {
         &self.strength
     }
 
-    /// Critical stretch of each bond if it were brittle with the fracture energy that it takes, shape (n_bonds).
+    /// Critical stretch of each bond as a brittle bond with its fracture energy, shape (n_bonds).
     pub fn critical_stretches(&self) -> &[f64] {
         &self.critical
     }
 
-    /// What comes to the strength, over E' in plain text.
+    /// Formula of the stress that is compared with the strength, over E', in plain text.
     pub fn formula(&self) -> &'static str {
         match self.surface {
             Surface::Tension => "sigma_1/E'",
@@ -64,8 +64,8 @@ impl Starting {
         (self.strength[bond], &self.moduli[bond])
     }
 
-    /// The deformation at which a bond began that has the deformation e at a stress so many times the strength: that at the strength, not
-    /// below half of F_t/E, nor so large that nothing would be left of the energy.
+    /// Deformation at the start of softening of a bond with the deformation e and `utilisation` times the strength: e/utilisation, at least half of
+    /// F_t/E and so small that some fracture energy is left.
     pub(super) fn began_at(
         &self,
         bond: usize,

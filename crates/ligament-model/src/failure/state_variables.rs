@@ -1,4 +1,4 @@
-//! Criteria in a state of the body, and the state variables that change there while the criteria stay as they are.
+//! Criteria in a state of the body, and the variables of this state.
 
 use std::sync::Arc;
 
@@ -13,18 +13,18 @@ use crate::element::BondDeformation;
 use crate::interface::Bonds;
 use crate::stress::point_strain::Motion;
 
-/// Relative difference below which a stress is as far beyond two surfaces: a bar under tension is on both of Mohr and Coulomb.
+/// Relative difference of two utilisations that count as equal: a bar under tension meets both conditions of Mohr and Coulomb.
 const SAME: f64 = 1e-9;
 
 /// Least number of bonds for a parallel task.
 const TASK: usize = 256;
 
-/// Stresses across the bonds of a body, as they are at one load factor times another one.
+/// Stresses across the bonds of a body: the stresses at one load factor, times a number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stresses {
     /// Stress across each bond, shape (n_bonds); empty where no measure takes it.
     of_bonds: Arc<Vec<StressAcross>>,
-    /// Factor on all of them.
+    /// Factor of all stresses.
     times: f64,
 }
 
@@ -52,7 +52,7 @@ impl Stresses {
         }
     }
 
-    /// The stresses and others times a factor.
+    /// The sum of the stresses and `factor` times others.
     fn plus(&self, other: &Self, factor: f64) -> Self {
         let both = self.of_bonds.par_iter().zip(&*other.of_bonds);
         let factor = factor * other.times;
@@ -63,20 +63,20 @@ impl Stresses {
     }
 }
 
-/// State variables of a criterion: what its measure and its limits follow beside the deformation of a bond.
+/// State variables of a criterion: what its measure and limits depend on beside the deformation of a bond.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct StateVariables {
     /// Stresses across the bonds; None where the measure takes none.
     stress: Option<Stresses>,
-    /// Limit of each bond in the state, shape (n_bonds); None where the criterion has no other.
+    /// Limit of each bond in the state, shape (n_bonds); None for the limit of the criterion.
     limit: Option<Arc<Vec<f64>>>,
-    /// Law after the limit in the state; None where the criterion has no other.
+    /// Law after the limit in the state; None for the law of the criterion.
     after: Option<Arc<AfterLimit>>,
-    /// Measure before any bond begins to soften; None where the criterion has no other.
+    /// Measure before any bond begins to soften; None for the measure of the criterion.
     before_softening: Option<Measure>,
 }
 
-/// State variables of a criterion that has none.
+/// Empty state variables, of a criterion that depends on the deformation alone.
 static NO_VARIABLES: StateVariables = StateVariables {
     stress: None,
     limit: None,
@@ -93,7 +93,7 @@ pub struct CriteriaInState<'a> {
 }
 
 impl Criteria {
-    /// The criteria with the limits that they have by themselves, and without stresses across the bonds.
+    /// The criteria with their own limits and without stresses across the bonds.
     pub fn without_state(&self) -> CriteriaInState<'_> {
         self.with_variables(&[])
     }
@@ -106,8 +106,8 @@ impl Criteria {
         }
     }
 
-    /// Stresses across the bonds for each criterion, in a motion of the bonds that are left with its deformations (n_bonds); None for a
-    /// criterion that takes no stress.
+    /// Stresses across the bonds for each criterion, in a motion of the unbroken bonds with deformations (n_bonds); None for a criterion without
+    /// stress.
     pub fn stresses(
         &self,
         system: &dyn Bonds,
@@ -139,7 +139,7 @@ impl Criteria {
             let mut farthest = None;
             for (place, of_bonds) in of_criteria.iter().enumerate() {
                 let utilisation = of_bonds.as_ref().map_or(0.0, |it| it[bond]);
-                // Of surfaces that the stress is as far beyond the first one decides, tension before shear.
+                // Of equally exceeded conditions the first one decides, tension before shear.
                 if utilisation >= farthest.map_or(1.0, |(_, it)| it * (1.0 + SAME)) {
                     farthest = Some((place, utilisation));
                 }
@@ -157,7 +157,7 @@ impl Criteria {
         some.then_some(begun)
     }
 
-    /// Stress around each bond over the strength at which it begins to soften, for each criterion by which bonds begin.
+    /// Stress around each bond over the strength at which it begins to soften, for each criterion with such a start.
     fn utilisations_at_start(
         &self,
         system: &dyn Bonds,
@@ -233,7 +233,7 @@ impl Criteria {
 }
 
 impl StateVariables {
-    /// The law after the limit of a criterion with these state variables.
+    /// Law after the limit of a criterion with these state variables.
     #[inline]
     pub fn after<'a>(&'a self, criterion: &'a Criterion) -> &'a AfterLimit {
         self.after.as_deref().unwrap_or(&criterion.after)
@@ -241,12 +241,12 @@ impl StateVariables {
 }
 
 impl<'a> CriteriaInState<'a> {
-    /// The criteria, without the state.
+    /// The criteria without their state variables.
     pub fn criteria(&self) -> &'a Criteria {
         self.criteria
     }
 
-    /// The limits and stresses of a state of the body, in which some bonds are intact, of the deformations (n_bonds) and with the
+    /// The criteria with the limits and stresses of a state, from its intact bonds, its deformations (n_bonds) and the
     /// [`stresses`](Criteria::stresses) across the bonds.
     pub fn in_state(
         mut self,
@@ -320,7 +320,7 @@ impl<'a> CriteriaInState<'a> {
         variables.limit.as_ref().unwrap_or(&criterion.limit)
     }
 
-    /// What happens after the limit of a criterion.
+    /// Law after the limit of a criterion.
     #[inline]
     pub fn after(&self, place: usize) -> &AfterLimit {
         let (criterion, variables) = self.criterion(place);
@@ -343,7 +343,7 @@ impl<'a> CriteriaInState<'a> {
         self.limits(place)[bond] * self.after(place).end(bond)
     }
 
-    /// Measure over limit by a criterion, 0 where the measure is not positive.
+    /// Utilisation (measure over limit) by a criterion, 0 where the measure is not positive.
     #[inline]
     pub fn utilisation_by(&self, place: usize, bond: usize, deformation: &BondDeformation) -> f64 {
         let measure = self.measure(place, bond, deformation);
@@ -362,8 +362,8 @@ impl<'a> CriteriaInState<'a> {
         (0..self.criteria.list.len()).map(of).fold(0.0, f64::max)
     }
 
-    /// The criterion with the largest measure over the limit at which the bond *breaks*, the first of them where several are;
-    /// None where no measure is positive.
+    /// The criterion with the largest ratio of the measure to the limit at which the bond *breaks*, the first of equals; None where no measure is
+    /// positive.
     #[inline]
     pub fn breaking(&self, bond: usize, deformation: &BondDeformation) -> Option<Verdict> {
         let mut worst: Option<Verdict> = None;
@@ -383,8 +383,8 @@ impl<'a> CriteriaInState<'a> {
         worst
     }
 
-    /// The criteria at a share of the straight line from another motion of the same bonds to this one; without another one, from the unloaded
-    /// body. The limits stay as they are here.
+    /// The criteria at a fraction of the straight line to this motion, from another motion of the same bonds or from the unloaded body. The limits
+    /// are those of this state.
     pub fn on_line(&self, from: Option<&Self>, share: f64) -> Self {
         self.with_stresses(|place, there| {
             let there = there.scaled(share);
@@ -397,13 +397,13 @@ impl<'a> CriteriaInState<'a> {
 
     /// The criteria in the sum of this motion and t times another motion of the same bonds, `rates`.
     pub fn ahead(&self, rates: &Self, t: f64) -> Self {
-        self.with_stresses(|place, here| match &rates.criterion(place).1.stress {
-            Some(rate) => here.plus(rate, t),
-            None => here.clone(),
+        self.with_stresses(|place, stress| match &rates.criterion(place).1.stress {
+            Some(rate) => stress.plus(rate, t),
+            None => stress.clone(),
         })
     }
 
-    /// The criteria with other stresses across the bonds, which a function makes of the number of a criterion and its stresses.
+    /// The criteria with other stresses across the bonds: a function of the number of a criterion and its stresses.
     fn with_stresses(&self, stress: impl Fn(usize, &Stresses) -> Stresses) -> Self {
         let of = |(place, it): (usize, &StateVariables)| StateVariables {
             stress: it.stress.as_ref().map(|it| stress(place, it)),
@@ -415,7 +415,7 @@ impl<'a> CriteriaInState<'a> {
         }
     }
 
-    /// Replaces the stresses across some bonds by those that a function gives for a bond and its moduli.
+    /// Replaces the stresses across some bonds by the values of a function of the bond and its moduli.
     pub fn replace_stresses(
         &mut self,
         bonds: &[u32],

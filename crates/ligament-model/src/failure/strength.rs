@@ -21,7 +21,7 @@ pub static STRENGTH: Kind = Kind {
 fn limits<const D: usize>(_: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let energies = basis.each(|constants, material| {
         let [bar, of_bonds] =
-            [constants.material, constants.bonds].map(|it| it.of_bar(basis.space));
+            [constants.material, constants.bonds].map(|it| it.bar_constants(basis.space));
         // The stress of the bonds alone at the strain of a bar that carries its strength.
         let strength = material.tensile_strength? * (of_bonds.young / bar.young);
         Some(critical_energy(&constants.bonds, strength, basis.space))

@@ -35,12 +35,12 @@ pub static COMPRESSION: Kind = Kind {
 const LIMITS: PerSpace = PerSpace::both(limits, limits);
 
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
-    let limit = of_strength(choice, basis, limit);
+    let limit = limits_from_strength(choice, basis, limit);
     Ok(vec![Limits::without_coefficient(limit)])
 }
 
 /// Limits as they are given, or of the strength that the kind takes first (n_bonds).
-pub(super) fn of_strength<const D: usize>(
+pub(super) fn limits_from_strength<const D: usize>(
     choice: &Choice,
     basis: &Basis<'_, D>,
     of_material: fn(&Isotropic, f64, Space) -> f64,
@@ -59,5 +59,5 @@ pub(super) fn of_strength<const D: usize>(
 ///
 /// The bond along the bar has this stretch, so that a bar yields at its strength wherever a bond lies along it.
 pub fn limit(material: &Isotropic, strength: f64, space: impl Into<Space>) -> f64 {
-    strength / material.of_bar(space).young
+    strength / material.bar_constants(space).young
 }

@@ -1,17 +1,17 @@
-//! Why a choice of a criterion cannot be.
+//! Reasons why a choice of a criterion is refused.
 
 use std::fmt;
 
 use crate::advice::Advice;
 
-/// Fault of a choice, or of a material for it; all but one name the field.
+/// Fault of a choice, or of a material for it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Unfit {
-    /// A setting that means nothing with another one.
+    /// A setting without effect beside another one.
     NotWith {
         /// The field.
         field: &'static str,
-        /// The field, or what it is set to.
+        /// The field or its value.
         named: Setting,
         /// The other setting.
         setting: Setting,
@@ -25,22 +25,22 @@ pub enum Unfit {
         /// The setting that makes the field necessary.
         reason: Advice<Setting>,
     },
-    /// A number outside of what makes sense.
+    /// A number outside of its range.
     OutOfRange {
         /// The field.
         field: &'static str,
-        /// Range of numbers that make sense, in words.
+        /// Description of the range.
         expected: String,
         /// The number.
         found: f64,
     },
-    /// A material with axes, for which only criteria with limits of their own are made.
+    /// A material with axes, for which only criteria with given limits exist.
     WithAxes {
         /// Property of the material that the criterion takes.
         property: &'static str,
         /// The word of the criterion.
         kind: &'static str,
-        /// The field of the criterion that spares the property.
+        /// The field of the criterion that replaces the property.
         instead: Option<&'static str>,
     },
 }
@@ -101,10 +101,10 @@ impl fmt::Display for Unfit {
 
 impl std::error::Error for Unfit {}
 
-/// Why bonds have no limits.
+/// Reason why bonds have no limits.
 #[derive(Debug, Clone, PartialEq)]
 pub enum NoLimit {
-    /// A criterion in space that exists in the plane alone.
+    /// A criterion for the plane alone, requested in space.
     PlaneOnly {
         /// Word of its kind.
         kind: &'static str,
@@ -120,15 +120,15 @@ pub enum NoLimit {
         /// Compressive strength, Pa.
         compressive: f64,
     },
-    /// A fracture energy of which a bond stores too much up to its limit.
+    /// A fracture energy that is too small for the energy stored in a bond at its limit.
     NothingLeft {
         /// Horizon of the bond, m.
         horizon: f64,
         /// Limit of the bond's measure.
         limit: f64,
-        /// The measure at which a brittle bond takes the fracture energy.
+        /// The measure at which a brittle bond has the fracture energy.
         brittle: f64,
-        /// Fracture energy over what a bond stores up to its limit that would be too little.
+        /// Ratio of the fracture energy to the energy stored at the limit that must be exceeded.
         least: f64,
     },
 }
@@ -170,7 +170,7 @@ impl fmt::Display for NoLimit {
 
 impl std::error::Error for NoLimit {}
 
-/// A setting of a criterion or of what it goes with.
+/// A setting of a criterion, or of the analysis beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Setting {
     /// A field of a [`Choice`](super::Choice).

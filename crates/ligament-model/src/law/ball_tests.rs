@@ -18,8 +18,8 @@ const SOLID: Space = Space::Solid;
 const HORIZON: f64 = 0.7;
 const PARTS: u32 = 40;
 
-/// The bonds of a point with a full ball: on shells at the two points of Gauss in each part of the radius the twelve corners of an icosahedron, which integrate
-/// polynomials of the direction up to the fifth degree exactly, each with its part of the volume of the shell.
+/// The bonds of a point with a full ball of neighbours. They lie on shells at the two Gauss points of each part of the radius, at the twelve corners
+/// of an icosahedron, which integrate polynomials of the direction up to the fifth degree exactly, each with its part of the volume of the shell.
 fn ball() -> (BondSet<3>, PointCloud<3>) {
     let golden = 0.5 * (1.0 + 5.0_f64.sqrt());
     let size = golden.hypot(1.0);
@@ -101,7 +101,7 @@ fn tensor([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> SymTensor<3> {
     SymTensor::from_engineering(&[xx, yy, xy, zz, xz, yz])
 }
 
-/// lambda/2 tr^2 eps + mu eps : eps.
+/// Elastic energy density lambda/2 tr^2 eps + mu eps : eps.
 fn elastic(material: &Isotropic, [xx, yy, zz, xy, xz, yz]: [f64; 6]) -> f64 {
     let Isotropic { young, poisson } = *material;
     let mu = young / (2.0 * (1.0 + poisson));
@@ -175,7 +175,7 @@ fn central_forces_have_a_poisson_s_ratio_of_a_quarter() {
     assert_eq!(constants::bending(&quarter, SOLID, 1.0), 0.0);
 }
 
-/// A rigid rotation costs springs 2 (mu - lambda) |omega|^2 a volume, and beams nothing.
+/// Rotational springs have the energy 2 (mu - lambda) |omega|^2 per volume in a rigid rotation, and beams have none.
 #[test]
 fn rotations_cost_springs_what_they_should() {
     let (bonds, cloud) = ball();

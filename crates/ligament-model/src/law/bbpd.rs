@@ -29,9 +29,9 @@ impl Law {
 ///
 /// k_n = 9 E / (pi t H^3) in plane stress, 48 E / (5 pi t H^3) in plane strain, 12 E / (pi H^4) in space (N/m^6).
 ///
-/// Poisson's ratio is that of central forces, 1/3 or 1/4, whatever that of the materials ([`Isotropic::with_central_forces`]).
+/// Poisson's ratio is the ratio of central forces, 1/3 or 1/4, for all materials ([`Isotropic::with_central_forces`]).
 fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
-    input.of_isotropic([constants::central_axial], |[c], bond| Densities {
+    input.from_isotropic([constants::central_axial], |[c], bond| Densities {
         axial: c / bond.horizon.powi(D as i32 + 1),
         shear: 0.0,
         rotational: 0.0,

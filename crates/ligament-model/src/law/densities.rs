@@ -53,7 +53,7 @@ pub(crate) struct BondGeometry<const D: usize = 2> {
 
 impl BondStiffness {
     /// Densities from `constants` of the materials (n_materials), the first of which is a measure of stiffness: a bond has the densities of
-    /// its materials ([`materials::of_bond`]).
+    /// its materials ([`materials::fractions_of_bond`]).
     pub(crate) fn from_constants<const D: usize, const N: usize>(
         bonds: &BondSet<D>,
         cloud: &PointCloud<D>,
@@ -65,7 +65,7 @@ impl BondStiffness {
             if let [of_all] = constants {
                 return *of_all;
             }
-            materials::of_bond(cloud, ends, &axial_constants).fold(
+            materials::fractions_of_bond(cloud, ends, &axial_constants).fold(
                 [0.0; N],
                 |mut sum, (material, share)| {
                     for (value, constant) in sum.iter_mut().zip(&constants[material]) {
@@ -101,7 +101,7 @@ impl BondStiffness {
                 (of_bond.axial, of_bond.shear, of_bond.rotational);
             series[bond] = factor;
         }
-        let held = materials::held(bonds, cloud, &shear, |material, bond| {
+        let held = materials::restraints(bonds, cloud, &shear, |material, bond| {
             densities(&constants[material], &geometry(bond)).shear
         });
         Self {
@@ -115,7 +115,7 @@ impl BondStiffness {
         }
     }
 
-    /// The densities with those of bonds across an interface as two halves in series.
+    /// The densities, with bonds across an interface as two halves in series.
     ///
     /// Corrections treat such bonds as bonds of the softer material. A uniform strain then leaves that material as it is without the stiffer
     /// one, as in a body whose parts pull each other along; and where the strains of both agree with equal tractions, a bond that is half in
@@ -132,7 +132,7 @@ impl BondStiffness {
     /// The densities after the correction, of bonds [in series](Self::in_series) and with the [exchanges](Self::exchanged) of restrained
     /// bonds; and the part of each to which the correction does not apply, shape (n_bonds), empty in a body of one material. Where k_t is
     /// negative, k_n keeps at least half of its value.
-    pub(crate) fn joined(mut self) -> (Self, Vec<StiffnessFactors>) {
+    pub(crate) fn after_correction(mut self) -> (Self, Vec<StiffnessFactors>) {
         if self.series.is_empty() && self.exchange.is_empty() {
             return (self, Vec::new());
         }
@@ -188,7 +188,7 @@ impl BondStiffness {
     }
 }
 
-/// The values, or an empty array if all have a common value.
+/// The values, or an empty array if all equal a common value.
 fn some_other_than<T: PartialEq>(common: T, values: Vec<T>) -> Vec<T> {
     match values.iter().all(|value| *value == common) {
         true => Vec::new(),

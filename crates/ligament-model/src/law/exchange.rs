@@ -1,4 +1,4 @@
-//! Bonds whose ends a stiffer material restrains: what they lose of k_t, and what they gain of k_n instead.
+//! Bonds whose ends a stiffer material restrains: their loss of k_t and gain of k_n.
 //!
 //! A point rotates with the stiffest of its materials. In a layer sheared by gamma between stiff parts the ends of bonds miss a share beta of
 //! the rotation gamma/2 of the layer, in the mean over both ends, and a bond straight across has the shear gamma instead of gamma/2. With
@@ -12,7 +12,7 @@
 //! - sheared, where sum w d (c^2 (1 + beta)/2 - (1 + eta) c^2 t^2) = sum w beta c^2/2: the right side is what the missing rotation adds to the
 //!   force, the left one what the bonds give up.
 //!
-//! Bonds in all directions give x = 1, eta = (D - 1)/3. Few have directions of their own: x and eta of an end are those of the sums over the
+//! Bonds in all directions give x = 1, eta = (D - 1)/3. Few bonds have particular directions: x and eta of an end follow from the sums over the
 //! bonds of the points in its family. A bond has the means over its ends, in proportion to their restraints. The weight Omega alpha
 //! V_A V_B l abs(k_t) phi/kappa^2 is that of the energy under a given traction, of a bond with the fraction phi of its length in the layer
 //! and k_t over that of the stiffest material kappa. The normal of a point is the gradient of 3 beta/(1 + 3 beta) of its bonds over the
@@ -32,7 +32,7 @@ const LARGEST_LOSS: f64 = 1.3;
 /// Part of the trace of the spread of a family that is added to it, so that families along a line have a normal.
 const SPREAD: f64 = 0.02;
 
-/// Sums over bonds, with d for x = 1.
+/// Sums over the bonds of a point, with the loss d for x = 1.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sums {
     /// Sum w d c^4.
@@ -47,7 +47,7 @@ struct Sums {
 
 impl Sums {
     /// The terms of a bond of weight w with the cosine c.
-    fn of_bond(weight: f64, cosine: f64, restraint: &Restraint) -> Self {
+    fn from_bond(weight: f64, cosine: f64, restraint: &Restraint) -> Self {
         let (beta, square) = (restraint.mean(), cosine * cosine);
         let lost = weight * restraint.usual_loss();
         Self {
@@ -67,7 +67,7 @@ impl Sums {
         }
     }
 
-    /// Factors x of the loss, at most [`LARGEST_LOSS`], and x eta of the gain, with eta at most three times that of bonds in all directions.
+    /// Factors x of the loss, at most [`LARGEST_LOSS`], and x eta of the gain, with eta at most three times the value for bonds in all directions.
     fn balance<const D: usize>(self) -> [f64; 2] {
         let tangents = D as f64 - 1.0;
         if self.along == 0.0 {
@@ -87,7 +87,7 @@ impl Sums {
 impl BondStiffness {
     /// The densities with the exchanges of the restrained bonds between points with rotations. The directions of the bonds determine x and
     /// eta where a uniform strain is an equilibrium with the factors alpha and Omega (n_bonds) of the correction, `balanced`; without such
-    /// a correction they are those of bonds in all directions, since the sums take its uniform strains for right.
+    /// a correction they have the values for bonds in all directions, since the sums assume its uniform strains to be right.
     pub fn exchanged<const D: usize>(
         mut self,
         bonds: &BondSet<D>,
@@ -189,7 +189,7 @@ impl<const D: usize> Layers<'_, D> {
         let of_bond = |bond: usize| {
             let cosine = normal.dot(&SVector::from(self.bonds.direction[bond]));
             let weight = self.weight(bond) * held[bond].share(self.end(bond, point));
-            Sums::of_bond(weight, cosine, &held[bond])
+            Sums::from_bond(weight, cosine, &held[bond])
         };
         restrained
             .into_iter()
@@ -257,7 +257,7 @@ mod tests {
     fn factors<const D: usize>(directions: &[[f64; D]], restraint: &Restraint) -> [f64; 2] {
         let terms = directions
             .iter()
-            .map(|n| Sums::of_bond(1.0, n[0], restraint));
+            .map(|n| Sums::from_bond(1.0, n[0], restraint));
         terms.fold(Sums::default(), Sums::plus).balance::<D>()
     }
 

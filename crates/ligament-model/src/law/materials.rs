@@ -1,4 +1,4 @@
-//! Materials of a bond where several meet.
+//! Materials of a bond at an interface.
 //!
 //! Points on an interface contain both of its materials, and bonds may run within one material, along the interface or across it. Two halves
 //! in series test the rule: with the mean of both ends' materials, as homogeneous laws suggest, a soft half beside a stiff one would be
@@ -16,7 +16,7 @@ use crate::cloud::PointCloud;
 /// within that half, one along the interface has both halves at its sides. A bond whose ends have no material in common crosses an
 /// interface, and has the materials of its softer end: with springs in series the softer one decides. `stiffness` (n_materials) gives the
 /// softer one; of equal ends it is the first.
-pub(super) fn of_bond<'a, const D: usize>(
+pub(super) fn fractions_of_bond<'a, const D: usize>(
     cloud: &'a PointCloud<D>,
     ends: [u32; 2],
     stiffness: &[f64],
@@ -46,7 +46,7 @@ pub(super) fn of_bond<'a, const D: usize>(
 /// Factors 2/(1 + k_soft/k_stiff) of the bonds whose ends have no material in common, 1 of the others, from the `stiffness` (n_materials) of
 /// the materials; shape (n_bonds), empty in a body of one material.
 ///
-/// This is the ratio of the stiffness of a bond with half its length in either material, as springs in series, to that of a bond in the
+/// This is the ratio of the stiffness of a bond with half its length in either material, as springs in series, to the stiffness of a bond in the
 /// softer one.
 pub(super) fn series_factors<const D: usize>(
     bonds: &BondSet<D>,
@@ -68,8 +68,8 @@ pub(super) fn series_factors<const D: usize>(
     bonds.ends.iter().map(of_bond).collect()
 }
 
-/// The softest of the materials in which a bond has fractions of its length (n_materials), and the ratio of the stiffness of the bond, as
-/// springs in series, to that of a bond in the softest material only:
+/// The softest material of a bond with the fractions `shares` of its length in the materials (n_materials), and the stiffness of the bond, as springs
+/// in series, over the stiffness of a bond in this material alone:
 ///
 /// 1/sum of phi_i k_s/k_i, with the fractions phi_i, the stiffnesses k_i and the smallest of them k_s.
 ///
@@ -103,8 +103,8 @@ pub(super) fn softest(shares: &[f64], [first, second]: [&[f64]; 2]) -> (usize, f
 /// material, `of_material`; shape (n_bonds), empty in a body of one material.
 ///
 /// Where materials are sheared in series, each rotates in proportion to 1/k_ti, and the point between them by their mean with the weights
-/// phi_i k_ti: beta is the relative deficit of the rotation of the point against that of the material of the bond.
-pub(super) fn held<const D: usize>(
+/// phi_i k_ti: beta is the relative deficit of the rotation of the point against the rotation of the bond's material.
+pub(super) fn restraints<const D: usize>(
     bonds: &BondSet<D>,
     cloud: &PointCloud<D>,
     shear: &[f64],
@@ -148,7 +148,9 @@ mod tests {
     }
 
     fn shares(ends: [u32; 2], stiffness: [f64; 2]) -> Vec<f64> {
-        of_bond(&cloud(), ends, &stiffness).map(|it| it.1).collect()
+        fractions_of_bond(&cloud(), ends, &stiffness)
+            .map(|it| it.1)
+            .collect()
     }
 
     #[test]
@@ -169,7 +171,7 @@ mod tests {
         let bonds = BondSet::<2>::search(&cloud, &Horizons::unified(2.5, 3));
         assert_eq!(*bonds.ends, [[0, 1], [0, 2], [1, 2]]);
         let of_material = |material: usize, _| [1.0, 9.0][material];
-        let found = held(&bonds, &cloud, &[1.0, 1.0, 9.0], of_material);
+        let found = restraints(&bonds, &cloud, &[1.0, 1.0, 9.0], of_material);
         let soft = |ends| Restraint {
             ends,
             softness: 1.0 / 9.0,

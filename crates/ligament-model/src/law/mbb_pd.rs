@@ -24,7 +24,7 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::ElementKind;
 use crate::failure::mixed_mode;
-use matrices::{of_matrices, plane_stiffnesses};
+use matrices::{bond_stiffness, plane_stiffnesses};
 
 /// Law of MBB-PD.
 pub static LAW: BondLaw = BondLaw {
@@ -84,5 +84,5 @@ fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
         (0.5 * (a + b) * stiffness, a / (a + b))
     };
     let matrices = bonds.ends.par_iter().zip(stiffnesses).map(of_bond);
-    of_matrices(bonds, &matrices.collect::<Vec<_>>())
+    bond_stiffness(bonds, &matrices.collect::<Vec<_>>())
 }

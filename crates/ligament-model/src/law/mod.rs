@@ -69,11 +69,7 @@ impl Law {
 impl Law {
     /// The elasticity that the bonds of a material make up, and the modulus kappa of its cells against changes of volume, Pa; `None` for an
     /// orthotropic material whose volumetric stiffness cells cannot carry.
-    pub fn of_bonds_and_cells(
-        &self,
-        material: &Material,
-        space: Space,
-    ) -> Option<(Elasticity, f64)> {
+    pub fn split_elasticity(&self, material: &Material, space: Space) -> Option<(Elasticity, f64)> {
         let by_cells = self.options.poisson == Some(PoissonForm::Cells);
         match (self.split(material, space), material.elasticity) {
             (Some(split), _) if split.is_split() => Some((split.bonds.into(), split.modulus)),

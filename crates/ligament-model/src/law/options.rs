@@ -7,7 +7,7 @@ crate::case_type! {
     /// Origin of the constants of a law.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub enum Calibration {
-        /// Integrals over a full circle (the papers').
+        /// Integrals over a full circle, as in the papers.
         #[default]
         Integral,
         /// Sums over the family of each point.
@@ -19,12 +19,12 @@ crate::case_type! {
     /// Strains that the bonds of MBB-PD resist.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub enum Form {
-        /// All bonds all three strains.
+        /// Every bond resists all three strains.
         #[default]
         Full,
-        /// Bonds along x and y only their own.
+        /// Bonds along x and y resist only their own strain.
         Rows,
-        /// As printed, with forces on the two ends alone.
+        /// The form as printed, with forces only on the two ends of a bond.
         Pairwise,
     }
 }
@@ -66,7 +66,7 @@ impl Options {
         poisson: None,
     };
 
-    /// The options, completed by those of `others`.
+    /// The options, completed by options of `others`.
     pub fn or(self, others: Self) -> Self {
         Self {
             calibration: self.calibration.or(others.calibration),
@@ -78,7 +78,7 @@ impl Options {
     }
 
     /// Name of the first option that is set in only one of both.
-    pub fn apart_from(&self, others: &Self) -> Option<&'static str> {
+    pub fn first_different_option(&self, others: &Self) -> Option<&'static str> {
         [
             (
                 "calibration",

@@ -32,10 +32,10 @@ impl Law {
 /// | plane strain | 6 E / (pi t H^3 (1 + nu)(1 - 2 nu)) | 6 E (1 - 4 nu) / (pi t H^3 (1 + nu)(1 - 2 nu)) |
 /// | space | 6 E / (pi H^4 (1 - 2 nu)) | 6 E (1 - 4 nu) / (pi H^4 (1 + nu)(1 - 2 nu)) |
 ///
-/// Energies of all uniform strains are those of the isotropic body. In space a rigid rotation omega costs 2 (mu - lambda) |omega|^2 a
+/// All uniform strains have the energies of the isotropic body. In space a rigid rotation omega costs 2 (mu - lambda) |omega|^2 a
 /// volume, with Lame's mu and lambda: the law is stable for nu < 1/4, though not objective, and a free body is ill-posed above.
 pub(super) fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
-    input.of_isotropic(
+    input.from_isotropic(
         [constants::axial, constants::shear],
         |[axial, shear], bond| {
             let power = bond.horizon.powi(D as i32 + 1);

@@ -1,18 +1,18 @@
-//! Restraint of a bond by stiffer materials, and what the bond exchanges for it.
+//! Restraint of a bond by stiffer materials, and its exchange of k_t for k_n.
 
 /// Restraint of the rotations of the ends of a bond by stiffer materials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Restraint {
-    /// Share beta of the rotation of its material that each end misses.
+    /// Fraction beta of the rotation of its material that an end does not follow, for each end.
     pub ends: [f64; 2],
-    /// Shear density k_t of the bond over that of a bond in the stiffest material of the body, kappa.
+    /// Ratio kappa of the shear density k_t of the bond to the k_t of a bond in the stiffest material of the body.
     pub softness: f64,
 }
 
-/// What a restrained bond loses and gains.
+/// Loss and gain of stiffness of a restrained bond.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Exchange {
-    /// Share d of k_t and k_theta that it loses.
+    /// Fraction d of k_t and k_theta that the bond loses.
     pub lost: f64,
     /// Part g of k_t that k_n gains.
     pub gained: f64,
@@ -36,7 +36,7 @@ impl Restraint {
         tripled / (1.0 + tripled)
     }
 
-    /// Share of an end in both restraints.
+    /// Share of an end in the sum of both restraints.
     pub(super) fn share(&self, end: usize) -> f64 {
         0.5 * self.ends[end] / self.mean()
     }

@@ -15,18 +15,19 @@ use crate::cloud::PointCloud;
 use crate::material::{Elasticity, Plane};
 
 crate::case_type! {
-    /// A choice of k_theta for a given k_t. The decaying one (OMPPD after eq. 57) lets short bonds resist bending most, and one as long as the horizon
-    /// not at all; with a quarter the moment at an end does not depend on the rotation of the other; that of a beam is from Gerstle 2007 (OMPPD eq. 22).
+    /// A choice of k_theta for a given k_t. The decaying one (OMPPD after eq. 57) lets short bonds resist bending most, and one as long as the
+    /// horizon not at all; with a quarter the moment at an end does not depend on the rotation of the other; that of a beam is from Gerstle 2007
+    /// (OMPPD eq. 22).
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
     pub enum RotationalStiffness {
-        /// k_t l (1 - l/H)/2.
+        /// k_theta = k_t l (1 - l/H)/2.
         #[default]
         Decaying,
-        /// k_t l/4.
+        /// k_theta = k_t l/4.
         Quarter,
-        /// k_t l/12.
+        /// k_theta = k_t l/12.
         Beam,
-        /// None.
+        /// k_theta = 0.
         #[case(serde(rename = "none"))]
         Zero,
     }
@@ -128,8 +129,8 @@ pub fn scaled(mut stiffness: BondStiffness, factor: f64) -> BondStiffness {
     stiffness
 }
 
-/// Densities of bonds in the plane with k_theta proportional to a profile q(l), for materials with given [constants](curvature_constants),
-/// the second of which is gamma:
+/// Densities of bonds in the plane with k_theta proportional to a profile q(l), for materials with given [constants](curvature_constants), the second
+/// being gamma:
 ///
 /// k_theta = 2 gamma q(l) / (pi t M), M = integral of q l^3 over the horizon,
 ///

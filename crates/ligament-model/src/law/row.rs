@@ -27,7 +27,7 @@ pub struct BondLaw {
     pub element: fn(&Options) -> ElementKind,
     /// Form of the shear stiffness over the length of bonds, by the space; `None` where points have no rotations.
     pub shear_form: Option<fn(Space) -> ShearForm>,
-    /// Whether the law fixes Poisson's ratio, whatever that of the materials.
+    /// Whether the law fixes Poisson's ratio, for all materials.
     pub fixes_poisson: bool,
     /// Most general materials that the law admits.
     pub materials: Materials,
@@ -68,7 +68,7 @@ pub struct LawInput<'a, const D: usize> {
 pub enum Materials {
     /// Isotropic materials alone.
     Isotropic,
-    /// Orthotropic materials and isotropic ones.
+    /// Isotropic and orthotropic materials.
     Orthotropic,
     /// All materials, with any anisotropy.
     Anisotropic,
@@ -77,7 +77,7 @@ pub enum Materials {
 /// Corrections of the bonds that a paper uses with its law.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PaperCorrection {
-    /// No corrections: the law gives the right energies by itself.
+    /// No corrections, because the law gives the right energies without them.
     None,
     /// Partial volumes of the cells at the horizon; and volumes of the families, unless the constants are sums over the families.
     Volumes,
@@ -88,8 +88,8 @@ pub enum PaperCorrection {
 /// Shear stiffness k_t of a bond over its length.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShearForm {
-    /// Constant k_t for all lengths, that of [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch
-    /// stays right: NHPD's form in space.
+    /// Constant k_t for all lengths, as in [`super::pds`]. With a factor alpha that depends on the length, the ratio of shear to stretch stays right:
+    /// NHPD's form in space.
     Constant,
     /// Falling k_t = 12 d/l^2, as in a beam of Euler and Bernoulli: NHPD's form in the plane. In space NHPD's factor alpha, which falls with
     /// the length, makes the shear of the body 1.16 times too strong: nu = .2 becomes .192.
@@ -106,8 +106,8 @@ pub struct Law {
 }
 
 impl Materials {
-    /// Least general class that contains a material.
-    pub fn of_elasticity(elasticity: &Elasticity) -> Self {
+    /// The least general class that contains a material.
+    pub fn least_general_for(elasticity: &Elasticity) -> Self {
         match elasticity {
             Elasticity::Isotropic(_) => Self::Isotropic,
             Elasticity::Orthotropic(_) => Self::Orthotropic,
@@ -135,7 +135,7 @@ impl Eq for BondLaw {}
 
 impl<const D: usize> LawInput<'_, D> {
     /// Densities from constants of the materials, each computed from an isotropic material, the space and the thickness of the body.
-    pub(super) fn of_isotropic<const N: usize>(
+    pub(super) fn from_isotropic<const N: usize>(
         &self,
         constants: [fn(&Isotropic, Space, f64) -> f64; N],
         densities: impl Fn(&[f64; N], &BondGeometry<D>) -> Densities + Sync,
@@ -227,7 +227,7 @@ impl Law {
 
     /// Name of the first option that is set although the law does not have it, or missing although the law has it.
     pub fn misplaced_option(&self) -> Option<&'static str> {
-        self.options.apart_from(&self.row.options)
+        self.options.first_different_option(&self.row.options)
     }
 
     /// Keyword of the law in papers and case files.

@@ -28,14 +28,14 @@ pub fn with_reduced_contrast(
         .iter()
         .zip(stiffnesses)
         .map(|(material, stiffness)| Material {
-            elasticity: times(material.elasticity, (stiffness / least).powf(power - 1.0)),
+            elasticity: scaled(material.elasticity, (stiffness / least).powf(power - 1.0)),
             ..material.clone()
         });
     Some(of_materials.collect())
 }
 
 /// Constants of a material with a stiffness multiplied by a factor in all directions.
-fn times(elasticity: Elasticity, factor: f64) -> Elasticity {
+fn scaled(elasticity: Elasticity, factor: f64) -> Elasticity {
     match elasticity {
         Elasticity::Isotropic(it) => Elasticity::Isotropic(Isotropic {
             young: factor * it.young,

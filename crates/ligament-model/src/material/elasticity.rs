@@ -208,8 +208,8 @@ impl Isotropic {
         }
     }
 
-    /// Young's modulus and Poisson's ratio of a bar in a space: those of the material, or in a plane those of [`in_plane`](Self::in_plane).
-    pub fn of_bar(&self, space: impl Into<Space>) -> Self {
+    /// Young's modulus and Poisson's ratio of a bar in a space: the constants of the material, or in a plane [`in_plane`](Self::in_plane).
+    pub fn bar_constants(&self, space: impl Into<Space>) -> Self {
         match space.into() {
             Space::Plane(plane) => self.in_plane(plane),
             Space::Solid => *self,

@@ -3,7 +3,7 @@
 //! A [`Scatter`] gives each point a factor with the mean 1. With a correlation length the factor is a function of the position alone, so
 //! that a finer mesh of the same body has the same weak places; without one each point has an independent number, given by its number in the
 //! file. The factor of a bond is the mean of those at its ends. Factors do not depend on threads or on the machine: random numbers are those
-//! of SplitMix64 (`random.rs`), and all functions but the four operations and the square root are those of the crate `libm`.
+//! of SplitMix64 (`random.rs`), and all functions but the four operations and the square root come from the crate `libm`.
 
 mod distribution;
 mod random;
@@ -33,8 +33,8 @@ pub struct Scatter {
 }
 
 crate::case_type! {
-    /// Property that varies, by a factor f. Limits of bonds from strengths, and limits given in their place, are multiplied by f; those from fracture energies
-    /// by sqrt(f), and the energy of a bond beyond its limit follows.
+    /// Property that varies, by a factor f. Limits of bonds from strengths, and limits given in their place, are multiplied by f; those from fracture
+    /// energies by sqrt(f), and the energy of a bond beyond its limit follows.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
     pub enum Scattered {
         /// Strengths, and limits given in their place.
@@ -45,7 +45,7 @@ crate::case_type! {
 }
 
 impl Scattered {
-    /// The other property.
+    /// Fracture energy for strength, and strength for fracture energy.
     pub fn other(self) -> Self {
         match self {
             Self::Strength => Self::FractureEnergy,

@@ -68,8 +68,8 @@ impl Shape {
         Self::Polygon(vec![a, [b[0], a[1]], b, [a[0], b[1]]])
     }
 
-    /// Between two parameters where the line crosses a side or passes a corner, the distance to each side changes linearly along the line:
-    /// its middle is at least half as deep as any other place.
+    /// Whether a segment lies deeper than `slack` inside the shape at a place; between crossings of sides and corners the middle is at least half as
+    /// deep as any other place.
     fn is_crossed_near(&self, corners: &[[f64; 2]], a: [f64; 2], b: [f64; 2], slack: f64) -> bool {
         let mut places = vec![0.0, 1.0];
         for [p, q] in sides(corners) {

@@ -10,7 +10,7 @@ use crate::system::{BondSystem, UnbrokenBonds};
 use crate::volumetric::VolumetricStress;
 
 impl<const D: usize> BondSystem<D> {
-    /// Stress across each bond, with the means of the strains of its ends as far as these are known, shape (n_bonds).
+    /// Stress across each bond from the mean of the known strains of its ends, shape (n_bonds).
     pub(crate) fn stresses_across(
         &self,
         layout: Layout,
@@ -27,7 +27,7 @@ impl<const D: usize> BondSystem<D> {
             let around = mean.map(|it| StrainAround::new(&it, bonds.direction[bond]));
             let moduli = moduli(bond);
             let mut stress = moduli.stress_across(deformation.stretch(), around);
-            stress.normal += of_cells.around(bonds.ends[bond]) / moduli.along;
+            stress.normal += of_cells.mean_at_ends(bonds.ends[bond]) / moduli.along;
             stress
         };
         deformations.par_iter().enumerate().map(of_bond).collect()
@@ -46,12 +46,12 @@ impl<const D: usize> BondSystem<D> {
 pub(super) struct CellStresses(Option<Vec<VolumetricStress>>);
 
 impl CellStresses {
-    /// Mean of the volumetric stresses of the ends of a bond as far as these have living cells, Pa; 0 where neither has.
-    pub(super) fn around(&self, ends: [u32; 2]) -> f64 {
+    /// Mean of the volumetric stresses at those ends of a bond that have living cells, Pa; 0 if neither has any.
+    pub(super) fn mean_at_ends(&self, ends: [u32; 2]) -> f64 {
         let Some(of_points) = &self.0 else {
             return 0.0;
         };
-        match ends.map(|end| of_points[end as usize].of_living()) {
+        match ends.map(|end| of_points[end as usize].mean_over_living()) {
             [Some(a), Some(b)] => 0.5 * (a + b),
             [one, other] => one.or(other).unwrap_or(0.0),
         }

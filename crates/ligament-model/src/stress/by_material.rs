@@ -1,12 +1,12 @@
-//! Stresses at the points by the laws of their materials, from the strains that their bonds show.
+//! Stresses at the points by the laws of their materials, from the strains of their bonds.
 //!
-//! With the strain eps of a point by least squares, less what the temperature gives it, and the stiffness C of its material in the space of
+//! With the strain eps of a point by least squares, less its thermal strain, and the stiffness C of its material in the space of
 //! the body,
 //!
 //! sigma = C : eps.
 //!
 //! The strain at which sound bonds would carry the forces of the point ([`super::carried`]) gives the stress that the material carries, the
-//! strain of the bonds that it has left ([`super::point_strain`]) the effective stress of damage mechanics; a sound point has one stress.
+//! strain of its unbroken bonds ([`super::point_strain`]) the effective stress of damage mechanics; both are equal at an undamaged point.
 //!
 //! That is the stress of an affine motion to rounding, inside a body, at its edges and beside cracks, whatever the corrections of the
 //! bonds; the virial stress ([`super::virial`]) is so inside an uncorrected body alone. A point on the border of materials has the mean
@@ -39,7 +39,7 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
-    /// Stress of a point with a strain in a reading, Pa: that of the material of its bonds, and that of its cells; None where the system does
+    /// Stress of a point from a strain by a reading, Pa: the stress of its bonds plus the stress of its cells; None where the system does
     /// not have the stiffnesses of its materials.
     pub(crate) fn stress_in(
         &self,
@@ -64,15 +64,15 @@ impl<const D: usize> BondSystem<D> {
         let motions = (motion.displacement, layout.components.len());
         let found = terms.stress_in_motions(bonds, motions, motion.expansion, point);
         let of_cells = match reading {
-            StrainReading::Effective(_) => found.of_living(),
-            StrainReading::Carried(_) => found.of_all(),
+            StrainReading::Effective(_) => found.mean_over_living(),
+            StrainReading::Carried(_) => found.mean_over_all(),
         };
         let of_cells = of_cells.unwrap_or_else(|| self.volumetric_stress_of(point, strain));
         Some(stress.plus(&SymTensor::isotropic(of_cells)))
     }
 
-    /// Components of the stress of a point with a strain in a reading, Pa, in the plane with that across it, not a number where it is unknown; none is a
-    /// number without a strain or without the stiffnesses of the materials.
+    /// Stress components of a point from a strain by a reading, Pa; for the plane with the component across it, NaN where that is unknown. All are
+    /// NaN without a strain or without the stiffnesses of the materials.
     pub(crate) fn stress_components(
         &self,
         layout: Layout,
@@ -97,8 +97,8 @@ impl<const D: usize> BondSystem<D> {
         components
     }
 
-    /// Stress across the plane of a point without strain across it, Pa, from its stress in the plane and its strain less what the temperature
-    /// gives it. By Hooke's law with the whole strain eps,
+    /// Stress across the plane of a point in plane strain, Pa, from its stress in the plane and its strain less the thermal strain. By Hooke's law
+    /// with the whole strain eps,
     ///
     /// sigma_zz = lambda tr(eps) - (3 lambda + 2 mu) alpha T = (sigma_xx + sigma_yy)/2 - mu tr(eps).
     fn stress_across_plane(
@@ -118,7 +118,7 @@ impl<const D: usize> BondSystem<D> {
         0.5 * stress.trace() - mu * (strain.trace() + free.trace())
     }
 
-    /// Stress of a strain of a point by the stiffness of its bonds, Pa; None where the system does not have the stiffnesses of its materials.
+    /// Stress of a point for a strain by the stiffness of its bonds, Pa; None where the system does not have the stiffnesses of its materials.
     pub(crate) fn stress_of(&self, point: u32, strain: &SymTensor<D>) -> Option<SymTensor<D>> {
         if self.materials.is_empty() {
             return None;

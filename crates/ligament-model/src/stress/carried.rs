@@ -1,4 +1,4 @@
-//! Strains by the forces that the bonds of a point carry.
+//! Strains from the forces that the bonds of a point carry.
 //!
 //! A bond with the direction n, the slope g = du/l and the factors phi_n and phi_t that are left of its axial and its shear rigidity carries
 //! what a sound bond carries at the slope
@@ -29,7 +29,7 @@ use crate::layout::Layout;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, cross, dot};
 
-/// Share of the spread of the bonds that is added to it where they lie along one line, about which they leave the rotation open.
+/// Fraction of the spread of the bonds that is added to it where they lie along one line and leave the rotation about it undetermined.
 const ALONG_A_LINE: f64 = 1e-12;
 
 /// Least share r of the stiffness along a bond that counts across it, by which W is determined where no bond resists shear: its part in eps
@@ -39,7 +39,7 @@ const LEAST_SHEAR: f64 = 1e-9;
 /// Motion of a body with the forces that its bonds and crack faces carry.
 #[derive(Debug, Clone, Copy)]
 pub struct Carried<'a> {
-    /// Motion of the unbroken bonds, also of those that soften.
+    /// Motion of the unbroken bonds, softening ones included.
     pub motion: Motion<'a>,
     /// Remaining stiffness of each bond, shape (n_bonds); empty where it is whole.
     pub remaining: &'a [StiffnessFactors],
@@ -47,12 +47,12 @@ pub struct Carried<'a> {
     pub closed: &'a [ClosedPair],
 }
 
-/// Strain from which the stress of a point follows.
+/// Choice of the strain from which the stress of a point follows.
 #[derive(Debug, Clone, Copy)]
 pub enum StrainReading<'a> {
-    /// Strain of the bonds that a motion has left, which gives the effective stress of damage mechanics.
+    /// Strain of the unbroken bonds, which gives the effective stress of damage mechanics.
     Effective(Motion<'a>),
-    /// Strain at which sound bonds would carry the forces.
+    /// Strain at which undamaged bonds would carry the same forces.
     Carried(Carried<'a>),
 }
 
@@ -67,7 +67,7 @@ impl<'a> StrainReading<'a> {
 }
 
 impl Carried<'_> {
-    /// Remaining stiffness of a bond; none of a broken one.
+    /// Remaining stiffness factors of a bond; zero for a broken bond.
     fn factors(&self, bond: usize) -> StiffnessFactors {
         match self.motion.intact[bond] {
             false => StiffnessFactors::NOTHING,
@@ -75,8 +75,8 @@ impl Carried<'_> {
         }
     }
 
-    /// Motion of the second end of a broken bond against the first at which a sound bond would carry the force of its closed faces, m.
-    fn pressed<const D: usize>(&self, bond: u32) -> Option<[f64; D]> {
+    /// Relative displacement of the ends of a broken bond at which an undamaged bond would carry the contact force of its closed faces, m.
+    fn displacement_of_contact<const D: usize>(&self, bond: u32) -> Option<[f64; D]> {
         let place = (self.closed).binary_search_by_key(&bond, |it| it.pair.number);
         let closed = &self.closed[place.ok()?];
         let along = closed.rubbing.map_or([0.0; 3], |it| it.force);
@@ -88,7 +88,7 @@ impl Carried<'_> {
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// Strain of a point for its stress; None where its bonds do not span the space.
+    /// Strain of a point by a reading; None where its bonds do not span the space.
     pub(crate) fn strain_by(
         &self,
         layout: Layout,
@@ -101,7 +101,7 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
-    /// Strain at which the sound bonds of a point would carry its forces; None where the bonds of the start do not span the space.
+    /// Strain at which the undamaged bonds of a point would carry its forces; None where its initial bonds do not span the space.
     fn carried_strain(
         &self,
         layout: Layout,
@@ -136,7 +136,7 @@ impl<const D: usize> BondSystem<D> {
             fit.add_force(seen, force);
         }
         for &bond in family {
-            let Some(pressed) = carried.pressed(bond) else {
+            let Some(pressed) = carried.displacement_of_contact(bond) else {
                 continue;
             };
             let seen = self.neighbour(layout, motion, point, bond);
@@ -147,7 +147,7 @@ impl<const D: usize> BondSystem<D> {
         fit.strain()
     }
 
-    /// Share of the stiffness along a sound bond that it has across, k_t/k_n, between that of a spring and that of a point that resists
+    /// Ratio k_t/k_n of the stiffness across an undamaged bond to the stiffness along it, between the ratio of a spring and of a point that resists
     /// all motions alike.
     fn shear_ratio(&self, bond: usize) -> f64 {
         let [axial, shear] = [&self.rigidities.axial, &self.rigidities.shear].map(|it| it[bond]);
@@ -159,9 +159,9 @@ impl<const D: usize> BondSystem<D> {
     }
 }
 
-/// Sums over the bonds of a point from which the strain comes whose sound bonds carry its forces.
+/// Sums over the bonds of a point that determine the strain at which undamaged bonds carry its forces.
 struct EnergyFit<const D: usize> {
-    /// Sums of [`Fit`], by which bonds that do not span the space are known.
+    /// Sums of [`Fit`], which show whether the bonds span the space.
     spread: Fit<D>,
     /// sum w N (x) n (x) n over the components of G, row by row, with N = n (x) n + r (1 - n (x) n), shape (D^2, D^2).
     stiffness: DMatrix<f64>,

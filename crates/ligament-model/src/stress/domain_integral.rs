@@ -22,7 +22,7 @@ use crate::material::Stiffness;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, dot, minus, norm};
 
-/// Relative difference up to which the moduli of a material are those of an isotropic one.
+/// Relative difference of moduli up to which a material counts as isotropic.
 const ISOTROPIC: f64 = 1e-9;
 
 /// Distance from the line of a crack over that from its tip up to which a point is on the line.
@@ -43,7 +43,7 @@ impl TipQuantity {
     /// All quantities.
     pub const ALL: [Self; 3] = [Self::EnergyRelease, Self::Opening, Self::Sliding];
 
-    /// Symbol, which is its word in case files, and meaning.
+    /// Symbol, the keyword in case files, and meaning.
     pub const fn symbol(self) -> [&'static str; 2] {
         match self {
             Self::EnergyRelease => ["J", "Energy release rate, J/m^2."],
@@ -99,7 +99,7 @@ impl Ring {
         [0.5 * (1.0 + angle.cos()), -fall * angle.sin()]
     }
 
-    /// Integral of the weight over the whole plane, m^2.
+    /// Integral of the weight over the plane, m^2.
     pub fn area(&self) -> f64 {
         let [inner, outer] = self.radii;
         let width = outer - inner;
@@ -157,8 +157,9 @@ struct ElasticField {
 }
 
 impl ElasticField {
-    /// Field of a tip with the intensity 1 Pa m^0.5 of opening or of sliding, at a distance (m) and an angle from the direction of growth.
-    fn of_tip(quantity: TipQuantity, moduli: PlaneModuli, distance: f64, angle: f64) -> Self {
+    /// Field of a tip with a stress intensity factor of 1 Pa m^0.5 in opening or sliding, at a distance (m) and an angle from the direction of
+    /// growth.
+    fn near_tip(quantity: TipQuantity, moduli: PlaneModuli, distance: f64, angle: f64) -> Self {
         let root = (2.0 * PI * distance).sqrt();
         let [sine, sine_3] = [0.5 * angle, 1.5 * angle].map(f64::sin);
         let [cosine, cosine_3] = [0.5 * angle, 1.5 * angle].map(f64::cos);
@@ -193,7 +194,7 @@ impl ElasticField {
         }
     }
 
-    /// A field without forces in the axes of the body, in place of those with a unit vector as their first one.
+    /// The field, given in axes whose first is a unit vector, in the axes of the body; without forces.
     fn turned_from(self, [x, y]: [f64; 2]) -> Self {
         let axes = [[x, -y], [y, x]];
         Self {
@@ -205,7 +206,7 @@ impl ElasticField {
     }
 }
 
-/// A point where the weight is not zero.
+/// A point with a nonzero weight.
 #[derive(Debug, Clone, PartialEq)]
 struct WeightedPoint {
     point: u32,
@@ -215,7 +216,7 @@ struct WeightedPoint {
     area: f64,
     /// Gradient of q times the area, m.
     gradient: [f64; 2],
-    /// Second field; None for the energy release rate, whose second field is the first one.
+    /// Auxiliary field; None for the energy release rate, which takes the field of the body twice.
     auxiliary: Option<ElasticField>,
 }
 
@@ -249,7 +250,7 @@ impl DomainIntegral {
             let area = cloud.volumes[point as usize] / cloud.thickness;
             let auxiliary = moduli.map(|moduli| {
                 let angle = ring.angle(from_tip);
-                let field = ElasticField::of_tip(quantity, moduli, distance, angle);
+                let field = ElasticField::near_tip(quantity, moduli, distance, angle);
                 field.turned_from(ring.direction)
             });
             (weight > 0.0 && distance > 0.0).then(|| WeightedPoint {
@@ -278,7 +279,7 @@ impl DomainIntegral {
         self.points.iter().map(|it| it.weight * it.area).sum()
     }
 
-    /// Part of a point with two fields: (sigma^a_ij u^b_i,1 + sigma^b_ij u^a_i,1 - sigma^a : eps^b delta_1j) q,j dA, less the work of the
+    /// Contribution of a point with two fields: (sigma^a_ij u^b_i,1 + sigma^b_ij u^a_i,1 - sigma^a : eps^b delta_1j) q,j dA, less the work of the
     /// forces.
     fn mutual(&self, at: &WeightedPoint, [a, b]: [&ElasticField; 2]) -> f64 {
         let tractions = [a, b].map(|it| it.stress.times(at.gradient));
@@ -290,8 +291,8 @@ impl DomainIntegral {
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// Value of an integral in a motion of a body in the plane with forces of supports and loads on its points (n_degrees_of_freedom), N: the
-    /// part of the owned points.
+    /// Value of an integral for a motion of a body in the plane with forces of supports and loads on its points (n_degrees_of_freedom), N: the
+    /// contribution of the owned points.
     pub(crate) fn domain_integral(
         &self,
         layout: Layout,

@@ -4,7 +4,8 @@
 //! |---|---|---|
 //! | [`virial`] | the bonds of the point, each with the whole of its length | made so |
 //! | [`traction`] | the bonds that cross a small plane through the point | no: couples on the points are in balance with the difference |
-//! | [`by_material`] | Hooke's law for the strain at which sound bonds carry the forces of the point ([`carried`]), or for that of the bonds left ([`point_strain`]) | yes |
+//! | [`by_material`] | Hooke's law for the strain at which sound bonds carry the forces of the point ([`carried`]), or for that of the bonds left
+//! ([`point_strain`]) | yes |
 //!
 //! In a uniform strain the first two are the stress of the continuum whose energy the bonds have, inside a body whose bonds nothing
 //! corrects; the third one is the stress of the material everywhere. Tension is positive.
@@ -13,7 +14,7 @@ mod across;
 pub mod by_material;
 pub mod carried;
 pub mod domain_integral;
-mod of_elements;
+mod elements;
 pub mod point_strain;
 pub mod principal;
 pub mod stored;

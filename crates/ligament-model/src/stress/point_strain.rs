@@ -1,11 +1,11 @@
-//! Strains of the points by least squares over the bonds that they have left.
+//! Strains of the points by least squares over their unbroken bonds.
 //!
 //! With the slopes du/l and the directions n of the bonds of a point P, to points Q with the volumes V_Q, the gradient G that fits the slopes
 //! best is
 //!
 //! K = sum w n (x) n, M = sum w (du/l) (x) n, G = M K^-1, eps = (G + G^T)/2, with w = V_Q exp(-l/H).
 //!
-//! An affine motion is found exactly from any bonds that span the space: also from those of half a family at an edge or beside a crack.
+//! An affine motion is found exactly from any bonds that span the space: also from half a family at an edge or beside a crack.
 //! The dyads of the forces ([`super::virial`]) have no such property: corrections make forces and energies right, not the dyads of
 //! single points.
 
@@ -26,7 +26,7 @@ pub fn closeness(length: f64, horizon: f64) -> f64 {
     (-length / horizon).exp() / length
 }
 
-/// The mean strain of the ends of a bond as far as these are known.
+/// The mean of the known strains of the ends of a bond.
 #[inline]
 pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option<SymTensor<D>> {
     match of_ends {
@@ -35,10 +35,10 @@ pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option
     }
 }
 
-/// The sums over the bonds of a point from which its strain comes.
+/// Sums over the bonds of a point that determine its strain.
 #[derive(Debug, Clone)]
 pub struct Fit<const D: usize> {
-    /// K, of which the entries above its diagonal are not used.
+    /// K; entries above its diagonal are not used.
     spread: SMatrix<f64, D, D>,
     /// M.
     slopes: SMatrix<f64, D, D>,
@@ -54,8 +54,8 @@ impl<const D: usize> Default for Fit<D> {
 }
 
 impl<const D: usize> Fit<D> {
-    /// Adds a bond with the direction n away from the point, what its other end moved by against the point (m), its length (m) and
-    /// its weight over that, V exp(-l/H)/l.
+    /// Adds a bond with the direction n away from the point, the displacement of its other end relative to the point (m), its length (m) and its
+    /// weight over the length, V exp(-l/H)/l.
     #[inline]
     pub fn add(&mut self, n: [f64; D], moved: [f64; D], length: f64, weight_per_length: f64) {
         self.add_slope(n, moved, weight_per_length);
@@ -67,7 +67,7 @@ impl<const D: usize> Fit<D> {
         }
     }
 
-    /// Adds to M alone, for a bond that is in K.
+    /// Adds to M alone, for a bond that K already contains.
     #[inline]
     pub(super) fn add_slope(&mut self, n: [f64; D], moved: [f64; D], weight_per_length: f64) {
         for (column, n) in n.into_iter().enumerate() {
@@ -78,7 +78,7 @@ impl<const D: usize> Fit<D> {
         }
     }
 
-    /// Strain of the point with all that its motion has; None where its bonds do not span the space.
+    /// Strain of the point, thermal strain included; None where its bonds do not span the space.
     #[inline]
     pub fn strain(&self) -> Option<SymTensor<D>> {
         let gradient = self.transposed_gradient()?;
@@ -94,7 +94,7 @@ impl<const D: usize> Fit<D> {
         Some(factor.solve(&self.slopes.transpose()) * per_trace)
     }
 
-    /// The factor of K; None where the bonds do not span the space.
+    /// Factorisation of K; None where the bonds do not span the space.
     #[inline]
     pub(super) fn span(&self) -> Option<Span<D>> {
         let per_trace = D as f64 / self.spread.trace();
@@ -103,7 +103,7 @@ impl<const D: usize> Fit<D> {
     }
 }
 
-/// K of a point whose bonds span the space.
+/// Factorised K of a point whose bonds span the space.
 pub(super) struct Span<const D: usize> {
     /// Factor of K times `per_trace`.
     factor: Cholesky<f64, Const<D>>,
@@ -112,7 +112,7 @@ pub(super) struct Span<const D: usize> {
 }
 
 impl<const D: usize> Span<D> {
-    /// |K^-1 n| of a direction n.
+    /// Length |K^-1 n| for a direction n.
     pub(super) fn size(&self, n: [f64; D]) -> f64 {
         self.factor.solve(&SVector::from(n)).norm() * self.per_trace
     }
@@ -123,7 +123,7 @@ impl<const D: usize> Span<D> {
 pub(super) struct Neighbour<const D: usize> {
     /// Direction away from the point.
     pub(super) n: [f64; D],
-    /// Displacement against the point, m.
+    /// Displacement relative to the point, m.
     pub(super) moved: [f64; D],
     /// Distance, m.
     pub(super) length: f64,
@@ -131,14 +131,14 @@ pub(super) struct Neighbour<const D: usize> {
     pub(super) weight_per_length: f64,
 }
 
-/// A motion of the points of a body of which some bonds are left.
+/// A motion of the points of a body with its unbroken bonds.
 #[derive(Debug, Clone, Copy)]
 pub struct Motion<'a> {
     /// Whether each bond is unbroken, shape (n_bonds).
     pub intact: &'a [bool],
     /// Displacements and rotations, shape (n_degrees_of_freedom), m and rad.
     pub displacement: &'a [f64],
-    /// Strains that the temperature gives the points without stress.
+    /// Stress-free thermal strains of the points.
     pub expansion: ThermalStrain<'a>,
 }
 
@@ -152,8 +152,8 @@ impl Motion<'_> {
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// Strain of each point less what the temperature gives it, shape (n_points); None where its bonds do not span the space. Where
-    /// processes share the body out, the strains of points of other processes are those of their owners.
+    /// Strain of each point less its thermal strain, shape (n_points); None where its bonds do not span the space. Points of other processes get the
+    /// strains of their owners.
     pub(crate) fn point_strains(
         &self,
         layout: Layout,
@@ -162,7 +162,7 @@ impl<const D: usize> BondSystem<D> {
         self.strains_of_all(|point| self.point_strain(layout, motion, point))
     }
 
-    /// Strains of all points, each from its owner.
+    /// Strains of all local points, each computed by its owner.
     pub(super) fn strains_of_all(
         &self,
         of_point: impl Fn(u32) -> Option<SymTensor<D>> + Sync + Send,
@@ -190,7 +190,7 @@ impl<const D: usize> BondSystem<D> {
         strains.map(strain).collect()
     }
 
-    /// Strain of a point less what the temperature gives it; None where its bonds do not span the space.
+    /// Strain of a point less its thermal strain; None where its bonds do not span the space.
     pub(crate) fn point_strain(
         &self,
         layout: Layout,
@@ -205,7 +205,7 @@ impl<const D: usize> BondSystem<D> {
         Some(strain.plus(&free.scaled(-1.0)))
     }
 
-    /// Sums over the bonds that a point has left, and over its elements.
+    /// Sums over the unbroken bonds of a point and over its elements.
     pub(crate) fn fit_of_motion(&self, layout: Layout, motion: Motion<'_>, point: u32) -> Fit<D> {
         let mut fit = self.fit_of_elements(layout, motion, point);
         let family = self.bonds.incidence.at(point).iter();
@@ -229,7 +229,7 @@ impl<const D: usize> BondSystem<D> {
         let other = bonds.neighbour(bond, point);
         let bond = bond as usize;
         Neighbour {
-            // Signs of a bond seen from its other end cancel in the products.
+            // The signs of a bond seen from its second end cancel in the products.
             n: match bonds.ends[bond][0] == point {
                 true => bonds.direction[bond],
                 false => bonds.direction[bond].map(|cosine| -cosine),
@@ -252,7 +252,7 @@ impl<const D: usize> BondSystem<D> {
         let place = |motion: &[f64]| -> [f64; D] { std::array::from_fn(|axis| motion[axis]) };
         let (n, moved) = (bonds.direction[bond], minus(place(b), place(a)));
         let slope = moved.map(|it| it / bonds.length[bond]);
-        [a, b].map(|motion| minus(slope, turned(&motion[D..], n)))
+        [a, b].map(|motion| minus(slope, cross_product(&motion[D..], n)))
     }
 
     /// Sums over the points that elements of the far field couple with a point, with w = V_Q.
@@ -288,7 +288,7 @@ impl<const D: usize> BondSystem<D> {
         })
     }
 
-    /// Factor exp(-l/H)/l of each bond on the volumes of its ends, shape (n_bonds).
+    /// Factor exp(-l/H)/l of each bond, which weights the volumes of its ends, shape (n_bonds).
     pub(super) fn closeness(&self) -> &[f64] {
         self.closeness.get_or_init(|| {
             let both = self.bonds.length.par_iter().zip(&*self.bonds.horizon);
@@ -299,7 +299,7 @@ impl<const D: usize> BondSystem<D> {
 }
 
 /// phi x n for the rotation of a point, about z or about all axes.
-fn turned<const D: usize>(rotation: &[f64], n: [f64; D]) -> [f64; D] {
+fn cross_product<const D: usize>(rotation: &[f64], n: [f64; D]) -> [f64; D] {
     let about = match *rotation {
         [z] => [0.0, 0.0, z],
         _ => std::array::from_fn(|axis| rotation[axis]),
@@ -310,7 +310,7 @@ fn turned<const D: usize>(rotation: &[f64], n: [f64; D]) -> [f64; D] {
     std::array::from_fn(|axis| product[axis])
 }
 
-/// Strains of the points around a bond that its own stretch says nothing of. Both are linear in the motion.
+/// Strains around a bond that its own stretch does not contain. Both are linear in the motion.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StrainAround {
     /// Sum of the strains across the bond, tr(eps) - n . eps n.

@@ -1,4 +1,4 @@
-//! Principal stresses: of a point, with the equivalent stresses that follow from them, and those around a bond at which it begins to soften.
+//! Principal and equivalent stresses of a point, and the stresses around a bond at which it begins to soften.
 
 use rayon::prelude::*;
 
@@ -20,8 +20,8 @@ impl<const D: usize> BondSystem<D> {
     /// eps = eps_m + d (x) n + n (x) d - (n . d) n (x) n, d = g - eps_m n, sigma_i = 2 mu eps_i + lambda tr(eps),
     ///
     /// so that eps n = g; where neither end has a strain sigma_1 = E s of a bar. Where a crack opens, bonds at an angle to it are sheared more than
-    /// the points around them: with the shear of the points such bonds begin later than bonds across it, at up to twice the deformation, and a notched
-    /// beam carries too much (docs/decisions.md). Under pressure the shear of single bonds scatters by more than the strains of their ends.
+    /// the points around them: with the shear of the points such bonds begin later than bonds across it, at up to twice the deformation, and a
+    /// notched beam carries too much (docs/decisions.md). Under pressure the shear of single bonds scatters by more than the strains of their ends.
     pub(crate) fn utilisations(
         &self,
         layout: Layout,
@@ -42,7 +42,7 @@ impl<const D: usize> BondSystem<D> {
                 };
             };
             let n = self.bonds.direction[bond];
-            let of_cells = of_cells.around(self.bonds.ends[bond]) / moduli.along;
+            let of_cells = of_cells.mean_at_ends(self.bonds.ends[bond]) / moduli.along;
             let principal = |slope: [f64; D]| {
                 let more = stretch - dot(n, slope);
                 let own = std::array::from_fn(|axis| slope[axis] + more * n[axis]);
@@ -73,7 +73,7 @@ impl<const D: usize> BondSystem<D> {
         deformations.par_iter().enumerate().map(of_bond).collect()
     }
 
-    /// Slope of a bond, the mean of those at its ends; without rotations that of the strain of its ends.
+    /// Slope of a bond: the mean slope at its ends, or without rotations the slope by the strain of its ends.
     fn own_slope(
         &self,
         layout: Layout,
@@ -89,7 +89,7 @@ impl<const D: usize> BondSystem<D> {
     }
 }
 
-/// The strain that takes the direction n to a given slope, eps n = g, and else is that of the ends of a bond.
+/// The mean strain of the ends of a bond, changed so that eps n = g for the direction n and the slope g of the bond.
 fn with_own<const D: usize>(mean: &SymTensor<D>, own: [f64; D], n: [f64; D]) -> SymTensor<D> {
     let less = minus(own, mean.times(n));
     let along = dot(n, less);
@@ -106,7 +106,7 @@ fn principal<const D: usize>(strain: &SymTensor<D>, moduli: &Moduli) -> [f64; 2]
     [values[0], values[D - 1]].map(|it| moduli.shear * it + moduli.lateral * trace)
 }
 
-/// Principal values of a stress with these components, the largest first: two in the plane, three in space.
+/// Principal values of a stress given by components, the largest first: two in the plane, three in space.
 pub fn values(stress: &[f64]) -> Vec<f64> {
     match in_plane(stress) {
         Some(stress) => stress.principal_values().to_vec(),
@@ -116,14 +116,14 @@ pub fn values(stress: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Stress in the plane of components in the plane, with or without one across it; None for components in space.
+/// Stress in the plane from its components, with or without the one across it; None for components in space.
 fn in_plane(stress: &[f64]) -> Option<SymTensor<2>> {
     let in_space = SymTensor::<3>::COMPONENTS.len();
     let count = SymTensor::<2>::COMPONENTS.len();
     (stress.len() < in_space).then(|| SymTensor::from_components(&stress[..count]))
 }
 
-/// Unit vector (x, y, z) along the largest principal stress of a stress with these components.
+/// Unit vector (x, y, z) along the largest principal stress, for a stress given by components.
 pub fn direction_of_largest(stress: &[f64]) -> Vec<f64> {
     match in_plane(stress) {
         Some(stress) => {
@@ -136,7 +136,7 @@ pub fn direction_of_largest(stress: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Equivalent stress of von Mises (1913), Pa, of a stress with these components, in the plane with that across it: with its principal values
+/// Equivalent stress of von Mises (1913), Pa, of a stress with these components, in the plane with the stress across it, by the principal values:
 ///
 /// sigma_v = sqrt(((sigma_1 - sigma_2)^2 + (sigma_2 - sigma_3)^2 + (sigma_3 - sigma_1)^2)/2).
 pub fn von_mises(stress: &[f64]) -> Vec<f64> {
@@ -145,14 +145,14 @@ pub fn von_mises(stress: &[f64]) -> Vec<f64> {
     vec![(0.5 * squares.iter().sum::<f64>()).sqrt()]
 }
 
-/// Equivalent stress of Tresca (1864), Pa, of a stress with these components, in the plane with that across it: twice the largest shear
-/// stress, sigma_1 - sigma_3.
+/// Equivalent stress of Tresca (1864), Pa, of a stress with these components, in the plane with the stress across it: twice the largest shear stress,
+/// sigma_1 - sigma_3.
 pub fn tresca(stress: &[f64]) -> Vec<f64> {
     let [largest, _, least] = in_space(stress);
     vec![largest - least]
 }
 
-/// The three principal values, the largest first; none is a number where a component is none.
+/// The three principal values, the largest first; NaN if a component is NaN.
 fn in_space(stress: &[f64]) -> [f64; 3] {
     match stress.iter().any(|it| it.is_nan()) {
         true => [f64::NAN; 3],
@@ -165,7 +165,8 @@ mod tests {
     use super::*;
 
     /// Textbook states of stress, Pa: a bar, a plane in pure shear (tau sqrt 3 and 2 tau), pressure from all sides (none), plane strain of an
-    /// incompressible material (sigma_zz is the mean of the others), and an axle with sigma = 80, tau = 30 (sqrt(80^2 + 3 30^2), sqrt(80^2 + 4 30^2)).
+    /// incompressible material (sigma_zz is the mean of the others), and an axle with sigma = 80, tau = 30 (sqrt(80^2 + 3 30^2), sqrt(80^2 + 4
+    /// 30^2)).
     #[test]
     fn equivalent_stresses_are_those_of_textbooks() {
         let cases: [(&[f64], [f64; 2]); 6] = [

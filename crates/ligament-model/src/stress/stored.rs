@@ -47,7 +47,7 @@ pub trait StoredMotions: Send + Sync {
     fn strain_per_norm(&self, bond: u32) -> Option<StrainAround>;
 }
 
-/// The motions of the bonds of one system.
+/// Stored motions of the bonds of a system.
 struct StoredSlopes<'a, const D: usize> {
     system: &'a BondSystem<D>,
     layout: Layout,
@@ -55,12 +55,12 @@ struct StoredSlopes<'a, const D: usize> {
     slopes: Vec<[[f64; D]; 2]>,
     /// Strains of the points, shape (n_points); None where their bonds do not span the space.
     strains: Vec<Option<SymTensor<D>>>,
-    /// Bounds Q of the points, shape (n_points), J^(-1/2); None as for the strains.
+    /// Bounds Q of the points, shape (n_points), J^(-1/2); None where their bonds do not span the space.
     bounds: Vec<Option<f64>>,
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// Room for the motions of the bonds; None where points have no rotations.
+    /// Storage for the motions of the bonds; None where points have no rotations.
     pub(crate) fn stored_motions(&self, layout: Layout) -> Option<Box<dyn StoredMotions + '_>> {
         if !layout.components.iter().any(|it| it.is_rotation()) {
             return None;

@@ -13,8 +13,8 @@ use crate::element::Element;
 use crate::system::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::tensor::minus;
 
-/// Names of the components of a traction: on the planes with each normal along an axis the stress along the normal, then those across it;
-/// the first letter is the direction of the force.
+/// Names of the components of a traction: for the plane normal to each axis the normal stress, then the shear stresses; the first letter is the
+/// direction of the force.
 pub fn names<const D: usize>() -> &'static [&'static str] {
     match D {
         2 => &["xx", "yx", "yy", "xy"],
@@ -46,7 +46,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     ) -> Vec<f64> {
         let of_bonds: &[E::Deformation] = Deformation::of_bonds(deformations);
         let pull = |bond: usize| {
-            let element = self.left(bonds, bond)?;
+            let element = self.remaining_element(bonds, bond)?;
             // The end force is what holds the end in place against the bond: the bond pulls the other way.
             let [at_a, _] = element.end_forces(&of_bonds[bond])?;
             let force = std::array::from_fn(|axis| -at_a[axis]);
@@ -69,7 +69,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
 }
 
 impl<const D: usize> BondSystem<D> {
-    /// Adds the tractions of closed pairs to those of the bonds, shape (n_points, D D), Pa.
+    /// Adds the tractions of closed pairs to the tractions of the bonds, shape (n_points, D D), Pa.
     pub(crate) fn add_contact_tractions(&self, closed: &[ClosedPair], tractions: &mut [f64]) {
         if closed.is_empty() {
             return;
@@ -121,7 +121,7 @@ struct Planes<'a, const D: usize> {
     normal: usize,
     /// Sums of force times extent, shape (n_points), N m.
     sums: Vec<[f64; D]>,
-    /// Points along the way of a bond, and sizes in common.
+    /// Points whose squares a bond crosses, with the sizes of the overlaps.
     crossed: Vec<(usize, f64)>,
 }
 
@@ -136,7 +136,7 @@ impl<'a, const D: usize> Planes<'a, D> {
         }
     }
 
-    /// Shares the force with which the second end pulls at the first out among the points on the way.
+    /// Distributes the force of the second end on the first over the points along the bond.
     fn share_out(&mut self, ends: [u32; 2], force: [f64; D]) {
         let Self {
             cloud,
@@ -151,14 +151,14 @@ impl<'a, const D: usize> Planes<'a, D> {
             width: 0.5 * (squares.width[a] + squares.width[b]),
             normal: *normal,
         };
-        for point in squares.within(band.reach(squares.largest_width)) {
+        for point in squares.points_in_box(band.reach(squares.largest_width)) {
             let size = band.size_within(cloud.positions[point], squares.width[point]);
             if size > 0.0 {
                 crossed.push((point, size));
             }
         }
         let size: f64 = crossed.iter().map(|(_, size)| size).sum();
-        // What lies before the plane pulls at what lies behind it: the extent has the sign for that.
+        // The matter before the plane pulls the matter behind it; the sign of the extent accounts for that.
         let force = force.map(|component| component * band.extent());
         for (point, part) in crossed.drain(..) {
             for (sum, component) in sums[point].iter_mut().zip(force) {
@@ -175,7 +175,7 @@ impl<'a, const D: usize> Planes<'a, D> {
     }
 }
 
-/// The matter of a bond on its way through planes of one normal.
+/// The band of matter around a bond that crosses planes of one normal.
 struct Band<const D: usize> {
     ends: [[f64; D]; 2],
     width: f64,
@@ -183,13 +183,13 @@ struct Band<const D: usize> {
 }
 
 impl<const D: usize> Band<D> {
-    /// From the first end to the second along the normal, m.
+    /// Length from the first end to the second along the normal, m.
     fn extent(&self) -> f64 {
         let [a, b] = self.ends.map(|end| end[self.normal]);
         b - a
     }
 
-    /// The box of the points whose squares it may cross, for squares up to a width.
+    /// Box around the points whose squares the band may cross, for squares up to a width.
     fn reach(&self, largest_width: f64) -> [[f64; D]; 2] {
         let margin = |axis: usize| {
             let of_band = if axis == self.normal { 0.0 } else { self.width };
@@ -255,9 +255,9 @@ impl<const D: usize> Band<D> {
     }
 }
 
-/// The squares of the points, in space cubes, and a tree to find those near a bond.
+/// Squares of the points, in space cubes, in a search tree.
 struct Squares<const D: usize> {
-    /// Width (V/t)^(1/D) of each, shape (n_points), m.
+    /// Width (V/t)^(1/D) of each square, shape (n_points), m.
     width: Vec<f64>,
     largest_width: f64,
     middles: RTree<GeomWithData<[f64; D], u32>>,
@@ -280,7 +280,7 @@ impl<const D: usize> Squares<D> {
     }
 
     /// The points in a box, in the order of the tree, which depends on the points alone.
-    fn within(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = usize> + '_ {
+    fn points_in_box(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = usize> + '_ {
         let found = self
             .middles
             .locate_in_envelope(AABB::from_corners(lower, upper));

@@ -47,7 +47,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         }
         let deformations: &[E::Deformation] = Deformation::of_bonds(deformations);
         for &bond in self.system.bonds.incidence.at(point) {
-            let Some(element) = self.left(bonds, bond as usize) else {
+            let Some(element) = self.remaining_element(bonds, bond as usize) else {
                 continue;
             };
             let dyad = element.dyad(&deformations[bond as usize]);

@@ -4,7 +4,7 @@ use super::cells::InnerFace;
 use super::facet::Facet;
 use crate::cloud::PointCloud;
 
-/// The cells around the points of a body by their faces: those of the outline, each of which moves with one point, and those between two points.
+/// Faces of the cells around the points of a body: faces of the outline, each of which moves with one point, and faces between two points.
 #[derive(Debug, Clone)]
 pub struct CellFaces<const D: usize> {
     /// Facets of the outline.

@@ -9,12 +9,12 @@ use crate::contact::CutBond;
 use crate::tensor::{dot, minus};
 use crate::topology::Families;
 
-/// A part of the face between the cells of two points: a segment, or a triangle.
+/// A piece of the face between the cells of two points: a segment, or a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct InnerFace<const D: usize> {
     /// Points A < B.
     pub points: [u32; 2],
-    /// Corners, m, of which the normal points from A to B.
+    /// Corners, m, in an order for which the normal points from A to B.
     pub corners: [[f64; D]; D],
 }
 
@@ -31,7 +31,7 @@ pub struct Boundaries<const D: usize> {
     cut: Vec<u32>,
 }
 
-/// The faces of cracks of a surface, with the side and the contact stiffness (Pa/m) of what each point adds.
+/// Crack faces of a surface, with the side and the contact stiffness (Pa/m) for each point.
 #[derive(Debug, Clone)]
 pub struct CrackFaces<const D: usize> {
     /// Faces between points.
@@ -40,7 +40,7 @@ pub struct CrackFaces<const D: usize> {
     pub of_points: Vec<Option<(u32, f64)>>,
 }
 
-/// Bonds that are not broken.
+/// Unbroken bonds of a body.
 #[derive(Debug, Clone, Copy)]
 pub struct Bonded<'a> {
     /// Ends and families of all bonds.
@@ -76,7 +76,7 @@ impl<const D: usize> InnerFace<D> {
     }
 }
 
-/// Corners in the order of the other side.
+/// Corners in the reversed order, for the opposite side.
 fn turned_over<const D: usize>(corners: &Corners<D>) -> Corners<D> {
     let mut corners = *corners;
     corners.swap(D - 2, D - 1);
@@ -156,7 +156,7 @@ impl<const D: usize> Boundaries<D> {
 
 impl<const D: usize> CrackFaces<D> {
     /// Side and stiffness of a side of a face by its number, the first point first; none where it does not belong to the surface.
-    pub(super) fn of_facet(&self, number: usize) -> Option<(u32, f64)> {
+    pub(super) fn side_and_stiffness(&self, number: usize) -> Option<(u32, f64)> {
         let points = self.boundaries.faces()[number / 2].points;
         self.of_points[points[number % 2] as usize]
     }

@@ -1,4 +1,4 @@
-//! Facets of the outline of a body, and how they move with its points.
+//! Facets of the outline of a body, which move with its points.
 
 use super::cells::{Boundaries, CrackFaces};
 use super::rigid::largest_size;
@@ -11,7 +11,7 @@ use crate::tensor::{dot, minus, norm};
 /// points.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner<const D: usize> {
-    /// The point.
+    /// Point with which the corner moves.
     pub point: u32,
     /// Further corners of a quadrangular side, whose middle this corner is: it moves by the mean of the displacements of all four points.
     pub others: Option<[u32; 3]>,
@@ -30,7 +30,7 @@ pub struct Facet<const D: usize> {
     pub area: f64,
 }
 
-/// Facets of some bodies, each with the side to which it belongs.
+/// Facets of surfaces, each with the side to which it belongs.
 #[derive(Debug, Clone)]
 pub struct Surface<const D: usize> {
     pub(super) layout: Layout,
@@ -39,7 +39,7 @@ pub struct Surface<const D: usize> {
     pub(super) sides: Vec<u32>,
     /// Contact stiffness of each facet, Pa/m.
     pub(super) stiffness: Vec<f64>,
-    /// Faces of cracks that belong to the surface once they are there; their sides are numbered after the facets of the outline.
+    /// Crack faces, which belong to the surface once they exist; numbered after the facets of the outline.
     pub(super) cracks: Option<CrackFaces<D>>,
 }
 
@@ -59,7 +59,7 @@ impl<const D: usize> Corner<D> {
             return std::array::from_fn(|axis| 0.25 * sum(axis));
         }
         let motion = motion(self.point);
-        let turned = turned(&motion[D..], self.arm);
+        let turned = rotated(&motion[D..], self.arm);
         std::array::from_fn(|axis| motion[axis] + turned[axis])
     }
 }
@@ -82,7 +82,7 @@ impl<const D: usize> Facet<D> {
 
     /// Facets of a side of the outline between points in their order from outside: one of a side of D points, of a quadrangle four triangles that
     /// meet in its middle, so that none of its diagonals is preferred.
-    pub fn of_side(cloud: &PointCloud<D>, side: &[u32]) -> Vec<Self> {
+    pub fn on_side(cloud: &PointCloud<D>, side: &[u32]) -> Vec<Self> {
         let corner = |point: u32| (point, cloud.positions[point as usize]);
         let &[a, b, c, d] = side else {
             let corners = std::array::from_fn(|place| corner(side[place]));
@@ -142,7 +142,7 @@ impl<const D: usize> Facet<D> {
         })
     }
 
-    /// Displacement of a place of the facet for the motions of all points (n_degrees_of_freedom), m.
+    /// Displacement of a position on the facet for the motions of all points (n_degrees_of_freedom), m.
     pub(super) fn motion(&self, layout: Layout, weights: &[f64], motions: &[f64]) -> [f64; D] {
         let moved = self.corners.map(|it| it.displacement(layout, motions));
         weighted(&moved, weights)
@@ -198,7 +198,7 @@ impl<const D: usize> Facet<D> {
 }
 
 /// Displacement phi x r of an arm by the rotations of its point: one in the plane, three in space, or none.
-fn turned<const D: usize>(rotations: &[f64], arm: [f64; D]) -> [f64; D] {
+fn rotated<const D: usize>(rotations: &[f64], arm: [f64; D]) -> [f64; D] {
     match *rotations {
         [angle] => std::array::from_fn(|axis| angle * if axis == 0 { -arm[1] } else { arm[0] }),
         [_, _, _] => std::array::from_fn(|axis| {
@@ -237,7 +237,7 @@ impl<const D: usize> Surface<D> {
         surface
     }
 
-    /// The surface with the faces of cracks, once they are there. All its facets move with one point each.
+    /// The surface with crack faces, which belong to it once they exist. All its facets move with one point each.
     #[must_use]
     pub fn with_cracks(mut self, cracks: CrackFaces<D>) -> Self {
         self.cracks = Some(cracks);
@@ -249,7 +249,7 @@ impl<const D: usize> Surface<D> {
         &self.facets
     }
 
-    /// Number of the facets of the outline and of all faces of cracks that there may be.
+    /// Number of the facets of the outline and of all possible crack faces.
     pub(super) fn n_facets(&self) -> usize {
         let cracks = self.cracks.as_ref().map(|it| it.boundaries.faces().len());
         self.facets.len() + 2 * cracks.unwrap_or(0)
@@ -263,15 +263,15 @@ impl<const D: usize> Surface<D> {
         }
     }
 
-    /// Side and stiffness (Pa/m) of a facet by its number; none of a face of cracks that does not belong to the surface.
+    /// Side and stiffness (Pa/m) of a facet by its number; none for a crack face that does not belong to the surface.
     pub(super) fn side_and_stiffness(&self, number: usize) -> Option<(u32, f64)> {
         match (number.checked_sub(self.facets.len()), &self.cracks) {
-            (Some(beyond), Some(cracks)) => cracks.of_facet(beyond),
+            (Some(beyond), Some(cracks)) => cracks.side_and_stiffness(beyond),
             (Some(_), None) | (None, _) => Some((self.sides[number], self.stiffness[number])),
         }
     }
 
-    /// Numbers of the facets on both sides of some faces between points, those that belong to the surface.
+    /// Numbers of the facets on both sides of some faces between points, where they belong to the surface.
     pub(super) fn at_faces(&self, faces: impl Iterator<Item = u32>) -> Vec<u32> {
         let n_outline = self.facets.len() as u32;
         let both = faces.flat_map(|face| [0, 1].map(|end| n_outline + 2 * face + end));

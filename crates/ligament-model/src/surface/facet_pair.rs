@@ -6,7 +6,7 @@ use super::cells::Bonded;
 use super::facet::{Facet, Surface};
 use super::nearest::nearest_weights;
 use super::pair::{Missed, Pose, Step, SurfacePair};
-use super::rigid::{RigidShape, in_space, turned};
+use super::rigid::{RigidShape, in_space, rotated};
 use super::search::{Search, Sought};
 use super::touch::{Touch, Vector, held_slip};
 use super::{Corners, extent, normal, tangential, weighted};
@@ -22,30 +22,30 @@ const SKIN: f64 = 0.5;
 /// Gap between neighbouring facets over the length of an edge that a contact bridges: facets of a lattice move with one cell each.
 const SEAM: f64 = 0.05;
 
-/// Part of the half-width of a rigid shape to which integration points get into it unnoticed.
+/// Depth, as a fraction of the half-width of a rigid shape, up to which contact may miss an integration point.
 const UNNOTICED: f64 = 0.5;
 
-/// Distance of a place from a facet over the length of its longest edge, within which it lies on it.
+/// Distance from a facet over its longest edge below which a position lies on it.
 const ON_FACET: f64 = 1e-9;
 
 /// Relative rounding of a distance from the plane of a facet, generously.
 const ROUNDING: f64 = 1e-9;
 
-/// Divisions of the way of a step in the search for its deepest place, each into thirds: to 1e-7 of the way.
+/// Number of divisions, each into thirds, in the search along the path of a step for its deepest point: to 1e-7 of the path.
 const DIVISIONS: usize = 40;
 
-/// What the integration points of a surface may meet.
+/// Possible contact partner of the integration points of a surface.
 #[derive(Debug, Clone)]
 pub enum Opposite<const D: usize> {
     /// Facets of other sides of the same surface.
     OtherSides,
-    /// Facets of the same surface whose points no unbroken bond connects with that of the integration point; each facet moves with one point.
+    /// Facets of the same surface whose points no unbroken bond connects with the point of the integration point; each facet moves with one point.
     Unbonded,
     /// A rigid shape, and whether it is free to move.
     Rigid(RigidShape<D>, bool),
 }
 
-/// The facets of a body, and what they may meet.
+/// The facets of a body with their possible contact partner.
 #[derive(Debug, Clone)]
 pub struct FacetPair<const D: usize> {
     pub(super) surface: Surface<D>,
@@ -57,19 +57,19 @@ pub struct FacetPair<const D: usize> {
     pub(super) reach: f64,
 }
 
-/// What an integration point meets.
-struct Meeting<const D: usize> {
+/// The contact partner of an integration point in a state.
+struct ContactPartner<const D: usize> {
     onto: Option<u32>,
     weights: Vector,
     normal: [f64; D],
     overlap: f64,
-    /// Way from the middle of a rigid body, m.
+    /// Vector from the middle of a rigid body to the contact, m.
     arm: Vector,
-    /// Motion of the surface that is met in the step, m.
+    /// Motion of the contact partner in the step, m.
     carried: [f64; D],
 }
 
-/// An integration point: the place of a facet that it stands for.
+/// An integration point of a facet.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
     pub(super) number: u32,
@@ -78,7 +78,7 @@ pub(super) struct Place {
     pub(super) weights: Vector,
 }
 
-/// The facets of a surface so far, by their places in the search.
+/// Present facets of a surface, by their indices in the search.
 struct Present<'a, const D: usize> {
     /// Numbers of the facets.
     numbers: &'a [u32],
@@ -86,16 +86,16 @@ struct Present<'a, const D: usize> {
     before: Vec<Corners<D>>,
     /// Positions after the step, m.
     now: Vec<Corners<D>>,
-    /// Outward normals; none of a facet without area.
+    /// Outward normals; `None` for a facet without area.
     normals: Vec<Option<[f64; D]>>,
     /// Largest distances of a corner from the first one, m.
     extents: Vec<f64>,
-    /// Largest gap below which an integration point meets what it faces, m.
+    /// Gap below which an integration point is in contact, m.
     within: f64,
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// A surface against what its integration points may meet, with the coefficient of Coulomb's friction.
+    /// A surface with the contact partner of its integration points and the coefficient of Coulomb's friction.
     pub fn new(surface: Surface<D>, opposite: Opposite<D>, friction: f64) -> Self {
         Self {
             of_sides: surface.mean_stiffness(),
@@ -106,7 +106,7 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// The integration point of a number: D on each facet, by Gauss's rule on a segment and that of degree two on a triangle.
+    /// The integration point with a given number: D on each facet, by Gauss's rule on a segment and the rule of degree two on a triangle.
     pub(super) fn place(number: u32) -> Place {
         let own = if D == 2 {
             0.5 + 0.5 / 3.0_f64.sqrt()
@@ -135,15 +135,15 @@ impl<const D: usize> FacetPair<D> {
         share * facet.area / D as f64
     }
 
-    /// Side and contact stiffness of a facet that belongs to the surface, Pa/m.
-    fn known(&self, facet: usize) -> (u32, f64) {
+    /// Number and contact stiffness (Pa/m) of the side of a facet that belongs to the surface.
+    fn side(&self, facet: usize) -> (u32, f64) {
         let known = self.surface.side_and_stiffness(facet);
         known.expect("facets that join belong to the surface")
     }
 
-    /// Contact stiffness of a facet against a side, Pa/m: that of both in turn, as springs in series with twice the stiffness each.
+    /// Contact stiffness of a facet against a side, Pa/m: two springs in series, each with twice the stiffness of its side.
     pub(super) fn stiffness(&self, facet: usize, of_other: Option<f64>) -> f64 {
-        let own = self.known(facet).1;
+        let own = self.side(facet).1;
         of_other.map_or(own, |other| 2.0 * own * other / (own + other))
     }
 
@@ -178,11 +178,11 @@ impl<const D: usize> FacetPair<D> {
         all.filter(|it| !is_turned_away(it)).collect()
     }
 
-    /// Whether one facet may ever meet another one of the surface.
+    /// Whether contact between two facets of the surface is possible.
     pub(super) fn may_meet(&self, own: u32, other: u32) -> bool {
         let of_cells = |it: u32| self.surface.facet(it as usize).corners[0].point;
         match self.opposite {
-            Opposite::OtherSides => self.known(own as usize).0 != self.known(other as usize).0,
+            Opposite::OtherSides => self.side(own as usize).0 != self.side(other as usize).0,
             Opposite::Unbonded => of_cells(own) != of_cells(other),
             Opposite::Rigid(..) => false,
         }
@@ -206,7 +206,7 @@ impl<const D: usize> FacetPair<D> {
         present: &Present<'_, D>,
         facing: &[(usize, [f64; D])],
         bonds: Bonded<'_>,
-    ) -> Option<Meeting<D>> {
+    ) -> Option<ContactPartner<D>> {
         let position = weighted(&present.now[at], &place.weights);
         let mut nearest = self.reach.max(present.within);
         let mut met = None;
@@ -243,7 +243,7 @@ impl<const D: usize> FacetPair<D> {
         let (other, weights, normal, overlap) = met.filter(|it| it.3 > -present.within)?;
         let [before, now] = [&present.before, &present.now];
         let [before, now] = [before, now].map(|it| weighted(&it[other], &weights));
-        Some(Meeting {
+        Some(ContactPartner {
             onto: Some(present.numbers[other]),
             weights,
             normal,
@@ -253,29 +253,29 @@ impl<const D: usize> FacetPair<D> {
         })
     }
 
-    /// The rigid shape, where an integration point faces its surface with less than the largest gap.
+    /// Contact with the rigid shape, if the gap of the integration point is small enough.
     fn shape_met(
         shape: &RigidShape<D>,
         (at, place): (usize, Place),
         present: &Present<'_, D>,
         rigid: [Pose; 2],
-    ) -> Option<Meeting<D>> {
+    ) -> Option<ContactPartner<D>> {
         let own = &present.now[at];
         let [before, now] = rigid.map(|it| std::array::from_fn(|axis| it.displacement[axis]));
         let mut position = minus(weighted(own, &place.weights), now);
         let arm = minus(position, shape.middle());
         let step: Vector = minus(rigid[1].rotation, rigid[0].rotation);
-        let carried = minus(arm, turned(arm, step.map(|it| -it)));
+        let carried = minus(arm, rotated(arm, step.map(|it| -it)));
         // Of the shapes in space only spheres turn.
         let angle = if D == 2 { rigid[1].rotation } else { [0.0; 3] };
         if angle != [0.0; 3] {
-            let back = turned(arm, angle.map(|it| -it));
+            let back = rotated(arm, angle.map(|it| -it));
             position = std::array::from_fn(|axis| shape.middle()[axis] + back[axis]);
         }
         let (gap, outward) = shape.distance(position);
-        let outward = turned(outward, angle);
+        let outward = rotated(outward, angle);
         let meets = gap < present.within && dot(outward, present.normals[at]?) < FACING;
-        meets.then(|| Meeting {
+        meets.then(|| ContactPartner {
             onto: None,
             weights: [0.0; 3],
             normal: outward,
@@ -285,35 +285,35 @@ impl<const D: usize> FacetPair<D> {
         })
     }
 
-    /// The contact of an integration point with what it meets, given the one before the step.
+    /// Contact of an integration point with its partner, from the contact before the step.
     ///
     /// A new contact whose overlap is deeper than the motion of the step explains begins without force.
     fn touch(
         &self,
         (at, place): (usize, Place),
-        meeting: &Meeting<D>,
+        partner: &ContactPartner<D>,
         present: &Present<'_, D>,
         before: Option<&Touch>,
     ) -> Touch {
-        let &Meeting {
+        let &ContactPartner {
             normal, overlap, ..
-        } = meeting;
+        } = partner;
         let [then, now] = [&present.before, &present.now];
         let [then, now] = [then, now].map(|it| weighted(&it[at], &place.weights));
-        let slid = minus(minus(now, then), meeting.carried);
+        let slid = minus(minus(now, then), partner.carried);
         let unexplained = (overlap + dot(slid, normal)).max(0.0);
         let offset = before.map_or(unexplained, |it| it.offset).min(overlap);
         let held = before.map_or([0.0; D], |it| std::array::from_fn(|axis| it.slip[axis]));
         let trial = std::array::from_fn(|axis| held[axis] + slid[axis]);
         let slip = held_slip(tangential(trial, normal), self.friction, overlap - offset);
         let area = self.area(&self.surface.facet(place.facet));
-        let side_met = meeting.onto.map(|it| self.known(it as usize).0);
+        let side_met = partner.onto.map(|it| self.side(it as usize).0);
         let other = side_met.map(|it| self.of_sides[it as usize]);
         Touch {
             place: place.number,
-            onto: meeting.onto,
-            weights: meeting.weights,
-            arm: meeting.arm,
+            onto: partner.onto,
+            weights: partner.weights,
+            arm: partner.arm,
             normal: in_space(normal),
             overlap,
             offset,
@@ -321,7 +321,7 @@ impl<const D: usize> FacetPair<D> {
             stiffness: area * self.stiffness(place.facet, other),
             credit: before.map_or(0.0, |it| it.credit),
             area,
-            is_first: meeting
+            is_first: partner
                 .onto
                 .is_none_or(|it| self.is_first(place.facet, it as usize)),
         }
@@ -329,8 +329,8 @@ impl<const D: usize> FacetPair<D> {
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// Integration points that meet what they face with less than a gap (m) after a step, ascending, given those in contact before it.
-    pub(super) fn met(
+    /// Integration points in contact, with less than a gap (m), after a step, ascending, from the contacts before it.
+    pub(super) fn contacts_within(
         &self,
         search: &mut Search,
         step: Step<'_>,
@@ -350,8 +350,8 @@ impl<const D: usize> FacetPair<D> {
         let of_facets = (0..facets.len()).into_par_iter();
         let mut touches: Vec<Touch> = if let Opposite::Rigid(shape, _) = &self.opposite {
             let met = of_facets.flat_map_iter(places).filter_map(|place| {
-                let meeting = Self::shape_met(shape, place, &present, step.rigid)?;
-                Some(self.touch(place, &meeting, &present, known(place.1)))
+                let partner = Self::shape_met(shape, place, &present, step.rigid)?;
+                Some(self.touch(place, &partner, &present, known(place.1)))
             });
             met.collect()
         } else {
@@ -364,11 +364,11 @@ impl<const D: usize> FacetPair<D> {
             search.update(&sought, skin);
             let search = &*search;
             let met = of_facets.flat_map_iter(|at| {
-                let facing = Self::facing(at, &present, search.near(at));
+                let facing = Self::facing(at, &present, search.neighbours(at));
                 let present = &present;
                 places(at).filter_map(move |place| {
-                    let meeting = self.facet_met(place, present, &facing, step.bonds)?;
-                    Some(self.touch(place, &meeting, present, known(place.1)))
+                    let partner = self.facet_met(place, present, &facing, step.bonds)?;
+                    Some(self.touch(place, &partner, present, known(place.1)))
                 })
             });
             met.collect()
@@ -379,7 +379,7 @@ impl<const D: usize> FacetPair<D> {
 
     /// Whether the first of two facets comes first among the sides, or, of cells of one side, by its point.
     fn is_first(&self, one: usize, other: usize) -> bool {
-        let order = |it: usize| (self.known(it).0, self.surface.facet(it).corners[0].point);
+        let order = |it: usize| (self.side(it).0, self.surface.facet(it).corners[0].point);
         let [one, other] = [one, other].map(order);
         match self.opposite {
             Opposite::OtherSides | Opposite::Rigid(..) => one.0 < other.0,
@@ -407,7 +407,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
     }
 
     fn touches(&self, search: &mut Search, step: Step<'_>, before: &[Touch]) -> Vec<Touch> {
-        self.met(search, step, before, 0.0)
+        self.contacts_within(search, step, before, 0.0)
     }
 
     fn add_force(&self, touch: &Touch, force: Vector, forces: &mut [f64]) {
@@ -512,7 +512,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
         self.add_bound_of_all(sums);
     }
 
-    /// Faces of cracks do not count: what a rigid body feels at a time is at most as wide as the body.
+    /// Sum over the outline without crack faces: the contact area of a rigid body at one time is at most the width of the body.
     fn on_rigid_body(&self) -> [f64; 2] {
         let facets = self.surface.facets.iter().enumerate();
         let of_facet = |(number, it): (usize, &Facet<D>)| it.area * self.stiffness(number, None);
@@ -525,7 +525,7 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// Shares of the axes in the stiffness of a facet: without friction that of a face of cells acts across it alone.
+    /// Shares of the axes in the stiffness of a facet: without friction the stiffness of a face of cells acts only across the face.
     fn axes(&self, facet: &Facet<D>) -> [f64; D] {
         let across = normal(&facet.corners.map(|it| it.position));
         match across.filter(|_| self.surface.cracks.is_some() && self.friction == 0.0) {
@@ -579,7 +579,7 @@ impl<const D: usize> FacetPair<D> {
 }
 
 /// An integration point in a step.
-struct Passing<const D: usize> {
+struct PointInStep<const D: usize> {
     place: Place,
     /// Position after the step, m.
     now: [f64; D],
@@ -588,7 +588,7 @@ struct Passing<const D: usize> {
 }
 
 /// A facet in a step.
-struct Passed<const D: usize> {
+struct FacetInStep<const D: usize> {
     number: u32,
     /// Corners after the step, m.
     now: Corners<D>,
@@ -597,7 +597,7 @@ struct Passed<const D: usize> {
 }
 
 impl<const D: usize> FacetPair<D> {
-    /// Way of the surfaces against each other in a step that contact is sure to see, m.
+    /// Relative motion of the surfaces in a step up to which no contact is missed, m.
     pub(super) fn largest_way_seen(&self) -> f64 {
         match &self.opposite {
             Opposite::Rigid(shape, _) => self.reach.min(UNNOTICED * shape.half_width()),
@@ -605,7 +605,7 @@ impl<const D: usize> FacetPair<D> {
         }
     }
 
-    /// The first integration point of the outline that moved through what it may meet in a step or into it, but is not in contact after it.
+    /// The first integration point of the outline that penetrated its partner in a step but is not in contact after it.
     pub(super) fn first_missed(&self, step: Step<'_>, touches: &[Touch]) -> Option<Missed> {
         let is_free = |number: u32| {
             touches
@@ -613,25 +613,26 @@ impl<const D: usize> FacetPair<D> {
                 .is_err()
         };
         let facets = self.moved(step);
-        let of_facet = |it: &Passed<D>| {
+        let of_facet = |it: &FacetInStep<D>| {
             let first = D as u32 * it.number;
             (0..D as u32).map(move |corner| first + corner)
         };
         let free = facets.iter().flat_map(of_facet).filter(|it| is_free(*it));
-        let places: Vec<Passing<D>> = free.map(|it| self.passing(it, step)).collect();
+        let places: Vec<PointInStep<D>> = free.map(|it| self.passing(it, step)).collect();
         let found = match &self.opposite {
             Opposite::Rigid(shape, _) => {
-                let into = |it: &Passing<D>| self.way_into(shape, it, step.rigid);
+                let into = |it: &PointInStep<D>| self.path_into_shape(shape, it, step.rigid);
                 let deep = places.iter().find_map(|it| Some((it.place, into(it)?)));
-                let has_contact = |it: &&Passed<D>| {
+                let has_contact = |it: &&FacetInStep<D>| {
                     (0..D as u32).any(|corner| !is_free(D as u32 * it.number + corner))
                 };
                 let others = facets.iter().filter(|it| !has_contact(it));
-                deep.or_else(|| self.swallowed(shape, others, step.rigid))
+                deep.or_else(|| self.facet_crossed_by_shape(shape, others, step.rigid))
             }
             Opposite::OtherSides if self.move_as_one(&facets, &places) => None,
             Opposite::OtherSides => {
-                let through = |it: &Passing<D>| Some((it.place, self.way_through(it, &facets)?));
+                let through =
+                    |it: &PointInStep<D>| Some((it.place, self.path_through(it, &facets)?));
                 places.par_iter().find_map_first(through)
             }
             Opposite::Unbonded => None,
@@ -644,21 +645,21 @@ impl<const D: usize> FacetPair<D> {
         })
     }
 
-    /// Whether no integration point moves far against a facet.
-    fn move_as_one(&self, facets: &[Passed<D>], places: &[Passing<D>]) -> bool {
+    /// Whether integration points and facets move nearly as one.
+    fn move_as_one(&self, facets: &[FacetInStep<D>], places: &[PointInStep<D>]) -> bool {
         let ways = facets.iter().map(|it| it.way);
         let [low, high] = bounding_box(ways.chain(places.iter().map(|it| it.way)));
         norm(minus(high, low)) <= self.reach
     }
 
     /// Facets of the outline in a step.
-    fn moved(&self, step: Step<'_>) -> Vec<Passed<D>> {
+    fn moved(&self, step: Step<'_>) -> Vec<FacetInStep<D>> {
         let layout = self.surface.layout;
         let of_facet = |number: usize| {
             let facet = self.surface.facet(number);
             let [before, now] = [step.before, step.now].map(|it| facet.moved(layout, it));
             let even = [1.0 / D as f64; D];
-            Passed {
+            FacetInStep {
                 number: number as u32,
                 way: minus(weighted(&now, &even), weighted(&before, &even)),
                 now,
@@ -667,7 +668,7 @@ impl<const D: usize> FacetPair<D> {
         (0..self.surface.facets.len()).map(of_facet).collect()
     }
 
-    fn passing(&self, number: u32, step: Step<'_>) -> Passing<D> {
+    fn passing(&self, number: u32, step: Step<'_>) -> PointInStep<D> {
         let place = Self::place(number);
         let facet = self.surface.facet(place.facet);
         let at = |motions| {
@@ -675,18 +676,18 @@ impl<const D: usize> FacetPair<D> {
             weighted(&corners, &place.weights)
         };
         let now = at(step.now);
-        Passing {
+        PointInStep {
             place,
             way: minus(now, at(step.before)),
             now,
         }
     }
 
-    /// Length of the way of an integration point against a rigid shape, m, if it leads deep into the shape.
-    fn way_into(
+    /// Length of the path of an integration point relative to a rigid shape, m, if it leads deep into the shape.
+    fn path_into_shape(
         &self,
         shape: &RigidShape<D>,
-        passing: &Passing<D>,
+        passing: &PointInStep<D>,
         rigid: [Pose; 2],
     ) -> Option<f64> {
         let way = minus(passing.way, carried(rigid));
@@ -713,10 +714,10 @@ impl<const D: usize> FacetPair<D> {
     }
 
     /// A facet without contact through which the middle of a shape that fits between integration points moved, and the length of its way, m.
-    fn swallowed<'a>(
+    fn facet_crossed_by_shape<'a>(
         &self,
         shape: &RigidShape<D>,
-        mut facets: impl Iterator<Item = &'a Passed<D>>,
+        mut facets: impl Iterator<Item = &'a FacetInStep<D>>,
         rigid: [Pose; 2],
     ) -> Option<(Place, f64)> {
         if UNNOTICED * shape.half_width() >= self.reach {
@@ -726,21 +727,21 @@ impl<const D: usize> FacetPair<D> {
         let end = std::array::from_fn(|axis| middle[axis] + rigid[1].displacement[axis]);
         let facet = facets.find(|it| {
             let way = minus(carried(rigid), it.way);
-            passes(&it.now, minus(end, way), end)
+            crosses_facet(&it.now, minus(end, way), end)
         })?;
         let way = norm(minus(carried(rigid), facet.way));
         Some((Self::place(D as u32 * facet.number), way))
     }
 
-    /// Length of the way of an integration point against a facet of another side that it moved through from outside, m.
-    fn way_through(&self, passing: &Passing<D>, facets: &[Passed<D>]) -> Option<f64> {
+    /// Length of the path of an integration point relative to a facet of another side that it crossed from outside, m.
+    fn path_through(&self, passing: &PointInStep<D>, facets: &[FacetInStep<D>]) -> Option<f64> {
         let own = passing.place.facet as u32;
         facets.iter().find_map(|it| {
             let way = minus(passing.way, it.way);
             let goes_far = dot(way, way) > self.reach * self.reach;
             let is_through = goes_far
                 && self.may_meet(own, it.number)
-                && passes(&it.now, minus(passing.now, way), passing.now);
+                && crosses_facet(&it.now, minus(passing.now, way), passing.now);
             is_through.then(|| norm(way))
         })
     }
@@ -751,7 +752,7 @@ fn carried<const D: usize>([before, now]: [Pose; 2]) -> [f64; D] {
     std::array::from_fn(|axis| now.displacement[axis] - before.displacement[axis])
 }
 
-/// Signed distance of a position from a shape in a place, m.
+/// Signed distance of a position from a moved rigid shape, m.
 pub(super) fn distance_from<const D: usize>(
     shape: &RigidShape<D>,
     position: [f64; D],
@@ -761,13 +762,13 @@ pub(super) fn distance_from<const D: usize>(
     let arm = minus(still, shape.middle());
     // Of the shapes in space only spheres turn.
     let angle = if D == 2 { pose.rotation } else { [0.0; 3] };
-    let back = turned(arm, angle.map(|it| -it));
+    let back = rotated(arm, angle.map(|it| -it));
     let unturned = std::array::from_fn(|axis| shape.middle()[axis] + back[axis]);
     shape.distance(unturned).0
 }
 
-/// Whether a straight way leads through a facet from its outer side.
-fn passes<const D: usize>(corners: &Corners<D>, from: [f64; D], to: [f64; D]) -> bool {
+/// Whether a straight path crosses a facet from its outer side.
+fn crosses_facet<const D: usize>(corners: &Corners<D>, from: [f64; D], to: [f64; D]) -> bool {
     let Some(normal) = normal(corners) else {
         return false;
     };
@@ -861,7 +862,7 @@ mod tests {
         };
         let mut search = Search::default();
         search.join(0..300);
-        let found = pair.met(&mut search, step, &[], 0.0);
+        let found = pair.contacts_within(&mut search, step, &[], 0.0);
         let found: Vec<(u32, Option<u32>)> = found.iter().map(|it| (it.place, it.onto)).collect();
         let all =
             (0..300 * D as u32).map(|it| (it, met_among_all(&pair, FacetPair::<D>::place(it))));
@@ -883,12 +884,12 @@ mod tests {
     fn ways_through_a_facet_come_from_outside() {
         // The body is on the left of a segment: below this one.
         let segment = [[1.0, 0.0], [0.0, 0.0]];
-        assert!(passes(&segment, [0.2, 3.0], [0.4, -5.0]));
-        assert!(!passes(&segment, [0.4, -5.0], [0.2, 3.0]));
-        assert!(!passes(&segment, [1.2, 3.0], [1.2, -5.0]));
-        assert!(!passes(&segment, [0.2, 3.0], [0.4, 0.5]));
+        assert!(crosses_facet(&segment, [0.2, 3.0], [0.4, -5.0]));
+        assert!(!crosses_facet(&segment, [0.4, -5.0], [0.2, 3.0]));
+        assert!(!crosses_facet(&segment, [1.2, 3.0], [1.2, -5.0]));
+        assert!(!crosses_facet(&segment, [0.2, 3.0], [0.4, 0.5]));
         let triangle = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
-        assert!(passes(&triangle, [0.2, 0.2, 2.0], [0.3, 0.3, -7.0]));
-        assert!(!passes(&triangle, [0.8, 0.8, 2.0], [0.8, 0.8, -7.0]));
+        assert!(crosses_facet(&triangle, [0.2, 0.2, 2.0], [0.3, 0.3, -7.0]));
+        assert!(!crosses_facet(&triangle, [0.8, 0.8, 2.0], [0.8, 0.8, -7.0]));
     }
 }

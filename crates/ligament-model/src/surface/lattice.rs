@@ -10,7 +10,7 @@ use crate::shape::Region;
 
 impl<const D: usize> Facet<D> {
     /// Facets of the outline of a lattice, between the points of its cloud; all corners of a facet move with the point of its cell.
-    pub fn of_lattice<S: Region<D>>(lattice: &Lattice<D, S>, cloud: &PointCloud<D>) -> Vec<Self> {
+    pub fn outline<S: Region<D>>(lattice: &Lattice<D, S>, cloud: &PointCloud<D>) -> Vec<Self> {
         let faces = lattice.outline().into_iter();
         let facets = faces.flat_map(|face| {
             let centre = cloud.positions[face.point as usize];
@@ -23,7 +23,7 @@ impl<const D: usize> Facet<D> {
 
 impl<const D: usize> CellFaces<D> {
     /// The cells of a lattice around the points of its cloud.
-    pub fn of_lattice<S: Region<D>>(lattice: &Lattice<D, S>, cloud: &PointCloud<D>) -> Self {
+    pub fn from_lattice<S: Region<D>>(lattice: &Lattice<D, S>, cloud: &PointCloud<D>) -> Self {
         let faces = lattice.inner_faces().into_iter();
         let inner = faces.flat_map(|(point, normal, other)| {
             let centre = cloud.positions[point as usize];
@@ -31,7 +31,7 @@ impl<const D: usize> CellFaces<D> {
             sides.map(move |corners| InnerFace::new(cloud, [point, other], corners))
         });
         Self {
-            outline: Facet::of_lattice(lattice, cloud),
+            outline: Facet::outline(lattice, cloud),
             inner: inner.collect(),
         }
     }
@@ -93,7 +93,7 @@ mod tests {
         };
         let motions = vec![0.0; layout.n_degrees_of_freedom()];
         let (mut sum, mut area) = ([0.0; D], 0.0);
-        for facet in Facet::of_lattice(lattice, &cloud) {
+        for facet in Facet::outline(lattice, &cloud) {
             let corners = facet.moved(layout, &motions);
             let outward = normal(&corners).expect("faces of cells have an area");
             assert!(facet.corners.iter().all(|it| dot(it.arm, outward) > 0.0));

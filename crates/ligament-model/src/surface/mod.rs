@@ -2,7 +2,7 @@
 //!
 //! A [`Surface`] consists of the facets of the outline: segments in the plane, triangles in space. Each corner of a facet moves with a
 //! point of the body. Integration points on the facets are compared with the facet of another surface that they meet, or with a
-//! [`RigidShape`], in present positions ([`SurfacePair`]). All normals are those of the surface that is met.
+//! [`RigidShape`], in present positions ([`SurfacePair`]). All normals belong to the other surface.
 //!
 //! With the gap g of an integration point along the normal n, the part A of the area that it stands for and the stiffness k of the contact,
 //! the force on its surface is

@@ -1,4 +1,4 @@
-//! The place of a facet nearest to a position.
+//! The point of a facet nearest to a position.
 
 use super::Corners;
 use crate::geometry::nearest_place;

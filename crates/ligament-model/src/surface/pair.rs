@@ -8,14 +8,14 @@ use super::cells::Bonded;
 use super::search::Search;
 use super::touch::{Touch, Vector};
 
-/// A time step, as contacts see it.
+/// Motions and bonds in a time step, for contact.
 #[derive(Debug, Clone, Copy)]
 pub struct Step<'a> {
     /// Motions before the step, shape (n_degrees_of_freedom), m and rad.
     pub before: &'a [f64],
     /// Motions after the step, shape (n_degrees_of_freedom), m and rad.
     pub now: &'a [f64],
-    /// Place of the rigid body before and after the step.
+    /// Pose of the rigid body before and after the step.
     pub rigid: [Pose; 2],
     /// Bonds after the step.
     pub bonds: Bonded<'a>,
@@ -30,14 +30,14 @@ pub struct Pose {
     pub rotation: Vector,
 }
 
-/// A place where surfaces moved through each other, or into each other, without contact.
+/// A penetration of surfaces without contact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Missed {
-    /// Point of the body there.
+    /// Point of the body at the penetration.
     pub point: u32,
-    /// Way of the surfaces against each other in the step, m.
+    /// Relative motion of the surfaces in the step, m.
     pub way: f64,
-    /// Way in a step that contact is sure to see, m.
+    /// Relative motion in a step up to which no contact is missed, m.
     pub seen: f64,
 }
 
@@ -46,7 +46,7 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// Adds the faces that bonds crossed which have broken, and before the first step the outline and the faces along pre-cracks.
     fn join(&self, search: &mut Search, broken: &mut dyn Iterator<Item = u32>);
 
-    /// Integration points in contact after a step, ascending, given those before it. The result does not depend on the number of threads.
+    /// Integration points in contact after a step, ascending, from the contacts before it. The result does not depend on the number of threads.
     fn touches(&self, search: &mut Search, step: Step<'_>, before: &[Touch]) -> Vec<Touch>;
 
     /// Adds the forces and moments of contacts on the points of the body, shape (n_degrees_of_freedom), N and N m; in the order of the
@@ -61,7 +61,7 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// of the body, shape (n_degrees_of_freedom), N and N m.
     fn add_force(&self, touch: &Touch, force: Vector, forces: &mut [f64]);
 
-    /// Motion over a step of the integration point of a contact against the place that it met, m.
+    /// Motion of the integration point of a contact in a step relative to its partner, m.
     fn way(&self, touch: &Touch, step: Step<'_>) -> Vector;
 
     /// Degrees of freedom and coefficients c of a motion of a contact along a direction d: d . (u - u_met) = c . u with the motions u and u_met of
@@ -84,17 +84,16 @@ pub trait SurfacePair: Debug + Send + Sync {
     /// Length of the longest edge of a facet, m: a deeper overlap is not seen.
     fn reach(&self) -> f64;
 
-    /// Largest coordinate without motion of which gaps are differences, m: their rounding is relative to it.
+    /// Largest undeformed coordinate in the differences of gaps, m: their rounding is relative to it.
     fn coordinate(&self) -> f64;
 
-    /// Way of the surfaces against each other in a step that contact is sure to see, m; zero where it is that since the undeformed body that
-    /// counts.
+    /// Relative motion of the surfaces in a step up to which no contact is missed, m; zero where the motion since the undeformed body counts instead.
     fn way_seen(&self) -> f64;
 
-    /// A place where the surfaces moved through each other in a step, or into each other, without one of the contacts after it.
+    /// A penetration of the surfaces in a step that is none of the contacts after it.
     fn missed(&self, step: Step<'_>, touches: &[Touch]) -> Option<Missed>;
 
-    /// Whether numbers of integration points and facets exist, in an ascending order.
+    /// Whether contacts, as of a checkpoint, have existing numbers of integration points and facets in ascending order.
     fn can_have(&self, touches: &[Touch]) -> bool;
 
     /// Degrees of freedom that the contact may load, ascending.

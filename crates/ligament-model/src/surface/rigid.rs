@@ -106,7 +106,7 @@ impl<const D: usize> RigidShape<D> {
         }
     }
 
-    /// Largest length in its distances, m: a coordinate of the shape, of a ball together with the radius.
+    /// Largest absolute coordinate of the shape, for a ball plus the radius, m: it determines the rounding of distances.
     pub(super) fn coordinate(&self) -> f64 {
         let largest = |position: [f64; D]| position.into_iter().fold(0.0, largest_size);
         match *self {
@@ -128,7 +128,7 @@ impl<const D: usize> RigidShape<D> {
     }
 }
 
-/// The larger of a size and that of a value.
+/// The larger one of a size and of the size of a value.
 pub(super) fn largest_size(size: f64, value: f64) -> f64 {
     size.max(value.abs())
 }
@@ -141,8 +141,8 @@ fn direction<const D: usize>(way: [f64; D], length: f64, axis: usize) -> [f64; D
     std::array::from_fn(|it| if it == axis { 1.0 } else { 0.0 })
 }
 
-/// A way turned by rotations about the axes: exactly in the plane, to the first order in space.
-pub(super) fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
+/// A vector rotated by angles about the axes: exactly in the plane, to the first order in space.
+pub(super) fn rotated<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
     if by == [0.0; 3] {
         return way;
     }
@@ -155,7 +155,7 @@ pub(super) fn turned<const D: usize>(way: [f64; D], by: Vector) -> [f64; D] {
     std::array::from_fn(|axis| way[axis] + added[axis])
 }
 
-/// A vector with three components, the third of which is zero in the plane.
+/// A vector with three components, the third zero in the plane.
 pub(super) fn in_space<const D: usize>(vector: [f64; D]) -> Vector {
     std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }

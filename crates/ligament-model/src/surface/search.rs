@@ -1,4 +1,4 @@
-//! Facets near others, searched anew when surfaces have moved by more than a skin.
+//! Search for neighbouring facets, repeated when surfaces have moved by more than a skin.
 
 use std::collections::BTreeMap;
 
@@ -15,8 +15,8 @@ type Place = [i64; 3];
 /// none near it.
 const TORN: f64 = 4.0;
 
-/// Facets of a surface so far, with those near them at the last search. What is found does not change results: it contains at least all
-/// facets within reach.
+/// Present facets of a surface with their neighbours at the last search. The neighbours contain at least all facets within reach, so that the time of
+/// a search does not change results.
 #[derive(Debug, Clone, Default)]
 pub struct Search {
     /// Numbers of the facets, in the order in which they joined the surface.
@@ -29,13 +29,13 @@ pub struct Search {
     boxes: BTreeMap<Place, Vec<u32>>,
 }
 
-/// What a search looks for.
+/// Input of a search.
 pub(super) struct Sought<'a, const D: usize> {
     /// Present corners of the facets, by their places, m.
     pub(super) corners: &'a [Corners<D>],
     /// Distance between the boxes around facets that count as near, m.
     pub(super) within: f64,
-    /// Whether one facet may ever meet another one, by their numbers.
+    /// Whether contact between two facets is possible, by their numbers.
     pub(super) may_meet: &'a (dyn Fn(u32, u32) -> bool + Sync),
 }
 
@@ -51,12 +51,11 @@ impl Search {
     }
 
     /// Facets near that at a place, as places, by their numbers.
-    pub(super) fn near(&self, place: usize) -> &[u32] {
+    pub(super) fn neighbours(&self, place: usize) -> &[u32] {
         &self.near[place]
     }
 
-    /// Finds what may be missing: everything where a corner has moved by half of the skin (m) since the last search, otherwise the facets near
-    /// those that joined.
+    /// Updates the neighbours: of all facets if a corner has moved by half of the skin (m) since the last search, otherwise of added facets.
     pub(super) fn update<const D: usize>(&mut self, sought: &Sought<'_, D>, skin: f64) {
         if self.is_old(sought.corners, skin) {
             self.since.clear();
@@ -75,7 +74,7 @@ impl Search {
         }
         let found: Vec<Vec<u32>> = (first..self.facets.len())
             .into_par_iter()
-            .map(|place| self.around(place, sought))
+            .map(|place| self.find_neighbours(place, sought))
             .collect();
         for (place, others) in (first as u32..).zip(&found) {
             for &other in others.iter().filter(|it| (**it as usize) < first) {
@@ -104,8 +103,8 @@ impl Search {
         now.par_iter().zip(before).any(moved)
     }
 
-    /// Facets whose box is near that of the facet at a place, by their numbers.
-    fn around<const D: usize>(&self, place: usize, sought: &Sought<'_, D>) -> Vec<u32> {
+    /// Facets whose box is near the box of the facet at a place, by their numbers.
+    fn find_neighbours<const D: usize>(&self, place: usize, sought: &Sought<'_, D>) -> Vec<u32> {
         if !sought.is_whole(&sought.corners[place]) {
             return Vec::new();
         }
@@ -135,7 +134,7 @@ impl<const D: usize> Sought<'_, D> {
     }
 }
 
-/// Boxes of space of a size (m) that a box reaches into.
+/// Cells of a grid of a width (m) that a box intersects.
 fn places<const D: usize>([lower, upper]: [[f64; D]; 2], size: f64) -> impl Iterator<Item = Place> {
     let along = |axis: usize| {
         let at = |corner: &[f64; D]| corner.get(axis).map_or(0, |x| (x / size).floor() as i64);
@@ -189,7 +188,7 @@ mod tests {
                     .filter(|it| is_near(place, it))
                     .map(|it| it as u32)
                     .collect();
-                let found = search.near(place).iter().filter(|it| **it % 3 != 0);
+                let found = search.neighbours(place).iter().filter(|it| **it % 3 != 0);
                 assert!(found.copied().eq(expected), "{place}");
             }
         }
@@ -209,7 +208,7 @@ mod tests {
                 may_meet: &|_, _| true,
             };
             search.update(&sought, 0.5);
-            assert_eq!(search.near(0).len(), near);
+            assert_eq!(search.neighbours(0).len(), near);
         }
     }
 }

@@ -12,13 +12,13 @@ pub type Vector = [f64; 3];
 pub struct Touch {
     /// Number of the integration point.
     pub place: u32,
-    /// Number of the facet that it meets; none where it meets a rigid body.
+    /// Number of the facet in contact; none for a rigid body.
     pub onto: Option<u32>,
-    /// Weights of the corners of that facet at the place that it meets.
+    /// Weights of the corners of this facet at the contact.
     pub weights: Vector,
-    /// Way from the middle of the rigid body that it meets to it, m.
+    /// Vector from the middle of the rigid body to the contact, m.
     pub arm: Vector,
-    /// Outward unit normal of the surface that it meets.
+    /// Outward unit normal of the other surface.
     pub normal: Vector,
     /// Overlap -g, m.
     pub overlap: f64,
@@ -28,9 +28,9 @@ pub struct Touch {
     pub slip: Vector,
     /// Stiffness k A, N/m.
     pub stiffness: f64,
-    /// Energy that the contact has taken across the surfaces and may give back, J; 0 but in explicit steps.
+    /// Work done on the contact along the normal that it may return, J; 0 except in explicit steps.
     pub credit: f64,
-    /// Area A that it stands for, m^2.
+    /// Area A of the integration point, m^2.
     pub area: f64,
     /// Whether the force counts for the first surface of the pair; otherwise the opposite one does.
     pub is_first: bool,

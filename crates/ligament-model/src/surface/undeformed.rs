@@ -1,4 +1,4 @@
-//! Contact of surfaces that is linear in the motions: each integration point meets what it faces in the undeformed body.
+//! Contact that is linear in the motions: the partner of each integration point follows from the undeformed body.
 //!
 //! With the place X of an integration point, the place Y that it faces and the normal n there, all of the undeformed body, the gap is
 //!
@@ -16,24 +16,24 @@ use super::touch::{Touch, Vector};
 use super::{Bonded, Opposite, Surface, tangential, weighted};
 use crate::tensor::{dot, minus, norm};
 
-/// Gap over the length of the longest edge of a facet that counts as none: the rounding of coordinates.
+/// Gap over the longest edge of a facet that counts as zero: the rounding of coordinates.
 const CLOSED: f64 = 1e-9;
 
 /// Gap over the length of the longest edge of a facet up to which facets face each other.
 const FARTHEST: f64 = 2.0;
 
-/// Surfaces whose integration points meet what they face in the undeformed body.
+/// Surfaces whose integration points have their contact partners from the undeformed body.
 #[derive(Debug)]
 pub struct UndeformedPair<const D: usize> {
     pair: FacetPair<D>,
-    /// Integration points that face something, ascending, each with its overlap in the undeformed body.
+    /// Integration points with a partner, ascending, each with its overlap in the undeformed body.
     facing: Vec<Touch>,
-    /// Row of the motion of each of them along its normal.
+    /// Row of the normal motion of each of these integration points.
     rows: Vec<Vec<(usize, f64)>>,
 }
 
 impl<const D: usize> UndeformedPair<D> {
-    /// A surface against what its integration points may meet, without friction, with the bonds of the undeformed body.
+    /// A surface with the contact partner of its integration points, without friction, and the bonds of the undeformed body.
     pub fn new(surface: Surface<D>, opposite: Opposite<D>, bonds: Bonded<'_>) -> Self {
         let still = vec![0.0; surface.layout.n_degrees_of_freedom()];
         let meets_facets = !matches!(opposite, Opposite::Rigid(..));
@@ -51,7 +51,7 @@ impl<const D: usize> UndeformedPair<D> {
         };
         let mut search = Search::default();
         pair.join(&mut search, &mut std::iter::empty());
-        let mut facing = pair.met(&mut search, step, &[], within);
+        let mut facing = pair.contacts_within(&mut search, step, &[], within);
         for it in &mut facing {
             if it.overlap > -CLOSED * pair.reach {
                 it.overlap = 0.0;
@@ -62,9 +62,9 @@ impl<const D: usize> UndeformedPair<D> {
         Self { pair, facing, rows }
     }
 
-    /// Error of the gap of an integration point, m: against a rigid shape that to the first order, against a facet the way along it. Zero where
-    /// nothing meets.
-    fn slid(&self, touch: &Touch, step: Step<'_>) -> f64 {
+    /// Error of the linear gap of an integration point, m: for a rigid shape the difference from the exact gap, for a facet the motion along it. Zero
+    /// without contact.
+    fn gap_error(&self, touch: &Touch, step: Step<'_>) -> f64 {
         let surface = &self.pair.surface;
         let place = FacetPair::<D>::place(touch.place);
         let moved = |facet: usize, weights: &Vector| {
@@ -148,12 +148,12 @@ impl<const D: usize> SurfacePair for UndeformedPair<D> {
     /// more than a facet, or another facet is met by then.
     fn missed(&self, step: Step<'_>, touches: &[Touch]) -> Option<Missed> {
         let reach = self.pair.reach;
-        let is_off = |touch: &&Touch| self.slid(touch, step) > reach;
+        let is_off = |touch: &&Touch| self.gap_error(touch, step) > reach;
         let touch = touches.iter().find(is_off)?;
         let facet = FacetPair::<D>::place(touch.place).facet;
         Some(Missed {
             point: self.pair.surface.facet(facet).corners[0].point,
-            way: self.slid(touch, step),
+            way: self.gap_error(touch, step),
             seen: reach,
         })
     }

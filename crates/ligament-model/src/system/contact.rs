@@ -45,7 +45,7 @@ impl<const D: usize> BondSystem<D> {
         of_broken.chain(of_cut).collect()
     }
 
-    /// The pair of a broken bond with the sums of directions around its ends; none of a bond along the crack.
+    /// The pair of a broken bond from the sums of directions around its ends; none for a bond along the crack.
     fn pair_of_broken(
         &self,
         layout: Layout,
@@ -81,7 +81,7 @@ impl<const D: usize> BondSystem<D> {
         let mut points = BTreeSet::new();
         for end in broken.iter().flat_map(|&it| self.bonds.ends[it as usize]) {
             points.insert(end);
-            points.extend(near.parted(end).map(|(other, _)| other));
+            points.extend(near.separated_neighbours(end).map(|(other, _)| other));
         }
         let sums: BTreeMap<u32, AxisSum<D>> = {
             let ends = |point: u32| {
@@ -177,7 +177,7 @@ impl<const D: usize> BondSystem<D> {
         }
     }
 
-    /// Pair with the largest overlap of the faces, beyond a depth (m), among the points marked in `asked` (n_points).
+    /// Pair with the largest overlap of the faces, beyond a depth (m), among the marked points `asked` (n_points).
     pub(super) fn largest_overlap(
         &self,
         intact: &[bool],
@@ -220,15 +220,15 @@ impl<const D: usize> BondSystem<D> {
         let beyond = overlaps.filter(|it| it.depth > beyond);
         let larger = |most: Overlap, it: Overlap| if it.depth > most.depth { it } else { most };
         let owned = beyond.filter(|it| subdomain.owns_bond(it.ends));
-        let here = owned.reduce(larger).map(|it| Overlap {
+        let local = owned.reduce(larger).map(|it| Overlap {
             ends: subdomain.numbers(it.ends),
             ..it
         });
-        let here = here.into_iter().collect();
-        subdomain.all_gather_list(here).into_iter().reduce(larger)
+        let local = local.into_iter().collect();
+        subdomain.all_gather_list(local).into_iter().reduce(larger)
     }
 
-    /// Adds the stresses of closed pairs to those of the bonds by a reading, shape (n_points, n_components), Pa.
+    /// Adds the stresses of closed pairs to the stresses of the bonds by a reading, shape (n_points, n_components), Pa.
     pub(crate) fn add_stresses_of_contact(
         &self,
         reading: StressReading,
@@ -269,7 +269,7 @@ impl<const D: usize> CrackAround<'_, D> {
     }
 
     /// Other ends and directions of the broken bonds of a point, then of its cut ones.
-    fn parted(&self, point: u32) -> impl Iterator<Item = (u32, [f64; D])> {
+    fn separated_neighbours(&self, point: u32) -> impl Iterator<Item = (u32, [f64; D])> {
         let bonds = &self.system.bonds;
         let of_broken = self.broken(point);
         let of_broken =
@@ -284,9 +284,9 @@ impl<const D: usize> CrackAround<'_, D> {
     }
 
     /// Sum of the directions at a point.
-    fn own(&self, point: u32) -> AxisSum<D> {
+    fn sum_at_point(&self, point: u32) -> AxisSum<D> {
         let mut sum = AxisSum::default();
-        for (_, direction) in self.parted(point) {
+        for (_, direction) in self.separated_neighbours(point) {
             sum.add(direction);
         }
         sum
@@ -294,9 +294,9 @@ impl<const D: usize> CrackAround<'_, D> {
 
     /// Sum of the directions at a point and at the points that its broken and cut bonds connect to.
     fn sum(&self, point: u32) -> AxisSum<D> {
-        let own = self.own(point);
-        self.parted(point)
-            .fold(own, |sum, (other, _)| sum.plus(self.own(other)))
+        let own = self.sum_at_point(point);
+        self.separated_neighbours(point)
+            .fold(own, |sum, (other, _)| sum.plus(self.sum_at_point(other)))
     }
 }
 

@@ -4,7 +4,7 @@ use nalgebra::Matrix3;
 
 use crate::tensor::{ORDER, SymTensor, dot};
 
-/// Sum of e (x) e over directions e, which have no sign; in the plane as that of the doubled angles, e_x^2 - e_y^2 and 2 e_x e_y.
+/// Sum of e (x) e over directions e, which have no sign; in the plane as the sum over the doubled angles, e_x^2 - e_y^2 and 2 e_x e_y.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(super) struct AxisSum<const D: usize> {
     values: [f64; 6],
@@ -34,7 +34,7 @@ impl<const D: usize> AxisSum<D> {
         }
     }
 
-    /// Values of the sum.
+    /// Values of the sum, of which there are `N_VALUES`.
     pub(super) fn values(self) -> impl Iterator<Item = f64> {
         self.values.into_iter().take(Self::N_VALUES)
     }

@@ -9,11 +9,11 @@ use crate::rigid_motions::{FreeMotion, RigidMotions, Turn};
 /// Values at a degree of freedom of a part.
 #[derive(Debug, Clone, Copy)]
 struct Given {
-    /// Whether it is fixed.
+    /// Whether the degree of freedom is fixed.
     is_fixed: bool,
     /// Whether a support can be added.
     can_hold: bool,
-    /// Force on it, N or N m.
+    /// Force on the degree of freedom, N or N m.
     force: f64,
 }
 
@@ -31,8 +31,7 @@ pub(super) struct Part<const D: usize> {
 }
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
-    /// The part of which this process owns some points, or none where its fixed degrees of freedom prevent all rigid motions: several processes
-    /// then exchange no other points. Collective.
+    /// A part with some points on this process, or none where its fixed degrees of freedom prevent all rigid motions: several processes then exchange no other points. Collective.
     pub(super) fn free_part(
         &self,
         points: &[u32],
@@ -58,7 +57,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         Some(self.part(points, turn, given))
     }
 
-    /// The part of which this process owns some points, with forces on it; collective.
+    /// A part with some points on this process, with the forces on it; collective.
     pub(super) fn part_with_forces(
         &self,
         points: &[u32],
@@ -74,7 +73,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         self.part(points, self.turn(points), &given)
     }
 
-    /// The part of which this process owns some points, with values at their degrees of freedom; collective.
+    /// A part with some points on this process, with values at their degrees of freedom; collective.
     fn part(&self, points: &[u32], turn: Turn, given: &dyn Fn(usize) -> Given) -> Part<D> {
         let (cloud, layout) = (&self.system.cloud, self.topology.layout);
         let row = |&point: &u32| {

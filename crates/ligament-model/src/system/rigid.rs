@@ -27,7 +27,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         RigidMotions::of_body(layout, &cloud.positions, &owned, subdomain).shapes(&all)
     }
 
-    /// Cost and effect of rotating a part of the body, of which this process owns some points; collective.
+    /// Cost and effect of rotating a part of the body, with some of its points on this process; collective.
     pub(super) fn turn(&self, points: &[u32]) -> Turn {
         let BondSystem {
             bonds, rigidities, ..

@@ -16,11 +16,11 @@ pub struct VolumetricCells<const D: usize> {
     pub(super) corners: Vec<u32>,
     /// Integral G of the gradient of the shape function of each of `corners`, m^2.
     pub(super) gradients: Vec<[f64; D]>,
-    /// End of the corners of each cell, shape (n_cells).
+    /// Index after the last corner of each cell, shape (n_cells).
     corner_ends: Vec<usize>,
     /// Edges of all cells, cell by cell, from the lower to the higher point.
     edges: Vec<[u32; 2]>,
-    /// End of the edges of each cell, shape (n_cells).
+    /// Index after the last edge of each cell, shape (n_cells).
     edge_ends: Vec<usize>,
     /// Volumes, shape (n_cells), m^3.
     pub(super) volumes: Vec<f64>,
@@ -134,7 +134,7 @@ impl<const D: usize> VolumetricCells<D> {
         kept
     }
 
-    /// The cells between points with other numbers, by their numbers before.
+    /// The cells with their points renumbered: `numbers` has the new number of each.
     pub(super) fn renumbered(mut self, numbers: &[u32]) -> Self {
         let ends = self.edges.as_flattened_mut().iter_mut();
         for point in self.corners.iter_mut().chain(ends) {
@@ -154,7 +154,7 @@ impl<const D: usize> VolumetricCells<D> {
     }
 }
 
-/// Range of a number in lists whose ends are given.
+/// Range of one list in concatenated lists, from the index after each.
 fn range(ends: &[usize], number: usize) -> Range<usize> {
     let start = number.checked_sub(1).map_or(0, |before| ends[before]);
     start..ends[number]

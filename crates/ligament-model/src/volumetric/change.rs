@@ -16,7 +16,7 @@ struct PatchElement {
     thermal: Vec<(u32, f64)>,
     /// Number of axes of the body.
     n_axes: usize,
-    /// Dilatation at the change.
+    /// Dilatation at the time of the change.
     before: f64,
 }
 
@@ -28,7 +28,7 @@ pub(crate) struct ChangedPatch {
 }
 
 impl PatchElement {
-    /// Dilatation less that by temperature.
+    /// Dilatation less the thermal dilatation.
     fn dilatation(&self, displacement: &[f64], expansion: ThermalStrain<'_>) -> f64 {
         let moved: f64 = (self.row.iter())
             .map(|(dof, value)| value * displacement[*dof])

@@ -5,14 +5,14 @@ use rayon::prelude::*;
 use super::cells::VolumetricCells;
 use crate::bonds::{BondSet, Incidence};
 use crate::correction::patch::{CellForces, uniform_strains};
-use crate::far_field::joined;
+use crate::far_field::union_of_couplings;
 use crate::material::add_volumetric;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::thermal::ThermalStrain;
 use crate::topology::CoupledPoints;
 use crate::topology::UnbrokenBonds;
 
-/// Cells or patches of a task worth while.
+/// Least number of cells or patches for a parallel task.
 const TASK: usize = 1024;
 
 /// Volumetric stiffnesses of the patches of a body: the cells of one material around a point.
@@ -25,7 +25,7 @@ pub struct VolumetricTerms<const D: usize> {
     cells_of_bonds: Incidence,
     /// Cell of each corner.
     cell_of_corner: Vec<u32>,
-    /// Corners, by their places in the arrays over corners, that each point is.
+    /// Corners of cells at each point, by their indices in the arrays over corners.
     corners_at_points: Incidence,
     /// Patch of each corner.
     patch_of_corner: Vec<u32>,
@@ -76,7 +76,7 @@ impl CellPatch {
 pub(crate) struct PatchDilatation {
     /// Volume w of the living cells at the point, m^3.
     pub(crate) volume: f64,
-    /// Mean dilatation theta less that by temperature; 0 without a living cell.
+    /// Mean dilatation theta less the thermal dilatation; 0 without a living cell.
     pub(crate) dilatation: f64,
 }
 
@@ -96,19 +96,19 @@ pub(crate) struct VolumetricStress {
 
 impl VolumetricStress {
     /// Mean stress of the living cells, Pa; none without a living cell.
-    pub(crate) fn of_living(&self) -> Option<f64> {
+    pub(crate) fn mean_over_living(&self) -> Option<f64> {
         (self.volume > 0.0).then(|| self.stress_volume / self.volume)
     }
 
-    /// Stress over the volume of all cells, dead or living, Pa; none without a cell.
-    pub(crate) fn of_all(&self) -> Option<f64> {
+    /// Mean stress over all cells, dead or living, Pa; none without a cell.
+    pub(crate) fn mean_over_all(&self) -> Option<f64> {
         (self.whole_volume > 0.0).then(|| self.stress_volume / self.whole_volume)
     }
 }
 
 impl<const D: usize> VolumetricTerms<D> {
-    /// Terms of cells with the moduli kappa of their materials (n_materials), Pa; none where no cell has one. `is_cut` says of an edge without
-    /// a bond whether a pre-crack cuts it; other edges without a bond, longer than a horizon, count as whole. `coupled` has the points that
+    /// Terms of cells with the moduli kappa of their materials (n_materials), Pa; `None` if no cell has a modulus. `is_cut` returns whether a
+    /// pre-crack cuts an edge without a bond; other edges without a bond, longer than a horizon, count as whole. `coupled` contains the points that
     /// bonds, crack faces and elements couple.
     pub fn new(
         cells: &VolumetricCells<D>,
@@ -134,11 +134,11 @@ impl<const D: usize> VolumetricTerms<D> {
         let cells = cells.retained(living);
         (!cells.is_empty()).then(|| {
             let n_points = bonds.incidence.n_points();
-            Self::of_living(cells, bonds, moduli, n_points, coupled, unconnected)
+            Self::from_intact_cells(cells, bonds, moduli, n_points, coupled, unconnected)
         })
     }
 
-    fn of_living(
+    fn from_intact_cells(
         cells: VolumetricCells<D>,
         bonds: &BondSet<D>,
         moduli: &[f64],
@@ -176,11 +176,11 @@ impl<const D: usize> VolumetricTerms<D> {
             unconnected,
         };
         terms.find_patches(n_points);
-        terms.coupled_points = joined([coupled, &terms.neighbours(n_points)], n_points);
+        terms.coupled_points = union_of_couplings([coupled, &terms.neighbours(n_points)], n_points);
         terms
     }
 
-    /// Sets the patches: those of each point by material.
+    /// Sets the patches of each point, one for each material.
     fn find_patches(&mut self, n_points: usize) {
         let cells = &self.cells;
         let cell = |place: u32| self.cell_of_corner[place as usize] as usize;
@@ -229,9 +229,9 @@ impl<const D: usize> VolumetricTerms<D> {
         CoupledPoints::from_lists(&Incidence::from_pairs(pairs, n_points).into())
     }
 
-    /// The terms between the points of a whole body of which these are a part: `points` has their numbers, ascending. `coupled` has the
+    /// The terms of a part of a body, between the points of the whole body: `points` has their numbers, ascending. `coupled` has the
     /// points that bonds and elements couple in the whole body.
-    pub(crate) fn within(
+    pub(crate) fn in_whole_body(
         self,
         points: &[u32],
         bonds: &BondSet<D>,
@@ -239,7 +239,7 @@ impl<const D: usize> VolumetricTerms<D> {
     ) -> Self {
         let n_points = bonds.incidence.n_points();
         let cells = self.cells.renumbered(points);
-        Self::of_living(
+        Self::from_intact_cells(
             cells,
             bonds,
             &self.moduli,
@@ -320,7 +320,7 @@ impl<const D: usize> VolumetricTerms<D> {
         cells
     }
 
-    /// Share f of its stiffness that a cell has left.
+    /// Remaining share f of the stiffness of a cell.
     pub(super) fn share(&self, bonds: UnbrokenBonds<'_>, cell: u32) -> f64 {
         let along_edges = self.bonds_of_cells.at(cell).iter();
         along_edges.fold(1.0, |share, &bond| {
@@ -333,7 +333,7 @@ impl<const D: usize> VolumetricTerms<D> {
         })
     }
 
-    /// Change of the volume of a cell in motions with a number of components a point, m^3. A translation makes none.
+    /// Change of the volume of a cell for motions with a given number of components per point, m^3. A translation makes none.
     fn volume_change(&self, cell: u32, motions: &[f64], n_components: usize) -> f64 {
         let places = self.cells.places(cell as usize);
         let moved = |place: usize| -> [f64; D] {
@@ -362,7 +362,7 @@ impl<const D: usize> VolumetricTerms<D> {
         share * corners.iter().map(of_corner).sum::<f64>()
     }
 
-    /// Change of the volume of a cell less that by temperature, m^3, in motions with a number of components a point.
+    /// Change of the volume of a cell less its thermal change, m^3, for motions with a given number of components per point.
     fn change(
         &self,
         cell: u32,
@@ -372,8 +372,8 @@ impl<const D: usize> VolumetricTerms<D> {
         self.volume_change(cell, motions, n_components) - self.thermal_change(cell, expansion)
     }
 
-    /// Change of the volume of each cell less that by temperature, living or not, shape (n_cells), m^3, in motions with a number of components
-    /// a point.
+    /// Change of the volume of each cell, living or not, less its thermal change, shape (n_cells), m^3, for motions with a given number of components
+    /// per point.
     pub(crate) fn volume_changes(
         &self,
         motions: (&[f64], usize),
@@ -387,7 +387,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.of_cells(|cell| self.thermal_change(cell, expansion))
     }
 
-    /// Share of its stiffness that each cell has left, shape (n_cells).
+    /// Remaining share of the stiffness of each cell, shape (n_cells).
     pub(crate) fn shares(&self, bonds: UnbrokenBonds<'_>) -> Vec<f64> {
         self.of_cells(|cell| self.share(bonds, cell))
     }
@@ -503,7 +503,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.stress(point, |patch| self.dilatation(patch, share, change))
     }
 
-    /// Volumetric stress of a point in motions with a number of components a point.
+    /// Volumetric stress of a point for motions with a given number of components per point.
     pub(crate) fn stress_in_motions(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -516,7 +516,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.stress(point, |patch| self.dilatation(patch, share, change))
     }
 
-    /// Volumetric stress of each point in motions with a number of components a point, shape (n_points).
+    /// Volumetric stress of each point for motions with a given number of components per point, shape (n_points).
     pub(crate) fn stresses(
         &self,
         bonds: UnbrokenBonds<'_>,
@@ -626,7 +626,7 @@ impl<const D: usize> VolumetricTerms<D> {
         self.patches[patch as usize].modulus
     }
 
-    /// Weights of the thermal dilatations of the points in that of a patch.
+    /// Weights of the thermal dilatations of the points in the dilatation of a patch.
     pub(super) fn thermal_weights(
         &self,
         patch: u32,

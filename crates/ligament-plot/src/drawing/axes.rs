@@ -3,21 +3,31 @@
 use super::ticks::ticks;
 use super::{Anchor, Drawing, Frame, OUTLINE, Rgb, text_width};
 
-/// Room for axes at the left of a frame, at its right for half a number, and below it, in sizes of the letters.
+/// Room for an axis at the left of a frame, in sizes of the letters.
 const LEFT: f64 = 5.25;
+
+/// Room for half a number at the right of a frame, in sizes of the letters.
 const RIGHT: f64 = 1.0;
+
+/// Room for an axis below a frame, in sizes of the letters.
 const BELOW: f64 = 3.5;
 
-/// Length of a tick and width of the lines, in sizes of the letters.
+/// Length of a tick, in sizes of the letters.
 const TICK: f64 = 0.375;
+
+/// Width of the lines, in sizes of the letters.
 const WIDTH: f64 = 0.075;
 
-/// Colour and width, in sizes of the letters, of the lines across a frame.
+/// Colour of the lines across a frame.
 const GRID: Rgb = [225; 3];
+
+/// Width of the lines across a frame, in sizes of the letters.
 const GRID_WIDTH: f64 = 0.06;
 
-/// Intervals between the ticks of an axis.
+/// Smallest number of intervals between the ticks of an axis.
 const FEWEST: f64 = 2.0;
+
+/// Largest number of intervals between the ticks of an axis.
 const MOST: f64 = 7.0;
 
 /// Names and style of the axes of a frame.

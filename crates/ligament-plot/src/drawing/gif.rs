@@ -9,7 +9,7 @@ use super::png::{Pixels, PngError};
 /// Largest number of colours of a palette.
 const MOST_COLOURS: usize = 256;
 
-/// Shortest duration of the last picture, hundredths of a second, before the animation begins again.
+/// Shortest duration of the last picture before the animation repeats, hundredths of a second.
 const LAST: u16 = 200;
 
 /// Reason why an animation cannot be made.

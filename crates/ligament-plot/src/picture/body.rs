@@ -159,11 +159,11 @@ impl Body {
 
 /// A scale for all bodies: the largest displacement is 2 to 5 % of the body.
 pub(super) fn common_scale<'a>(bodies: impl Iterator<Item = &'a Body>) -> f64 {
-    common_scale_of(bodies.filter_map(Body::drawn_scale))
+    common_scale_from(bodies.filter_map(Body::drawn_scale))
 }
 
 /// A scale for bodies with these largest scales, the smallest rounded down to 1, 2 or 5 times a power of ten.
-pub(super) fn common_scale_of(scales: impl Iterator<Item = f64>) -> f64 {
+pub(super) fn common_scale_from(scales: impl Iterator<Item = f64>) -> f64 {
     scales.reduce(f64::min).map_or(1.0, rounded_down)
 }
 

@@ -15,10 +15,10 @@ const ENERGIES: &str = "energies";
 const PROBES: &str = "probes";
 
 /// Share of the largest energy below which another energy cannot be seen beside it.
-const SEEN: f64 = 1e-3;
+const VISIBLE_SHARE: f64 = 1e-3;
 
 /// Columns of [`ENERGIES`], in the order of the ledger.
-const OF_ENERGIES: [&str; 9] = [
+const ENERGY_COLUMNS: [&str; 9] = [
     "external_work",
     "kinetic_energy",
     "stored_energy",
@@ -42,11 +42,11 @@ pub(super) struct Tables<'a> {
 
 /// A curve in SI units.
 pub(super) struct Curve {
-    /// Words for the column along y.
+    /// Name of the column along y.
     pub(super) name: String,
     pub(super) points: Vec<[f64; 2]>,
     pub(super) units: [String; 2],
-    /// Whether each point is in equilibrium with its load; in the others bonds were still failing.
+    /// Whether each point is in equilibrium with its load; at other points bonds were still failing.
     pub(super) at_rest: Vec<bool>,
     /// Whether the points do not form a line, such as the tips of several cracks.
     pub(super) is_scattered: bool,
@@ -84,12 +84,12 @@ impl<'a> Tables<'a> {
             match name.as_str() {
                 ENERGIES if !has(ENERGIES) => {
                     let mut sizes = Vec::new();
-                    for name in OF_ENERGIES.into_iter().filter(|it| has(it)) {
+                    for name in ENERGY_COLUMNS.into_iter().filter(|it| has(it)) {
                         let values = self.history.values::<f64>(name)?.into_iter();
                         sizes.push((name, values.fold(0.0, |most, it| it.abs().max(most))));
                     }
                     let largest = sizes.iter().fold(0.0, |most, it| it.1.max(most));
-                    let seen = sizes.iter().filter(|it| it.1 > SEEN * largest);
+                    let seen = sizes.iter().filter(|it| it.1 > VISIBLE_SHARE * largest);
                     selected.extend(seen.map(|it| it.0.to_owned()));
                 }
                 PROBES if !has(PROBES) => {
@@ -206,7 +206,7 @@ pub(super) fn common_name(unit: &str) -> &'static str {
     }
 }
 
-/// Whether each of the rows is in equilibrium with its load; in tables without this column, of earlier versions or of other kinds, all are.
+/// Whether each row is in equilibrium with its load; all are in tables without this column.
 fn at_rest(sheet: &CsvTable, n_rows: usize) -> Result<Vec<bool>, PictureError> {
     if !sheet.columns().iter().any(|name| name == "at_rest") {
         return Ok(vec![true; n_rows]);

@@ -27,13 +27,13 @@ pub struct CurveRequest {
     pub labels: Vec<String>,
     /// Column along x; None: the time of a motion, else the displacement.
     pub x: Option<String>,
-    /// Columns along y: of the history, or of the growth and the tips of cracks; `energies` and `probes` select all of these.
+    /// Columns along y: of the history, or of the growth and the tips of cracks; `energies` and `probes` select all energies or probes.
     pub y: Vec<String>,
     /// Size and file.
     pub target: Target,
 }
 
-/// A kind of points that stand out on a curve.
+/// A kind of marked points on curves.
 type Landmark<'a> = (
     Mark,
     &'a dyn Fn(&LabelledCurve) -> Vec<(&'static str, [f64; 2])>,
@@ -198,7 +198,7 @@ impl Axes {
         Plot::new("curves", title, [&x, &y], series)
     }
 
-    /// The points that stand out on some of the curves, each kind with an entry of the legend.
+    /// Marked points on some of the curves, each kind with a legend entry.
     fn landmarks(&self, range: Range<usize>) -> Vec<Series> {
         let kinds: [Landmark<'_>; 3] = [
             (Mark::Triangles, &|it| it.curve.first.into_iter().collect()),

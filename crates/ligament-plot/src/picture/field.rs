@@ -13,7 +13,7 @@ pub(super) const NONE: &str = "none";
 /// Name of the norm of a vector among its components.
 const NORM: &str = "magnitude";
 
-/// Quantile of a mode's field that is drawn as its largest value, because values at the corners of a clamp are far larger than all others.
+/// Quantile of a mode's field that is drawn as its largest value, because values at the corners of a clamp are far above the rest.
 const MODE_QUANTILE: f64 = 0.995;
 
 /// A field to be drawn.

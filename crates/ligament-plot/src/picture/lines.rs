@@ -15,8 +15,10 @@ use crate::stored_loading::resolved_case;
 /// Colour of pre-cracks.
 const CUT: Rgb = [0x8c; 3];
 
-/// Widths of lines, pixels: of the cracks and of all others.
+/// Width of cracks, pixels.
 const CRACK_WIDTH: f64 = 1.4;
+
+/// Width of all other lines, pixels.
 const WIDTH: f64 = 1.0;
 
 /// First columns of the table of cracks of a run.
@@ -28,9 +30,9 @@ const TIP: f64 = 2.2;
 /// Lines of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Lines {
-    /// Words of the legend.
+    /// Text of the legend entry.
     pub(super) name: String,
-    /// Additional words of the legend for a single state.
+    /// Additional text of the legend entry for a single state.
     pub(super) detail: String,
     /// Colour of the lines.
     pub(super) colour: Rgb,
@@ -38,7 +40,7 @@ pub(super) struct Lines {
     width: f64,
     /// Corners of each line in the undeformed body, m.
     pub(super) polylines: Vec<Vec<[f64; 2]>>,
-    /// Places that are marked, m.
+    /// Positions of marked tips, m.
     tips: Vec<[f64; 2]>,
 }
 
@@ -80,8 +82,8 @@ impl Lines {
         })
     }
 
-    /// The lines of a table `x,y` (m) without quotes, separated by empty lines; a first row of words is its header. Of the table of cracks
-    /// of another run, the last ones, with the name of its folder.
+    /// The lines of a table `x,y` (m) without quotes, separated by empty lines; a first row of words is its header. From the crack table of another
+    /// run it takes the cracks of the last step, named after the folder.
     pub(super) fn from_table(path: &Path, place: usize) -> Result<Self, PictureError> {
         let text = read_text(path)?;
         let is_of_run = text.starts_with(&CRACK_COLUMNS.join(","));

@@ -79,7 +79,7 @@ pub enum PictureError {
     /// A field with several components was requested without a component.
     #[error("`{field}` has several components; name one of {}", choices.join(", "))]
     NoComponent {
-        /// Field of which a component is needed.
+        /// Field that needs a component.
         field: String,
         /// Names that can be drawn.
         choices: Vec<String>,
@@ -110,20 +110,20 @@ pub enum PictureError {
         /// Number of given results.
         n_results: usize,
     },
-    /// A solid in a kind of picture that shows bodies in the plane.
+    /// The body is a solid, and the kind of picture shows bodies in the plane.
     #[error(
         "{0} shows bodies in the plane, and this one is a solid; draw it, or a section of it, by `ligament plot`"
     )]
     Solid(&'static str),
-    /// A view, section or level for a body in the plane.
+    /// A view, section or level is requested for a body in the plane.
     #[error(
         "{0} has a body in the plane, and only a solid has views, sections and surfaces of a level"
     )]
     Plane(PathBuf, #[source] Remedy),
-    /// A level without a field.
+    /// A level is requested without a field.
     #[error("the surface of a level needs a field of the points")]
     NoLevel(#[source] Remedy),
-    /// Lines over a solid.
+    /// Lines are requested over a solid.
     #[error("lines and boxes are drawn over bodies in the plane, and this one is a solid")]
     LinesOfSolid(#[source] Remedy),
     /// There is no history to choose or to draw from in the folder.
@@ -170,9 +170,9 @@ pub enum PictureError {
     Units {
         /// Column along the axis.
         axis: String,
-        /// Unit of the first.
+        /// Unit of the first curve.
         first: String,
-        /// Unit of another.
+        /// Unit of another curve.
         other: String,
     },
     /// The file name has no ending of a format of pictures.

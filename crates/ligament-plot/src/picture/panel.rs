@@ -24,33 +24,33 @@ const LIGHT: Rgb = [0xf4; 3];
 /// Colour of rigid bodies.
 const RIGID: Rgb = [0x8f, 0x98, 0xa3];
 
-/// Widths of lines in pixels: outlines ...
+/// Width of outlines, pixels.
 const OUTLINE_WIDTH: f64 = 0.5;
 
-/// ... broken bonds, and sides between materials.
+/// Width of broken bonds and of interfaces between materials, pixels.
 const BOND_WIDTH: f64 = 0.4;
 const INTERFACE_WIDTH: f64 = 0.9;
 
-/// A body with everything that is drawn of it.
+/// A body and everything drawn with it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Panel {
-    /// Words of its title, long and short.
+    /// Long and short words of the title.
     pub(super) title: Vec<[String; 2]>,
     /// Body of the panel.
     pub(super) body: Body,
     /// Deformed positions of the corners of its cells.
     pub(super) positions: Vec<[f64; 2]>,
-    /// The field, if one is drawn.
+    /// Drawn field; None without one.
     pub(super) field: Option<Field>,
     /// Broken bonds by colour, between deformed ends.
     pub(super) broken: Vec<(Rgb, Vec<[[f64; 2]; 2]>)>,
-    /// Sides on which another material begins, between deformed ends.
+    /// Sides of cells at interfaces between materials, between deformed ends.
     pub(super) interfaces: Vec<[[f64; 2]; 2]>,
     /// Lines over the body.
     pub(super) lines: Vec<Lines>,
-    /// Rigid bodies beside the body, as they are drawn once it is deformed.
+    /// Rigid bodies beside the deformed body.
     pub(super) rigid: Option<StoredRigidBodies>,
-    /// The scene that is drawn of a solid, in place of the body's cells.
+    /// Scene of a solid, drawn instead of cells; None in the plane.
     pub(super) solid: Option<SolidView>,
 }
 
@@ -159,7 +159,7 @@ impl Panel {
         }
     }
 
-    /// Contours of values at the points, each region over the one of the level below.
+    /// Draws contours of values at the points, each region over the one of the next lower level.
     fn draw_surface(&self, drawing: &mut Drawing, frame: Frame, field: Option<(&Field, &Scale)>) {
         let triangles = || self.body.cells.iter().flat_map(triangles_of_cell);
         let reference = &self.body.reference;
@@ -181,7 +181,7 @@ impl Panel {
         drawing.path(outline, Paint::stroke(OUTLINE, OUTLINE_WIDTH));
     }
 
-    /// Cells with a colour each, painted band by band: a band and all bands above it are painted over the band below.
+    /// Draws cells with a colour each, band by band: a band and all bands above it are painted over the band below.
     fn draw_cells(&self, drawing: &mut Drawing, frame: Frame, field: Option<(&Field, &Scale)>) {
         let (body, cells) = (&self.body, &self.body.cells);
         let joined = MergedCorners::new(cells, &body.reference, &self.positions);

@@ -11,7 +11,7 @@ use super::request::FieldRequest;
 use super::target::Target;
 use crate::stored_loading::resolved_case;
 
-/// Whether the case of a run asks for pictures at its end, by `output.picture = true`.
+/// Whether the case of a run has `output.picture = true`, for pictures at its end.
 pub fn asks_for_pictures(folder: &Path) -> bool {
     let case = resolved_case(folder).ok();
     let requested = |case: toml::Table| case.get("output")?.get("picture")?.as_bool();

@@ -1,4 +1,4 @@
-//! Which outputs of a folder are drawn.
+//! Selection of the outputs of a folder to draw.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -67,7 +67,7 @@ pub(super) struct SelectedOutput {
     pub(super) number: usize,
     /// File of the output.
     pub(super) path: PathBuf,
-    /// Long and short description of the event by which the step was chosen, if any.
+    /// Long and short description of the event that selected the step, if any.
     pub(super) happened: Option<[String; 2]>,
 }
 
@@ -112,7 +112,7 @@ pub(super) fn selected_outputs(
     Ok(numbers.into_iter().map(output).collect())
 }
 
-/// The outputs with these names, of all there are.
+/// Outputs selected by name.
 fn outputs_by_name(
     outputs: &Outputs,
     names: &[StepChoice],
@@ -133,7 +133,7 @@ fn outputs_by_name(
     Ok(found.iter().map(output).collect())
 }
 
-/// Makes sure that modes are asked for by number, and are there.
+/// Checks that a mode is requested by number and exists.
 fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<(), PictureError> {
     let path = outputs.folder.clone();
     match name {

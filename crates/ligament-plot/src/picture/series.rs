@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use ligament_output::{check_file, is_stream, write_file};
 
 use super::PictureError;
-use super::body::common_scale_of;
+use super::body::common_scale_from;
 use super::panel::Panel;
 use super::request::{FieldRequest, Magnification, WIDTHS};
 use super::select::Choice;
@@ -127,7 +127,7 @@ impl<'a> Series<'a> {
             Magnification::Times(factor) => Some(factor),
             Magnification::Auto if request.has_lines() => Some(0.0),
             Magnification::Auto if subject.has_modes => None,
-            Magnification::Auto => Some(common_scale_of(scales.into_iter())),
+            Magnification::Auto => Some(common_scale_from(scales.into_iter())),
         };
         let mut extents = Vec::new();
         let mut last: Option<Panel> = None;

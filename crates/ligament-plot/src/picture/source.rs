@@ -27,7 +27,7 @@ use super::units::AxisUnit;
 use super::{PictureError, labels_of, solid};
 use crate::stored_loading::stored_loading;
 
-/// Words in titles and legends for a step in which bonds were still failing.
+/// Text in titles and legends for a step in which bonds were still failing.
 const NOT_CONVERGED: &str = "not converged";
 
 /// The results in a folder.
@@ -54,7 +54,7 @@ pub(super) struct Source {
     frequencies: BTreeMap<usize, f64>,
 }
 
-/// Results with the field that is drawn of them.
+/// Results, and the field to draw.
 pub(super) struct Subject {
     pub(super) sources: Vec<Source>,
     /// Name of the field, or `none`.
@@ -136,7 +136,7 @@ impl Subject {
     }
 }
 
-/// The field that shows what happened in the first of the results in which bonds failed.
+/// The default field: the field of the first results in which bonds failed, else the displacement.
 fn default_field(sources: &[Source]) -> Result<&'static str, PictureError> {
     for source in sources {
         let field = first_field_of(&source.outputs)?;
@@ -225,7 +225,7 @@ impl Output<'_> {
         self.source.rows.get(&self.selected.number)
     }
 
-    /// Words of the title, long and short.
+    /// Long and short words of the title.
     pub(super) fn title(&self) -> Vec<[String; 2]> {
         let (source, number) = (self.source, self.selected.number);
         let same = |text: String| [text.clone(), text];

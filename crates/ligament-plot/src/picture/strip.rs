@@ -27,15 +27,15 @@ const RIM: f64 = 0.5;
 /// Largest height over width of a picture.
 const TALLEST: f64 = 1.25;
 
-/// Ratio of width to height from which on bodies are put below each other.
+/// Ratio of width to height above which bodies are placed below each other.
 const WIDE: f64 = 2.2;
 
 /// A line of the legend.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct LegendEntry {
-    /// Colour of its sample; None: words alone.
+    /// Colour of the sample line; None for text alone.
     pub(super) colour: Option<Rgb>,
-    /// Words of the title.
+    /// Text of the entry.
     pub(super) words: String,
 }
 
@@ -45,7 +45,7 @@ const SAMPLE: f64 = 18.0;
 /// Largest height of a colour bar, pixels.
 const LONGEST_BAR: f64 = 420.0;
 
-/// Room in each picture of a series for the contents of all its pictures, so that nothing moves from one to the next.
+/// Extent over all pictures of a series, for which each of them has room, so that nothing moves from one to the next.
 #[derive(Debug)]
 pub(super) struct SeriesExtent {
     /// Lower left and upper right corner of all bodies in all pictures, m.
@@ -54,14 +54,14 @@ pub(super) struct SeriesExtent {
     pub(super) titles: Vec<Vec<[String; 2]>>,
 }
 
-/// Parts of a picture.
+/// Contents of a picture: bodies, colour bar and legend.
 #[derive(Debug)]
 pub(super) struct Strip<'a> {
     /// The bodies; one or more.
     pub(super) panels: &'a [Panel],
     /// Colours of the field.
     pub(super) scale: Option<&'a Scale>,
-    /// The bar of the field.
+    /// Colour bar of the field.
     pub(super) bar: Option<ColourBar<'a>>,
     /// Legend below the bodies.
     pub(super) legend: Vec<LegendEntry>,
@@ -71,7 +71,7 @@ pub(super) struct Strip<'a> {
     pub(super) columns: Option<usize>,
     /// Whether axes in mm stand at the left of and below each body.
     pub(super) has_axes: bool,
-    /// Room for the other pictures of a series, if it is one.
+    /// Extent over all pictures of a series; None for a single picture.
     pub(super) room: Option<&'a SeriesExtent>,
 }
 
@@ -285,7 +285,7 @@ fn widest(titles: &[Vec<String>]) -> f64 {
     lines.map(|line| text_width(line, SIZE)).fold(0.0, f64::max)
 }
 
-/// Words in lines of a width: several in one line where they fit, in their short form where one alone does not.
+/// Words broken into lines of a width: several words in one line where they fit, and the short form of a word that does not fit alone.
 fn wrapped(words: &[[String; 2]], width: f64) -> Vec<String> {
     let fits = |text: &str| text_width(text, SIZE) <= width;
     let mut lines: Vec<String> = Vec::new();

@@ -23,13 +23,12 @@ pub(super) struct Style<'a> {
     colours: Option<(Scale, [f64; 2])>,
     quantity: String,
     unit: &'static str,
-    /// Words for the file.
+    /// Title of the file.
     pub(super) title: String,
 }
 
 impl<'a> Style<'a> {
-    /// The style of a subject, whose displacements are drawn larger by a factor, and whose field has these ranges in the outputs
-    /// and an SI unit.
+    /// The style of a subject for a magnification of displacements, the ranges of the field in its outputs, and the SI unit of the field.
     pub(super) fn new(
         request: &'a FieldRequest,
         subject: &Subject,
@@ -94,7 +93,7 @@ impl<'a> Style<'a> {
     }
 }
 
-/// The name of a field under its colours. Virial stresses at single points of a mesh are not the stresses of the continuum: the name says
+/// The name of a field below its colour bar. Virial stresses at single points of a mesh are not the stresses of the continuum: the name says
 /// that only means are right.
 fn caption(quantity: &str) -> String {
     match quantity.starts_with(STRESS_VIRIAL.name) {
@@ -111,8 +110,8 @@ pub(super) fn magnification_words(magnification: Option<f64>) -> String {
     }
 }
 
-/// Entries for the criteria by which bonds of any panel broke and for the lines over the bodies, each once, with numbers of bonds and
-/// lengths if requested.
+/// Legend entries for the failure criteria of broken bonds and for the lines over the bodies, each once, with numbers of bonds and lengths if
+/// requested.
 pub(super) fn crack_legend(
     sources: &[Source],
     panels: &[Panel],

@@ -9,7 +9,7 @@ use crate::drawing::{Drawing, Frame};
 pub struct EqualScales {
     /// The curves, which need not lie in the window.
     pub plot: Plot,
-    /// Lower left and upper right corner of the part that is shown at least.
+    /// Lower left and upper right corner of the part that must be visible.
     pub window: [[f64; 2]; 2],
 }
 

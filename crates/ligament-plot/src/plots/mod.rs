@@ -1,6 +1,6 @@
 //! Plots of numbers.
 //!
-//! A [`Plot`] has scales of its own along x and y; [`Panels`] are several with the same scales; [`equal_scales`] draws one with the same scale
+//! A [`Plot`] has separate scales along x and y; [`Panels`] are several with the same scales; [`equal_scales`] draws one with the same scale
 //! along both, [`polar`] draws curves around a centre.
 
 pub mod equal_scales;

@@ -36,7 +36,7 @@ impl Panels {
             name: self.name.clone(),
         })?;
         let legend = self.legend();
-        let (sheet, rooms) = PageLayout::paper_of(width, &legend, self.plots.len());
+        let (sheet, rooms) = PageLayout::for_panels(width, &legend, self.plots.len());
         let mut drawing = sheet.drawing();
         let size = sheet.pen * TITLE;
         drawing.text(

@@ -16,7 +16,7 @@ const HEIGHT_OF_PANEL: f64 = 0.85;
 const PLANE: f64 = 570.0;
 const LEGEND: f64 = 190.0;
 
-/// Largest share of the legend of a sheet of paper.
+/// Largest share of the legend in the width of a sheet.
 const LARGEST_LEGEND: f64 = 0.6;
 
 /// Place of the first entry of the legend, and distance of the entries, pixels of a screen.
@@ -54,7 +54,7 @@ impl PageLayout {
     pub(super) fn screen(height: f64, series: &[Series]) -> Self {
         Self {
             pen: 1.0,
-            size: [PLANE + legend(series).max(LEGEND), height],
+            size: [PLANE + legend_width(series).max(LEGEND), height],
             plane: PLANE,
         }
     }
@@ -63,19 +63,19 @@ impl PageLayout {
     pub(super) fn paper(width: f64, series: &[Series]) -> Self {
         let pen = PIXELS_PER_MM / SCREEN_PIXELS_PER_MM;
         let width = width * PIXELS_PER_MM;
-        let legend = (pen * legend(series)).min(LARGEST_LEGEND * width);
+        let legend = (pen * legend_width(series)).min(LARGEST_LEGEND * width);
         let plane = width - legend;
         let sheet = Self {
             pen,
             size: [width, HEIGHT * plane],
             plane,
         };
-        let size = [width, sheet.with_legend(sheet.size[1], series)];
+        let size = [width, sheet.height_with_legend(sheet.size[1], series)];
         Self { size, ..sheet }
     }
 
     /// A sheet of paper of a width in mm with a line above several plots of equal size, and the rooms of these in rows.
-    pub(super) fn paper_of(width: f64, series: &[Series], count: usize) -> (Self, Vec<Room>) {
+    pub(super) fn for_panels(width: f64, series: &[Series], count: usize) -> (Self, Vec<Room>) {
         let sheet = Self::paper(width, series);
         // Up to four plots are in pairs, so that they are not small.
         let columns = match count {
@@ -92,12 +92,12 @@ impl PageLayout {
             Room { at, size }
         };
         let rooms = (0..count).map(room).collect();
-        let height = sheet.with_legend(above + rows * size[1], series);
+        let height = sheet.height_with_legend(above + rows * size[1], series);
         let size = [sheet.size[0], height];
         (Self { size, ..sheet }, rooms)
     }
 
-    /// The room of a single plot.
+    /// The part of the sheet for a single plot.
     pub(super) fn whole(&self) -> Room {
         Room {
             at: [0.0; 2],
@@ -105,8 +105,8 @@ impl PageLayout {
         }
     }
 
-    /// A height in which the legend of curves has room.
-    fn with_legend(&self, height: f64, series: &[Series]) -> f64 {
+    /// A height, enlarged if the legend of curves needs it.
+    fn height_with_legend(&self, height: f64, series: &[Series]) -> f64 {
         let entries = series.iter().filter(|it| it.is_named()).count();
         height.max(self.pen * (FIRST_ENTRY + ENTRY * entries as f64))
     }
@@ -127,7 +127,7 @@ impl PageLayout {
 }
 
 /// Width of the legend of curves, pixels of a screen; 0 without labels.
-fn legend(series: &[Series]) -> f64 {
+fn legend_width(series: &[Series]) -> f64 {
     let labels = series.iter().filter(|it| it.is_named());
     let widths = labels.map(|it| BESIDE_LABEL + text_width(it.label(), LETTERS));
     widths.fold(0.0, f64::max)

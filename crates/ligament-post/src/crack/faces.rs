@@ -125,7 +125,7 @@ impl Faces {
     }
 }
 
-/// Unsorted faces: points, corners, middle.
+/// Unsorted faces, each with its points, its corners and its middle.
 #[derive(Default)]
 struct UnsortedFaces(Vec<([u32; 2], [u32; 2], [f64; 2])>);
 

@@ -104,8 +104,8 @@ impl CrackLine {
 
 /// Cracks of a body, from the states of its faces (n_faces) and the horizons of its points (n_points), m: the longest line of each connected
 /// part before its branches, in the order of the faces.
-pub fn crack_lines(faces: &Faces, parts: &[FaceState], horizon: &[f64]) -> Vec<CrackLine> {
-    let graph = Graph::new(faces, parts, horizon).with_bridges();
+pub fn crack_lines(faces: &Faces, states: &[FaceState], horizon: &[f64]) -> Vec<CrackLine> {
+    let graph = Graph::new(faces, states, horizon).with_bridges();
     let lines_of = |component: Vec<u32>| {
         let tracer = Tracer {
             graph: &graph,

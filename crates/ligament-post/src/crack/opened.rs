@@ -7,7 +7,7 @@ use ligament_model::raised;
 
 use crate::opened::{OpenedCells, PieceCorners};
 
-/// The cells of a mesh, cut along the faces between the cells of its points ([`Faces`](super::Faces)) where pairs of points are parted: a
+/// The cells of a mesh, cut along the faces between the cells of its points ([`Faces`](super::Faces)) where pairs of points are separated: a
 /// cell with corners on several [sides](sides_of_cells) falls into pieces between the middles of its parted edges and the middle of the
 /// cell, and the corners of a piece on the crack follow the points of the piece.
 pub fn opened_cells(
@@ -56,7 +56,7 @@ pub fn opened_cells(
     opened
 }
 
-/// Sides of the crack on which the corners of the cells (n_cells) of a mesh lie where pairs of points are parted, numbered from the side of
+/// Sides of the crack on which the corners of the cells (n_cells) of a mesh lie where pairs of points are separated, numbered from the side of
 /// the first corner: two or more parted edges of a cell separate the corners between them. All are 0 in a cell that shares no parted edge
 /// with another such cell, because no crack continues there; the fourth of a triangle is always 0.
 pub fn sides_of_cells(cells: &[Cell], is_parted: impl Fn([u32; 2]) -> bool) -> Vec<[u8; 4]> {

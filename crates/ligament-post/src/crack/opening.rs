@@ -2,17 +2,17 @@
 
 use nalgebra::{Matrix3, RowVector2, SMatrix, Vector3};
 
-/// Distance from the line over the reach up to which a point is on the line, and on neither side.
+/// Distance from the line over the reach up to which a point lies on the line, and so on neither side.
 const ON_LINE: f64 = 1e-9;
 
-/// Jump of the displacement across a line.
+/// Jump of the displacement across a crack line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CrackOpening {
     /// Distance from the start of the line, m.
     pub along: f64,
     /// Place, m.
     pub place: [f64; 2],
-    /// Displacement of the left side less that of the right one, along the normal to the left and along the line, m; none where one side
+    /// Displacement of the left side minus displacement of the right side, along the normal to the left and along the line, m; none where one side
     /// has too few points.
     pub jump: Option<[f64; 2]>,
 }
@@ -64,7 +64,7 @@ pub fn openings(
     (0..samples).map(sample).collect()
 }
 
-/// Value at offset zero of the linear fit to values with weights and offsets; None where the offsets do not determine it.
+/// Value at offset zero of a weighted linear fit to values at offsets; None where the offsets do not determine it.
 fn fitted(values: impl Iterator<Item = (f64, [f64; 2], [f64; 2])>) -> Option<[f64; 2]> {
     let (mut matrix, mut right) = (Matrix3::zeros(), SMatrix::<f64, 3, 2>::zeros());
     for (weight, [along, off], value) in values {
@@ -84,8 +84,8 @@ mod tests {
 
     use super::*;
 
-    /// Two halves of irregular points beside an inclined line, each with a linear motion: their jump is exact, positive where the left side moves to the left
-    /// or along the line; there is none beyond the points.
+    /// Two halves of irregular points beside an inclined line, each with a linear motion: their jump is exact, positive where the left side moves to
+    /// the left or along the line; there is none beyond the points.
     #[test]
     fn two_linear_motions_have_their_jump() {
         let tangent = [0.8, 0.6];

@@ -18,11 +18,11 @@ pub(super) struct Corner {
     pub(super) place: [f64; 2],
     /// Mean horizon of the points around the corner, m: the resolution of the crack.
     pub(super) horizon: f64,
-    /// Whether a face cut by a pre-crack ends here.
+    /// Whether a face cut by a pre-crack ends at the corner.
     pub(super) is_cut: bool,
     /// Whether the corner lies on the outline of the body.
     pub(super) is_outside: bool,
-    /// Open faces that end here, ascending.
+    /// Open faces that end at the corner, ascending.
     open: Vec<u32>,
 }
 
@@ -62,7 +62,7 @@ impl CrackPath {
         [self.corners[0], self.corners[self.corners.len() - 1]]
     }
 
-    /// Extends the path by one that starts at one of its ends.
+    /// Extends the path by another path that starts at one of its ends.
     pub(super) fn append(&mut self, other: Self) {
         let [start, end] = self.ends();
         let root = other.corners[0];
@@ -77,13 +77,13 @@ impl CrackPath {
 
 impl Graph {
     /// The graph of faces with given states (n_faces), for the horizons of the points (n_points), m.
-    pub(super) fn new(faces: &Faces, parts: &[FaceState], horizon: &[f64]) -> Self {
+    pub(super) fn new(faces: &Faces, states: &[FaceState], horizon: &[f64]) -> Self {
         let mut is_cut = vec![false; faces.corners.len()];
         let mut numbers = vec![u32::MAX; faces.corners.len()];
-        for (ends, part) in faces.ends.iter().zip(parts) {
+        for (ends, state) in faces.ends.iter().zip(states) {
             for &end in ends {
-                is_cut[end as usize] |= *part == FaceState::PreCrack;
-                if *part == FaceState::Open {
+                is_cut[end as usize] |= *state == FaceState::PreCrack;
+                if *state == FaceState::Open {
                     numbers[end as usize] = 0;
                 }
             }
@@ -100,7 +100,7 @@ impl Graph {
             });
         }
         let mut edges = Vec::new();
-        let open = (0..faces.len()).filter(|&face| parts[face] == FaceState::Open);
+        let open = (0..faces.len()).filter(|&face| states[face] == FaceState::Open);
         for face in open {
             let ends = faces.ends[face].map(|it| numbers[it as usize]);
             let middle = faces.middle[face];
@@ -139,7 +139,7 @@ impl Graph {
         });
     }
 
-    /// Corners by connected parts, both in the order of their numbers.
+    /// Corners of each connected part, both in the order of their numbers.
     pub(super) fn components(&self) -> Vec<Vec<u32>> {
         let mut is_found = vec![false; self.corners.len()];
         let mut components = Vec::new();

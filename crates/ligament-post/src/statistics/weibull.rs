@@ -79,16 +79,16 @@ impl WeibullFit {
 
     /// Bounds of the scale `deviations` standard deviations of its logarithm away.
     pub fn scale_within(&self, deviations: f64) -> [f64; 2] {
-        self.within(0.0, deviations)
+        self.strength_bounds(0.0, deviations)
     }
 
     /// Bounds of the [`quantile`](Self::quantile) `deviations` standard deviations of its logarithm away.
     pub fn quantile_within(&self, probability: f64, deviations: f64) -> [f64; 2] {
-        self.within((-(-probability).ln_1p()).ln(), deviations)
+        self.strength_bounds((-(-probability).ln_1p()).ln(), deviations)
     }
 
     /// Bounds of the strength at w = ln(-ln(1 - F)): ln x = ln x_0 + w/m has the variance (var_0 + w^2 var_m + 2 w cov)/(n m^2).
-    fn within(&self, w: f64, deviations: f64) -> [f64; 2] {
+    fn strength_bounds(&self, w: f64, deviations: f64) -> [f64; 2] {
         let [of_scale, of_modulus, both] = variances();
         let variance = of_scale + w * w * of_modulus + 2.0 * w * both;
         let off = deviations * (variance / self.n_samples as f64).sqrt() / self.modulus;

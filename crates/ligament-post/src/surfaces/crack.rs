@@ -10,7 +10,7 @@ use super::sides::Links;
 use super::surface::{CrackSurface, with_orientation_and_parts};
 use super::tetrahedra::{EDGES, Tetrahedra};
 
-/// Number of no node, which fills the unused end of the key of a place.
+/// Filler for the unused end of the key of a place, not the number of a node.
 const NONE: u32 = u32::MAX;
 
 /// State of the search for the surface.

@@ -106,10 +106,10 @@ fn side_of(
         tetrahedra.corners[*number].map(|node| (tetrahedra.points[node as usize], node))
     };
     let own = near.iter().flat_map(places).find(|it| it.0 == point)?.1;
-    let here = tetrahedra.nodes[own as usize];
+    let position = tetrahedra.nodes[own as usize];
     for (other, node) in near.iter().flat_map(places) {
         if other != point && !loose.contains(&other) {
-            let length = norm(minus(tetrahedra.nodes[node as usize], here));
+            let length = norm(minus(tetrahedra.nodes[node as usize], position));
             side.entry(other).or_insert(other);
             distance
                 .entry(other)

@@ -9,7 +9,7 @@ use super::surface::{CrackSurface, area_vector};
 /// Number of sweeps over all places: roughness up to some four edges long disappears.
 const SWEEPS: usize = 20;
 
-/// Fraction of the way to the mean of its neighbours by which a place moves in a sweep.
+/// Fraction of the distance to the mean of its neighbours by which a place moves in a sweep.
 const SHARE: f64 = 0.5;
 
 /// Edges of a surface.

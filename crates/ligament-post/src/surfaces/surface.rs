@@ -176,7 +176,7 @@ fn orient_consistently(triangles: &mut [[u32; 3]]) {
     }
 }
 
-/// Number of the connected part of each triangle, connected by common places; the largest part first, then the first.
+/// Number of the connected part of each triangle, by common places; the largest part first, then in the order of triangles.
 fn parts(surface: &CrackSurface) -> Vec<u32> {
     let mut lowest: Vec<u32> = (0..surface.places.len() as u32).collect();
     fn root(lowest: &mut [u32], mut place: u32) -> u32 {

@@ -14,7 +14,7 @@ pub struct Tetrahedra {
     pub corners: Vec<[u32; 4]>,
     /// Cell of a mesh, or corner of boxes, that contains each tetrahedron, shape (n_tetrahedra), ascending.
     pub cells: Vec<u32>,
-    /// Flags of points with further tetrahedra that are left out here and have no cut edge, shape (n_points).
+    /// Whether each point has further tetrahedra, without a cut edge, that the list leaves out, shape (n_points).
     pub(super) held: Vec<bool>,
 }
 
@@ -23,7 +23,7 @@ pub(super) const EDGES: [[usize; 2]; 6] = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3
 
 impl Tetrahedra {
     /// The tetrahedra with an edge between two points that satisfies a condition, with the same nodes.
-    pub fn with_edges(&self, is_meant: impl Fn([u32; 2]) -> bool) -> Self {
+    pub fn with_edges(&self, is_selected: impl Fn([u32; 2]) -> bool) -> Self {
         let mut held = self.held.clone();
         let mut chosen = Self {
             nodes: self.nodes.clone(),
@@ -31,7 +31,10 @@ impl Tetrahedra {
             ..Self::default()
         };
         for (corners, cell) in self.corners.iter().zip(&self.cells) {
-            if EDGES.iter().any(|ends| is_meant(self.pair(corners, *ends))) {
+            if EDGES
+                .iter()
+                .any(|ends| is_selected(self.pair(corners, *ends)))
+            {
                 chosen.corners.push(*corners);
                 chosen.cells.push(*cell);
             } else {

@@ -22,7 +22,7 @@ pub fn directions(ratio: f64) -> Vec<f64> {
     angles
 }
 
-/// The ratio m, among those at which the family grows, whose family size is nearest to `size`; the smaller one of two equally near.
+/// The ratio m, among those at which the family grows, whose family size is nearest to `size`; the smaller one of two equally near ones.
 pub fn ratio_of_size(size: f64) -> f64 {
     // A family has about pi m^2 bonds.
     let largest = (size.max(0.0) / PI).sqrt().ceil() as i64 + 2;

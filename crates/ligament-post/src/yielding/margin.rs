@@ -1,7 +1,7 @@
 //! Error measure of MPPD Tables 8 and 9.
 //!
 //! The measure does not scale the load: the sliding limit of a bond at its own stretch is divided by its sliding, and that sliding is the
-//! angle atan(gamma) at the finite strains of s_0t = 0.1, while the limit is unchanged. The tables were reproduced with exactly this reading
+//! angle atan(gamma) at the finite strains of s_0t = 0.1, while the limit is unchanged. The tables were reproduced with exactly this measure
 //! (34 of 35 entries of Table 9 at s_0t = 0.100, 20 at 0.099): the dependence of Table 9 on the path of loading comes from the angle alone.
 //! At first yield, as in a model, the error of frictional sliding depends strongly on the path ([`Family::error`](super::Family::error)).
 

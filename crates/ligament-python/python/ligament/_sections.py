@@ -32,7 +32,7 @@ class Material(TypedDict, total=False):
     shear_modulus: float
     """Shear modulus in the plane, Pa."""
     angle: float
-    """From the x axis to the axis 1, counter-clockwise, rad. Default 0.0."""
+    """Angle from the x axis to axis 1, counter-clockwise, rad. Default 0.0."""
     young_3: float
     """Young's modulus across the plane, Pa; for plane strain."""
     poisson_13: float
@@ -91,7 +91,7 @@ class MaterialPart(TypedDict, total=False):
     shear_modulus: float
     """Shear modulus in the plane, Pa."""
     angle: float
-    """From the x axis to the axis 1, counter-clockwise, rad. Default 0.0."""
+    """Angle from the x axis to axis 1, counter-clockwise, rad. Default 0.0."""
     young_3: float
     """Young's modulus across the plane, Pa; for plane strain."""
     poisson_13: float
@@ -176,35 +176,35 @@ class Model(TypedDict, total=False):
     """Whether a run goes on where the intact model is unstable, with more negative eigenvalues than its rotations explain; its results are
 then not to be trusted. Default false."""
     poisson: Literal["cells", "bonds"]
-    """What carries the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3); of `nhpd`, `bbpd`, `pds`, `mppd`, `mppd-beam`, `orthotropic`.
+    """Carrier of the stiffness that bonds cannot have above a Poisson's ratio of 1/4 (in plane stress 1/3); of `nhpd`, `bbpd`, `pds`, `mppd`, `mppd-beam`, `orthotropic`.
 
 - `cells`: The cells of the body, by their changes of volume.
 - `bonds`: The bonds, with a negative shear stiffness: the form of the papers, which cracks make unstable."""
     calibration: Literal["integral", "discrete"]
-    """Where the constants of the law come from; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
+    """Origin of the constants of the law; of `bbpd`, `bbpd-conical`, `pds`, `mppd`, `mppd-beam`.
 
-- `integral`: Integrals over a full circle (the papers').
+- `integral`: Integrals over a full circle, as in the papers.
 - `discrete`: Sums over the family of each point."""
     rotational_stiffness: Literal["decaying", "quarter", "beam", "none"]
     """Stiffness against relative rotation; of `mppd`, `orthotropic`.
 
-- `decaying`: k_t l (1 - l/H)/2.
-- `quarter`: k_t l/4.
-- `beam`: k_t l/12.
-- `none`: None."""
+- `decaying`: k_theta = k_t l (1 - l/H)/2.
+- `quarter`: k_theta = k_t l/4.
+- `beam`: k_theta = k_t l/12.
+- `none`: k_theta = 0."""
     rotational_factor: float
-    """Stiffness against relative rotation over that of the law; 1 without the key; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`."""
+    """Stiffness against relative rotation over the stiffness of the law; 1 without the key; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`."""
     cosserat_length: float
     """Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
 `rotational_factor`."""
     form: Literal["full", "rows", "pairwise"]
-    """How the bonds of `mbb-pd` resist their strains.
+    """Strains that the bonds of `mbb-pd` resist.
 
-- `full`: All bonds all three strains.
-- `rows`: Bonds along x and y only their own.
-- `pairwise`: As printed, with forces on the two ends alone."""
+- `full`: Every bond resists all three strains.
+- `rows`: Bonds along x and y resist only their own strain.
+- `pairwise`: The form as printed, with forces only on the two ends of a bond."""
     strains: Literal["small", "true"]
-    """What the strains of `mbb-pd` are taken over.
+    """Distances in the denominators of the strains of `mbb-pd`.
 
 - `small`: The distances before the deformation.
 - `true`: The distances after the deformation."""
@@ -227,7 +227,7 @@ class Correction(TypedDict, total=False):
 - `domain`: NHPD's iterative domain correction.
 - `patch`: Two factors a bond for which every uniform strain is an equilibrium."""
     rule: Literal["auto", "sum", "mean"]
-    """How the change of a sweep of the domain correction is measured.
+    """Measure of the change in a sweep of the domain correction.
 
 - `auto`: `sum` for models of up to a million bonds, `mean` for larger ones, each with its default tolerance.
 - `sum`: Summed over all bonds (the paper's): grows with the size of the model.
@@ -246,9 +246,9 @@ class Correction(TypedDict, total=False):
     largest_factor: float
     """Largest factor of the patch correction over the uncorrected one. Default 20.0."""
     moment_weight: float
-    """Weight of the equations of moments against those of forces in the patch correction. Default 0.04."""
+    """Weight of the equations of moments relative to the equations of forces in the patch correction. Default 0.04."""
     regularisation: float
-    """Regularisation of the patch correction, which lets go where its equations cannot be met. Default 1e-6."""
+    """Regularisation of the patch correction, for equations that cannot be satisfied. Default 1e-6."""
     domain: Literal["whole", "cracked"]
     """The body that the correction sees.
 
@@ -265,9 +265,9 @@ class Precrack(TypedDict, total=False):
     """Middle of a straight crack, m; with `length` and `angle` in the place of `points`. In a solid the middle of a disk, with `normal` and
 `radius`."""
     length: float
-    """From end to end of a straight crack, m."""
+    """Length of a straight crack, m."""
     angle: float
-    """From the x axis to a straight crack, counter-clockwise, rad."""
+    """Angle from the x axis to a straight crack, counter-clockwise, rad."""
     normal: Numbers
     """Normal of a disk in a solid."""
     radius: float
@@ -285,13 +285,13 @@ class SupportDisplacement(TypedDict, total=False):
     """The components that are held, each at 0: `{ x = 0.0 }`, `{ x = 0.0, y = 0.0 }`; m, rotation in rad."""
 
     x: float
-    """Along x, m."""
+    """Component along x, m."""
     y: float
-    """Along y, m."""
+    """Component along y, m."""
     rotation: float
     """Rotation in the plane, rad, counter-clockwise."""
     z: float
-    """Along z of a solid, m."""
+    """Component along z of a solid, m."""
     rotation_x: float
     """Rotation about x in a solid, rad, right-handed."""
     rotation_y: float
@@ -301,18 +301,18 @@ class SupportDisplacement(TypedDict, total=False):
 
 
 class SupportStiffness(TypedDict, total=False):
-    """Springs to the ground in the place of what holds, in total over the points."""
+    """Springs to the ground instead of fixed displacements, in total over the points."""
 
     x: float
-    """Along x, N/m."""
+    """Stiffness along x, N/m."""
     y: float
-    """Along y, N/m."""
+    """Stiffness along y, N/m."""
     rotation: float
-    """Against rotations of the points, in N m/rad."""
+    """Stiffness against rotations of the points, in N m/rad."""
     z: float
-    """Along z of a solid, N/m."""
+    """Stiffness along z of a solid, N/m."""
     normal: float
-    """Along the `normal` of the support, N/m."""
+    """Stiffness along the `normal` of the support, N/m."""
 
 
 class Support(TypedDict, total=False):
@@ -329,20 +329,20 @@ class Support(TypedDict, total=False):
     normal: Numbers
     """An inclined roller: the direction along which the points are held while they are free across it, `[1.0, 1.0]` is at 45 degrees."""
     stiffness: SupportStiffness
-    """Springs to the ground in the place of what holds, in total over the points."""
+    """Springs to the ground instead of fixed displacements, in total over the points."""
 
 
 class LoadDisplacement(TypedDict, total=False):
     """Prescribed displacements, m, rotation in rad."""
 
     x: float
-    """Along x, m."""
+    """Component along x, m."""
     y: float
-    """Along y, m."""
+    """Component along y, m."""
     rotation: float
     """Rotation in the plane, rad, counter-clockwise."""
     z: float
-    """Along z of a solid, m."""
+    """Component along z of a solid, m."""
     rotation_x: float
     """Rotation about x in a solid, rad, right-handed."""
     rotation_y: float
@@ -355,82 +355,82 @@ class LoadVelocity(TypedDict, total=False):
     """Prescribed velocities in a motion, m/s, of the rotation rad/s."""
 
     x: float
-    """Along x."""
+    """Component along x."""
     y: float
-    """Along y."""
+    """Component along y."""
     rotation: float
-    """Of the rotation in the plane, counter-clockwise, with rad in the place of m."""
+    """Component of the rotation in the plane, counter-clockwise, with rad in the place of m."""
     z: float
-    """Along z of a solid."""
+    """Component along z of a solid."""
     rotation_x: float
-    """Of the rotation about x in a solid, right-handed."""
+    """Component of the rotation about x in a solid, right-handed."""
     rotation_y: float
-    """Of the rotation about y in a solid, right-handed."""
+    """Component of the rotation about y in a solid, right-handed."""
     rotation_z: float
-    """Of the rotation about z in a solid, right-handed."""
+    """Component of the rotation about z in a solid, right-handed."""
 
 
 class LoadBaseAcceleration(TypedDict, total=False):
-    """Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2."""
+    """Prescribed accelerations in a motion, such as the acceleration of the ground, m/s^2, of the rotation rad/s^2."""
 
     x: float
-    """Along x."""
+    """Component along x."""
     y: float
-    """Along y."""
+    """Component along y."""
     rotation: float
-    """Of the rotation in the plane, counter-clockwise, with rad in the place of m."""
+    """Component of the rotation in the plane, counter-clockwise, with rad in the place of m."""
     z: float
-    """Along z of a solid."""
+    """Component along z of a solid."""
     rotation_x: float
-    """Of the rotation about x in a solid, right-handed."""
+    """Component of the rotation about x in a solid, right-handed."""
     rotation_y: float
-    """Of the rotation about y in a solid, right-handed."""
+    """Component of the rotation about y in a solid, right-handed."""
     rotation_z: float
-    """Of the rotation about z in a solid, right-handed."""
+    """Component of the rotation about z in a solid, right-handed."""
 
 
 class LoadForce(TypedDict, total=False):
     """A force in total over the points, N."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadForcePerLength(TypedDict, total=False):
     """A force along the edges of a group, N/m."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadForcePerArea(TypedDict, total=False):
     """A force over the surface of a group of a solid, N/m^2."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadBodyForce(TypedDict, total=False):
     """A force in the volume, N/m^3; on the whole body without a place."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadAcceleration(TypedDict, total=False):
@@ -438,40 +438,40 @@ class LoadAcceleration(TypedDict, total=False):
 `density`."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadMoment(TypedDict, total=False):
     """A vector; a component that is not given is zero."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadBodyCouple(TypedDict, total=False):
     """A vector; a component that is not given is zero."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class LoadProfile(TypedDict, total=False):
-    """How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    """Variation of the load in space: a factor (c - zero)/(one - zero), or the factor of a table."""
 
     along: Literal["x", "y", "z"]
-    """The coordinate.
+    """Coordinate along which the load varies.
 
 - `x`: Along x.
 - `y`: Along y.
@@ -486,7 +486,7 @@ the case file."""
 
 
 class LoadAmplitude(TypedDict, total=False):
-    """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
+    """Variation of the load in time, in a motion: a factor of the load. Without it the load is as given from the start."""
 
     points: Sequence[Numbers]
     """Times (s) with the factors there, `[[0.0, 0.0], [1e-3, 1.0]]`: straight between them, constant before and after."""
@@ -515,10 +515,10 @@ class LoadAmplitude(TypedDict, total=False):
 
 
 class Load(TypedDict, total=False):
-    """A load, given as it is at load factor 1."""
+    """A load, with its value at load factor 1."""
 
     name: str
-    """Heads its column in `history.csv`; without it the name of the group, or `load-1` and so on where that cannot head a column."""
+    """Name of its column in `history.csv`; by default the name of the group, or `load-1` and so on where that cannot head a column."""
     group: str
     """The points of this physical group of the mesh, or of this set or hole of the lattice."""
     box: Sequence[Numbers]
@@ -530,7 +530,7 @@ class Load(TypedDict, total=False):
     velocity: LoadVelocity
     """Prescribed velocities in a motion, m/s, of the rotation rad/s."""
     base_acceleration: LoadBaseAcceleration
-    """Prescribed accelerations in a motion, such as those of the ground, m/s^2, of the rotation rad/s^2."""
+    """Prescribed accelerations in a motion, such as the acceleration of the ground, m/s^2, of the rotation rad/s^2."""
     force: LoadForce
     """A force in total over the points, N."""
     force_per_length: LoadForcePerLength
@@ -549,18 +549,18 @@ class Load(TypedDict, total=False):
     pressure: float
     """A pressure on the outline of a group, Pa; positive pushes on the body."""
     profile: LoadProfile | Function
-    """How the load varies: it is multiplied by (c - zero)/(one - zero), or by the factor of a table."""
+    """Variation of the load in space: a factor (c - zero)/(one - zero), or the factor of a table."""
     amplitude: LoadAmplitude
-    """How the load varies in time, in a motion: it is multiplied by this factor. Without it the load is as given from the start."""
+    """Variation of the load in time, in a motion: a factor of the load. Without it the load is as given from the start."""
     stiffness: float
-    """Stiffness in total of springs through which a `displacement` moves the points, N/m: what gives way in a testing machine."""
+    """Total stiffness of springs through which a `displacement` moves the points, N/m: the stiffness of a testing machine."""
     tilts: bool
     """Whether a `displacement` or `force` acts through a rigid platen that may tilt: it moves by the mean of its points."""
 
 
 class StageControl(TypedDict, total=False):
-    """What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
-peaks and snap-backs. Without it the factors grow."""
+    """A quantity that grows in equal steps over the stage, while the loads follow in fixed proportion, past peaks and snap-backs. Without it the
+factors of the loads grow."""
 
     probe: str
     """Name of a probe that reads a displacement or one between two points; load steps alone."""
@@ -569,8 +569,8 @@ peaks and snap-backs. Without it the factors grow."""
     quantity: Literal["dissipated_energy"]
     """A quantity of the whole body.
 
-- `dissipated_energy`: The energy that bonds have taken for good since the loading began, a column of `history.csv`: in load steps of bonds that soften; along
-the exact path it says how far the stage goes."""
+- `dissipated_energy`: The energy that bonds have dissipated since the loading began, a column of `history.csv`: in load steps with softening bonds; along the exact
+path it determines the end of the stage."""
     to: float
     """The value at the end of the stage, in the unit of the probe, or J."""
 
@@ -579,19 +579,19 @@ class Stage(TypedDict, total=False):
     """A stage of the loading: loads that go to other factors, each times the load as it is at factor 1."""
 
     name: str
-    """Stands in `history.csv`; without it `stage-1` and so on."""
+    """Name in `history.csv`; by default `stage-1` and so on."""
     loads: Mapping[str, float | Numbers | Sequence[Numbers]]
     """Factors that loads go to, by the names of the loads; `temperature` for the temperatures. All others keep theirs, which is 0 at
 first."""
     steps: int
     """Equal load steps of the stage; not on the exact path, nor in an elastic analysis."""
     control: StageControl
-    """What grows in equal steps over the stage, while the loads follow in the proportion in which they would go to their factors, past
-peaks and snap-backs. Without it the factors grow."""
+    """A quantity that grows in equal steps over the stage, while the loads follow in fixed proportion, past peaks and snap-backs. Without it the
+factors of the loads grow."""
 
 
 class Temperature(TypedDict, total=False):
-    """A change of temperature at load factor 1. Where several reach, the last of them holds."""
+    """A change of temperature at load factor 1. Where several apply, the last one counts."""
 
     group: str
     """The part of the body; the whole body without it or a `box`."""
@@ -613,15 +613,15 @@ class InitialVelocityVelocity(TypedDict, total=False):
     """The velocity, m/s."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class InitialVelocity(TypedDict, total=False):
-    """A velocity at time zero. Where several reach, the last of them holds."""
+    """A velocity at time zero. Where several apply, the last one counts."""
 
     group: str
     """The points of this physical group of the mesh, or of this set or hole of the lattice; without a place the whole body moves."""
@@ -657,22 +657,22 @@ class RigidDisplacement(TypedDict, total=False):
     """Displacement at load factor 1, m; in statics."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class RigidVelocity(TypedDict, total=False):
     """Velocity in a motion, m/s: of a body with a `mass` at time zero, of another one times its `amplitude`."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class RigidAmplitude(TypedDict, total=False):
@@ -708,11 +708,11 @@ class RigidAcceleration(TypedDict, total=False):
     """Acceleration of a body with a `mass` without contacts, such as gravity, m/s^2."""
 
     x: float
-    """Along x, in the unit of the force. Default 0.0."""
+    """Component along x, in the unit of the vector. Default 0.0."""
     y: float
-    """Along y, in the unit of the force. Default 0.0."""
+    """Component along y, in the unit of the vector. Default 0.0."""
     z: float
-    """Along z of a solid, in the unit of the force."""
+    """Component along z of a solid, in the unit of the vector."""
 
 
 class Rigid(TypedDict, total=False):
@@ -742,7 +742,7 @@ class Rigid(TypedDict, total=False):
     amplitude: RigidAmplitude
     """Factor of the velocity as a function of time; without it 1."""
     mass: float
-    """Mass of a body that contact alone moves, in the plane that of the whole thickness, kg; without it the motion is prescribed."""
+    """Mass of a body that contact alone moves, in the plane for the whole thickness, kg; without it the motion is prescribed."""
     inertia: float
     """Moment of inertia of a body with a `mass` about its middle, in the plane about z, kg m^2; without it the body does not turn."""
     acceleration: RigidAcceleration
@@ -752,9 +752,9 @@ class Rigid(TypedDict, total=False):
     stiffness: float
     """Stiffness of the contact over E'/h of the material, with the spacing h of the points. Default 1.0."""
     against: Sequence[str]
-    """Groups whose outlines it meets; without it that of the whole body."""
+    """Groups whose outlines it can touch; by default the outline of the whole body."""
     cracks: bool
-    """Whether it meets the faces of cracks as well. Default false."""
+    """Whether the rigid shape meets the faces of cracks as well. Default false."""
 
 
 class FarFieldNear(TypedDict, total=False):
@@ -770,11 +770,11 @@ class FarField(TypedDict, total=False):
     """Linear finite elements in place of bonds, away from parts of a meshed body."""
 
     near: Sequence[FarFieldNear]
-    """Parts of the body that keep their bonds: the cells of which all corners lie in one of them."""
+    """Parts of the body that keep their bonds: the cells with all corners in one of them."""
     strength_share: float
     """Share of the strength of a material, up to 1, that the largest principal stress of elements may reach (under pressure the smallest one over
-`compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without it the
-near field stays as it is."""
+`compressive_strength`). Where a run meets a larger stress, bonds take the place of the elements around it, and the run begins anew. Without
+it the near field stays as it is."""
 
 
 class Refine(TypedDict, total=False):
@@ -815,7 +815,7 @@ class Probe(TypedDict, total=False):
     """A column of the history."""
 
     name: str
-    """Heads its column in `history.csv`; each name once."""
+    """Name of its column in `history.csv`, another one for each probe."""
     between: Sequence[Numbers]
     """Two positions, m: the second displacement less the first, as of a strain gauge or a crack opening; with `component`."""
     at: Numbers
@@ -920,7 +920,7 @@ class FractureScatter(TypedDict, total=False):
     """A property that varies over the body at random, by a factor with the mean 1."""
 
     of: Literal["strength", "fracture-energy"]
-    """What varies.
+    """Property that varies.
 
 - `strength`: Strengths, and limits given in their place.
 - `fracture-energy`: Fracture energies."""
@@ -935,7 +935,7 @@ class FractureScatter(TypedDict, total=False):
     deviation: float
     """Standard deviation over the mean; of `normal`, where it is less than 0.25, and of `lognormal`."""
     seed: int
-    """Seed of the random numbers: another one is another specimen. Without one it is 0; that of a second property follows from the first one's."""
+    """Seed of the random numbers: another seed gives another specimen. The default is 0; the seed of a second property follows from the first."""
     correlation_length: float
     """Distance over which the correlation exp(-(r/L)^2) of two places falls to 1/e, m; 0: each point for itself. Default 0.0."""
 
@@ -947,7 +947,7 @@ class FractureCriterionAfter(TypedDict, total=False):
     """Opening and stress of each corner, from the opening 0 and the strength to the stress 0. Units do not matter: the curve is scaled so
 that the `fracture_energy` comes out."""
     kink: Numbers
-    """Where two straight lines meet: opening over that at the end, and stress over the strength."""
+    """Point at which two straight lines meet: opening over the opening at the end, and stress over the strength."""
     table: str
     """A table (`.csv`) of the corners with the columns `opening` and `stress`, from the folder of the case file."""
 
@@ -956,7 +956,7 @@ class FractureCriterion(TypedDict, total=False):
     """A criterion of failure."""
 
     kind: Literal["strength", "bond-rankine", "rankine", "mohr-coulomb", "tension", "compression", "fibre", "sliding", "frictional", "critical-stretch", "bond-energy", "mixed-mode", "printed-opening", "printed-sliding", "printed-mixed"]
-    """What fails, and where its limit comes from.
+    """Kind of failure and origin of the limit.
 
 - `strength`: Stretch, from the energy at the `tensile_strength` (NHPD).
 - `bond-rankine`: Tensile stress on the plane across the bond, from the `tensile_strength`: the strength of the material under any stress.
@@ -980,19 +980,19 @@ class FractureCriterion(TypedDict, total=False):
     critical_angle: float
     """Shear at which a bond that does not open fails, rad; of `mixed-mode`, with `critical_stretch`."""
     calibration: Literal["printed", "two-point"]
-    """How the limit of `frictional` comes from the strengths.
+    """Derivation of the limit of `frictional` from the strengths.
 
 - `printed`: As printed: exact without lateral strain alone.
 - `two-point`: From the strains of a bar under both strengths. Default "printed"."""
     friction_angle: float
-    """Angle of friction, rad. Of `mohr-coulomb` that of the material, phi. Of `frictional` that of a bond, beta, in the place of the
-compressive strength: compression by s makes its limit of sliding larger by s tan(beta)."""
+    """Angle of friction, rad. For `mohr-coulomb` it is the angle phi of the material; for `frictional` the angle beta of a bond, in the place of
+the compressive strength: compression by s makes its limit of sliding larger by s tan(beta)."""
     cohesion: float
     """Cohesion of `mohr-coulomb`, Pa, in the place of the compressive strength; with `friction_angle`."""
     fibre_distance: float
     """Distance of the outermost fibre from the axis of a bond, m; of `fibre`."""
     after: Literal["brittle", "linear", "two-branch", "cornelissen", "ceb-fip", "model-code-2010", "exponential", "plastic", "bilinear"] | FractureCriterionAfter
-    """What a bond does after its limit: a word, or a curve of stress over the opening of a crack.
+    """Behaviour of a bond after its limit: a word, or a curve of stress over the opening of a crack.
 
 - `brittle`: It breaks.
 - `linear`: Its force falls in one straight line to zero.
@@ -1004,7 +1004,8 @@ compressive strength: compression by s makes its limit of sliding larger by s ta
 - `plastic`: Its force stays; of `sliding` alone.
 - `bilinear`: Older word for `linear`: one straight line, not the two of `two-branch` that concrete has. Default "brittle"."""
     end: float
-    """Deformation at which a force that falls to zero is gone, over that at the limit: of `linear` above 1, of `two-branch` above 3; without it so that the `fracture_energy` comes out."""
+    """Deformation at which the force has fallen to zero, over the deformation at the limit: above 1 for `linear`, above 3 for `two-branch`;
+without it the value that gives the `fracture_energy`."""
     scale: float
     """Scale of the fall of `exponential` over the deformation at the limit; without it so that the `fracture_energy` comes out."""
 
@@ -1013,12 +1014,12 @@ class Fracture(TypedDict, total=False):
     """How bonds break; without it the case is one linear elastic solution."""
 
     control: Literal["stepped", "event"]
-    """What drives the load.
+    """Control of the load.
 
 - `stepped`: Load steps, given by `steps`; in each, bonds break until none is beyond its limit.
 - `event`: The exact path from breakage to breakage up to load factor 1, without steps and with snap-back. Default "stepped"."""
     steps: int | Numbers
-    """The load steps: so many equal ones up to load factor 1, or a list of load factors. With stages each of them has its own."""
+    """The load steps: a number of equal steps up to load factor 1, or a list of load factors. With stages each stage has its own."""
     bonds_per_iteration: int
     """Bonds broken at most between two solutions. Default 5."""
     order: Literal["excess", "ratio"]
@@ -1029,7 +1030,7 @@ class Fracture(TypedDict, total=False):
     max_iterations: int
     """Rounds of breaking at most in a load step. Default 10000."""
     refine_first_break: int
-    """Parts into which the load step of the first breakage is divided after it; 0: not divided. Default 0."""
+    """Number of parts into which the load step of the first breakage is divided after it; 0 for no division. Default 0."""
     tie_tolerance: float
     """Bonds closer than this (relative) to the worst one break together with it. Default 1e-8."""
     energy_tolerance: float
@@ -1039,11 +1040,11 @@ class Fracture(TypedDict, total=False):
     scatter: FractureScatter | Sequence[FractureScatter]
     """A strength or a fracture energy that varies over the body at random; both as a list of two tables."""
     criterion: Sequence[FractureCriterion]
-    """When bonds fail: the first criterion that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`)."""
+    """Criteria for the failure of bonds: the first that is met decides; without any, by the strength (`mbb-pd`: `mixed-mode`)."""
 
 
 class Modal(TypedDict, total=False):
-    """Natural modes that are wanted, with `analysis = "modal"`."""
+    """Requested natural modes, with `analysis = "modal"`."""
 
     modes: int
     """Number of modes, rigid ones included, lowest first. Default 10."""
@@ -1147,7 +1148,7 @@ open, bodies in the plane whose factor does not fit are solved without a matrix.
 
 
 class Output(TypedDict, total=False):
-    """What a run writes."""
+    """Files that a run writes."""
 
     fields_every: int
     """Load steps or rows of a motion (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone."""
@@ -1171,7 +1172,7 @@ class SectionsOnBody(TypedDict, total=False):
     title: str
     """One line on what the case is. Default ""."""
     analysis: Literal["static", "fracture", "modal", "motion"]
-    """What is computed; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
+    """Kind of analysis; without it `motion` where there is a `[motion]` section, `fracture` where there is a `[fracture]` section, else
 `static`.
 
 - `static`: One linear elastic solution at load factor 1.
@@ -1179,8 +1180,8 @@ class SectionsOnBody(TypedDict, total=False):
 - `modal`: Natural frequencies and modes.
 - `motion`: A motion in time, in which bonds break where `[fracture]` has criteria."""
     curve: str
-    """Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load, otherwise
-the temperature, otherwise the first rigid body that moves."""
+    """Name of the load, `temperature`, or name of the rigid body that is the axis of the force-displacement curve; without it the first load,
+otherwise the temperature, otherwise the first rigid body that moves."""
     material: Material | Mapping[str, MaterialPart]
     """The material of the whole body; or a table `[material.NAME]` with a `group` for each of several."""
     interface: Sequence[Interface]
@@ -1192,13 +1193,13 @@ the temperature, otherwise the first rigid body that moves."""
     precrack: Sequence[Precrack]
     """Cracks and slots that are there from the start."""
     support: Sequence[Support]
-    """What holds the body; nothing need."""
+    """Supports of the body, which needs none."""
     load: Sequence[Load]
     """Loads as they are at load factor 1; the first is the axis of the force-displacement curve."""
     stage: Sequence[Stage]
     """Stages one after the other, in which each load follows a factor of its own; without any all grow with one load factor."""
     temperature: Sequence[Temperature]
-    """Changes of temperature at load factor 1; where several reach, the last holds."""
+    """Changes of temperature at load factor 1; where several apply, the last one counts."""
     initial_velocity: Sequence[InitialVelocity]
     """Velocities at time zero of a motion."""
     quiet: Sequence[Quiet]
@@ -1218,13 +1219,13 @@ the temperature, otherwise the first rigid body that moves."""
     fracture: Fracture
     """How bonds break; without it the case is one linear elastic solution."""
     modal: Modal
-    """Natural modes that are wanted, with `analysis = "modal"`."""
+    """Requested natural modes, with `analysis = "modal"`."""
     motion: Motion
     """A motion in time under loads that depend on time."""
     solver: Literal["auto"] | Solver
-    """How the equations are solved; nothing need be said."""
+    """Solution of the equations; all keys are optional."""
     output: Output
-    """What a run writes."""
+    """Files that a run writes."""
 
 
 class Mesh(TypedDict, total=False):
@@ -1271,7 +1272,7 @@ class LatticeRemove(TypedDict, total=False):
     """A hole: cells whose centre lies in it are removed."""
 
     name: str
-    """Makes the cells at its rim a `group`; several holes may share it."""
+    """Name of the `group` of the cells at its rim; several holes may share it."""
     circle: LatticeRemoveCircle
     """A disk, m."""
     rectangle: Sequence[Numbers]
@@ -1295,13 +1296,13 @@ class LatticeSet(TypedDict, total=False):
     """A set of cells."""
 
     bottom: int
-    """So many rows from the bottom."""
+    """Number of rows from the bottom."""
     top: int
-    """So many rows from the top."""
+    """Number of rows from the top."""
     left: int
-    """So many columns from the left."""
+    """Number of columns from the left."""
     right: int
-    """So many columns from the right."""
+    """Number of columns from the right."""
     box: Sequence[Numbers]
     """Cells whose centre lies in a rectangle, by two opposite corners, m."""
     circle: LatticeSetCircle
@@ -1360,7 +1361,7 @@ class SolidLatticeRemoveOutsideSphere(TypedDict, total=False):
 
 
 class SolidLatticeRemoveOutsideCylinder(TypedDict, total=False):
-    """Everything outside of a cylinder that goes on beyond its ends, m."""
+    """Everything outside of an infinite cylinder, m."""
 
     ends: Sequence[Numbers]
     """Middles of its two ends, m."""
@@ -1372,7 +1373,7 @@ class SolidLatticeRemove(TypedDict, total=False):
     """A hole: cells whose centre lies in it are removed."""
 
     name: str
-    """Makes the cells at its surface a `group`; several holes may share it."""
+    """Name of the `group` of the cells at its surface; several holes may share it."""
     sphere: SolidLatticeRemoveSphere
     """A ball, m."""
     cylinder: SolidLatticeRemoveCylinder
@@ -1382,7 +1383,7 @@ class SolidLatticeRemove(TypedDict, total=False):
     outside_sphere: SolidLatticeRemoveOutsideSphere
     """Everything outside of a ball, m."""
     outside_cylinder: SolidLatticeRemoveOutsideCylinder
-    """Everything outside of a cylinder that goes on beyond its ends, m."""
+    """Everything outside of an infinite cylinder, m."""
 
 
 class SolidLatticeSetSphere(TypedDict, total=False):
@@ -1407,17 +1408,17 @@ class SolidLatticeSet(TypedDict, total=False):
     """A set of cells."""
 
     left: int
-    """So many layers from the lowest x."""
+    """Number of layers from the lowest x."""
     right: int
-    """So many layers from the highest x."""
+    """Number of layers from the highest x."""
     front: int
-    """So many layers from the lowest y."""
+    """Number of layers from the lowest y."""
     back: int
-    """So many layers from the highest y."""
+    """Number of layers from the highest y."""
     bottom: int
-    """So many layers from the lowest z."""
+    """Number of layers from the lowest z."""
     top: int
-    """So many layers from the highest z."""
+    """Number of layers from the highest z."""
     box: Sequence[Numbers]
     """Cells whose centre lies in a box, by two opposite corners, m."""
     sphere: SolidLatticeSetSphere

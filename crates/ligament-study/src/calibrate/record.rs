@@ -28,7 +28,7 @@ const KIND: Kind = Kind {
     ..Kind::with_marker(RECORD)
 };
 
-/// Ends of a run at which the load may still have been rising, so that the peak may be later.
+/// Terminations of a run at which the load may still have been rising, so that the peak may be later.
 const CUT_SHORT: [&str; 6] = [
     "steps-done",
     "full-load",

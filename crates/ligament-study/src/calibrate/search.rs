@@ -176,7 +176,7 @@ impl Search {
         self.best(&others)
     }
 
-    /// Key under the assumption that the result is proportional to it.
+    /// Next key if the result were proportional to the key.
     fn in_proportion(&self, trial: Trial) -> f64 {
         if trial.key == 0.0 {
             let [low, high] = self.limits;
@@ -187,7 +187,7 @@ impl Search {
         trial.key * ratio.clamp(1.0 / LARGEST_STRIDE, LARGEST_STRIDE)
     }
 
-    /// Key by the secant through two trials, from the better one.
+    /// Next key by the secant through two trials, from the better one.
     fn along_secant(&self, best: Trial, other: Trial) -> f64 {
         let slope = (best.result - other.result) / (best.key - other.key);
         let step = -self.deviation(&best) / slope * (1.0 + OVERSHOOT);
@@ -202,8 +202,8 @@ impl Search {
         best.key + step.clamp(-down, up)
     }
 
-    /// Key beyond all trials where the result does not change with the key, alternately on either side; first on the side where a result
-    /// that grows with the key would meet the target.
+    /// Key beyond all trials, alternately on either side, where the result does not change with the key; first on the side where a growing result
+    /// would meet the target.
     fn beyond_level(&self, best: Trial, trials: &[Trial]) -> f64 {
         let sizes = trials.iter().map(|trial| trial.key.abs());
         let grows = self.target.abs() > best.result.abs();

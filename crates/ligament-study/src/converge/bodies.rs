@@ -17,10 +17,10 @@ use crate::sweep::meshes::{MeshPlan, make};
 use crate::sweep::plan::MESHES;
 use crate::sweep::toml_text::quoted;
 
-/// Largest difference of the spacing of a mesh by Gmsh from that of the mesh of the case, with which both are taken for the same size.
+/// Largest relative difference of the spacings of a mesh by Gmsh and of the mesh of the case that count as the same size.
 const SAME_SIZE: f64 = 0.1;
 
-/// Ratios of the spacings of both sizes with which the geometry follows the size that Gmsh is asked for.
+/// Range of the ratio of both spacings in which the geometry counts as following the size requested from Gmsh.
 const RATIOS: [f64; 2] = [1.6, 2.5];
 
 /// Meshers of Gmsh by the numbers of `Mesh.Algorithm`.
@@ -31,9 +31,9 @@ const MESHERS: [(&str, u32); 2] = [("Delaunay", 5), ("frontal", 6)];
 pub struct MeshSource {
     /// Geometry of Gmsh; by default the one beside the mesh of the case with the beginning of its name.
     pub geometry: Option<PathBuf>,
-    /// Numbers of the geometry by name. With any, h is their size and not that of the mesh of the case.
+    /// Numbers of the geometry by name. If there are any, h is their size instead of the size of the mesh of the case.
     pub numbers: Vec<(String, f64)>,
-    /// Number of the geometry that is the size h, where the geometry does not follow Gmsh's factor of all sizes.
+    /// Name and value of the number of the geometry for the size h, where the geometry does not follow Gmsh's factor on sizes.
     pub size: Option<(String, f64)>,
     /// Whether cells of the mesh are split although there may be a geometry.
     pub split: bool,
@@ -46,7 +46,7 @@ pub struct MeshSource {
 pub(super) struct SizedBody {
     /// Name of the body, such as "h Delaunay".
     pub(super) label: String,
-    /// Name of the way in which it was meshed.
+    /// Name of the meshing method.
     pub(super) mesher: &'static str,
     /// Whether the size is h, not 2h.
     pub(super) is_fine: bool,
@@ -68,7 +68,7 @@ pub(super) struct SizedBodies {
 }
 
 impl SizedBodies {
-    /// The bodies with a note of a horizon that both sizes share.
+    /// The bodies with a note that both sizes share one horizon.
     pub(super) fn noted(mut self, has_fixed_horizon: bool) -> Self {
         if has_fixed_horizon {
             let note = "2h has the horizon of h: the limit is one of more and more bonds a family";
@@ -121,7 +121,7 @@ pub(super) fn meshes(
     }
 }
 
-/// The geometry beside a mesh whose name begins that of the mesh, `disk.geo` of `disk-4mm.msh`; the one with the longest name.
+/// The geometry beside a mesh with whose name the name of the mesh begins, `disk.geo` for `disk-4mm.msh`; the one with the longest name.
 fn found_geometry(mesh: &Path) -> Option<PathBuf> {
     let folder = mesh.parent().filter(|it| !it.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
@@ -199,7 +199,7 @@ impl Meshing<'_> {
             return Ok(1.0);
         };
         let first = self.mesh("h", MESHERS[0], 1.0)?.mesh;
-        // Groups of a geometry that the user names are left to the runs, which need some of them alone.
+        // Groups of a geometry that the user names are checked by the runs, which need only some of them.
         if self.source.geometry.is_none() {
             self.require_same_groups(own, &first)?;
         }
@@ -347,7 +347,7 @@ fn written(folder: &Path, name: &str, mesh: &Mesh) -> anyhow::Result<PathBuf> {
     Ok(path)
 }
 
-/// A body whose mesh was turned into the plane of x and y where that of the case lies in another one.
+/// A body with a setting for its mesh in the plane of x and y, if the mesh of the case lies in another plane.
 fn in_xy(mut body: SizedBody, section: &MeshSection) -> SizedBody {
     if section.coordinates.is_some() {
         let setting = ("mesh.coordinates".to_owned(), quoted("xy"));
@@ -356,7 +356,7 @@ fn in_xy(mut body: SizedBody, section: &MeshSection) -> SizedBody {
     body
 }
 
-/// The body with a mesh.
+/// The body with a given mesh file.
 fn body(size: &str, mesher: &'static str, file: &Path) -> SizedBody {
     SizedBody {
         label: format!("{size} {mesher}"),

@@ -1,4 +1,4 @@
-//! How far the crack paths of the runs at two sizes are apart.
+//! Distances of the crack paths of runs at two sizes.
 
 use std::path::Path;
 
@@ -11,22 +11,22 @@ use super::evaluation::{Runs, SizedRun};
 /// Distances of the crack paths of bodies in the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(super) struct PathDistances {
-    /// Half of the mean horizon at h, to which a path is known whatever the mesh, m.
+    /// Half of the mean horizon at h, the uncertainty of a path on any mesh, m.
     half_horizon: f64,
     /// Mean distance of the paths of the two bodies of h, m; none with one body.
     at_h: Option<f64>,
-    /// Mean distance of the paths of 2h from those of h, m.
+    /// Mean distance of the paths of 2h from the paths of h, m.
     from_2h: f64,
 }
 
 impl PathDistances {
     /// The distances of the longest cracks at the end of the runs; none for a solid, or where a run has no crack.
-    pub(super) fn of_runs(runs: &Runs<'_>) -> Option<Self> {
-        let lines = |run: &SizedRun<'_>| longest(Path::new(&run.folder));
-        let of_size = |is_fine: bool| runs.of_size(is_fine).map(lines).collect::<Option<Vec<_>>>();
+    pub(super) fn between_runs(runs: &Runs<'_>) -> Option<Self> {
+        let lines = |run: &SizedRun<'_>| longest_crack(Path::new(&run.folder));
+        let of_size = |is_fine: bool| runs.by_size(is_fine).map(lines).collect::<Option<Vec<_>>>();
         let (fine, coarse) = (of_size(true)?, of_size(false)?);
         let horizons = runs
-            .of_size(true)
+            .by_size(true)
             .filter_map(|run| run.results.number("horizon.mean").ok());
         let apart = coarse
             .iter()
@@ -56,7 +56,7 @@ impl PathDistances {
 }
 
 /// The longest crack at the end of a run.
-fn longest(folder: &Path) -> Option<CrackLine> {
+fn longest_crack(folder: &Path) -> Option<CrackLine> {
     // Results of a solid, or without bonds that can break, have no lines.
     let lines = StoredCracks::open(folder).ok()?.lines(usize::MAX);
     lines

@@ -1,4 +1,4 @@
-//! Meshes with displaced inner nodes, as draws where no mesher makes another mesh.
+//! Meshes with randomly displaced inner nodes, where no mesher makes a second mesh.
 
 use ligament_mesh::{Cell, Mesh};
 use ligament_model::scatter::uniform;
@@ -64,7 +64,7 @@ fn is_convex(cell: &Cell, positions: &[[f64; 2]]) -> bool {
     })
 }
 
-/// Whether each node has to stay where it is, shape (n_nodes).
+/// Whether each node must keep its position, shape (n_nodes).
 fn fixed_nodes(mesh: &Mesh) -> Vec<bool> {
     let mut is_fixed = vec![false; mesh.positions.len()];
     let lines = mesh.groups.iter().filter(|group| group.dimension < 2);

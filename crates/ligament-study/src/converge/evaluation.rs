@@ -7,7 +7,7 @@ use super::interval::{Interval, Refusal, Samples};
 use super::no_limit::{Kind, NoLimit, kind};
 use crate::quantities::{Quantities, QuantityError};
 
-/// Reasons of an end after which runs of all sizes are at the same load or displacement.
+/// Reasons of a termination after which runs of all sizes are at the same load or displacement.
 const SAME_ENDS: [&str; 4] = [
     "steps-done",
     "full-load",
@@ -15,7 +15,7 @@ const SAME_ENDS: [&str; 4] = [
     "energy-dissipated",
 ];
 
-/// Share of the largest force below which the force of a support on one point changes nothing: the work that it does goes with the square.
+/// Fraction of the largest force below which the force of a support on one point is negligible: its effect on the work grows with the square.
 const NO_FORCE: f64 = 0.01;
 
 /// Number of natural modes with an interval if none is named.
@@ -45,13 +45,13 @@ pub struct Evaluated {
     pub refused: Option<String>,
     /// Values of the runs at h and at 2h.
     pub samples: Samples,
-    /// Value of the second mesher less that of the first at h, relative to the mean.
+    /// Value with the second mesher minus value with the first at h, relative to the mean.
     pub mesher: Option<f64>,
     /// Change with 4/3 of the horizon factor at the same horizon, relative to the mean.
     pub families: Option<f64>,
 }
 
-/// Runs of a case at both sizes, with what decides about their intervals.
+/// Runs of a case at both sizes, with the data for their intervals.
 pub(super) struct Runs<'a> {
     pub(super) bodies: &'a SizedBodies,
     /// Runs of the bodies, in their order.
@@ -75,7 +75,7 @@ impl Runs<'_> {
     }
 
     /// The runs of one size.
-    pub(super) fn of_size(&self, is_fine: bool) -> impl Iterator<Item = &SizedRun<'_>> {
+    pub(super) fn by_size(&self, is_fine: bool) -> impl Iterator<Item = &SizedRun<'_>> {
         let runs = self.runs.iter();
         runs.filter(move |run| run.body.is_fine == is_fine)
     }
@@ -94,14 +94,14 @@ impl Runs<'_> {
     /// Values of a result in the runs at h and at 2h; runs without it are left out.
     fn samples(&self, name: &str) -> [Vec<f64>; 2] {
         let values = |is_fine| {
-            let runs = self.of_size(is_fine);
+            let runs = self.by_size(is_fine);
             runs.filter_map(|run| run.results.number(name).ok())
                 .collect()
         };
         [true, false].map(values)
     }
 
-    /// The named results with their intervals, without names those that the runs have.
+    /// The named results with their intervals; without names the usual results.
     ///
     /// # Errors
     ///

@@ -37,8 +37,8 @@ pub(super) fn lattices(case: &CaseFile) -> Result<SizedBodies, CaseError> {
             .zip(&sides)
             .map(|(&n, side)| side / f64::from(n));
         let values = [
-            list(cells.iter().map(|n| n.to_string())),
-            list(spacing.map(|dx| format!("{dx:?}"))),
+            toml_list(cells.iter().map(|n| n.to_string())),
+            toml_list(spacing.map(|dx| format!("{dx:?}"))),
         ];
         let keys = ["cells", "spacing"].map(|name| format!("{section}.{name}"));
         SizedBody {
@@ -53,7 +53,7 @@ pub(super) fn lattices(case: &CaseFile) -> Result<SizedBodies, CaseError> {
     let mut notes = Vec::new();
     for (size, cells, is_fine) in [("h", &cells, true), ("2h", &coarse, false)] {
         bodies.push(sized(cells, format!("{size} lattice"), "lattice", is_fine));
-        match finer(cells) {
+        match finer_cells(cells) {
             Some(more) => bodies.push(sized(&more, format!("{size} finer"), "finer", is_fine)),
             None => notes.push(format!(
                 "no second lattice at {size}: numbers of cells with a larger common divisor have one, and then the scatter is known"
@@ -70,7 +70,7 @@ pub(super) fn lattices(case: &CaseFile) -> Result<SizedBodies, CaseError> {
 
 /// Numbers of cells in the same ratio and with the same parity, so that a crack between two rows stays there: so many more that the spacing is
 /// nearest to [`FINER`] of its own. None if none is between [`FINEST`] and 1.
-fn finer(cells: &[u32]) -> Option<Vec<u32>> {
+fn finer_cells(cells: &[u32]) -> Option<Vec<u32>> {
     let divisor = cells.iter().fold(0, |a, &b| greatest_common_divisor(a, b));
     let of_multiple =
         |multiple: u32| -> Vec<u32> { cells.iter().map(|n| n / divisor * multiple).collect() };
@@ -96,7 +96,7 @@ fn greatest_common_divisor(a: u32, b: u32) -> u32 {
 }
 
 /// A list in TOML.
-fn list(items: impl Iterator<Item = String>) -> String {
+fn toml_list(items: impl Iterator<Item = String>) -> String {
     format!("[{}]", items.collect::<Vec<_>>().join(", "))
 }
 
@@ -106,9 +106,9 @@ mod tests {
 
     #[test]
     fn the_finer_lattice_keeps_the_shape_of_the_cells() {
-        assert_eq!(finer(&[80, 40]), Some(vec![84, 42]));
-        assert_eq!(finer(&[41, 41]), Some(vec![43, 43]));
+        assert_eq!(finer_cells(&[80, 40]), Some(vec![84, 42]));
+        assert_eq!(finer_cells(&[41, 41]), Some(vec![43, 43]));
         // 15 to 4: the next lattice with such cells has twice as many.
-        assert_eq!(finer(&[15, 4]), None);
+        assert_eq!(finer_cells(&[15, 4]), None);
     }
 }

@@ -1,7 +1,8 @@
 //! `ligament converge`: between which values the results of a case lie as its points become finer.
 //!
 //! The case is run on [bodies](self) at the sizes h and 2h (`bodies`, `lattices`, `displaced_nodes`), as a sweep over them whose study file is
-//! written into the folder. Its results have [intervals](interval) of convergence (`evaluation`, `crack_paths`) but where they have no limit (`no_limit`), which a
+//! written into the folder. Its results have [intervals](interval) of convergence (`evaluation`, `crack_paths`) but where they have no limit
+//! (`no_limit`), which a
 //! `report` tells.
 
 mod bodies;
@@ -31,7 +32,7 @@ use bodies::{SizedBodies, SizedBody};
 use evaluation::{Runs, SizedRun};
 use no_limit::{NoLimit, no_limit};
 
-/// Names of the study file and its case in the folder.
+/// Name of the study file in the folder.
 const STUDY: &str = "study.toml";
 const CASE: &str = "case.toml";
 
@@ -54,9 +55,9 @@ pub struct Request<'a> {
     pub results: Vec<String>,
     /// Whether runs with larger families show the change with the number of bonds at the same horizon.
     pub families: bool,
-    /// Whether the horizon at 2h is that at h.
+    /// Whether both sizes have the same horizon.
     pub fixed_horizon: bool,
-    /// Task for the runs.
+    /// Task for the planned runs.
     pub task: Task,
 }
 
@@ -105,7 +106,7 @@ pub fn converge(
         replace_file(&path.join(name), text.as_bytes())?;
     }
     let study = Study::load(&source)?;
-    let no_limit = no_limit_of(&study, &path, request)?;
+    let no_limit = no_limits(&study, &path, request)?;
     let from = match &request.task {
         Task::Run(settings) => {
             sweep::run(&study, &path, settings, &mut io::sink())?;
@@ -127,7 +128,7 @@ pub fn converge(
         Task::Collect(from) => from,
     };
     let done = sweep::done_runs(&study, &path, from)?;
-    let runs = evaluation_of(case, &bodies, &planned, (done, no_limit));
+    let runs = runs_to_evaluate(case, &bodies, &planned, (done, no_limit));
     let results = runs.evaluated(&request.results)?;
     report::write(case, &runs, &results, folder.path(), out)?;
     Ok(Some(results))
@@ -147,12 +148,12 @@ impl Request<'_> {
     }
 }
 
-/// What has no limit in the first of the bodies; tells it before any run.
-fn no_limit_of(study: &Study, path: &Path, request: &Request<'_>) -> anyhow::Result<NoLimit> {
+/// The results without a limit for the first body; prints them before any run.
+fn no_limits(study: &Study, path: &Path, request: &Request<'_>) -> anyhow::Result<NoLimit> {
     let first = plan::runs(study, path)?.into_iter().next();
     let case = first.map_or_else(|| request.case.clone(), |run| run.case);
     let found = no_limit(&case, &case.setup(&mut ())?);
-    found.tell(&request.results, &mut request.print())?;
+    found.show(&request.results, &mut request.print())?;
     Ok(found)
 }
 
@@ -269,8 +270,8 @@ fn study_text(title: &str, has_lines: bool, planned: &[PlannedRun<'_>]) -> Strin
     text
 }
 
-/// The runs with what decides about their intervals.
-fn evaluation_of<'a>(
+/// The runs with the data for their intervals.
+fn runs_to_evaluate<'a>(
     case: &CaseFile,
     bodies: &'a SizedBodies,
     planned: &[PlannedRun<'a>],

@@ -6,10 +6,10 @@ use ligament_case::case::CaseFile;
 use ligament_model::failure::Choice;
 use ligament_model::scatter::Scattered;
 
-/// Kind of a result, which decides what refuses it.
+/// Kind of a result, which determines the reasons to refuse it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Depends on displacements under the loads.
+    /// A result that depends on displacements under the loads.
     Stiffness,
     /// A load at which bonds break.
     Breakage,
@@ -17,17 +17,17 @@ pub(super) enum Kind {
     AtEnd,
     /// Work up to the end of the run.
     Work,
-    /// Anything else.
+    /// Any other result.
     Other,
 }
 
 /// Reasons why results of a case have no limit.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct NoLimit {
-    /// Stiffness and work, because a load acts on one point.
-    pub(super) of_stiffness: Option<String>,
-    /// Loads of breakage, because bonds break at once by their strength where the stress is singular.
-    pub(super) of_breakage: Option<String>,
+    /// Reason for stiffness and work: a load acts on one point.
+    pub(super) stiffness: Option<String>,
+    /// Reason for loads of breakage: bonds break at once by their strength where the stress is singular.
+    pub(super) breakage: Option<String>,
     /// Groups of supports on one point, on which stiffness and work depend if they carry a force.
     pub(super) supports_on_a_point: Vec<String>,
 }
@@ -36,25 +36,25 @@ impl NoLimit {
     /// Reason why results of a kind have no limit.
     pub(super) fn reason(&self, kind: Kind) -> Option<&str> {
         match kind {
-            Kind::Breakage => self.of_breakage.as_deref(),
-            Kind::Stiffness | Kind::Work => self.of_stiffness.as_deref(),
+            Kind::Breakage => self.breakage.as_deref(),
+            Kind::Stiffness | Kind::Work => self.stiffness.as_deref(),
             Kind::AtEnd | Kind::Other => None,
         }
     }
 
-    /// Tells what will have no interval, before any run.
+    /// Prints the results that will have no interval, before any run.
     ///
     /// # Errors
     ///
     /// If none of the named results can have one.
-    pub(super) fn tell(&self, names: &[String], print: &mut dyn FnMut(&str)) -> anyhow::Result<()> {
+    pub(super) fn show(&self, names: &[String], print: &mut dyn FnMut(&str)) -> anyhow::Result<()> {
         let reasons = names.iter().map(|name| self.reason(kind(name)));
         let refused: Option<Vec<&str>> = reasons.collect();
         if let Some(reason) = refused.as_ref().and_then(|all| all.first()) {
             anyhow::bail!("{} has no limit: {reason}", names.join(", "));
         }
         let words = ["stiffness and work", "loads of breakage"];
-        for (words, reason) in words.iter().zip([&self.of_stiffness, &self.of_breakage]) {
+        for (words, reason) in words.iter().zip([&self.stiffness, &self.breakage]) {
             if let Some(reason) = reason {
                 print(&format!("no interval of {words}: {reason}"));
             }
@@ -100,10 +100,10 @@ pub(super) fn no_limit(case: &CaseFile, setup: &Setup) -> NoLimit {
         _ => None,
     });
     NoLimit {
-        of_stiffness: load.map(|load| {
+        stiffness: load.map(|load| {
             format!("`{}` loads one point, under which the displacement grows with the logarithm of 1/h: load a length, or read a probe", load.name)
         }),
-        of_breakage: by_strength(setup).and_then(|word| {
+        breakage: by_strength(setup).and_then(|word| {
             let place = singularity(case, setup)?;
             Some(format!(
                 "bonds break at once by their strength (`{word}`) at {place}, where the load of breakage falls with sqrt(h): use a criterion of \

@@ -20,7 +20,7 @@ use crate::run_table::{WIDTH, number, table, write_plot};
 const COLUMNS: &str =
     "result,unit,lower,upper,at_h,at_2h,standard_deviation,mesher,families,refused";
 
-/// Width of the words before the lines that are no results.
+/// Width of the headings of lines beside the results.
 const HEADING: usize = 11;
 
 /// `convergence.json`.
@@ -29,7 +29,7 @@ struct Document<'a> {
     title: &'a str,
     /// Ratio of the spacings of the points.
     ratio: f64,
-    /// Constants of the rule.
+    /// Constants of the rule for intervals.
     rule: Rule,
     runs: Vec<RunInFile<'a>>,
     results: &'a [Evaluated],
@@ -67,7 +67,7 @@ pub(super) fn write(
     folder: &Path,
     out: &mut dyn Write,
 ) -> anyhow::Result<()> {
-    let paths = PathDistances::of_runs(runs);
+    let paths = PathDistances::between_runs(runs);
     let document = document(case, runs, results, paths);
     replace_file(
         &folder.join("convergence.json"),
@@ -150,7 +150,7 @@ fn print(
     )?;
     let points = |is_fine: bool| {
         let counts = runs
-            .of_size(is_fine)
+            .by_size(is_fine)
             .filter_map(|run| run.results.number("points").ok());
         let words: Vec<String> = counts.map(|it| it.to_string()).collect();
         words.join(" and ")
@@ -180,7 +180,7 @@ fn print(
     Ok(())
 }
 
-/// Prints what is not in the intervals: the difference of the meshers, and the change with the number of bonds.
+/// Prints values outside of the intervals: the difference of the meshers, and the change with the number of bonds.
 fn print_apart(runs: &Runs<'_>, results: &[Evaluated], out: &mut dyn Write) -> io::Result<()> {
     let shares = |get: fn(&Evaluated) -> Option<f64>| -> String {
         let known = results
@@ -190,7 +190,7 @@ fn print_apart(runs: &Runs<'_>, results: &[Evaluated], out: &mut dyn Write) -> i
     };
     let (mesher, families) = (shares(|it| it.mesher), shares(|it| it.families));
     if !mesher.is_empty() {
-        let names: Vec<&str> = runs.of_size(true).map(|run| run.body.mesher).collect();
+        let names: Vec<&str> = runs.by_size(true).map(|run| run.body.mesher).collect();
         let names = format!("{} less {}", names[1], names[0]);
         writeln!(out, "  mesher       {names} at h: {mesher}")?;
     }
@@ -203,7 +203,7 @@ fn print_apart(runs: &Runs<'_>, results: &[Evaluated], out: &mut dyn Write) -> i
     Ok(())
 }
 
-/// Words of a result for the terminal, the first of a width.
+/// Text of a result for the terminal, with a width of its first column.
 fn words(result: &Evaluated, width: usize) -> Vec<String> {
     let label = format!("{:<width$}", result.label);
     let Some(interval) = &result.interval else {
@@ -241,7 +241,7 @@ fn plot(runs: &Runs<'_>, result: &Evaluated) -> Plot {
         series.push(Series::circles(*mesher, colour, points));
     }
     let mean = |is_fine: bool| {
-        let points: Vec<[f64; 2]> = runs.of_size(is_fine).filter_map(at).collect();
+        let points: Vec<[f64; 2]> = runs.by_size(is_fine).filter_map(at).collect();
         let n = points.len() as f64;
         [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / n)
     };

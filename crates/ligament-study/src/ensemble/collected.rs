@@ -12,7 +12,7 @@ use super::row::Row;
 /// Probabilities of the quantiles of curves.
 pub(super) const PROBABILITIES: [f64; 5] = [0.05, 0.25, 0.5, 0.75, 0.95];
 
-/// Standard deviations of a normal number between which 90 % lie.
+/// Number of standard deviations about the mean that contain 90 % of a normal distribution.
 pub(super) const NINETY_PERCENT: f64 = 1.644_853_626_951_472_7;
 
 /// Samples of an ensemble.

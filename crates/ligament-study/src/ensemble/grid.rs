@@ -47,7 +47,7 @@ impl Grid {
     }
 }
 
-/// Whether a path ended because the body carries its load no more.
+/// Whether a path ended because the body no longer carries its load.
 fn has_failed(end: &Termination) -> bool {
     matches!(
         end,

@@ -105,7 +105,7 @@ impl Identity {
     }
 }
 
-/// Inputs of a case except those that change no sample: the seed of its first random property and its output.
+/// Inputs of a case that affect samples: all but the seed of its first random property and its output.
 fn inputs(case: &CaseFile) -> anyhow::Result<String> {
     let mut plain = case.clone();
     let fracture = plain.case.fracture.as_mut();

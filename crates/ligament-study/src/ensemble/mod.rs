@@ -58,7 +58,7 @@ pub fn ensemble(request: &Request<'_>, out: &mut dyn Write) -> anyhow::Result<En
     }
 }
 
-/// Computes the samples that are missing, and writes the tables and plots unless the samples are only a shard.
+/// Computes the missing samples, and writes the tables and plots unless the samples are a shard.
 fn run(request: &Request<'_>, settings: &Settings, out: &mut dyn Write) -> anyhow::Result<End> {
     let threads = request.case.threads();
     let ensemble = on_threads(threads, || prepare_ensemble(request))??;
@@ -115,7 +115,7 @@ fn prepare_ensemble(request: &Request<'_>) -> anyhow::Result<Ensemble> {
     }
 }
 
-/// Removes stored samples; the folder is then of the new identity.
+/// Removes stored samples and writes the new identity of the folder.
 fn begin_anew(folder: &StudyFolder, identity: &Identity) -> anyhow::Result<()> {
     for entry in fs::read_dir(folder.path().join(PARTS))? {
         remove_if_there(&entry?.path())?;
@@ -173,7 +173,7 @@ impl From<ligament::Error> for SampleFault {
     }
 }
 
-/// Writes the tables and plots of the samples of some folders into one of them or another.
+/// Writes the tables and plots of the samples of several folders into one folder.
 fn report(
     request: &Request<'_>,
     folders: &[StudyFolder],

@@ -21,10 +21,10 @@ use crate::run_table::folder::StudyFolder;
 /// Subfolder of the parts.
 pub(super) const PARTS: &str = "parts";
 
-/// Time after which samples are stored at the latest, once the next has ended.
+/// Time after which the next completed sample causes all to be stored.
 const PAUSE: Duration = Duration::from_secs(2);
 
-/// Numbers of samples in which something happened at the points of a body.
+/// Numbers of samples with first breakage and with damage at the points of a body.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Counts {
     /// Samples in which a bond of the point was among the first to break, shape (n_points).
@@ -82,7 +82,7 @@ struct PartData {
     counts: Counts,
 }
 
-/// A part to which samples are added.
+/// An open part to which samples are added.
 pub(super) struct Part<'a> {
     table: Table,
     beside: PathBuf,
@@ -155,7 +155,7 @@ impl<'a> Part<'a> {
 /// Stored samples of a part.
 #[derive(Debug)]
 pub(super) struct StoredSamples {
-    /// File of the rows.
+    /// File with the rows of the samples.
     pub(super) path: PathBuf,
     pub(super) rows: Vec<Row>,
     pub(super) counts: Counts,

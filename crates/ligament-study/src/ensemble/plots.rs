@@ -10,7 +10,7 @@ use ligament_post::statistics::{WeibullFit, plotting_position, quantile};
 use super::collected::{CollectedSamples, NINETY_PERCENT, PROBABILITIES, Strengths};
 use super::identity::Identity;
 
-/// Largest number of circles of a Weibull plot; of more samples an even selection is drawn.
+/// Largest number of circles of a Weibull plot; more samples are thinned out evenly.
 const MOST_CIRCLES: usize = 1000;
 
 /// Number of points of the bounds of a fitted line.

@@ -1,4 +1,4 @@
-//! Results of an ensemble: tables, fields on the body, plots, and the short text at its end.
+//! Results of an ensemble: tables, fields on the body, plots, and a short text for the terminal.
 
 use std::io::{self, Write};
 use std::path::Path;

@@ -42,7 +42,7 @@ pub enum Task {
 /// Settings for computing samples.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Part of the samples to compute.
+    /// Shard of the samples to compute; None for all.
     pub shard: Option<Shard>,
     /// Largest number of simultaneous samples; by default the number of threads.
     pub jobs: Option<usize>,

@@ -6,7 +6,7 @@ use ligament_mesh::{AnyMesh, Group};
 
 use super::ends_in;
 
-/// Endings of the names of CAD files, with what makes their lengths those in metres: OpenCASCADE reads IGES in mm whatever the file's unit,
+/// Endings of the names of CAD files, with the option by which Gmsh reads lengths in metres: OpenCASCADE reads IGES in mm whatever the file's unit,
 /// and BREP has no unit.
 const UNITS: [(&str, &str); 5] = [
     ("step", "Geometry.OCCTargetUnit = \"M\";\n"),
@@ -22,7 +22,7 @@ const KINDS: [&str; 4] = ["point", "edge", "face", "solid"];
 /// Beginning of the names that OpenCASCADE gives to shapes without one.
 const UNNAMED: &str = "Open CASCADE";
 
-/// Word before the dimension and the volume or area of all shapes in the output of the script.
+/// Keyword in the output of the script before the dimension and the total volume or area of the shapes.
 const SIZE: &str = "size-of-body";
 
 /// Number of cells of a body for which a size is proposed.
@@ -66,7 +66,7 @@ pub(crate) fn quoted_in_gmsh(path: &Path) -> String {
     format!("\"{}\"", path.to_string_lossy().replace('"', "\\\""))
 }
 
-/// Size of about 5000 cells of a body, m, with one digit, from what gmsh says about it; `None` where there is no body.
+/// Size of cells for about 5000 cells in a body, m, with one digit, from the output of gmsh; `None` without a body.
 pub(super) fn proposed_size(lines: &[String], scale: f64) -> Option<f64> {
     let mut words = lines
         .iter()
@@ -79,7 +79,7 @@ pub(super) fn proposed_size(lines: &[String], scale: f64) -> Option<f64> {
     format!("{length:.0e}").parse().ok().filter(|it| *it > 0.0)
 }
 
-/// Gives the groups of a mesh the names of their shapes, or the kind and the number of a shape without a name.
+/// Names the groups of a mesh after their shapes, or by the kind and number of an unnamed shape.
 pub(super) fn name_groups(mesh: &mut AnyMesh) {
     let groups = match mesh {
         AnyMesh::Plane(mesh) => &mut mesh.groups,
@@ -95,7 +95,7 @@ pub(super) fn name_groups(mesh: &mut AnyMesh) {
     }
 }
 
-/// Name of a group in a picture: the number of an unnamed shape of the outside, and the whole name of any other.
+/// Name of a group in a picture: the number of an unnamed shape of the outline, otherwise the full name.
 pub fn label(group: &Group) -> String {
     let kind = KINDS[usize::from(group.dimension)];
     let number = group

@@ -116,7 +116,7 @@ pub enum MeshingError {
         source: Box<InpError>,
     },
     /// The mesh by gmsh cannot be used.
-    #[error("gmsh made a mesh of {} that cannot be used{}", geometry.display(), turned(source))]
+    #[error("gmsh made a mesh of {} that cannot be used{}", geometry.display(), plane_advice(source))]
     Unusable {
         /// File of the geometry.
         geometry: PathBuf,
@@ -124,7 +124,7 @@ pub enum MeshingError {
         source: GmshError,
     },
     /// The converted mesh cannot be used.
-    #[error("the mesh of {} cannot be used{}", mesh.display(), turned(source))]
+    #[error("the mesh of {} cannot be used{}", mesh.display(), plane_advice(source))]
     UnusableSource {
         /// The mesh that was to be converted.
         mesh: PathBuf,
@@ -195,7 +195,7 @@ impl Refusal {
 }
 
 /// The option that turns a mesh in another plane.
-fn turned(error: &GmshError) -> String {
+fn plane_advice(error: &GmshError) -> String {
     match error {
         GmshError::OtherPlane { plane, .. } => by_option(*plane),
         _ => String::new(),

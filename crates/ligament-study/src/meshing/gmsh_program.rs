@@ -144,7 +144,7 @@ fn declared_constants(geometry: &str) -> Vec<String> {
         .collect()
 }
 
-/// Has gmsh make a mesh of a geometry, or read it alone without a file for the mesh; returns what it says.
+/// Calls gmsh to mesh a geometry, or only to read it where no mesh file is given; returns its output.
 fn call_gmsh(
     request: &MeshRequest,
     geometry: &Path,
@@ -199,7 +199,7 @@ fn operand(path: &Path) -> PathBuf {
 fn lines(output: &Output) -> Vec<String> {
     let text = |bytes| String::from_utf8_lossy(bytes).into_owned();
     let both = text(&output.stdout) + "\n" + &text(&output.stderr);
-    // What follows a carriage return is written over a line of progress.
+    // Text after a carriage return overwrites a line of progress.
     both.split(['\n', '\r'])
         .map(str::trim_end)
         .filter(|line| !line.is_empty())

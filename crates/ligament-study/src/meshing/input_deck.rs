@@ -40,7 +40,7 @@ pub fn is_read(path: &Path) -> bool {
 }
 
 /// Reads a Gmsh mesh, or an input deck with the files that it includes, from its folder, and returns the mesh written to `request.out` in
-/// Gmsh's format 4.1. Remarks name what of the source the mesh does not have.
+/// Gmsh's format 4.1. Remarks name contents of the source that the mesh lacks.
 ///
 /// # Errors
 ///
@@ -64,7 +64,7 @@ pub fn convert_deck(request: &DeckRequest) -> Result<Conversion, MeshingError> {
             mesh: source.clone(),
             source: error,
         })?;
-        let remarks = of_mesh(&mesh).collect();
+        let remarks = mesh_remarks(&mesh).collect();
         (mesh, remarks)
     } else {
         let deck = read_deck(source, plane)?;
@@ -90,7 +90,7 @@ pub fn read_deck(source: &Path, plane: CoordinatePlane) -> Result<Deck, MeshingE
     })
 }
 
-/// Content of a source that must be there.
+/// Content of a source, which must exist.
 fn content(source: &Path, what: &'static str) -> Result<Vec<u8>, MeshingError> {
     if !source.is_file() {
         let path = source.to_owned();
@@ -103,13 +103,13 @@ fn content(source: &Path, what: &'static str) -> Result<Vec<u8>, MeshingError> {
     })
 }
 
-fn of_mesh(mesh: &AnyMesh) -> impl Iterator<Item = String> {
+fn mesh_remarks(mesh: &AnyMesh) -> impl Iterator<Item = String> {
     mesh.remarks().iter().map(ToString::to_string)
 }
 
-/// What the mesh does not say of a deck.
+/// Remarks on contents of a deck that the mesh lacks.
 fn remarks(deck: &Deck) -> Vec<String> {
-    let mut remarks: Vec<String> = of_mesh(&deck.mesh).collect();
+    let mut remarks: Vec<String> = mesh_remarks(&deck.mesh).collect();
     if let Some(plane) = deck.plane {
         let word = match plane {
             Plane::Stress => "stress",

@@ -23,7 +23,7 @@ pub mod via_meshio;
 
 pub use error::{MeshingError, Refusal};
 
-/// How coordinates of a source become those of its mesh.
+/// Conversion of the coordinates of a source to coordinates of the mesh.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coordinates {
     /// Plane in which a source without solid cells lies; from another one than that of x and y the mesh is turned.

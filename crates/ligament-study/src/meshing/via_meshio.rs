@@ -45,7 +45,7 @@ pub struct Conversion {
 /// Advice where Python is missing.
 const REMEDY: &str = "install Python from https://python.org, or say where it is by --python PATH";
 
-/// Faults of a source by the script's words for them.
+/// Faults of a source by their keywords in the script.
 const FAULTS: [(&str, Refusal); 6] = [
     ("unknown-format", Refusal::UnknownFormat),
     ("unreadable", Refusal::Unreadable),
@@ -253,17 +253,17 @@ fn cells<'a, C>(
     lines.take(n_cells).map(cell).collect()
 }
 
-/// Parses the section of groups and the end, for a mesh with `n_nodes` nodes and `n_cells` cells of dimension `of_cells`.
+/// Parses the section of groups and the end, for a mesh with `n_nodes` nodes and `n_cells` cells of the dimension.
 fn groups<'a>(
     lines: &mut impl Iterator<Item = &'a str>,
-    of_cells: u8,
+    dimension: u8,
     n_nodes: usize,
     n_cells: usize,
 ) -> Option<Vec<Group>> {
     let n_groups = section(lines.next()?, "groups")?;
     let mut groups: Vec<Group> = Vec::new();
     for _ in 0..n_groups {
-        let group = group(lines, &groups, of_cells, [n_nodes, n_cells])?;
+        let group = group(lines, &groups, dimension, [n_nodes, n_cells])?;
         groups.push(group);
     }
     (lines.next()? == "end").then_some(groups)

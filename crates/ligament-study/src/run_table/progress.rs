@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use ligament_output::terminal::plain;
 use ligament_run::progress::ProgressMode;
 
-/// Number of lines of a log of tenths.
+/// Number of progress lines in a log, one after each tenth of the runs.
 const TENTHS: usize = 10;
 
 /// Display of the number of runs that have ended.
@@ -39,7 +39,7 @@ impl ProgressDisplay {
         }
     }
 
-    /// Prints a line.
+    /// Prints a line above the progress bar.
     pub(crate) fn print(&self, line: &str) {
         let line = &*plain(line);
         match (&self.bar, self.mode) {
@@ -70,7 +70,7 @@ impl ProgressDisplay {
         }
     }
 
-    /// Shows a message beside the bar of a terminal.
+    /// Shows a message beside the progress bar.
     pub(crate) fn show(&self, message: &str) {
         if let Some(bar) = &self.bar {
             bar.set_message(plain(message).into_owned());

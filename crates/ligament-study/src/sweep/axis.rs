@@ -139,7 +139,7 @@ impl Axis {
         Ok(())
     }
 
-    /// Whether words are the label of a value of the axis, or its value of a key.
+    /// Whether a text is the label of a value of the axis, or its value of a key.
     pub(super) fn is_value(&self, point: &AxisPoint, key: &str, words: &str) -> bool {
         let number = |text: &str| text.parse::<f64>().ok();
         let is_cell = |cell: &Cell| match (cell.as_f64(), number(words)) {
@@ -175,7 +175,7 @@ impl Axis {
     }
 }
 
-/// One name or a list of names at a place of a study; none where nothing is given.
+/// One name or a list of names at a place of a study; empty without any.
 pub(super) fn names(document: &Node, place: &KeyPath) -> Result<Vec<String>, KeyFault> {
     match document.at(place) {
         None => Ok(Vec::new()),

@@ -32,7 +32,7 @@ pub(super) struct Curves<'a> {
     pub(super) name: String,
     /// The panels in the order of their axes.
     pub(super) panels: Vec<Panel>,
-    /// Axes that the plot does not name, each value of which has a curve, by their index and number of values.
+    /// Axes that the plot does not name, with one curve for each value: their indices and numbers of values.
     pub(super) unnamed: Vec<(usize, usize)>,
 }
 
@@ -110,7 +110,7 @@ impl<'a> Curves<'a> {
         self.curves().flat_map(|curve| &curve.points)
     }
 
-    /// Words for the mean of the runs that share a place of a curve.
+    /// Text on the mean of runs at the same place of a curve.
     pub(super) fn mean_words(&self) -> String {
         match self.plot.mean.as_slice() {
             [] => "mean at equal x".to_owned(),

@@ -1,4 +1,4 @@
-//! The section `[[result]]` of a study: columns of its own, as values or as errors against a reference.
+//! The section `[[result]]` of a study: derived columns, as values or as errors relative to a reference.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -30,7 +30,7 @@ pub struct DerivedColumn {
     pub over: f64,
     /// Range of x of a height of the crack path, m; both ends are the same for the height at one x.
     pub range: Option<[f64; 2]>,
-    /// Reference of which the column has the relative error.
+    /// Reference for the relative error; None for a column of values.
     pub reference: Option<Reference>,
 }
 
@@ -87,7 +87,7 @@ struct RawTable {
     _key: IgnoredAny,
 }
 
-/// A study as far as its derived columns need it.
+/// The parts of a study that its derived columns need.
 #[derive(Clone, Copy)]
 pub(super) struct Surroundings<'a> {
     /// Parsed text of the study.
@@ -159,7 +159,7 @@ impl RawDerived {
     }
 }
 
-/// The reference at a place of the study, if there is one.
+/// Reads the reference of the derived column at a place of the study, if there is one.
 fn reference(
     study: Surroundings<'_>,
     along: Option<&str>,

@@ -14,7 +14,7 @@ use ligament_run::model::build_model;
 use ligament_run::progress::{Progress, ProgressMode};
 use ligament_run::stages::Stages;
 
-/// Estimates made so far; runs with the same body, horizons and supports share one.
+/// Memory estimates so far; runs with the same body, horizons and supports share one.
 #[derive(Debug, Default)]
 pub(super) struct Estimates(BTreeMap<String, Option<u64>>);
 

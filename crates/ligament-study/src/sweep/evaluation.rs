@@ -6,7 +6,7 @@ use super::study::{PlotContent, Study};
 use super::table::{INPUT, Row, inputs};
 use ligament_case::case::key_path::KeyPath;
 
-/// Values of the derived columns, and what the user should know about them.
+/// Values of the derived columns, with remarks for the user.
 #[derive(Debug, Default)]
 pub(super) struct DerivedValues {
     /// Values in the order of the columns, shape (n_runs, n_columns); None where a run has none.
@@ -128,8 +128,7 @@ fn reference(
     }
 }
 
-/// The value of the run with the most points among those that differ from a run along an axis alone, for each run, and a remark where some of
-/// these are not done.
+/// For each run, the value of the run with the most points among runs that differ only along one axis, and a remark where some of these are missing.
 fn finest(
     rows: &[Row<'_>],
     own: &[Option<f64>],

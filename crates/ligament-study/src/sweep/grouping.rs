@@ -14,7 +14,7 @@ use super::table::Row;
 /// Runs of a panel of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct PanelRuns {
-    /// Label of the values that all runs of the panel have; empty where one panel has all.
+    /// Label of the axis values of the panel; empty for a single panel.
     pub(super) label: String,
     /// Curves of the panel.
     pub(super) curves: Vec<CurveRuns>,
@@ -23,7 +23,7 @@ pub(super) struct PanelRuns {
 /// Runs of a curve of a plot.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct CurveRuns {
-    /// Label of the values that all runs of the curve have; empty where one curve has all.
+    /// Label of the axis values of the curve; empty for a single curve.
     pub(super) label: String,
     /// Indices of the runs, in their order.
     pub(super) runs: Vec<usize>,
@@ -34,11 +34,11 @@ pub(super) struct CurveRuns {
 pub(super) struct Grouping {
     /// Panels of the plot, one or more.
     pub(super) panels: Vec<PanelRuns>,
-    /// Axes that the plot does not name, each value of which has a curve, by their index and number of values.
+    /// Axes that the plot does not name, with one curve for each value: their indices and numbers of values.
     pub(super) unnamed: Vec<(usize, usize)>,
 }
 
-/// An axis that tells runs of a plot apart, with the indices of its values that are drawn.
+/// An axis that distinguishes runs of a plot, with the indices of its drawn values.
 struct DrawnAxis<'a> {
     axis: &'a Axis,
     index: usize,
@@ -48,7 +48,7 @@ struct DrawnAxis<'a> {
 }
 
 impl<'a> DrawnAxis<'a> {
-    /// An axis with the values that the filters of a plot leave.
+    /// An axis with the values that pass the filters of a plot.
     fn new(study: &'a Study, plot: &StudyPlot, index: usize, name: Option<String>) -> Self {
         let axis = &study.axes[index];
         let is_left = |value: &usize| {
@@ -73,7 +73,7 @@ impl<'a> DrawnAxis<'a> {
 }
 
 impl Grouping {
-    /// The runs of a plot; `place` is where a curve has a run, None where it has none.
+    /// Groups the runs of a plot; `place` returns the position of a run on a curve, None without one.
     pub(super) fn new(
         study: &Study,
         plot: &StudyPlot,

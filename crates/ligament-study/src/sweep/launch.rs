@@ -22,7 +22,7 @@ use super::progress::StudyProgress;
 use super::record::{RecordedRun, Status};
 use crate::run_table::folder::StudyFolder;
 
-/// Number of last lines of a failed run's output in its reason.
+/// Number of final output lines of a failed run that its reason quotes.
 const LAST_WORDS: usize = 4;
 
 /// Resources for runs.

@@ -145,7 +145,7 @@ pub(crate) fn create_folder(path: &Path, study: &Path, title: &str) -> anyhow::R
     )
 }
 
-/// The completed runs in a folder of a sweep with their labels; None for a folder that is no such one.
+/// The completed runs in the folder of a sweep, with their labels; `None` for any other folder.
 ///
 /// # Errors
 ///

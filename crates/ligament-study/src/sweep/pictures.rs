@@ -1,4 +1,4 @@
-//! Pictures of the runs of a study themselves: their curves, and their crack paths over one another.
+//! Pictures of the runs of a study: their curves, and their crack paths over one another.
 
 use std::path::PathBuf;
 
@@ -56,7 +56,7 @@ pub(super) fn drawing(
     Ok(drawn.for_paper(width)?)
 }
 
-/// The completed runs in panels with a label for each run; panels without one are left out.
+/// The completed runs in panels with a label for each run; panels without runs are left out.
 fn panels(study: &Study, plot: &StudyPlot, rows: &[Row<'_>]) -> Vec<PathPanel> {
     // All runs are at one place, so that each has a curve.
     let grouping = Grouping::new(study, plot, rows, &|_| Some(0.0));

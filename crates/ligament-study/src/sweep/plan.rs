@@ -21,7 +21,7 @@ const MOST_RUNS: usize = 100_000;
 /// Longest name of a run, bytes: file systems allow 255, and derived names are longer.
 const LONGEST_NAME: usize = 200;
 
-/// Longest part of a name for a value, bytes.
+/// Longest part for a value in the name of a run, bytes.
 const LONGEST_LABEL: usize = 48;
 
 /// A run of a study.
@@ -60,7 +60,7 @@ impl Run {
     }
 }
 
-/// Keys and texts that name a value of an axis: each key with its value, or the first key with the label.
+/// Keys and texts that identify a value of an axis: each key with its value, or the first key with the label.
 fn parts_of<'a>(
     axis: &'a Axis,
     point: &'a AxisPoint,
@@ -119,7 +119,7 @@ fn place(axes: &[Axis], number: usize) -> Vec<usize> {
     place
 }
 
-/// Common data of the runs of a study.
+/// Data common to all runs of a study, for their plan.
 struct Planning<'a> {
     study: &'a Study,
     /// Text of the base case.
@@ -222,7 +222,7 @@ fn key(name: &str) -> KeyPath {
     KeyPath(vec![name.to_owned()])
 }
 
-/// Location in the study of the last setting with a property, or else of the case.
+/// Location in the study of the last setting that satisfies a condition, or else of the case.
 fn last(study: &Study, settings: &[Setting], is_it: impl Fn(&Setting) -> bool) -> Location {
     let found = settings.iter().rfind(|it| is_it(it));
     study.location(&found.map_or_else(|| key("case"), |it| it.place.clone()))

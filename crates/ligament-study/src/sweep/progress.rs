@@ -39,7 +39,7 @@ impl<'a> StudyProgress<'a> {
         }
     }
 
-    /// Prints a line.
+    /// Prints a line above the progress bar.
     pub(super) fn print(&self, line: &str) {
         self.display.print(line);
     }

@@ -107,7 +107,7 @@ impl<'a> RecordedRun<'a> {
         &self.present.folder
     }
 
-    /// Place for the results of the next computation: a separate folder if the run has results.
+    /// Folder and record for the next computation, separate ones if the run has results.
     fn next(&self) -> &Results {
         match self.present.are_complete() {
             true => &self.new,

@@ -29,12 +29,12 @@ const LISTED: usize = 20;
 const FIT_COLUMNS: &str =
     "plot,x,y,by,curve,slope,slope_error,intercept,intercept_error,r_squared,points,remark";
 
-/// What a user should know about the tables and plots of a study.
+/// Problems and remarks about the tables and plots of a study.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
-    /// Reasons why some of them could not be made.
+    /// Reasons why some tables or plots could not be made.
     pub(super) problems: Vec<String>,
-    /// Remarks about what they show.
+    /// Remarks about the contents of the tables and plots.
     pub(super) remarks: Vec<String>,
 }
 
@@ -126,7 +126,7 @@ fn written<Reason: ToString>(
     }
 }
 
-/// The error of a column that a plot does not find, unless it was told already.
+/// The error of a missing column of a plot, unless it was reported before.
 fn missing_column(
     study: &Study,
     index: usize,
@@ -309,7 +309,7 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
     let heads = ["", "slope", "+-", "intercept", "+-", "R^2", "points"];
     let mut lines = vec![heads.map(str::to_owned).to_vec()];
     for (panel, curve) in with_panels(curves) {
-        let name = joined(panel, curve.name("runs"));
+        let name = joined_label(panel, curve.name("runs"));
         match &curve.fit {
             Some(Ok(fit)) => {
                 let error = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), rounded);
@@ -345,8 +345,8 @@ fn with_panels<'a>(curves: &'a Curves<'_>) -> impl Iterator<Item = (&'a str, &'a
     panels.flat_map(|panel| panel.curves.iter().map(|curve| (&*panel.label, curve)))
 }
 
-/// The label of a panel, if it has one, and that of a curve.
-fn joined(panel: &str, curve: &str) -> String {
+/// Joined label of a panel, if it has one, and a curve.
+fn joined_label(panel: &str, curve: &str) -> String {
     let labels = [panel, curve].into_iter().filter(|it| !it.is_empty());
     labels.collect::<Vec<_>>().join(", ")
 }
@@ -374,7 +374,7 @@ fn fits(all: &[Curves<'_>]) -> String {
                 &csv::line(&[&[name, x, y, by, curve], &numbers[..], &[remark.into()]].concat());
         };
         for (panel, Curve { label, fit, .. }) in with_panels(curves) {
-            let label = &joined(panel, label);
+            let label = &joined_label(panel, label);
             match fit {
                 Some(Ok(fit)) => {
                     let numbers = [

@@ -138,7 +138,7 @@ impl Study {
     }
 }
 
-/// The fault with the name of the study file, where it is about the root.
+/// The fault with the name of the study file, if its key is the root.
 fn in_study(mut fault: KeyFault) -> KeyFault {
     if let Fault::UnknownKey { table, .. } | Fault::MissingKey { table, .. } = &mut fault.fault
         && fault.key.0.len() == 1

@@ -1,4 +1,4 @@
-//! The section `[[plot]]` of a study: what is drawn of which runs.
+//! The section `[[plot]]` of a study: the runs and quantities of a plot.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -14,13 +14,13 @@ use ligament_case::case::values::require;
 /// A plot over the runs of a study.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StudyPlot {
-    /// What is drawn.
+    /// Content of the plot.
     pub content: PlotContent,
-    /// Keys of axes: the values of the last one have a curve each, those of the others a panel.
+    /// Keys of axes: each value of the last one has a curve, each combination of the others a panel.
     pub by: Vec<String>,
     /// Keys of axes over whose values the plot has a mean.
     pub mean: Vec<String>,
-    /// The runs that are drawn; all without any.
+    /// Filters of the drawn runs; all runs without any.
     pub(crate) filters: Vec<AxisFilter>,
     /// Title; by default the title of the study.
     pub title: Option<String>,
@@ -34,7 +34,7 @@ pub struct StudyPlot {
     pub fit: Option<FitRange>,
 }
 
-/// What a plot draws of the runs.
+/// Content of a plot over runs.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PlotContent {
     /// One column of the table over another: keys of axes, derived columns or results.
@@ -64,7 +64,7 @@ pub(crate) struct AxisFilter {
     pub(crate) values: Vec<usize>,
 }
 
-/// A line that is known from elsewhere.
+/// A line from another source, for comparison.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KnownLine {
@@ -281,7 +281,7 @@ fn collect(
     Ok(())
 }
 
-/// Indices of the values of an axis that a node means: a value or a label, or a list of them.
+/// Indices of the axis values in a node: a value or a label, or a list of these.
 fn values(axis: &Axis, key: &str, node: &Node, place: &KeyPath) -> Result<Vec<usize>, KeyFault> {
     let found = meant(axis, key, node, place)?;
     let mut found = match (&node.value, found.is_empty()) {

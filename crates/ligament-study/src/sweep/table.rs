@@ -51,7 +51,7 @@ pub(super) struct UnknownColumn {
 
 /// A run as a row.
 pub(super) struct Row<'a> {
-    /// Run of the row.
+    /// The run.
     pub(super) run: &'a Run,
     /// Status of the run.
     pub(super) status: Status,
@@ -186,7 +186,7 @@ impl StudyTable {
     }
 }
 
-/// The completed runs of the table in a folder of a sweep, with labels of what tells them apart. Results that a collection found in folders of
+/// The completed runs of the table in a folder of a sweep, with labels that distinguish them. Results that a collection found in folders of
 /// other machines are where the table names them.
 ///
 /// # Errors

@@ -83,7 +83,7 @@ impl FromStr for Combination {
 
 impl Combination {
     /// Combinations in the paper's figures.
-    pub fn of_figures() -> Vec<Self> {
+    pub fn in_figures() -> Vec<Self> {
         FIGURES.iter().flat_map(|words| words.parse()).collect()
     }
 

@@ -1,4 +1,4 @@
-//! Errors over orientation and loci: tables (CSV) and diagrams (SVG).
+//! Errors over orientation, and loci, as tables (CSV) and diagrams (SVG).
 
 use std::f64::consts::TAU;
 
@@ -188,7 +188,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
         let family = subject.family();
         let points = principal_locus(&family, LOCUS_PATHS);
         append_locus(table, criterion, subject, &points)?;
-        let effective = around(&points, |it| it.effective);
+        let effective = closed(&points, |it| it.effective);
         principal.push(Series::curve(&subject.name, *colour, effective));
         for (place, piece) in limits_by_criterion(&points).into_iter().enumerate() {
             let name = if place == 0 {
@@ -204,7 +204,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
             bond.push(Series::curve("", *colour, mirrored));
         }
         if theory.is_empty() {
-            theory = around(&points, |it| it.theoretical);
+            theory = closed(&points, |it| it.theoretical);
             limits = bond_locus(&family, LOCUS_PATHS);
             limits.extend(limits.first().copied());
         }
@@ -234,7 +234,7 @@ fn loci(comparison: &Comparison, table: &mut Table) -> anyhow::Result<Vec<EqualS
 }
 
 /// A locus as a closed curve around zero, interrupted where paths have no point.
-fn around(points: &[LocusPoint], strains: fn(&LocusPoint) -> PrincipalStretches) -> Vec<[f64; 2]> {
+fn closed(points: &[LocusPoint], strains: fn(&LocusPoint) -> PrincipalStretches) -> Vec<[f64; 2]> {
     let mut curve = Vec::new();
     let mut last: Option<f64> = None;
     let closing = points.first().map(|it| (it.path + TAU, it));

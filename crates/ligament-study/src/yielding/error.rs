@@ -12,7 +12,7 @@ pub enum YieldError {
         /// Given value.
         ratio: f64,
     },
-    /// A Poisson's ratio that no material has in the plane.
+    /// A Poisson's ratio that is impossible in the plane.
     #[error("nu = {poisson} is not between -1 and 1, as Poisson's ratio in the plane is")]
     Poisson {
         /// Given value.
@@ -51,7 +51,7 @@ pub enum YieldError {
          with a strength of the material), or take limits that are the same for all bonds with --criterion"
     )]
     NoCriteria,
-    /// A law whose bonds' strains do not depend on their direction.
+    /// A law whose strains of bonds do not depend on the direction.
     #[error(
         "the bonds of model.law = \"{law}\" have all strains of the body whatever their direction, so that directions weaken nothing: \
          families yield at the limits that `ligament check` lists"
@@ -69,7 +69,7 @@ pub enum YieldError {
         /// Name of the criterion.
         criterion: &'static str,
     },
-    /// A case without a Poisson's ratio of all directions, or with several.
+    /// A case with an anisotropic material, or with several Poisson's ratios.
     #[error("the case has {which}: give Poisson's ratio in the plane with --nu")]
     NoPoisson {
         /// Description of the elastic constants of the case.

@@ -104,8 +104,8 @@ fn layers(
         let strengths = request.strengths(poisson[0]);
         let lattice = combination.map(|it| Subject::from_lattice(ratio, it, &strengths));
         let lattice = lattice.transpose()?;
-        for (k, strain) in Strain::of_figures(poisson[0]).into_iter().enumerate() {
-            let at = |point: u32| Strain::of_figures(poisson[point as usize])[k].stretches;
+        for (k, strain) in Strain::in_figures(poisson[0]).into_iter().enumerate() {
+            let at = |point: u32| Strain::in_figures(poisson[point as usize])[k].stretches;
             let worst = |it: &Subject| Some(it.family().worst(strain.stretches)?.error);
             layers.push(Layer {
                 criterion: criterion.clone(),

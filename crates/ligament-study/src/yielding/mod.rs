@@ -50,7 +50,7 @@ fn yield_of_lattices(
     let strengths = request.strengths(poisson);
     let given = &request.combinations;
     let combinations = if given.is_empty() {
-        Combination::of_figures()
+        Combination::in_figures()
     } else {
         given.clone()
     };
@@ -62,7 +62,7 @@ fn yield_of_lattices(
             subjects: ratios.iter().map(of_ratio).collect::<Result<_, _>>()?,
         });
     }
-    let strains = Strain::of_figures(poisson);
+    let strains = Strain::in_figures(poisson);
     diagrams::write(request.folder()?, &comparisons, &strains)?;
     writeln!(
         screen,

@@ -1,4 +1,4 @@
-//! Model, criteria and Poisson's ratio of a case with families of bonds.
+//! Model, criteria and Poisson's ratio of a case, for its families of bonds.
 
 use ligament_model::failure::Criteria;
 

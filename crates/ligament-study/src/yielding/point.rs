@@ -43,7 +43,7 @@ pub(super) fn draw(
             lattice.name = format!("lattice m = {ratio:.2}");
             comparison.subjects.push(lattice);
         }
-        let strains = Strain::of_figures(poisson);
+        let strains = Strain::in_figures(poisson);
         let yields = |it: &Comparison| {
             let family = it.subjects[0].family();
             let mut paths = diagrams::PATHS.into_iter();

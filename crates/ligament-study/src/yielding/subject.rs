@@ -33,7 +33,7 @@ pub struct Strain {
 
 impl Strain {
     /// The strains of the figures: a bar in tension, which is the paper's simple extension at nu = 0, and pure shear.
-    pub fn of_figures(poisson: f64) -> [Self; 2] {
+    pub fn in_figures(poisson: f64) -> [Self; 2] {
         [
             Self {
                 name: "tension",

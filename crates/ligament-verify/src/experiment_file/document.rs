@@ -109,7 +109,7 @@ pub(super) struct FileTable {
     pub(super) over: Vec<LabelExpansion>,
 }
 
-/// A label that stands for several labels.
+/// A label with the labels for which it stands.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LabelExpansion {
@@ -168,7 +168,7 @@ impl TryFrom<toml::Value> for Choice {
 pub(super) const ELSE: &str = "else";
 
 impl Choice {
-    /// The text for some labels.
+    /// The text for given labels.
     pub(super) fn for_labels(
         &self,
         label: impl Fn(&str) -> anyhow::Result<String>,
@@ -205,7 +205,7 @@ pub(super) struct Figure {
     /// Labels by key. Each of them has a plot of its own.
     #[serde(default)]
     pub(super) each: BTreeMap<String, Vec<String>>,
-    /// Texts by labels for the title.
+    /// Texts for the title, by labels.
     #[serde(default)]
     pub(super) words: BTreeMap<String, Choice>,
     /// Labels of all runs of the plot.
@@ -229,7 +229,7 @@ pub(super) struct FixedLine {
     pub(super) points: Vec<[String; 2]>,
 }
 
-/// Values of a table over the numbers of a key.
+/// A series of the values of a table over the numbers of a key.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct TableSeries {
@@ -283,7 +283,7 @@ pub(super) struct RunSeries {
 }
 
 impl SettingsByLabels {
-    /// The settings for some labels.
+    /// The settings for given labels.
     pub(super) fn for_labels(
         &self,
         label: impl Fn(&str) -> anyhow::Result<String>,

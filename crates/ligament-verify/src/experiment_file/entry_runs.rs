@@ -10,7 +10,7 @@ use super::expression::{Expression, RunRow};
 use super::quantity::{CURVE, RunResults, ensure_known};
 use crate::case_run::CaseRun;
 use crate::places::repository;
-use crate::published::known;
+use crate::published::known_table;
 use crate::table::{Labels, number};
 use crate::uniform_stress::loads;
 
@@ -18,7 +18,7 @@ use crate::uniform_stress::loads;
 const OPENING: &str = "\u{1}";
 const CLOSING: &str = "\u{2}";
 
-/// The runs whose results an entry or a point of a plot combines, and the expression of its value.
+/// The runs of an entry or of a point of a plot, with the expression that combines their results.
 pub(super) struct EntryRuns<'a> {
     file: &'a ExperimentFile,
     /// The run of the table, added to the run of the file.
@@ -26,11 +26,11 @@ pub(super) struct EntryRuns<'a> {
     value: Expression,
     /// Labels of each run, by the beginning of their keys up to a comma.
     runs: Vec<BTreeMap<String, String>>,
-    /// Command of each run, once it is needed.
+    /// Command of each run, computed at first use.
     commands: Vec<OnceCell<String>>,
 }
 
-/// Meaning of a name in a run.
+/// Meaning of a name in an expression for a run.
 enum Meaning<'a> {
     Number(f64),
     Expression(Expression),
@@ -138,7 +138,7 @@ impl<'a> EntryRuns<'a> {
         Ok(case_run)
     }
 
-    /// The value of an expression of labels and numbers of the file, in which `item` may count.
+    /// The value of an expression of labels and numbers of the file, which may contain the counter `item`.
     fn constant(&self, text: &str, run: usize, item: Option<usize>) -> anyhow::Result<f64> {
         let place = RunRow { run, row: None };
         Expression::parse(text)?.at(place, &mut |place, name| match item {
@@ -147,7 +147,7 @@ impl<'a> EntryRuns<'a> {
         })
     }
 
-    /// A setting with its braces filled: in a text by labels, elsewhere by numbers. Braces that belong to the setting are doubled.
+    /// A setting with braces replaced: in a text by labels, elsewhere by numbers. Doubled braces become single ones.
     fn filled_setting(
         &self,
         setting: &str,
@@ -172,7 +172,7 @@ impl<'a> EntryRuns<'a> {
         Ok(filled.replace(OPENING, "{").replace(CLOSING, "}"))
     }
 
-    /// The number of a name that is a label or a number of the file.
+    /// The value of a name, which is a label or a number of the file.
     pub(super) fn number(&self, run: usize, name: &str) -> anyhow::Result<f64> {
         match self.meaning(run, name)? {
             Meaning::Number(number) => Ok(number),
@@ -213,7 +213,7 @@ impl<'a> EntryRuns<'a> {
     }
 }
 
-/// Labels of runs, each with all labels of a key, or of several, in turn.
+/// Labels of runs, each combined with all labels of one or several keys.
 pub(super) fn combined_with_labels(
     runs: &[BTreeMap<String, String>],
     key: &str,
@@ -235,9 +235,9 @@ fn name_of(key: &str) -> &str {
     key.split(',').next().unwrap_or(key)
 }
 
-/// The known value of the entry of a table that has some labels.
+/// The known value of the entry of a table with given labels.
 fn known_value(table: &str, labels: &BTreeMap<String, String>) -> anyhow::Result<f64> {
-    let known = known(table)?;
+    let known = known_table(table)?;
     let keys = known
         .heading
         .keys
@@ -260,7 +260,7 @@ fn label(labels: &BTreeMap<String, String>, key: &str) -> anyhow::Result<String>
     found.with_context(|| format!("no label `{key}`; labels: {}", known()))
 }
 
-/// A text with the labels in its braces.
+/// A text with the names in braces replaced by labels.
 pub(super) fn with_labels(text: &str, labels: &BTreeMap<String, String>) -> String {
     labels.iter().fold(text.to_owned(), |filled, (key, label)| {
         filled.replace(&format!("{{{key}}}"), label)
@@ -280,13 +280,13 @@ fn number_text(number: f64) -> String {
 /// Results of all runs of an experiment, by their commands: equal commands give equal results.
 #[derive(Default)]
 pub(super) struct RunCache {
-    /// Quantities that are read from each run.
+    /// Quantities to read from each run.
     wanted: BTreeMap<String, BTreeSet<String>>,
     found: BTreeMap<String, RunResults>,
 }
 
 impl RunCache {
-    /// Notes the quantities that the value of some runs needs, so that each run is read at once.
+    /// Notes the quantities that the value of some runs needs, so that each run is read only once.
     pub(super) fn plan(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<()> {
         (0..runs.runs.len()).try_for_each(|run| self.plan_names(runs, run, &runs.value))
     }
@@ -327,7 +327,7 @@ impl RunCache {
         Ok(())
     }
 
-    /// The value of some runs.
+    /// The combined value of some runs.
     pub(super) fn value(&mut self, runs: &EntryRuns<'_>) -> anyhow::Result<f64> {
         let all = 0..runs.runs.len();
         (runs.value).value(all, &mut |place, name| {

@@ -44,9 +44,9 @@ pub(super) struct Function {
 enum Evaluation {
     /// A function of numbers.
     Numbers(fn(&[f64]) -> f64),
-    /// The values of all runs; the only value of a run is the last one.
+    /// A function of pairs of values, one for each run; a single value is the second of its pair.
     Runs(fn(&[[f64; 2]]) -> anyhow::Result<f64>),
-    /// The last value in all rows of a run, and the values before it.
+    /// A function of the last value in all rows of a run, and of the values before it.
     Rows(fn(&Record, &[f64]) -> anyhow::Result<f64>),
 }
 
@@ -159,7 +159,7 @@ static FUNCTIONS: [Function; 32] = [
         Rows(|record, times| Ok(record.peak([times[0], times[1]])?[1])),
     ),
     // First time after another at which the values fall through zero, and the frequency at which they do.
-    function("fall", 2, Rows(|record, time| record.fall(time[0]))),
+    function("fall", 2, Rows(|record, time| record.time_of_fall(time[0]))),
     // Real and imaginary part of the Fourier transform of what follows a time, at an angular frequency.
     function(
         "cosine",
@@ -209,7 +209,7 @@ pub(super) struct RunRow {
     pub(super) row: Option<usize>,
 }
 
-/// Value of a name at a place.
+/// Function for the value of a name in a run and row.
 pub(super) type Value<'a> = &'a mut dyn FnMut(RunRow, &str) -> anyhow::Result<f64>;
 
 impl Expression {
@@ -246,7 +246,7 @@ impl Expression {
         self.in_row(runs, None, of)
     }
 
-    /// Value of the expression at a place.
+    /// Value of the expression in a run and row.
     pub(super) fn at(&self, place: RunRow, of: Value<'_>) -> anyhow::Result<f64> {
         self.in_row(place.run..place.run + 1, place.row, of)
     }
@@ -313,7 +313,7 @@ impl Expression {
     }
 }
 
-/// The place of a name, which has one value.
+/// The run and row of a name with one value.
 fn row_of(name: &str, runs: Range<usize>, row: Option<usize>) -> anyhow::Result<RunRow> {
     ensure!(
         runs.len() == 1,
@@ -339,7 +339,7 @@ impl<'a> Reader<'a> {
         self.left.chars().next()
     }
 
-    /// Goes beyond a character if it is the next one.
+    /// Skips a character if it is the next one.
     fn skip_if(&mut self, wanted: char) -> bool {
         let is_next = self.next() == Some(wanted);
         if is_next {

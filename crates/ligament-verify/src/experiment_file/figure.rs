@@ -83,7 +83,7 @@ impl Figure {
         all
     }
 
-    /// Labels of the lines of a plot, and of the points of each line.
+    /// Labels of each line of a plot, and of its points.
     fn lines(&self, labels: &LabelsOfRun) -> Vec<(String, Vec<LabelsOfRun>)> {
         let Some(of_runs) = &self.runs else {
             return Vec::new();

@@ -75,7 +75,7 @@ pub(super) fn value(solution: &Solution, row: &StepRecord, name: &str) -> anyhow
     found.with_context(|| format!("the run has no `{name}`"))
 }
 
-/// Data collected during a run.
+/// Collector of breakages and velocities during a run.
 pub(super) struct HistoryCollector {
     /// All breakages in their order.
     pub(super) breaks: Vec<BreakRecord>,

@@ -22,7 +22,7 @@ use crate::ring::{RadialDisplacements, Ring, radial_displacements};
 /// Distance from a circle within which a point lies on it, m: coordinates of a mesh are rounded.
 const ON_CIRCLE: f64 = 1e-9;
 
-/// Number of first breakages among which those at the rim are counted.
+/// Number of first breakages in which breakages at the rim are counted.
 const EARLY: usize = 100;
 
 /// Table of problem, d, x, y (mm), u_x, u_y (um) of plates by finite elements.
@@ -165,8 +165,8 @@ impl LoadedRun<'_> {
         phase_speed([&near, &far], points, numbers)
     }
 
-    /// Load factor at which the cracks from both ends of a flaw through the origin at 45 degrees are `length` times `half_length` long in the mean, up
-    /// to their farthest broken bonds.
+    /// Load factor at which the cracks from both ends of a flaw through the origin at 45 degrees are `length` times `half_length` long in the mean,
+    /// up to their farthest broken bonds.
     pub(super) fn grown(&self, length: f64) -> anyhow::Result<f64> {
         let half = self.number("half_length")?;
         let tip = half * FRAC_1_SQRT_2;
@@ -181,7 +181,7 @@ impl LoadedRun<'_> {
         Ok(long.context("the cracks do not become so long")?.time)
     }
 
-    /// The value of a quantity of a row in the last row without a broken bond.
+    /// The value of a history quantity in the last row without a broken bond.
     pub(super) fn intact(&self, name: &str) -> anyhow::Result<f64> {
         let mut rows = self.solution.outcome.history.iter();
         let row = rows.rfind(|row| row.broken_bonds == 0);

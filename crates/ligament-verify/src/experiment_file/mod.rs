@@ -21,7 +21,7 @@ use anyhow::{Context, ensure};
 
 use super::case_run::CaseRun;
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::{folder, known};
+use super::published::{folder, known_table};
 use super::table::{Extent, KnownTable};
 
 use document::Choice;
@@ -81,7 +81,7 @@ impl ExperimentFile {
     ///
     /// If a table cannot be read, a case cannot be run, or a value has no meaning for an entry.
     pub(super) fn compute(&self, extent: Extent) -> anyhow::Result<Findings> {
-        let known = self.table.iter().map(|table| known(&table.file));
+        let known = self.table.iter().map(|table| known_table(&table.file));
         let known: Vec<KnownTable> = known.collect::<anyhow::Result<_>>()?;
         let mut cache = RunCache::default();
         for (table, known) in self.table.iter().zip(&known) {

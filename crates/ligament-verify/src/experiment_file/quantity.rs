@@ -14,7 +14,8 @@
 //! | `largest.u_x` | largest size of a displacement of all points, m |
 //! | `loaded_elements.LOAD.u_x` | the same of a [square of finite elements](crate::square_elements), m |
 //! | `elements.PROBLEM.u_x` | difference of a plate from finite elements: L2 norm over all points, over the norm by the elements |
-//! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements, Hz |
+//! | `modes.NAME`, `square_elements.NAME`, `lamina_elements.NAME` | frequency of a [named mode](crate::named_modes) of the case, of finite elements,
+//! Hz |
 //! | `common_breaks.N` | bonds that break up to N us with explicit and implicit steps alike, over those that one of them breaks more of |
 //! | `ghost.largest.MARGIN`, `ghost.rms.MARGIN` | [ghost forces](crate::ghost_forces) of the points farther than a number, m, from the outline |
 //! | `crack.height.FROM.TO` | mean height y of the crack's line between two numbers along x, m |
@@ -40,7 +41,7 @@ use super::loaded_run::{
 };
 use crate::anisotropy::Anisotropy;
 use crate::case_run::{CaseRun, Number};
-use crate::crack_path::{asymmetry, beside, ends};
+use crate::crack_path::{asymmetry, ends, share_off_lines};
 use crate::directions::stiffness;
 use crate::ghost_forces::GhostForces;
 use crate::named_modes::Frequencies;
@@ -55,7 +56,7 @@ pub(super) const CURVE: &str = "curve";
 #[derive(Clone, Copy)]
 enum Source {
     Run(fn(&LoadedRun<'_>) -> anyhow::Result<f64>),
-    /// Read from a run, with the rest of the name.
+    /// A function of a run and of the rest of the name.
     Named(fn(&LoadedRun<'_>, &str) -> anyhow::Result<f64>),
     /// A function of the case run and of the rest of the name.
     CaseRun(fn(&CaseRun, &str, Number<'_>) -> anyhow::Result<f64>),
@@ -72,7 +73,7 @@ enum Source {
     Frequency,
 }
 
-/// A cantilever whose modes have names.
+/// A cantilever with named modes.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Cantilever {
     Case,
@@ -217,12 +218,13 @@ static QUANTITIES: &[(&str, Source)] = &[
         "pressed.fit",
         Source::Run(|it| Ok(it.contact_pressure()?.largest[1])),
     ),
-    // Share of the broken bonds that do not cross the lines y = `line` and -`line`, and the largest difference of damage between a point and its mirror images.
+    // Share of the broken bonds that do not cross the lines y = `line` and -`line`, and the largest difference of damage between a point and its
+    // mirror images.
     (
         "crack.beside",
         Source::Run(|it| {
             let line = it.number("line")?;
-            Ok(beside(it.solution, [-line, line]))
+            Ok(share_off_lines(it.solution, [-line, line]))
         }),
     ),
     (
@@ -367,7 +369,7 @@ static QUANTITIES: &[(&str, Source)] = &[
     ),
 ];
 
-/// Refuses a name that no quantity has.
+/// Refuses a name without a quantity.
 pub(super) fn ensure_known(name: &str) -> anyhow::Result<()> {
     source(name).map(|_| ())
 }
@@ -403,7 +405,7 @@ fn source(name: &str) -> anyhow::Result<Source> {
     })
 }
 
-/// Quantities that were read from a run.
+/// Quantities read from a run.
 pub(super) struct RunResults {
     /// Quantities by name, in all rows of the history or once; the reason why one has no value.
     values: BTreeMap<String, Result<Vec<f64>, String>>,
@@ -411,7 +413,7 @@ pub(super) struct RunResults {
     pub(super) curve: Vec<[f64; 2]>,
 }
 
-/// Results of a case run that quantities need.
+/// Further results of a case run that quantities need.
 #[derive(Default)]
 struct ComputedResults {
     /// Frequencies of the elastic modes, Hz.
@@ -433,7 +435,7 @@ struct ComputedResults {
 }
 
 impl ComputedResults {
-    /// Runs a case in all ways that the sources need.
+    /// Computes all results of a case that the sources need.
     fn new(
         case_run: &CaseRun,
         sources: &[(String, Source)],
@@ -577,7 +579,7 @@ impl RunResults {
         })
     }
 
-    /// The value of a quantity that was read, in a row of the history or at last.
+    /// The value of a quantity, in a row of the history or in the last one.
     pub(super) fn value(&self, name: &str, row: Option<usize>) -> anyhow::Result<f64> {
         let values = self.values.get(name);
         let values = values.with_context(|| format!("`{name}` was not read"))?;

@@ -17,7 +17,7 @@ fn the_experiments_of_the_repository_are_right() {
             assert!(repository().join(case).is_file(), "{name}: {case}");
         }
         for table in &file.table {
-            let known = known(&table.file).unwrap();
+            let known = known_table(&table.file).unwrap();
             let mut cache = RunCache::default();
             known
                 .judge(Extent::Full, |labels| {

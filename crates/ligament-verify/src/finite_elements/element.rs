@@ -2,7 +2,7 @@
 
 use super::mesh::Degree;
 
-/// A stiffness of the plane C: (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), Pa.
+/// Plane stiffness C: (sigma_xx, sigma_yy, sigma_xy) = C (eps_xx, eps_yy, gamma_xy), Pa.
 pub(super) type PlaneStiffness = [[f64; 3]; 3];
 
 /// Derivatives of the shape functions of all nodes by x and y at a position (xi, eta) of [-1, 1]^2, and the determinant of the Jacobian.

@@ -65,7 +65,7 @@ impl Motion {
         }
     }
 
-    /// The motion or its opposite, with the sign for which the larger displacement of the upper right corner is positive.
+    /// The motion with the sign for which the larger displacement component of the upper right corner is positive.
     pub(super) fn with_sign(mut self) -> Self {
         let by = |one: &usize, other: &usize| {
             let sum = |place: usize| self.points()[place].iter().sum::<f64>();

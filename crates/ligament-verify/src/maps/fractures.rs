@@ -14,14 +14,14 @@ use crate::experiment_file::ExperimentFile;
 /// The correction of the paper, and the patch correction, under which uniform strains are in equilibrium.
 const CORRECTIONS: [&str; 2] = ["domain", "patch"];
 
-/// Shares of all breakages that are drawn.
+/// Drawn stages, as shares of all breakages.
 const STAGES: [(&str, usize); 3] = [
     ("a quarter of the breakages", 4),
     ("half of them", 2),
     ("all", 1),
 ];
 
-/// Share of the largest load at which the runs of the plates of MBB-PD end, with long cracks.
+/// Share of the largest load at which runs of the plates of MBB-PD end, when cracks are long.
 const END: f64 = 0.1;
 
 /// Name of a case in its experiment, and number of its figure.
@@ -80,7 +80,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     Ok(maps)
 }
 
-/// Stages of a test under both corrections, one row each.
+/// Stages of a test, a row for each correction.
 fn under_both(
     figure: usize,
     title: String,

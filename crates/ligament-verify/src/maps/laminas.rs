@@ -15,7 +15,7 @@ pub(super) const MODES: &str = "cases/verification/lamina-modes.toml";
 /// Axis of the cantilevers: x.
 const ALONG: usize = 0;
 
-/// Angles of the material's axis 1, degrees, with the numbers of their figures of tension and of modes.
+/// Angles of the material's axis 1, degrees, with the numbers of the figures in tension and of modes.
 const ANGLES: [(f64, usize, usize); 5] = [
     (0.0, 11, 19),
     (30.0, 12, 20),

@@ -8,7 +8,7 @@ mod laminas;
 mod squares;
 
 use super::experiment::{Compute, Experiment, Findings};
-use super::published::known;
+use super::published::known_table;
 use super::readings::{BENDING, SHEAR, TRACTION};
 use super::table::Extent;
 use super::tension;
@@ -39,13 +39,13 @@ pub(super) const EXPERIMENT: Experiment = Experiment {
 
 fn compute(extent: Extent) -> anyhow::Result<Findings> {
     let mut squares = squares::Squares::default();
-    let displacements = known("maps-displacements")?.judge(extent, |labels| {
+    let displacements = known_table("maps-displacements")?.judge(extent, |labels| {
         let (load, ratio) = (labels.text("load")?, labels.number("nu")?);
         let elements = squares.elements(load, ratio)?;
         let lattice = squares.lattice(load, ratio, labels.text("model")?)?;
         Ok(100.0 * lattice.difference(&elements))
     })?;
-    let modes = known("maps-modes")?.judge(extent, |labels| {
+    let modes = known_table("maps-modes")?.judge(extent, |labels| {
         let ratio = labels.number("nu")?;
         let place = squares::place_of_mode(labels.text("mode")?)?;
         let elements = squares.modes_of_elements(ratio)?;

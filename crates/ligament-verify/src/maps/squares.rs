@@ -7,7 +7,7 @@ use super::Motion;
 use super::drawing::{Quantity, maps_of_component, maps_of_modes};
 use crate::case_run::{CaseRun, ResultCache};
 use crate::named_modes::{NAMES, in_named_order};
-use crate::readings::case_of;
+use crate::readings::case_path;
 use crate::square_elements::{self, SquareLoad};
 
 /// Case of the natural modes.
@@ -50,7 +50,7 @@ impl Squares {
         ratio: f64,
         model: &str,
     ) -> anyhow::Result<Motion> {
-        let case_run = CaseRun::from_file(case_of(SquareLoad::named(load)?))?
+        let case_run = CaseRun::from_file(case_path(SquareLoad::named(load)?))?
             .set("material.poisson", ratio)
             .set("model.law", model.to_lowercase());
         self.motions.reading(&case_run, |it| {

@@ -64,7 +64,7 @@ impl KnownCurve {
         Ok(Self { specimens })
     }
 
-    /// Mean over the specimens of a value of each.
+    /// Mean of a value over the specimens.
     fn mean(&self, of: impl Fn(&Points) -> f64) -> f64 {
         let sum: f64 = self.specimens.iter().map(|(_, points)| of(points)).sum();
         sum / self.specimens.len() as f64

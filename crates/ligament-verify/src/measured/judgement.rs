@@ -1,4 +1,4 @@
-//! Values of the runs of a measured test against its bands.
+//! Judgement of the runs of a measured test by its bands.
 
 use super::curve::{KnownCurve, Points, area, peak};
 use super::reading::Reading;
@@ -124,7 +124,7 @@ fn row(band: &Band, name: &str, computed: f64) -> anyhow::Result<Row> {
         Some(reason) if computed.is_finite() => {
             let rounded = printed(format!("{computed:.4}"))?;
             Reliability::Missed {
-                // A band that ends at the known value admits nothing on one side of a rounded one.
+                // A band that ends at the known value would exclude rounded values on one side.
                 instead: match allowed.admits(&rounded, computed) {
                     true => rounded,
                     false => printed(format!("{computed}"))?,

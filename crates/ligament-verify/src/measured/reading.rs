@@ -1,4 +1,4 @@
-//! One run of a measured test, into a folder as by `ligament run`, and the values that are read from it.
+//! Run of a measured test into a folder, as by `ligament run`, and the values read from it.
 
 use std::path::{Path, PathBuf};
 
@@ -27,9 +27,9 @@ pub(super) struct Reading {
     pub(super) in_series: Option<(String, f64)>,
     /// Computed curve in the units of the axes, shape (n_rows, 2).
     pub(super) curve: Vec<[f64; 2]>,
-    /// Curves over the own quantities of the bands, in the order of the bands; none for a band over the quantity of the test.
-    of_bands: Vec<Option<Vec<[f64; 2]>>>,
-    /// Lines of the cracks at the end, where a band asks for them.
+    /// Curves over the x quantities of the bands, in the order of the bands; None for a band over the x quantity of the test.
+    band_curves: Vec<Option<Vec<[f64; 2]>>>,
+    /// Lines of the cracks at the end, if a band needs them.
     pub(super) cracks: Vec<CrackLine>,
     /// Number of load steps or events that did not come to rest.
     pub(super) failed: usize,
@@ -70,7 +70,7 @@ impl Reading {
             let at = at_rest.iter().zip(points).filter(|(rest, _)| **rest > 0.0);
             anyhow::Ok(at.map(|(_, point)| point).collect::<Vec<_>>())
         };
-        let of_bands = test
+        let band_curves = test
             .band
             .iter()
             .map(|it| it.x.as_ref().map(curve_over).transpose());
@@ -83,7 +83,7 @@ impl Reading {
             run: variant.name.clone(),
             in_series: variant.series.clone().zip(variant.size),
             curve: curve_over(&test.x)?,
-            of_bands: of_bands.collect::<anyhow::Result<_>>()?,
+            band_curves: band_curves.collect::<anyhow::Result<_>>()?,
             cracks,
             failed: at_rest.iter().filter(|rest| **rest == 0.0).count(),
             seconds,
@@ -91,12 +91,12 @@ impl Reading {
         })
     }
 
-    /// Curve that a band judges, by its place among the bands of the test.
+    /// Curve for a band, given by its index among the bands of the test.
     pub(super) fn curve(&self, band: usize) -> &[[f64; 2]] {
-        self.of_bands[band].as_ref().unwrap_or(&self.curve)
+        self.band_curves[band].as_ref().unwrap_or(&self.curve)
     }
 
-    /// Height y of the cracks where they pass an x nearest to a height that is expected, m; NaN where none does.
+    /// Height y of the cracks at a position x, the nearest to an expected height, m; NaN without a crack there.
     pub(super) fn crack_height(&self, x: f64, expected: f64) -> f64 {
         let heights = self.cracks.iter().flat_map(|line| line.heights_at(x));
         let nearest = |one: f64, other: f64| {

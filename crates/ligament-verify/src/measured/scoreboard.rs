@@ -25,11 +25,11 @@ pub struct Score {
     pub points: usize,
     /// Number of increments: load steps, or events of the exact path.
     pub increments: usize,
-    /// Number of increments that did not come to rest, including one that ended the run.
+    /// Number of increments that did not come to rest, including an increment that ended the run.
     pub failed: usize,
     /// Processor time with meshing and output, s.
     pub seconds: f64,
-    /// Energy dissipated over the area of the cracks, over the fracture energy; none without one or without cracks.
+    /// Dissipated energy per area of the cracks over the fracture energy; None without a fracture energy or cracks.
     pub spent: Option<f64>,
 }
 

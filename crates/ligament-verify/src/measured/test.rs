@@ -288,7 +288,7 @@ impl MeasuredTest {
 pub const VERIFIED: &str = " over the independent solution";
 
 impl Band {
-    /// Name of what the band judges.
+    /// Name of the judged quantity.
     pub fn words(&self) -> String {
         let axis = self
             .x

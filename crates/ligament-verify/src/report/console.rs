@@ -17,7 +17,7 @@ pub(crate) fn list(console: &mut dyn Write, experiments: &[Experiment]) -> io::R
     Ok(())
 }
 
-/// Prints the experiment that is run next.
+/// Prints the name of the next experiment.
 pub(crate) fn announce(console: &mut dyn Write, experiment: &Experiment) -> io::Result<()> {
     writeln!(console, "{}: {}", experiment.name, experiment.title)?;
     console.flush()

@@ -1,4 +1,4 @@
-//! The long report in Markdown.
+//! The full report in Markdown.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use crate::experiment::{Experiment, Findings};
 use crate::table::Table;
 use crate::tally::Tally;
 
-/// The long report, with all entries of every table, and the curves.
+/// Text of the full report, with all entries of every table and the curves.
 pub(crate) fn text(done: &[(Experiment, Findings)]) -> String {
     let mut text = String::from(INTRODUCTION);
     let words = Verdict::ALL.map(Verdict::words).join(" | ");

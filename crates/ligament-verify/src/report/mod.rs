@@ -15,7 +15,7 @@ pub(super) mod scoreboard;
 struct Printable {
     /// Names of the columns, and one row for each entry.
     rows: Vec<Vec<String>>,
-    /// Reasons for standings, numbered from 1 in the rows.
+    /// Footnotes with the reasons for verdicts, numbered from 1 in the rows.
     notes: Vec<String>,
 }
 

@@ -48,7 +48,7 @@ pub(crate) fn text(done: &[(Experiment, Findings)], extent: Extent) -> anyhow::R
             let _ = writeln!(
                 text,
                 "| {place} | {content} | {} | {} | {remark} |",
-                against(rows),
+                kinds_of_known_values(rows),
                 outcome(item, rows)
             );
         }
@@ -146,8 +146,8 @@ fn push_others(
     }
 }
 
-/// References of the rows, each once.
-fn against(rows: &[RowOfTable<'_>]) -> String {
+/// Kinds of the known values of the rows, each once.
+fn kinds_of_known_values(rows: &[RowOfTable<'_>]) -> String {
     let mut known: Vec<&str> = Vec::new();
     for (table, _) in rows {
         if !known.contains(&&*table.heading.known) {
@@ -167,7 +167,7 @@ fn outcome(item: &Item, rows: &[RowOfTable<'_>]) -> String {
     }
 }
 
-/// Text of the numbers of values by verdict, and of the statements that hold.
+/// Text with the numbers of values by verdict and of true statements.
 fn words(rows: &[RowOfTable<'_>]) -> String {
     let is_statement = |row: &&RowOfTable<'_>| row.0.heading.known == "statement";
     let (statements, values): (Vec<RowOfTable<'_>>, Vec<_>) = rows.iter().partition(is_statement);
@@ -204,7 +204,7 @@ fn words_of_values(rows: &[RowOfTable<'_>]) -> Vec<String> {
     by_verdict(rows).map(part).collect()
 }
 
-/// Text of the numbers of statements by verdict; statements are compared by bounds that represent them.
+/// Text with the numbers of statements by verdict; bounds represent the statements.
 fn words_of_statements(rows: &[RowOfTable<'_>]) -> Vec<String> {
     let part = |(verdict, those): (Verdict, Vec<RowOfTable<'_>>)| {
         let count = those.len();

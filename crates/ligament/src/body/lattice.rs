@@ -193,11 +193,11 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
     }
 
     fn facets(&self, cloud: &PointCloud<D>) -> Vec<Facet<D>> {
-        Facet::of_lattice(&self.lattice, cloud)
+        Facet::outline(&self.lattice, cloud)
     }
 
     fn cell_faces(&self, cloud: &PointCloud<D>) -> Option<CellFaces<D>> {
-        Some(CellFaces::of_lattice(&self.lattice, cloud))
+        Some(CellFaces::from_lattice(&self.lattice, cloud))
     }
 
     fn crosses_holes(&self, bonds: &BondSet<D>, cloud: &PointCloud<D>) -> Vec<bool> {
@@ -231,6 +231,6 @@ impl<const D: usize, S: LatticeShape<D>> Geometry<D> for BodyOnLattice<D, S> {
         material_of_cell: &[u32],
         stiffness: Vec<Stiffness>,
     ) -> CellForces<D> {
-        patch::of_lattice(&self.lattice, cloud, material_of_cell, &stiffness)
+        patch::forces_of_lattice(&self.lattice, cloud, material_of_cell, &stiffness)
     }
 }

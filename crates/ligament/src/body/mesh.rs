@@ -268,7 +268,7 @@ impl<const D: usize, C: BodyCell<D>> Geometry<D> for BodyOnMesh<D, C> {
 
     fn facets(&self, cloud: &PointCloud<D>) -> Vec<Facet<D>> {
         let faces = C::outer_faces(&self.mesh.cells, self.mesh.positions.len());
-        let facets = faces.iter().flat_map(|it| Facet::of_side(cloud, it));
+        let facets = faces.iter().flat_map(|it| Facet::on_side(cloud, it));
         facets.collect()
     }
 

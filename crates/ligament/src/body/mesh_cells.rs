@@ -85,7 +85,7 @@ impl BodyCell<2> for Cell {
     }
 
     fn outline(cells: &[Self], cloud: &PointCloud) -> PlaneOutline {
-        PlaneOutline::of_cells(cells, cloud)
+        PlaneOutline::from_cells(cells, cloud)
     }
 
     fn composed(bonds: BondSet, cells: &[Self], cloud: &PointCloud, materials: &[u32]) -> BondSet {
@@ -107,7 +107,7 @@ impl BodyCell<2> for Cell {
         material_of_cell: &[u32],
         stiffness: Vec<Stiffness>,
     ) -> CellForces {
-        patch::of_mesh(cells, cloud, material_of_cell, stiffness)
+        patch::forces_of_mesh(cells, cloud, material_of_cell, stiffness)
     }
 
     fn outer_sides(cells: &[Self], _: usize) -> Vec<[u32; 2]> {
@@ -176,7 +176,7 @@ impl BodyCell<3> for SolidCell {
     }
 
     fn outline(cells: &[Self], cloud: &PointCloud<3>) -> SolidOutline {
-        SolidOutline::of_cells(cells, cloud)
+        SolidOutline::from_cells(cells, cloud)
     }
 
     fn composed(
@@ -198,7 +198,7 @@ impl BodyCell<3> for SolidCell {
         material_of_cell: &[u32],
         stiffness: Vec<Stiffness>,
     ) -> CellForces<3> {
-        patch::of_solid_mesh(cells, cloud, material_of_cell, stiffness)
+        patch::forces_of_solid_mesh(cells, cloud, material_of_cell, stiffness)
     }
 
     fn outer_sides(cells: &[Self], n_points: usize) -> Vec<[u32; 3]> {

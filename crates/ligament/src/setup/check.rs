@@ -78,7 +78,7 @@ impl Setup {
             return missing(field, "density", reason);
         }
         let elasticity = field.part("elasticity");
-        let needed = Materials::of_elasticity(&material.elasticity);
+        let needed = Materials::least_general_for(&material.elasticity);
         let taken = self.law.row.materials;
         if taken < needed {
             let text = format!(
@@ -110,11 +110,7 @@ impl Setup {
 
     /// Refuses a material whose volumetric stiffness the cells cannot carry.
     fn check_cells(&self, field: Field, material: &Material) -> Checked {
-        if self
-            .law
-            .of_bonds_and_cells(material, self.space())
-            .is_some()
-        {
+        if self.law.split_elasticity(material, self.space()).is_some() {
             return Ok(());
         }
         let reason = "cells cannot carry the volumetric stiffness of this material: what they leave to the bonds is not stable, or pulls where \
@@ -628,7 +624,7 @@ impl Setup {
             }
             let text = if self.scatter[..place].iter().any(|it| it.of == scatter.of) {
                 "it varies at random already: take {}, or remove one of the two"
-            } else if self.criteria.iter().any(|it| it.feels(scatter.of)) {
+            } else if self.criteria.iter().any(|it| it.is_affected_by(scatter.of)) {
                 continue;
             } else {
                 match scatter.of {

@@ -28,7 +28,7 @@ impl From<&str> for Place {
 /// Far field of a meshed body, where linear finite elements take the place of bonds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FarField {
-    /// Parts of the body that keep their bonds: the cells of which all corners lie in one of them.
+    /// Parts of the body that keep their bonds: the cells with all corners in one of them.
     pub near: Vec<Place>,
     /// Share of the strength, above 0 and up to 1, that the principal stresses of elements may reach. Where a run meets a larger one the near field
     /// grows, and the run begins anew. Without one the near field stays as it is.
@@ -40,13 +40,13 @@ case_type! {
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     #[case(schemars(extend("minProperties" = 1)))]
     pub struct Displacement {
-        /// Along x, m.
+        /// Component along x, m.
         pub x: Option<f64>,
-        /// Along y, m.
+        /// Component along y, m.
         pub y: Option<f64>,
         /// Rotation in the plane, rad, counter-clockwise.
         pub rotation: Option<f64>,
-        /// Along z of a solid, m.
+        /// Component along z of a solid, m.
         pub z: Option<f64>,
         /// Rotation about x in a solid, rad, right-handed.
         pub rotation_x: Option<f64>,
@@ -62,19 +62,19 @@ case_type! {
     #[derive(Debug, Clone, Copy, PartialEq, Default)]
     #[case(schemars(extend("minProperties" = 1)))]
     pub struct SpringStiffness {
-        /// Along x, N/m.
+        /// Stiffness along x, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub x: Option<f64>,
-        /// Along y, N/m.
+        /// Stiffness along y, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub y: Option<f64>,
-        /// Against rotations of the points, in N m/rad.
+        /// Stiffness against rotations of the points, in N m/rad.
         #[range("exclusiveMinimum" = 0)]
         pub rotation: Option<f64>,
-        /// Along z of a solid, N/m.
+        /// Stiffness along z of a solid, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub z: Option<f64>,
-        /// Along the `normal` of the support, N/m.
+        /// Stiffness along the `normal` of the support, N/m.
         #[range("exclusiveMinimum" = 0)]
         pub normal: Option<f64>,
     }
@@ -218,8 +218,8 @@ pub struct InitialVelocity {
     pub velocity: Position,
 }
 
-// The dashpots of Lysmer and Kuhlemeyer 1969: on an area A with the normal n their force is -C v with C = A rho (c_P n n^T + c_S (I - n n^T)), so that
-// waves along n are not reflected.
+// The dashpots of Lysmer and Kuhlemeyer 1969: on an area A with the normal n their force is -C v with C = A rho (c_P n n^T + c_S (I - n n^T)), so
+// that waves along n are not reflected.
 case_type! {
     /// A part of the outline through which waves leave the body, by dashpots that take those at a right angle to it.
     #[derive(Debug, Clone, PartialEq, Eq)]

@@ -216,7 +216,7 @@ impl Setup {
     /// Moduli kappa of the cells of each material, Pa, shape (n_materials); none where bonds make up the whole materials.
     pub fn moduli_of_cells(&self) -> Option<Vec<f64>> {
         let regions = self.materials.iter();
-        let shared = regions.map(|it| self.law.of_bonds_and_cells(&it.material, self.space()));
+        let shared = regions.map(|it| self.law.split_elasticity(&it.material, self.space()));
         let moduli: Vec<f64> = shared.map(|it| it.map_or(0.0, |it| it.1)).collect();
         moduli.iter().any(|it| *it > 0.0).then_some(moduli)
     }
@@ -226,7 +226,7 @@ impl Setup {
         self.moduli_of_cells()?;
         let of_bonds = |region: &MaterialRegion| {
             let material = region.material.clone();
-            let shared = self.law.of_bonds_and_cells(&material, self.space());
+            let shared = self.law.split_elasticity(&material, self.space());
             let elasticity = shared.map_or(material.elasticity, |it| it.0);
             Material {
                 elasticity,

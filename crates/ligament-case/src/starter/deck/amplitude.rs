@@ -4,7 +4,7 @@ use ligament_mesh::inp::{Keyword, number};
 
 use super::units;
 
-/// What a step computes.
+/// Kind of analysis of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Procedure {
     Static,
@@ -12,7 +12,7 @@ pub(super) enum Procedure {
     Explicit,
     /// Implicit steps in time, each of a length in units of the deck.
     Implicit(f64),
-    /// So many natural modes.
+    /// A number of natural modes.
     Modes(usize),
 }
 
@@ -88,8 +88,8 @@ impl Amplitude {
         }
     }
 
-    /// Factors of a load in a stage, times the factor of the load, as text; `start` is the time at which the step begins.
-    pub(super) fn course(&self, factor: f64, step: &Step, start: f64) -> String {
+    /// Text of the factors of a load in a stage, times the factor of the load; `start` is the time at which the step begins.
+    pub(super) fn factors_text(&self, factor: f64, step: &Step, start: f64) -> String {
         let start = if self.is_total { start } else { 0.0 };
         let inside = self.points.iter().map(|it| it[0] - start);
         let inside = inside.filter(|it| *it > 0.0 && *it < step.duration);

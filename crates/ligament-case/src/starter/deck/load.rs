@@ -3,16 +3,16 @@
 use super::amplitude::Amplitude;
 use super::units::number as text_of;
 
-/// A load of a case, with the values that steps give it.
+/// A load of a case, with its values in steps.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Load {
     /// Name, by the keyword and line of the deck.
     pub(super) name: String,
-    /// Lines of the place and of how the load is spread.
+    /// Lines for the place and the distribution of the load.
     pub(super) lines: Vec<String>,
-    /// Key of what is given.
+    /// Key of the action.
     pub(super) key: &'static str,
-    /// Components with their shares of the value; none for a pressure.
+    /// Components with their fractions of the value; none for a pressure.
     pub(super) direction: Vec<(&'static str, f64)>,
     pub(super) values: Vec<Value>,
     /// Nodes whose displacement is prescribed, or with a force, ascending.
@@ -29,7 +29,7 @@ pub(super) struct Value {
 }
 
 impl Load {
-    /// A load that has no name and step yet.
+    /// Creates a load without a name and a step.
     pub(super) fn new(
         lines: Vec<String>,
         key: &'static str,
@@ -51,13 +51,13 @@ impl Load {
         }
     }
 
-    /// Value at factor 1: the first one that is not zero.
+    /// Value at factor 1: the first nonzero value.
     pub(super) fn size(&self) -> f64 {
         let mut sizes = self.values.iter().map(|it| it.size);
         sizes.find(|it| *it != 0.0).unwrap_or(0.0)
     }
 
-    /// Text of what is given, at factor 1.
+    /// Text of the action at factor 1.
     pub(super) fn action(&self) -> String {
         let component = |(axis, share): &(&str, f64)| {
             let size = share * self.size();

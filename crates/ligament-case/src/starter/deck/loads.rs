@@ -17,19 +17,19 @@ fn kind_and_numbers(row: Row<'_>) -> (String, Vec<f64>) {
 }
 
 impl Translation<'_> {
-    /// Forces at nodes.
+    /// Reads forces at nodes.
     pub(super) fn read_forces(&mut self, keyword: &Keyword) {
-        // Forces of single nodes are one load for each component; those of a set are a load of their own.
+        // Forces of single nodes are one load for each component; forces of a set are a separate load.
         let mut loads: BTreeMap<(usize, String), (Row<'_>, BTreeMap<u32, f64>)> = BTreeMap::new();
         for target in self.targets(keyword) {
             let row = target.row;
             let number_at = |place: usize| target.fields.get(place).and_then(|it| number(it));
             let (Some(dof), Some(force)) = (number_at(1), number_at(2)) else {
-                self.leave_row(row, "expected a degree of freedom and a force");
+                self.omit_row(row, "expected a degree of freedom and a force");
                 continue;
             };
             if !(1.0..=f64::from(self.places.dimensions())).contains(&dof) {
-                self.leave_row(
+                self.omit_row(
                     row,
                     "the nodes of these elements have no such degree of freedom",
                 );
@@ -86,7 +86,7 @@ impl Translation<'_> {
         self.add_load(row, Load { nodes, ..load });
     }
 
-    /// Pressures on sides and forces in the volume of elements.
+    /// Reads pressures on sides and forces in the volume of elements.
     pub(super) fn read_distributed(&mut self, keyword: &Keyword) {
         let mut pressed: Vec<String> = Vec::new();
         for (row, sides) in rows(keyword).zip(keyword.pressed_sides()) {
@@ -110,12 +110,12 @@ impl Translation<'_> {
             };
             match load {
                 Ok(load) => self.add_load(row, load),
-                Err(reason) => self.leave_row(row, reason),
+                Err(reason) => self.omit_row(row, reason),
             }
         }
     }
 
-    /// Pressures and tractions on surfaces.
+    /// Reads pressures and tractions on surfaces.
     pub(super) fn read_on_surfaces(&mut self, keyword: &Keyword) {
         for row in rows(keyword) {
             let fields = row.line.fields();
@@ -129,7 +129,7 @@ impl Translation<'_> {
             };
             match load {
                 Ok(load) => self.add_load(row, load),
-                Err(reason) => self.leave_row(row, reason),
+                Err(reason) => self.omit_row(row, reason),
             }
         }
     }
@@ -208,7 +208,7 @@ impl Translation<'_> {
             lines,
             key,
             direction,
-            size * self.units.of_key(key),
+            size * self.units.for_key(key),
         ))
     }
 }

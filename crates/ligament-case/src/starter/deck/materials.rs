@@ -20,7 +20,7 @@ impl Translation<'_> {
     pub(super) fn read_property(&mut self, keyword: &Keyword) {
         let kind = value(keyword, "TYPE").unwrap_or_default().to_uppercase();
         if !matches!(kind.as_str(), "" | "ISO" | "ISOTROPIC") {
-            self.leave(keyword, "a case from a deck has isotropic materials; law = \"orthotropic\" takes others in the plane");
+            self.omit(keyword, "a case from a deck has isotropic materials; law = \"orthotropic\" takes others in the plane");
             return;
         }
         let fields = keyword.data.first().map(|line| line.fields());
@@ -32,30 +32,30 @@ impl Translation<'_> {
             ("DENSITY", [density, ..], Some(it)) => it.density = Some(*density),
             ("EXPANSION", [expansion, ..], Some(it)) => it.expansion = Some(*expansion),
             _ => {
-                return self.leave(
+                return self.omit(
                     keyword,
                     "it has no numbers, or stands before the first *MATERIAL",
                 );
             }
         }
         if let Some(row) = rows(keyword).nth(1) {
-            self.leave_row(
+            self.omit_row(
                 row,
                 "constants that depend on temperature: the first line holds",
             );
         }
     }
 
-    /// Reads which cells a material fills, and their thickness.
+    /// Reads the cells that a material fills, and their thickness.
     pub(super) fn read_section(&mut self, keyword: &Keyword) {
         let (elements, material) = (value(keyword, "ELSET"), value(keyword, "MATERIAL"));
         let (Some(elements), Some(material)) = (elements, material) else {
-            return self.leave(keyword, "it names no ELSET or no MATERIAL");
+            return self.omit(keyword, "it names no ELSET or no MATERIAL");
         };
         let dimensions = self.places.dimensions();
         let groups = self.places.groups(elements, &keyword.scope, dimensions);
         if groups.is_empty() {
-            return self.leave(keyword, "its elements are no cells of the body");
+            return self.omit(keyword, "its elements are no cells of the body");
         }
         let material = material.to_uppercase();
         self.sections.push(Section { material, groups });
@@ -66,7 +66,7 @@ impl Translation<'_> {
         if let (Some(thickness), 2) = (first.filter(|it| *it > 0.0), dimensions) {
             match *self.thickness.get_or_insert(thickness) {
                 one if one == thickness => {}
-                _ => self.leave(
+                _ => self.omit(
                     keyword,
                     "a body has one thickness, that of the first section",
                 ),
@@ -74,7 +74,7 @@ impl Translation<'_> {
         }
     }
 
-    /// Materials that sections use, each with its cells where there are several.
+    /// Text of the materials that sections use, each with its cells where there are several.
     pub(super) fn material_text(&mut self) -> String {
         let mut sections = std::mem::take(&mut self.sections);
         if sections
@@ -142,8 +142,8 @@ impl Translation<'_> {
         text + "#tensile_strength = 3e6 # Pa, EXAMPLE\n"
     }
 
-    /// Warning about numbers that other units would explain, where no system of units was chosen.
-    pub(super) fn doubt(&self, is_chosen: bool) -> Option<String> {
+    /// Warning about implausible numbers that other units would explain; None where a system of units was chosen.
+    pub(super) fn unit_warning(&self, is_chosen: bool) -> Option<String> {
         let looks_other = |it: &&Material| {
             it.elastic
                 .is_some_and(|[young, _]| (1.0..1e7).contains(&young))

@@ -1,6 +1,6 @@
-//! The case of an input deck of Abaqus or CalculiX: what the deck says beside its mesh, in SI units.
+//! The case of an input deck of Abaqus or CalculiX: the content of the deck beside its mesh, in SI units.
 //!
-//! Each file has the keywords of one part of a case. What a case cannot say is left out by [`Translation::leave`], with its line, and stands in
+//! Each file has the keywords of one part of a case. What a case cannot say is left out by [`Translation::omit`], with its line, and stands in
 //! the case as a comment.
 
 mod amplitude;
@@ -26,10 +26,10 @@ use super::text::{deck_examples, deck_model, quoted};
 use super::{Starter, StarterError, check_law};
 use amplitude::{Amplitude, Procedure};
 use load::Load;
-use translation::{LeftOut, Translation};
+use translation::{Omission, Translation};
 pub use units::Units;
 
-/// Keywords without a counterpart in a case, by their beginnings, with the reason.
+/// Beginnings of keywords without a counterpart in a case, with the reason.
 const LEFT_OUT: [(&str, &str); 14] = [
     ("CONTACT", "a case has [[contact]] and [[rigid]]"),
     ("SURFACE ", "a case has [[contact]] and [[rigid]]"),
@@ -47,14 +47,14 @@ const LEFT_OUT: [(&str, &str); 14] = [
     ("RESTART", "a case has [output] and [[probe]]"),
 ];
 
-/// A case from a deck, and what the mesh of the deck needs in addition.
+/// A case from a deck, with tables and the count of omissions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DeckCase {
-    /// The case.
+    /// Text of the case, with its warnings.
     pub starter: Starter,
     /// Tables that the case reads from its folder: names and contents.
     pub tables: Vec<(String, String)>,
-    /// Number of places in the deck that are not carried out.
+    /// Number of omitted places of the deck.
     pub left_out: usize,
 }
 
@@ -73,7 +73,10 @@ pub fn deck_case(
     check_law(law, matches!(deck.mesh, AnyMesh::Solid(_)))?;
     let mut translation = Translation::new(deck, mesh, units.unwrap_or(Units::SI));
     translation.read();
-    let warnings: Vec<String> = translation.doubt(units.is_some()).into_iter().collect();
+    let warnings: Vec<String> = translation
+        .unit_warning(units.is_some())
+        .into_iter()
+        .collect();
     let text = translation.text([name, mesh], law, &warnings);
     let (n_loads, n_steps) = (translation.loads.len(), translation.steps.len());
     let units = translation.units.name;
@@ -99,14 +102,14 @@ pub fn deck_case(
 }
 
 impl Translation<'_> {
-    /// Reads all keywords: first those to which others refer.
+    /// Reads all keywords, first the keywords to which others refer.
     fn read(&mut self) {
         let keywords = &self.places.deck.keywords;
         self.find_platens();
         for keyword in keywords.iter().filter(|it| it.is("AMPLITUDE")) {
             match Amplitude::new(keyword) {
                 Some(amplitude) => self.amplitudes.push(amplitude),
-                None => self.leave(
+                None => self.omit(
                     keyword,
                     "amplitudes are tables of pairs, or a smooth step from 0 to 1",
                 ),
@@ -115,8 +118,8 @@ impl Translation<'_> {
         for keyword in keywords {
             self.read_keyword(keyword);
         }
-        self.let_last_hold();
-        self.leave_unused_platens();
+        self.override_earlier_loads();
+        self.omit_unused_platens();
         // Without a load of size the first support would be the axis of the curve.
         self.loads.sort_by_key(|it| it.size() == 0.0);
     }
@@ -129,7 +132,7 @@ impl Translation<'_> {
         );
         let is_still = matches!(self.procedure(), Procedure::Modes(_)) && name != "BOUNDARY";
         if is_load && (self.is_left_out || is_still) {
-            return self.leave(keyword, "its step is not carried out");
+            return self.omit(keyword, "its step is not carried out");
         }
         let first = self.steps.len();
         match name {
@@ -146,7 +149,7 @@ impl Translation<'_> {
             | "STEADY STATE DYNAMICS"
             | "COUPLED TEMPERATURE-DISPLACEMENT"
             | "UNCOUPLED TEMPERATURE-DISPLACEMENT" => {
-                self.leave_step(keyword);
+                self.omit_step(keyword);
             }
             "BOUNDARY" => self.read_boundary(keyword),
             "CLOAD" => self.read_forces(keyword),
@@ -160,7 +163,7 @@ impl Translation<'_> {
                 let known = LEFT_OUT
                     .iter()
                     .find(|(beginning, _)| name.starts_with(beginning));
-                self.leave(keyword, known.map_or("a case has no such thing", |it| it.1));
+                self.omit(keyword, known.map_or("a case has no such thing", |it| it.1));
             }
         }
         if is_load {
@@ -230,7 +233,7 @@ impl Translation<'_> {
         text
     }
 
-    /// Head of the case, with all that is not carried out.
+    /// Head of the case, with a list of omissions.
     fn head(&self, name: &str, warnings: &[String]) -> String {
         let units = self.units.name;
         let mut text = format!(
@@ -241,7 +244,11 @@ impl Translation<'_> {
             let _ = writeln!(text, "# WARNING: {}", shown(warning.clone()));
         }
         for left in &self.left_out {
-            let _ = writeln!(text, "# not carried out: {}", shown(left_out(left, name)));
+            let _ = writeln!(
+                text,
+                "# not carried out: {}",
+                shown(omission_text(left, name))
+            );
         }
         for remark in self.places.deck.mesh.remarks() {
             let _ = writeln!(text, "# of the mesh: {}", shown(remark.to_string()));
@@ -250,8 +257,8 @@ impl Translation<'_> {
     }
 }
 
-/// Text of what is left out of a deck with a name.
-fn left_out(left: &LeftOut, name: &str) -> String {
+/// Text of the omissions of a deck with a name.
+fn omission_text(left: &Omission, name: &str) -> String {
     let file = left.line.file.as_deref().unwrap_or(name);
     let parameter = |it: &Parameter| match &it.value {
         Some(value) => format!(", {}={value}", it.name),

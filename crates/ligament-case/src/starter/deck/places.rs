@@ -13,16 +13,16 @@ use super::super::text::quoted;
 pub(super) struct Nodes {
     /// Nodes of the mesh, ascending.
     pub(super) inside: Vec<u32>,
-    /// Numbers of nodes that are none of the mesh.
+    /// Numbers of nodes outside of the mesh.
     pub(super) outside: Vec<u64>,
 }
 
-/// Places of a deck, with the groups that its mesh needs in addition.
+/// Places of a deck, with the groups that they add to its mesh.
 pub(super) struct Places<'a> {
     pub(super) deck: &'a Deck,
     /// Nodes of the mesh by their numbers.
     nodes: HashMap<u64, u32>,
-    /// Groups that the mesh gets for places of the case.
+    /// Groups added to the mesh for places of the case.
     pub(super) added: Vec<Group>,
     volumes: OnceCell<Vec<f64>>,
 }
@@ -49,7 +49,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// Number in the mesh of a node that is given by a number, also with the name of its instance.
+    /// Number in the mesh of a node given by its number, with or without the name of its instance.
     pub(super) fn number(&self, field: &str, scope: &Scope) -> Option<u64> {
         let (instance, label) = match (field.rsplit_once('.'), scope) {
             (Some((before, label)), _) => (before.rsplit('.').next(), label),
@@ -65,7 +65,7 @@ impl<'a> Places<'a> {
         Some(instance.shift + label)
     }
 
-    /// Names that a set or surface may have in the mesh.
+    /// Possible names of a set or surface in the mesh.
     fn names(&self, field: &str, scope: &Scope) -> Vec<String> {
         let instances = self.deck.instances.iter();
         let prefixes: Vec<&str> = match scope {
@@ -109,7 +109,7 @@ impl<'a> Places<'a> {
         found
     }
 
-    /// Groups of a dimension that a field names, of several instances one each.
+    /// Groups of a dimension that a field names, one for each instance.
     pub(super) fn groups(&self, field: &str, scope: &Scope, dimension: u8) -> Vec<Group> {
         let names = self.names(field, scope);
         let groups = names.iter().flat_map(|name| self.deck.groups_named(name));
@@ -119,7 +119,7 @@ impl<'a> Places<'a> {
             .collect()
     }
 
-    /// Nodes of the mesh at the ends of the edge that has a node of second order in its middle.
+    /// Nodes at the ends of the edge whose middle is a node of second order.
     pub(super) fn ends(&self, number: u64) -> Option<[u32; 2]> {
         let [a, b] = self.deck.midpoints.get(&number)?;
         Some([*self.nodes.get(a)?, *self.nodes.get(b)?])
@@ -134,7 +134,7 @@ impl<'a> Places<'a> {
         nodes
     }
 
-    /// Line of a case with a group; one with another name is added where its own has other members as well.
+    /// Line of a case with a group; a group with another name is added where the name has further members.
     pub(super) fn line(&mut self, mut group: Group) -> String {
         let all = || self.deck.mesh.groups().iter().chain(&self.added);
         let is_same = |it: &&Group| {
@@ -166,7 +166,7 @@ impl<'a> Places<'a> {
         line
     }
 
-    /// Line of a case with some nodes (ascending), under a name for them.
+    /// Line of a case with a group of nodes (ascending), with a name for them.
     pub(super) fn line_of_nodes(&mut self, name: &str, nodes: Vec<u32>) -> String {
         self.line(Group {
             name: name.to_owned(),

@@ -7,7 +7,7 @@ use super::prescribed::degrees_of_freedom;
 use super::translation::{AXES, Kind, Platen, Row, Translation, value};
 
 impl Translation<'_> {
-    /// Finds the platens of a deck, before what moves them.
+    /// Finds the platens of a deck, before keywords that move them.
     pub(super) fn find_platens(&mut self) {
         let keywords = &self.places.deck.keywords;
         for (keyword, next) in keywords
@@ -67,14 +67,14 @@ impl Translation<'_> {
                 is_upright: false,
                 is_used: false,
             }),
-            _ => self.leave(
+            _ => self.omit(
                 keyword,
                 "as a platen it needs nodes of the body, and a REF NODE that is none of them",
             ),
         }
     }
 
-    /// Equations u_i - u_reference = 0 for the nodes of a set.
+    /// Reads equations u_i - u_reference = 0 for the nodes of a set.
     fn find_tied(&mut self, keyword: &Keyword) {
         let fields = keyword.data.iter().flat_map(|line| line.fields());
         let fields: Vec<String> = fields.filter(|it| !it.is_empty()).collect();
@@ -112,7 +112,7 @@ impl Translation<'_> {
                 .iter()
                 .any(|(_, dof, nodes)| nodes.is_empty() || *dof == 0)
         {
-            return self.leave(keyword, "of equations a case has those by which nodes follow a node beside the body: u_i - u = 0");
+            return self.omit(keyword, "of equations a case has those by which nodes follow a node beside the body: u_i - u = 0");
         }
         self.platens
             .extend(tied.into_iter().map(|(reference, dof, nodes)| Platen {
@@ -155,7 +155,7 @@ impl Translation<'_> {
                 match AXES[..usize::from(self.places.dimensions())].get(dof - 1) {
                     Some(axis) => self.move_platen(row, platen, axis, size),
                     None if dof > AXES.len() && size != 0.0 => {
-                        self.leave_row(row, "a platen is not turned by a given angle");
+                        self.omit_row(row, "a platen is not turned by a given angle");
                     }
                     None => {}
                 }
@@ -171,11 +171,11 @@ impl Translation<'_> {
             Vec::new(),
             key,
             vec![(axis, 1.0)],
-            size * self.units.of_key(key),
+            size * self.units.for_key(key),
         );
         if platen.is_upright || size == 0.0 || self.procedure().is_motion() {
             if !platen.is_upright {
-                self.leave_row(row, "the points of this platen do not turn with it");
+                self.omit_row(row, "the points of this platen do not turn with it");
             }
             return self.prescribe(row, &row.name(), platen.nodes, load);
         }
@@ -194,17 +194,17 @@ impl Translation<'_> {
     ) {
         let platens = self.moved(reference, axis + 1);
         if platens.is_empty() {
-            self.leave_row(row, "its node is none of the body and of no platen");
+            self.omit_row(row, "its node is none of the body and of no platen");
         }
         for platen in platens {
             let mut lines = vec![self.places.line_of_nodes(&row.name(), platen.nodes)];
             let is_rigid = platen.kind != Kind::Spread;
             if is_rigid && self.procedure().is_motion() {
-                self.leave_row(row, "in a motion the force is spread over the points of its platen, which is not rigid");
+                self.omit_row(row, "in a motion the force is spread over the points of its platen, which is not rigid");
             } else if is_rigid {
                 lines.push("tilts = true".to_owned());
                 if platen.is_upright {
-                    self.leave_row(row, "a platen under a force may tilt");
+                    self.omit_row(row, "a platen under a force may tilt");
                 }
             }
             let size = force * self.units.force;
@@ -215,11 +215,11 @@ impl Translation<'_> {
         }
     }
 
-    /// Names the platens that nothing moves, which are left out.
-    pub(super) fn leave_unused_platens(&mut self) {
+    /// Notes the platens that nothing moves as left out.
+    pub(super) fn omit_unused_platens(&mut self) {
         for platen in std::mem::take(&mut self.platens) {
             if !platen.is_used {
-                self.leave(
+                self.omit(
                     &platen.keyword,
                     "nothing moves or loads its reference node: its points are free",
                 );

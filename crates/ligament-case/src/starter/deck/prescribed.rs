@@ -46,7 +46,7 @@ pub(super) fn degrees_of_freedom(fields: &[String]) -> Option<(Vec<usize>, f64)>
 }
 
 impl Translation<'_> {
-    /// Prescribes the component of a load at nodes, under a name for them.
+    /// Prescribes the component of a load at nodes, with a name for them.
     pub(super) fn prescribe(
         &mut self,
         row: Row<'_>,
@@ -60,7 +60,7 @@ impl Translation<'_> {
         let (size, is_motion) = (load.size(), self.procedure().is_motion());
         let jumps = is_motion && load.key == "displacement" && size != 0.0;
         if jumps && value(row.keyword, "AMPLITUDE").is_none() {
-            return self.leave_row(row, "a displacement without an AMPLITUDE would jump");
+            return self.omit_row(row, "a displacement without an AMPLITUDE would jump");
         }
         nodes.sort_unstable();
         nodes.dedup();
@@ -69,7 +69,7 @@ impl Translation<'_> {
         load.nodes = nodes;
         let is_same = |it: &Load| (&it.lines, &it.direction) == (&load.lines, &load.direction);
         if self.steps.len() > 1 && size == 0.0 && !self.loads.iter().any(is_same) {
-            self.leave_row(
+            self.omit_row(
                 row,
                 "a support holds from the start, not from a later step on",
             );
@@ -77,8 +77,8 @@ impl Translation<'_> {
         self.add_load(row, load);
     }
 
-    /// Takes the nodes of a load from earlier ones that prescribe another value of the same component: the last one holds.
-    pub(super) fn let_last_hold(&mut self) {
+    /// Removes the nodes of a load from earlier loads that prescribe another value of the same component: the last one applies.
+    pub(super) fn override_earlier_loads(&mut self) {
         for index in 0..self.loads.len() {
             let Load {
                 nodes,

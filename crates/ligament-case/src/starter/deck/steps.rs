@@ -1,4 +1,4 @@
-//! Steps of a deck: what is analysed, and how loads follow one another.
+//! Steps of a deck: the analysis and the sequence of loads.
 
 use std::fmt::Write;
 
@@ -24,11 +24,11 @@ impl Translation<'_> {
             .parameter("NLGEOM")
             .is_some_and(|it| it.value.as_deref() != Some("NO"))
         {
-            self.leave(keyword, "NLGEOM: displacements are small against the body");
+            self.omit(keyword, "NLGEOM: displacements are small against the body");
         }
     }
 
-    /// Reads what the step computes; a step of another kind than the first one is left out.
+    /// Reads the procedure of a step; a step of another kind than the first one is left out.
     pub(super) fn read_procedure(&mut self, keyword: &Keyword) {
         let fields = keyword.data.first().map(|line| line.fields());
         let value = |place: usize| number(fields.as_ref()?.get(place)?).filter(|it| *it > 0.0);
@@ -40,7 +40,7 @@ impl Translation<'_> {
             _ => Procedure::Implicit(value(0).unwrap_or(1.0)),
         };
         if has("RIKS") {
-            self.leave(
+            self.omit(
                 keyword,
                 "RIKS: in a case with [fracture] a stage has a `control`",
             );
@@ -53,18 +53,18 @@ impl Translation<'_> {
                 step.procedure = procedure;
                 step.duration = value(1).unwrap_or(1.0);
             }
-            _ => self.leave_step(keyword),
+            _ => self.omit_step(keyword),
         }
     }
 
     /// Leaves out the last step, with its loads.
-    pub(super) fn leave_step(&mut self, keyword: &Keyword) {
-        self.leave(keyword, "a case has one analysis, here that of the first step: this step and its loads are left out");
+    pub(super) fn omit_step(&mut self, keyword: &Keyword) {
+        self.omit(keyword, "a case has one analysis, here that of the first step: this step and its loads are left out");
         self.steps.pop();
         self.is_left_out = true;
     }
 
-    /// Text of the lines that say how a load varies in a motion.
+    /// Text of the lines for the variation of a load in a motion.
     pub(super) fn variation(&self, load: &Load) -> String {
         let given = load.values.first().and_then(|it| it.amplitude.as_ref());
         match given.filter(|_| self.procedure().is_motion()) {
@@ -73,7 +73,7 @@ impl Translation<'_> {
         }
     }
 
-    /// Text of `[motion]` or `[modal]`, or of the stages of a loading that is not one step in proportion.
+    /// Text of `[motion]` or `[modal]`, or of the stages, unless the loading is one proportional step.
     pub(super) fn analysis_text(&self, loads: &[&Load], heated_in: Option<usize>) -> String {
         let step = self.steps.first();
         let duration = step.map_or(1.0, |it| it.duration) * self.units.time;
@@ -103,7 +103,7 @@ impl Translation<'_> {
                 let value = load.values.iter().rfind(|it| it.step == index)?;
                 let factor = value.size / load.size();
                 let factors = match &value.amplitude {
-                    Some(amplitude) => amplitude.course(factor, step, start),
+                    Some(amplitude) => amplitude.factors_text(factor, step, start),
                     None => units::number(factor),
                 };
                 Some(format!("{} = {factors}", quoted(&load.name)))

@@ -9,7 +9,7 @@ use super::units::number as text_of;
 use crate::starter::text::quoted;
 
 impl Translation<'_> {
-    /// Temperatures at nodes, as changes from those at the start.
+    /// Reads temperatures at nodes, as changes from the initial temperatures.
     pub(super) fn read_temperatures(&mut self, keyword: &Keyword) {
         let step = self.steps.len().max(1);
         let reason = match self.heated_in {
@@ -21,15 +21,15 @@ impl Translation<'_> {
             _ => None,
         };
         if let Some(reason) = reason {
-            return self.leave(keyword, reason);
+            return self.omit(keyword, reason);
         }
         if value(keyword, "AMPLITUDE").is_some() {
-            self.leave(keyword, "AMPLITUDE: temperatures change in proportion");
+            self.omit(keyword, "AMPLITUDE: temperatures change in proportion");
         }
         let mut single: Option<(Row<'_>, BTreeMap<u32, f64>)> = None;
         for target in self.targets(keyword) {
             let Some(temperature) = target.fields.get(1).and_then(|it| number(it)) else {
-                self.leave_row(target.row, "expected a temperature");
+                self.omit_row(target.row, "expected a temperature");
                 continue;
             };
             let change = |node: u32| {
@@ -42,16 +42,16 @@ impl Translation<'_> {
                 let (_, all) = single.get_or_insert((target.row, BTreeMap::new()));
                 all.extend(changes);
             } else {
-                self.heat(&target.name, changes, step);
+                self.add_temperatures(&target.name, changes, step);
             }
         }
         if let Some((row, changes)) = single {
-            self.heat(&row.name(), changes, step);
+            self.add_temperatures(&row.name(), changes, step);
         }
     }
 
-    /// Adds changes at nodes (K), under a name for these.
-    fn heat(&mut self, name: &str, changes: BTreeMap<u32, f64>, step: usize) {
+    /// Adds changes of temperature at nodes (K), with a name for these nodes.
+    fn add_temperatures(&mut self, name: &str, changes: BTreeMap<u32, f64>, step: usize) {
         let Some(first) = changes.values().next().copied() else {
             return;
         };

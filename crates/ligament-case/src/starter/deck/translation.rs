@@ -1,4 +1,4 @@
-//! A deck being read as a case: what has been read so far, and what was left out.
+//! Translation of a deck into a case: contents read so far, and omissions.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -30,14 +30,14 @@ pub(super) struct Section {
     pub(super) groups: Vec<Group>,
 }
 
-/// How nodes follow a reference node.
+/// Kinds of motion of nodes with a reference node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// As a rigid body.
+    /// The nodes move as a rigid body.
     Rigid,
-    /// By the mean, with forces spread over them.
+    /// The mean of the nodes moves with the reference node, whose forces are spread over them.
     Spread,
-    /// One degree of freedom is that of the reference node.
+    /// One degree of freedom of the nodes equals the one of the reference node.
     Tied(usize),
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Platen {
     pub(super) nodes: Vec<u32>,
     /// Whether the reference node does not turn.
     pub(super) is_upright: bool,
-    /// Whether something moves, holds or loads it.
+    /// Whether something moves, holds or loads the platen.
     pub(super) is_used: bool,
 }
 
@@ -85,8 +85,8 @@ pub(super) struct Target<'k> {
     pub(super) nodes: Nodes,
 }
 
-/// A place in the deck that is not carried out.
-pub(super) struct LeftOut {
+/// An omitted place of the deck.
+pub(super) struct Omission {
     pub(super) keyword: Keyword,
     pub(super) line: FileLine,
     /// Number of lines with the same reason.
@@ -94,11 +94,11 @@ pub(super) struct LeftOut {
     pub(super) reason: String,
 }
 
-/// A deck being read as a case.
+/// State of the translation of a deck into a case.
 pub(super) struct Translation<'a> {
     pub(super) places: Places<'a>,
     pub(super) units: Units,
-    /// Beginning of the names of tables.
+    /// Prefix of the names of tables.
     pub(super) stem: String,
     pub(super) title: Option<String>,
     pub(super) thickness: Option<f64>,
@@ -110,14 +110,14 @@ pub(super) struct Translation<'a> {
     /// Whether the present step is left out.
     pub(super) is_left_out: bool,
     pub(super) loads: Vec<Load>,
-    /// Temperatures at the start by nodes, in units of the deck.
+    /// Initial temperatures by nodes, in units of the deck.
     pub(super) initial: BTreeMap<u32, f64>,
-    /// Velocities at the start by places and axes, m/s.
+    /// Initial velocities by places and axes, m/s.
     pub(super) velocities: BTreeMap<String, BTreeMap<&'static str, f64>>,
     pub(super) heating: String,
     pub(super) heated_in: Option<usize>,
     pub(super) tables: Vec<(String, String)>,
-    pub(super) left_out: Vec<LeftOut>,
+    pub(super) left_out: Vec<Omission>,
 }
 
 /// Value of a parameter of a keyword.
@@ -125,7 +125,7 @@ pub(super) fn value<'k>(keyword: &'k Keyword, name: &str) -> Option<&'k str> {
     keyword.parameter(name)?.value.as_deref()
 }
 
-/// Whether a keyword replaces all that earlier ones of its kind gave.
+/// Whether a keyword replaces the contents of all earlier ones of its kind.
 pub(super) fn replaces_all(keyword: &Keyword) -> bool {
     value(keyword, "OP").is_some_and(|it| it.eq_ignore_ascii_case("NEW"))
 }
@@ -155,21 +155,21 @@ impl<'a> Translation<'a> {
         }
     }
 
-    /// Notes that a keyword is not carried out, or not as it is.
-    pub(super) fn leave(&mut self, keyword: &Keyword, reason: &str) {
+    /// Notes that a keyword is omitted or changed.
+    pub(super) fn omit(&mut self, keyword: &Keyword, reason: &str) {
         self.leave_line(keyword, &keyword.line, reason);
     }
 
-    /// Notes that a data line is not carried out, or not as it is.
-    pub(super) fn leave_row(&mut self, row: Row<'_>, reason: &str) {
+    /// Notes that a data line is omitted or changed.
+    pub(super) fn omit_row(&mut self, row: Row<'_>, reason: &str) {
         self.leave_line(row.keyword, &row.line.line, reason);
     }
 
     fn leave_line(&mut self, keyword: &Keyword, line: &FileLine, reason: &str) {
-        let is_same = |it: &&mut LeftOut| it.reason == reason && it.keyword.line == keyword.line;
+        let is_same = |it: &&mut Omission| it.reason == reason && it.keyword.line == keyword.line;
         match self.left_out.iter_mut().find(is_same) {
             Some(same) => same.lines += 1,
-            None => self.left_out.push(LeftOut {
+            None => self.left_out.push(Omission {
                 keyword: keyword.clone(),
                 line: line.clone(),
                 lines: 1,
@@ -186,7 +186,7 @@ impl<'a> Translation<'a> {
             let fields = row.line.fields();
             let nodes = self.places.find(&fields[0], &keyword.scope);
             if nodes == Nodes::default() {
-                self.leave_row(row, "no such node or set in the mesh");
+                self.omit_row(row, "no such node or set in the mesh");
                 continue;
             }
             let is_single = self.places.number(&fields[0], &keyword.scope).is_some();
@@ -219,7 +219,7 @@ impl<'a> Translation<'a> {
         self.thickness.unwrap_or(1.0) * self.units.length
     }
 
-    /// What the deck computes.
+    /// Procedure of the deck.
     pub(super) fn procedure(&self) -> Procedure {
         let first = self.steps.first();
         first.map_or(Procedure::Static, |it| it.procedure)
@@ -232,7 +232,7 @@ impl<'a> Translation<'a> {
         };
         let step = self.steps.len().max(1);
         if self.procedure().is_motion() && step > 1 {
-            return self.leave_row(row, "a motion has one step");
+            return self.omit_row(row, "a motion has one step");
         }
         for value in &mut load.values {
             value.step = step;
@@ -244,10 +244,10 @@ impl<'a> Translation<'a> {
         if let Some(same) = self.loads.iter().position(is_same) {
             return self.loads[same].values.append(&mut load.values);
         }
-        if self.would_change_a_part(row.keyword, &load) {
+        if self.covers_load_partly(row.keyword, &load) {
             let reason =
                 "it would change a part of a load of an earlier step: give both for the same sets";
-            return self.leave_row(row, reason);
+            return self.omit_row(row, reason);
         }
         let names = load.direction.iter().map(|(axis, _)| format!("-{axis}"));
         let mut name = row.name() + &names.collect::<String>();
@@ -258,8 +258,8 @@ impl<'a> Translation<'a> {
         self.loads.push(load);
     }
 
-    /// Whether a load of a later step is for some of the places of an earlier one, whose other places keep their values.
-    fn would_change_a_part(&self, keyword: &Keyword, load: &Load) -> bool {
+    /// Whether a load of a later step covers only some places of an earlier load, whose other places keep their values.
+    fn covers_load_partly(&self, keyword: &Keyword, load: &Load) -> bool {
         let step = self.steps.len();
         let is_single = |it: &Load| it.lines.first().is_some_and(|it| it.contains("\"dload-"));
         let meets = |it: &Load| {
@@ -275,7 +275,7 @@ impl<'a> Translation<'a> {
         !replaces_all(keyword) && earlier.any(meets)
     }
 
-    /// The amplitude that a keyword names; an error for one that is not carried out.
+    /// The amplitude that a keyword names; an error for an omitted one.
     fn amplitude(&mut self, keyword: &Keyword) -> Result<Option<Amplitude>, ()> {
         let Some(name) = value(keyword, "AMPLITUDE") else {
             return Ok(None);
@@ -287,13 +287,13 @@ impl<'a> Translation<'a> {
         match found {
             Some(amplitude) => Ok(Some(amplitude.clone())),
             None => {
-                self.leave(keyword, "its AMPLITUDE is none of those carried out");
+                self.omit(keyword, "its AMPLITUDE is none of those carried out");
                 Err(())
             }
         }
     }
 
-    /// Takes loads of a keyword to zero that it does not give again, where it replaces all.
+    /// Sets the earlier loads of a keyword to zero where it replaces them without repeating them.
     pub(super) fn replace_earlier(&mut self, keyword: &Keyword, first: usize) {
         if !replaces_all(keyword) || first < 2 {
             return;
@@ -314,7 +314,7 @@ impl<'a> Translation<'a> {
         }
     }
 
-    /// File with a value at each of some nodes; a table that exists already is used again.
+    /// Name of a table with a value at each of some nodes; an existing equal table is reused.
     pub(super) fn table(&mut self, column: &str, values: &[(u32, f64)]) -> String {
         let solid = self.places.dimensions() > 2;
         let mut text = format!("x,y,{}{column}\n", if solid { "z," } else { "" });

@@ -1,11 +1,11 @@
-//! Systems of units of input decks, which do not say theirs.
+//! Systems of units of input decks, which do not state one.
 
 use super::super::text::{digits, exact};
 
 /// A consistent system of units: sizes of its base units in SI units, from which all others follow.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
-    /// Word by which the system is chosen.
+    /// Keyword of the system.
     pub name: &'static str,
     /// Unit of length, m.
     pub length: f64,
@@ -63,7 +63,7 @@ impl Units {
     }
 
     /// Unit of a quantity of supports and loads by its key in the case, in SI units.
-    pub(super) fn of_key(&self, key: &str) -> f64 {
+    pub(super) fn for_key(&self, key: &str) -> f64 {
         match key {
             "displacement" => self.length,
             "velocity" => self.length / self.time,

@@ -22,11 +22,11 @@ const YOUNG: f64 = 30e9;
 const TENSILE_STRENGTH: f64 = 3e6;
 /// Critical stretch of the examples without a strength.
 const STRETCH: f64 = TENSILE_STRENGTH / YOUNG;
-/// Displacement of a load over that at which a bar reaches its tensile strength: bars pulled at their ends fail well before, a disk between
-/// platens needs several times as much.
+/// Suggested displacement of a load over the displacement at which a bar reaches its tensile strength: bars pulled at their ends fail well before, a
+/// disk between platens needs several times as much.
 const PULLED: f64 = 4.0;
 const PRESSED: f64 = 16.0;
-/// Displacement in the middle of a beam over that at which it reaches its tensile strength.
+/// Suggested displacement in the middle of a beam over the displacement at which it reaches its tensile strength.
 const BENT: f64 = 2.0;
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -161,7 +161,7 @@ pub(super) fn deck_model(dimensions: u8, law: Law) -> String {
     }
 }
 
-/// Text of the comments by which bonds of a deck's body break.
+/// Text of commented settings with which bonds of a deck's body break.
 pub(super) fn deck_examples(has_stages: bool) -> String {
     let steps = match has_stages {
         true => "#    each [[stage]] has `steps = 20` then\n",
@@ -229,7 +229,7 @@ fn is_lattice<const D: usize>(body: &Body<D>) -> bool {
     matches!(body.section, Section::Lattice { .. })
 }
 
-/// Whether the case has the patch correction: of laws whose paper corrects surfaces, and not of lattices in space.
+/// Whether the case has the patch correction: for laws whose paper corrects surfaces, except on lattices in space.
 fn has_patch<const D: usize>(is_lattice: bool, law: Law) -> bool {
     law.row.correction != PaperCorrection::None && !(D > 2 && is_lattice)
 }

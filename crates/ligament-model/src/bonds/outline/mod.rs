@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::first::first_bonds;
+use super::first_bonds::first_bonds;
 use super::{BondSet, Incidence};
 use crate::cloud::lumping::shortest_edges;
 use crate::cloud::{PointCloud, distance, search_tree};
@@ -100,7 +100,7 @@ impl<const D: usize, const N: usize> Facets<D, N> {
     }
 
     /// Nodes of the facets that intersect a box.
-    fn within(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = [u32; D]> {
+    fn facets_in_box(&self, [lower, upper]: [[f64; D]; 2]) -> impl Iterator<Item = [u32; D]> {
         let around = AABB::from_corners(lower, upper);
         let found = self.tree.locate_in_envelope_intersecting(around);
         found.map(|facet| facet.data)
@@ -115,7 +115,7 @@ impl<const D: usize, const N: usize> Facets<D, N> {
         let edges = facets.flat_map(|nodes| (0..D).map(move |k| [nodes[k], nodes[(k + 1) % D]]));
         let is_passing = |edge: &[u32; 2]| {
             let ends = edge.map(|node| self.at(node));
-            self.within(bounding_box(ends))
+            self.facets_in_box(bounding_box(ends))
                 .any(|facet| is_passed(facet, ends))
         };
         // Each edge occurs in both directions.

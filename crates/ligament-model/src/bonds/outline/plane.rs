@@ -11,7 +11,7 @@ use crate::tensor::{dot, minus};
 
 impl PlaneOutline {
     /// The outline of some cells between the points of a cloud.
-    pub fn of_cells(cells: &[Cell], cloud: &PointCloud) -> Self {
+    pub fn from_cells(cells: &[Cell], cloud: &PointCloud) -> Self {
         let mut all: Vec<[u32; 2]> = cells.iter().flat_map(Cell::edges).collect();
         all.par_sort_unstable();
         let alone = all
@@ -50,7 +50,7 @@ impl Outline<2> for PlaneOutline {
     type Facet = [u32; 2];
 
     fn facets_within(&self, bounds: [[f64; 2]; 2]) -> impl Iterator<Item = [u32; 2]> {
-        self.within(bounds)
+        self.facets_in_box(bounds)
     }
 
     fn is_crossed_by_bonds(&self, [a, b]: [u32; 2], near: &[[u32; 2]], slack: f64) -> bool {
@@ -131,7 +131,7 @@ mod tests {
         let has = |c: u32, r: u32| !is_free(c, r);
         for angle in [0.0, 0.3, 1.1] {
             let (cloud, cells, bonds) = body(angle, has);
-            let outside = bonds_outside(&PlaneOutline::of_cells(&cells, &cloud), &bonds, &cloud);
+            let outside = bonds_outside(&PlaneOutline::from_cells(&cells, &cloud), &bonds, &cloud);
             let (sin, cos) = angle.sin_cos();
             let mut count = 0;
             // Nodes without a cell are none of a mesh.
@@ -165,7 +165,8 @@ mod tests {
     fn a_whole_rectangle_loses_nothing() {
         let (cloud, cells, bonds) = body(0.7, |_, _| true);
         assert!(
-            !bonds_outside(&PlaneOutline::of_cells(&cells, &cloud), &bonds, &cloud).contains(&true)
+            !bonds_outside(&PlaneOutline::from_cells(&cells, &cloud), &bonds, &cloud)
+                .contains(&true)
         );
     }
 }

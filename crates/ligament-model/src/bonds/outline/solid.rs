@@ -27,7 +27,7 @@ pub struct Facet {
 
 impl SolidOutline {
     /// The outline of some cells between the points of a cloud.
-    pub fn of_cells(cells: &[SolidCell], cloud: &PointCloud<3>) -> Self {
+    pub fn from_cells(cells: &[SolidCell], cloud: &PointCloud<3>) -> Self {
         let positions = cloud.positions.as_slice();
         let outer = Faces::new(cells, positions.len()).outer();
         let triangles = outer.iter().flat_map(|side| side.face.triangles());
@@ -65,16 +65,16 @@ impl SolidOutline {
         if start * end >= 0 {
             return false;
         }
-        let past = edges_of(facet.corners).map(|edge| passes(ends, edge, slack));
+        let past = edges_of(facet.corners).map(|edge| passing_side(ends, edge, slack));
         if past.contains(&1) && past.contains(&-1) {
             return false;
         }
         let edges = edges_of(facet.nodes);
         match past.map(|it| it == 0) {
             [false, false, false] => true,
-            [true, false, false] => !self.goes_on_past(edges[0], ends, slack),
-            [false, true, false] => !self.goes_on_past(edges[1], ends, slack),
-            [false, false, true] => !self.goes_on_past(edges[2], ends, slack),
+            [true, false, false] => !self.continues_beyond_edge(edges[0], ends, slack),
+            [false, true, false] => !self.continues_beyond_edge(edges[1], ends, slack),
+            [false, false, true] => !self.continues_beyond_edge(edges[2], ends, slack),
             _ => self.is_left_at_node(facet, ends, slack),
         }
     }
@@ -88,7 +88,8 @@ impl SolidOutline {
             .zip(edges_of(facet.corners));
         self.is_left_at_node(facet, ends, slack)
             || sides.any(|(edge, corners)| {
-                crosses(line, corners.map(flat), slack) && !self.goes_on_past(edge, ends, slack)
+                crosses(line, corners.map(flat), slack)
+                    && !self.continues_beyond_edge(edge, ends, slack)
             })
     }
 
@@ -124,7 +125,7 @@ impl SolidOutline {
     }
 
     /// Whether a line that crosses an edge of the outline continues there into a tetrahedron, or along a face of one.
-    fn goes_on_past(&self, [p, q]: [u32; 2], ends: [[f64; 3]; 2], slack: f64) -> bool {
+    fn continues_beyond_edge(&self, [p, q]: [u32; 2], ends: [[f64; 3]; 2], slack: f64) -> bool {
         let at = |node: u32| self.at(node);
         let length = norm(minus(ends[1], ends[0]));
         let mut at_edge = self.parts_at(p).filter(|nodes| nodes.contains(&q));
@@ -151,7 +152,7 @@ impl Outline<3> for SolidOutline {
     type Facet = Facet;
 
     fn facets_within(&self, bounds: [[f64; 3]; 2]) -> impl Iterator<Item = Facet> {
-        self.within(bounds).map(|nodes| self.facet(nodes))
+        self.facets_in_box(bounds).map(|nodes| self.facet(nodes))
     }
 
     fn is_crossed_by_bonds(&self, [a, b]: [u32; 2], near: &[Facet], slack: f64) -> bool {
@@ -196,7 +197,7 @@ impl Facet {
 }
 
 /// Side on which a line passes the line of an edge; zero where they intersect.
-fn passes([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2], slack: f64) -> i8 {
+fn passing_side([a, b]: [[f64; 3]; 2], [p, q]: [[f64; 3]; 2], slack: f64) -> i8 {
     let least = slack * norm(cross(minus(b, a), minus(q, p)));
     side_of_plane([a, b, p], q, least)
 }

@@ -13,7 +13,7 @@ pub enum Crack {
     Surface(SolidPreCrack),
 }
 
-/// A position with E coordinates, of which those beyond D are zero.
+/// A position with E coordinates, zero beyond the first D.
 fn resized<const D: usize, const E: usize>(position: [f64; D]) -> [f64; E] {
     std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0))
 }

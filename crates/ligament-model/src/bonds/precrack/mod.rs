@@ -145,10 +145,10 @@ pub fn count_touched_bonds<const D: usize, C: Cut<D>>(
     let pieces = Pieces::new(cracks, cloud);
     let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
     let along_outline = whole.filter(|(ends, _)| ends.iter().all(|it| is_on_outline[*it as usize]));
-    let here = along_outline.filter(|(ends, _)| {
+    let at_rim = along_outline.filter(|(ends, _)| {
         cloud.subdomain.owns_bond(**ends) && pieces.any(cloud, **ends, C::touches)
     });
-    cloud.subdomain.count(here.count())
+    cloud.subdomain.count(at_rim.count())
 }
 
 /// Unit normals of pre-cracks where they cut some bonds, from the first end to the second, shape (n_cut): of the piece that the bond

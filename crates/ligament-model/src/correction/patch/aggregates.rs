@@ -24,7 +24,7 @@ const FEWEST_POINTS: usize = 64;
 /// Ratio below which one of two distances or volumes is the smaller one in spite of rounding.
 const TIE: f64 = 1.0 - 1e-9;
 
-/// Regularisation of multipliers that are linear over aggregates relative to that of others: it fixes those that are constant over the
+/// Regularisation of multipliers that are linear over aggregates, relative to other multipliers: it fixes multipliers that are constant over the
 /// body, which have no equation.
 const SHARE: f64 = 1e-3;
 
@@ -269,7 +269,7 @@ pub(super) struct Regularisation<'a, const N: usize> {
 
 impl<const N: usize> Regularisation<'_, N> {
     /// Linear parts of deviations (n_own) from a centre over the aggregates, reduced by the fraction that stays regularised.
-    pub(super) fn common(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
+    pub(super) fn deviations(&self, distance: impl Fn(usize) -> [f64; N] + Sync) -> Vec<f64> {
         let weighted = |index: usize| {
             let (distance, weight) = (distance(index), &self.weights[index]);
             std::array::from_fn(|k| weight[k] * distance[k])

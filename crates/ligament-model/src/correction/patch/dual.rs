@@ -33,7 +33,7 @@ const FIRST_REGULARISATION: f64 = 1e-2;
 /// regularisation of the default settings; where it leaves much, factors would run to their limits, from which they hardly return.
 const RATIOS: [f64; 2] = [0.0025, 0.03];
 
-/// Ratio of the regularisations of successive outer steps over the scaled residual that the first of them has left, between the limits.
+/// Ratio of the regularisations of successive outer steps over the scaled residual after the first step, between the limits.
 const RATIO_OF_RESIDUAL: f64 = 0.1;
 
 /// Regularisation at which the iteration ends over the square of the scaled residual, and its largest ratio to that of the settings. Where
@@ -198,7 +198,7 @@ impl<const N: usize> Place<N> {
             let (mu, centre) = (&self.mu[index], &centre[index]);
             std::array::from_fn(|k| mu[k] - centre[k])
         };
-        let common = regularisation.common(away);
+        let common = regularisation.deviations(away);
         let mut gradient = self.unbalanced.clone();
         for (index, gradient) in gradient.iter_mut().enumerate() {
             let force = regularisation.force(index, away(index), &common);
@@ -209,7 +209,7 @@ impl<const N: usize> Place<N> {
 }
 
 impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
-    /// Solves the equations with a regularisation r about a centre, from the current iterate, with so many products at most for a direction.
+    /// Solves the equations with a regularisation r about a centre, from the current iterate, with a largest number of products for a direction.
     fn outer_step(
         &self,
         place: &mut Place<N>,
@@ -313,7 +313,7 @@ impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
     }
 
     fn minus_right(&self) -> Multipliers<N> {
-        let right = self.equations.right().iter();
+        let right = self.equations.right_hand_sides().iter();
         right.map(|right| right.map(|it| -it)).collect()
     }
 
@@ -339,8 +339,8 @@ impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
             })
             .collect();
         Factors {
-            axial: pairs.of_bonds(factors.iter().map(|&[axial, _]| axial)),
-            shear: pairs.of_bonds(factors.iter().map(|&[_, shear]| shear)),
+            axial: pairs.bond_values(factors.iter().map(|&[axial, _]| axial)),
+            shear: pairs.bond_values(factors.iter().map(|&[_, shear]| shear)),
             report: Report {
                 steps,
                 products,

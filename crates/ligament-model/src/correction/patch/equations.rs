@@ -21,7 +21,7 @@ pub(crate) trait Equations<const N: usize>: Sync {
     fn start(&self) -> &[f64];
 
     /// Right-hand sides f, shape (n_own, N).
-    fn right(&self) -> &[[f64; N]];
+    fn right_hand_sides(&self) -> &[[f64; N]];
 
     /// Scales d of the equations of an own point.
     fn scale(&self, index: usize) -> [f64; N];
@@ -29,8 +29,8 @@ pub(crate) trait Equations<const N: usize>: Sync {
     /// Terms of a pair in the equations of its other end, for given products of factors and stiffness.
     fn forces(&self, pair: usize, products: [f64; 2]) -> [f64; N];
 
-    /// Transpose of the forces: both entries of G^T mu over the stiffness of a pair, from the sum of the multipliers of its ends with the
-    /// signs of its terms there.
+    /// Both entries of G^T mu over the stiffness of a pair, from the sum of the multipliers of its ends with the signs of its terms there: the
+    /// transpose of [`forces`](Self::forces).
     fn strains(&self, pair: usize, sum: &[f64; N]) -> [f64; 2];
 
     /// Terms of a pair at its own point, from those at its other end.

@@ -13,7 +13,7 @@ use crate::tensor::{SymTensor, cross, dot, minus};
 pub struct CellForces<const D: usize = 2> {
     /// Forces, shape (n_points, n_strains, D), N.
     values: Vec<[f64; D]>,
-    /// Stiffness of each material in the forces: on a mesh its own, on a lattice that which the uniaxial tractions act on.
+    /// Stiffness of each material in the forces: on a mesh its own, on a lattice the one of the uniaxial tractions.
     pub stiffness: Vec<Stiffness>,
 }
 
@@ -79,12 +79,12 @@ impl<const D: usize> CellForces<D> {
     }
 
     /// Forces on each point in each strain.
-    pub fn of_points(&self) -> impl Iterator<Item = &[[f64; D]]> {
+    pub fn on_points(&self) -> impl Iterator<Item = &[[f64; D]]> {
         self.values.chunks_exact(SymTensor::<D>::COMPONENTS.len())
     }
 
     /// Forces on a point in each strain.
-    pub fn of_point(&self, point: u32) -> &[[f64; D]] {
+    pub fn on_point(&self, point: u32) -> &[[f64; D]] {
         let n_strains = SymTensor::<D>::COMPONENTS.len();
         &self.values[n_strains * point as usize..][..n_strains]
     }
@@ -94,7 +94,7 @@ impl<const D: usize> CellForces<D> {
 ///
 /// The integral of the gradient of N_P over a cell is half of the side from its last corner before P to the next one after it, turned
 /// by a right angle, for triangles and for quadrangles.
-pub fn of_mesh(
+pub fn forces_of_mesh(
     cells: &[Cell],
     cloud: &PointCloud,
     material_of_cell: &[u32],
@@ -125,7 +125,7 @@ fn gradient(corners: &[u32], k: usize, cloud: &PointCloud) -> [f64; 2] {
 ///
 /// Shape functions are linear on tetrahedra. Other cells are split into tetrahedra ([`SolidCell::tetrahedra`]), alike on both sides of a
 /// face: contributions of neighbours to a point inside a body of one material cancel.
-pub fn of_solid_mesh(
+pub fn forces_of_solid_mesh(
     cells: &[SolidCell],
     cloud: &PointCloud<3>,
     material_of_cell: &[u32],
@@ -136,7 +136,7 @@ pub fn of_solid_mesh(
     for (cell, &material) in cells.iter().zip(material_of_cell) {
         for corners in cell.tetrahedra() {
             let places = corners.map(|corner| cloud.positions[corner as usize]);
-            for (corner, gradient) in corners.into_iter().zip(of_tetrahedron(places)) {
+            for (corner, gradient) in corners.into_iter().zip(tetrahedron_gradients(places)) {
                 forces.add(corner, &stresses[material as usize], gradient);
             }
         }
@@ -152,18 +152,18 @@ pub(crate) fn gradients<const D: usize>(corners: &[u32], cloud: &PointCloud<D>) 
         return of_corners.collect();
     }
     let place = |k: usize| resized(cloud.positions[corners[k] as usize]);
-    let of_corners = of_tetrahedron(std::array::from_fn(place)).into_iter();
+    let of_corners = tetrahedron_gradients(std::array::from_fn(place)).into_iter();
     of_corners.map(resized).collect()
 }
 
-/// A vector with other components than it has as zeros.
+/// A vector with E components: the first ones of a vector with D, and zeros for missing ones.
 fn resized<const D: usize, const E: usize>(vector: [f64; D]) -> [f64; E] {
     std::array::from_fn(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }
 
 /// Integrals of the gradients of the linear shape functions over a tetrahedron, m^2: a third of the area of the opposite face along its
 /// inward normal.
-fn of_tetrahedron([a, b, c, d]: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
+fn tetrahedron_gradients([a, b, c, d]: [[f64; 3]; 4]) -> [[f64; 3]; 4] {
     let [e, f, g] = [b, c, d].map(|corner| minus(corner, a));
     let is_positive = dot(e, cross(f, g)) > 0.0;
     let sixth = if is_positive { 1.0 / 6.0 } else { -1.0 / 6.0 };

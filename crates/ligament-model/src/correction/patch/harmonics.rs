@@ -1,4 +1,4 @@
-//! Harmonics of a direction, with the sum of squares 1: turned axes mix those of one order by a rotation.
+//! Harmonics of a direction, with the sum of squares 1: turned axes mix the harmonics of one order by a rotation.
 
 const ROOT_3: f64 = 1.732_050_807_568_877_2;
 const ROOT_15: f64 = 3.872_983_346_207_417;
@@ -51,7 +51,7 @@ pub(super) fn third<const D: usize>(n: [f64; D]) -> [f64; 7] {
     ]
 }
 
-/// Harmonics of the third order in space of a symmetric tensor S_ijk, by its components: those of a unit vector n are those of n_i n_j n_k.
+/// Harmonics of the third order in space of a symmetric tensor S_ijk, by its components: for n_i n_j n_k these are the harmonics of the unit vector n.
 pub(super) fn third_of_tensor(s: impl Fn([usize; 3]) -> f64) -> [f64; 7] {
     let [x, y, z] = [0, 1, 2];
     [

@@ -14,7 +14,7 @@ use crate::tensor::SymTensor;
 ///
 /// The tractions on the faces between two materials act, with both signs, at the cell of the stiffer one, and a block between several has
 /// the shear stress of the softest, because the bonds between them are corrected as bonds of the softer material.
-pub fn of_lattice<const D: usize, S: Region<D>>(
+pub fn forces_of_lattice<const D: usize, S: Region<D>>(
     lattice: &Lattice<D, S>,
     cloud: &PointCloud<D>,
     material_of_cell: &[u32],
@@ -206,12 +206,12 @@ mod tests {
     fn check<const D: usize, S: Region<D>>(lattice: &Lattice<D, S>, stiffness: Stiffness) {
         let cells = vec![0; lattice.cells.len()];
         let cloud = PointCloud::from_lattice(lattice, 0.01, &cells, 1);
-        let forces = of_lattice(lattice, &cloud, &cells, &[stiffness]);
+        let forces = forces_of_lattice(lattice, &cloud, &cells, &[stiffness]);
         let strains: Vec<SymTensor<D>> = uniform_strains().collect();
         let mut work = Stiffness::zeros(strains.len(), strains.len());
         let mut sums = vec![[[0.0; D]; D]; strains.len()];
         let mut totals = vec![[0.0; D]; strains.len()];
-        for (forces, &position) in forces.of_points().zip(&cloud.positions) {
+        for (forces, &position) in forces.on_points().zip(&cloud.positions) {
             for (k, &force) in forces.iter().enumerate() {
                 for (l, strain) in strains.iter().enumerate() {
                     work[(k, l)] += dot(force, strain.times(position));

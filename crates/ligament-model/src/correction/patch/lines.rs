@@ -75,7 +75,7 @@ impl Lines {
     }
 
     /// Shares of a bond, from A to B.
-    pub(super) fn of_bond(&self, bond: usize) -> &[Share] {
+    pub(super) fn shares_of_bond(&self, bond: usize) -> &[Share] {
         &self.shares[self.starts[bond]..self.starts[bond + 1]]
     }
 
@@ -144,7 +144,7 @@ fn divided<const D: usize>(
     }
 }
 
-/// Ratio of the strain energy density of every point to that of the continuum, for each of [`StrainMode::all`], with the energy of a bond
+/// Ratio of the strain energy density of every point to the density of the continuum, for each of [`StrainMode::all`], with the energy of a bond
 /// divided among the points along its line; collective.
 ///
 /// e_P V_P = 1/2 sum over the bonds of s_P Omega alpha (k_n s^2 + k_t |gamma|^2) l V_A V_B, with the share s_P of a bond that lies nearest to

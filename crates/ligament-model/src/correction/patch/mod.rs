@@ -44,9 +44,9 @@ mod rows;
 mod settings;
 
 pub use dual::Report;
-pub use forces::{CellForces, Points, of_mesh, of_solid_mesh};
+pub use forces::{CellForces, Points, forces_of_mesh, forces_of_solid_mesh};
 pub(crate) use forces::{gradients, uniform_strains};
-pub use lattice_forces::of_lattice;
+pub use lattice_forces::forces_of_lattice;
 pub(crate) use lattice_forces::{blocks, gradient as block_gradient};
 pub use lines::energy_ratios;
 pub use reference::reference;

@@ -20,9 +20,9 @@ pub(super) struct Hessian<'a, E, const N: usize> {
 
 /// The preconditioner applied to a residual.
 struct Solved<const N: usize> {
-    /// Part of the blocks of the points.
+    /// Solution of the blocks of the points.
     points: Multipliers<N>,
-    /// Part of the aggregates, `width` numbers for each.
+    /// Solution of the aggregates, `width` numbers for each.
     aggregates: Vec<f64>,
 }
 
@@ -98,17 +98,17 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             direction: &direction,
             product: &product,
         };
-        let mut size = self.go(0.0, way, &mut step, &mut left, &mut solved);
+        let mut size = self.step_along(0.0, way, &mut step, &mut left, &mut solved);
         let target = accuracy * accuracy * size;
         let mut share = 0.0;
         for done in 1..=most_products {
-            self.turn(&mut direction, share, &solved);
+            self.update_direction(&mut direction, share, &solved);
             let length = size / self.multiply(&direction, &mut product);
             let way = SearchDirection {
                 direction: &direction,
                 product: &product,
             };
-            let next = self.go(length, way, &mut step, &mut left, &mut solved);
+            let next = self.step_along(length, way, &mut step, &mut left, &mut solved);
             if next <= target {
                 return (step, done);
             }
@@ -119,7 +119,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
     }
 
     /// Next direction: the preconditioned residual plus `share` times the last direction.
-    fn turn(&self, direction: &mut Multipliers<N>, share: f64, solved: &Solved<N>) {
+    fn update_direction(&self, direction: &mut Multipliers<N>, share: f64, solved: &Solved<N>) {
         let points = direction.par_iter_mut().zip(&solved.points).enumerate();
         points
             .with_min_len(BLOCK)
@@ -138,7 +138,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
 
     /// Computes the product of the Hessian with values by index, and returns the inner product of both.
     fn multiply(&self, values: &Multipliers<N>, product: &mut Multipliers<N>) -> f64 {
-        let common = self.regularisation.common(|index| values[index]);
+        let common = self.regularisation.deviations(|index| values[index]);
         let of_block = |(block, product): (usize, &mut [[f64; N]])| {
             let indices = self.equations.pairs().indices(block);
             for (index, product) in indices.clone().zip(product.iter_mut()) {
@@ -161,7 +161,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
 
     /// Takes a step of a given length along a direction with a known product: updates the solution and the residual, applies the
     /// preconditioner, and returns the inner product of the residual and the preconditioned residual.
-    fn go(
+    fn step_along(
         &self,
         length: f64,
         way: SearchDirection<'_, N>,

@@ -108,7 +108,7 @@ impl<'a> Pairs<'a> {
         indices.flat_map_iter(of_index).collect()
     }
 
-    /// An array over the pairs, divided into those of the points of each block.
+    /// An array over the pairs, divided by blocks of points.
     pub(crate) fn blocks<'b, T>(&self, mut values: &'b mut [T]) -> Vec<&'b mut [T]> {
         let of_block = |block| {
             let indices = self.indices(block);
@@ -124,7 +124,7 @@ impl<'a> Pairs<'a> {
     }
 
     /// Value of each bond from the values of its pairs, which are equal from both ends, shape (n_bonds).
-    pub(crate) fn of_bonds(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
+    pub(crate) fn bond_values(&self, values: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut of_bonds = vec![0.0; self.n_bonds];
         for (&bond, value) in self.bond.iter().zip(values) {
             of_bonds[bond as usize] = value;

@@ -67,7 +67,7 @@ pub fn reference<const D: usize>(
         let values = tensors.as_flattened_mut().as_flattened_mut();
         families.order.ghosts.update(values, D * D);
     }
-    let factors = families.of_all_bonds(families.factors(&tensors));
+    let factors = families.with_bonds_of_other_ranks(families.factors(&tensors));
     let products = alpha.iter().zip(factors);
     products.map(|(alpha, factor)| alpha * factor).collect()
 }
@@ -99,7 +99,8 @@ struct Families<'a, const D: usize> {
 impl<const D: usize> Families<'_, D> {
     /// Mean T without factors, Pa.
     fn mean_stress(&self) -> f64 {
-        let divided = (0..self.bonds.len()).filter(|&bond| !self.lines.of_bond(bond).is_empty());
+        let divided =
+            (0..self.bonds.len()).filter(|&bond| !self.lines.shares_of_bond(bond).is_empty());
         let mut sums = [
             divided.map(|bond| self.weights[bond]).sum::<f64>(),
             D as f64 * self.volumes.iter().sum::<f64>(),
@@ -124,7 +125,7 @@ impl<const D: usize> Families<'_, D> {
     fn factors(&self, tensors: &[Tensor<D>]) -> Vec<f64> {
         let of_bond = |bond: usize| {
             let direction = &self.bonds.direction[bond];
-            let shares = self.lines.of_bond(bond).iter();
+            let shares = self.lines.shares_of_bond(bond).iter();
             let terms = shares.map(|it| it.share * along(direction, &tensors[it.index as usize]));
             terms.sum::<f64>().exp().clamp(1.0 / LARGEST, LARGEST)
         };
@@ -132,7 +133,7 @@ impl<const D: usize> Families<'_, D> {
     }
 
     /// The factors (n_bonds) with those that other processes compute; collective.
-    fn of_all_bonds(&self, mut factors: Vec<f64>) -> Vec<f64> {
+    fn with_bonds_of_other_ranks(&self, mut factors: Vec<f64>) -> Vec<f64> {
         let subdomain = self.order.subdomain;
         let across = self
             .bonds
@@ -140,7 +141,7 @@ impl<const D: usize> Families<'_, D> {
             .iter()
             .enumerate()
             .filter_map(|(bond, ends)| {
-                let is_divided = !self.lines.of_bond(bond).is_empty();
+                let is_divided = !self.lines.shares_of_bond(bond).is_empty();
                 let other = ends
                     .iter()
                     .find(|&&end| is_divided && !subdomain.owns(end))?;

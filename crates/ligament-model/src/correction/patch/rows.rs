@@ -10,7 +10,7 @@ use crate::correction::sweep_order::SweepOrder;
 use crate::law::BondStiffness;
 use crate::tensor::{SymTensor, dot};
 
-/// Equations of all points: 6 of forces in the plane and 13 in space, and with those of moments N = 8 and 18 a point.
+/// Equations of all points: 6 equations of forces a point in the plane and 13 in space; with equations of moments N = 8 and 18.
 ///
 /// A bond of length l from a point in the direction n, with w = V_A V_B, acts under a strain eps on its other end with the force w (q_n k_n
 /// s n + q_t k_t gamma), s = n . eps n, gamma = eps n - s n, on the point with the opposite force and on both with the moment -1/2 w q_t k_t
@@ -63,9 +63,9 @@ struct Place<const D: usize> {
 
 /// Coefficients of the harmonics of n in the equations, by dimension.
 struct Sizes {
-    /// Coefficient of n, times q_n.
+    /// Coefficient of n in the first equations, times q_n.
     first: f64,
-    /// Coefficients of n, times q_n and q_t.
+    /// Coefficients of n in the second equations, times q_n and q_t.
     second: [f64; 2],
     /// Coefficient of Y_3, times q_n.
     third: f64,
@@ -141,7 +141,7 @@ impl<'a, const D: usize, const N: usize> Rows<'a, D, N> {
             });
             [force, moment_weight * moment]
         };
-        let right = |&point: &u32| combined::<D, N>(forces.of_point(point));
+        let right = |&point: &u32| combined::<D, N>(forces.on_point(point));
         Self {
             places: pairs.values(place),
             stiffness: pairs.values(|_, bond| of_bond(bond as usize)),
@@ -217,7 +217,7 @@ fn body_factor<const D: usize>(
 /// Work of the cells in all strains, J; collective.
 fn work<const D: usize>(cloud: &PointCloud<D>, forces: &CellForces<D>) -> f64 {
     let of_point = |point: u32| {
-        let (forces, x) = (forces.of_point(point), cloud.positions[point as usize]);
+        let (forces, x) = (forces.on_point(point), cloud.positions[point as usize]);
         let strains = forces.iter().zip(SymTensor::<D>::COMPONENTS);
         let of_strain = |(force, &[i, j]): (&[f64; D], &[usize; 2])| match i == j {
             true => force[i] * x[i],
@@ -244,7 +244,7 @@ impl<const D: usize, const N: usize> Equations<N> for Rows<'_, D, N> {
         &self.start
     }
 
-    fn right(&self) -> &[[f64; N]] {
+    fn right_hand_sides(&self) -> &[[f64; N]] {
         &self.right
     }
 

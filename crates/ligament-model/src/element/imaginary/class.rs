@@ -3,11 +3,11 @@
 /// Class of a bond by its direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BondClass {
-    /// Bond along x (H).
+    /// H: bond along x.
     Horizontal,
-    /// Bond along y (V).
+    /// V: bond along y.
     Vertical,
-    /// Bond in any other direction (S).
+    /// S: bond in any other direction.
     Shear,
 }
 

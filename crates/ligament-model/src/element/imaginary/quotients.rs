@@ -1,4 +1,4 @@
-//! Difference quotients that make up the strains of an element.
+//! Difference quotients, whose means are the strains of an element.
 
 use super::{BondClass, Surroundings};
 use crate::bonds::BondSet;
@@ -33,7 +33,7 @@ impl Quotient {
     }
 }
 
-/// Difference quotients of an element; none where one of the derivatives has no support.
+/// Difference quotients of an element; none if a derivative has no supporting bonds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(in crate::element) struct Quotients {
     count: usize,
@@ -61,7 +61,7 @@ impl Quotients {
         let ends = bonds.ends[bond];
         let is_linked = |bond: u32| intact[bond as usize];
         let across =
-            |axis: Axis| ends.map(|end| surroundings.across(end, axis as usize, is_linked));
+            |axis: Axis| ends.map(|end| surroundings.stencil(end, axis as usize, is_linked));
         let own = [Some(ends), None];
         let mut quotients = Self::NONE;
         let is_supported = match BondClass::from_direction(bonds.direction[bond]) {

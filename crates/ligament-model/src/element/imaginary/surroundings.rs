@@ -17,7 +17,7 @@ pub struct Surroundings {
     dependents: Incidence,
 }
 
-/// A point at the other end of a bond; without a bond where none exists.
+/// A neighbour of a point on the lattice with the bond to it, if there is one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Link {
     bond: u32,
@@ -91,7 +91,7 @@ impl Surroundings {
 
     /// Points of the difference quotient at a point along an axis (0: x, 1: y); `None` without a linked neighbour.
     #[inline]
-    pub(super) fn across(
+    pub(super) fn stencil(
         &self,
         point: u32,
         axis: usize,
@@ -133,8 +133,8 @@ fn spacings(bonds: &BondSet) -> [f64; 2] {
     [along(BondClass::Horizontal), along(BondClass::Vertical)]
 }
 
-/// Bonds that each bond supports: for a V bond of one spacing the H bonds at its ends, for such an H bond the V bonds at its ends, and the S
-/// bonds of which it is an edge.
+/// Bonds that each bond supports: for a V bond of one spacing the H bonds at its ends, for such an H bond the V bonds at its ends, and the S bonds
+/// whose rectangle has it as an edge.
 fn dependents(bonds: &BondSet, links: &[[[Link; 2]; 2]], edges: &[[[Link; 2]; 2]]) -> Incidence {
     let supports = |bond: u32| -> Vec<u32> {
         let of_edges = edges[bond as usize].as_flattened();

@@ -11,7 +11,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::{Curve, LAWS, Law};
 use crate::word::{self, Worded};
 
-/// A law that has a name.
+/// A softening law in a case file by its name.
 #[derive(Clone, Copy)]
 struct Named(&'static Law);
 
@@ -43,7 +43,7 @@ struct ByCurve {
     /// that the `fracture_energy` comes out.
     #[serde(skip_serializing_if = "Option::is_none")]
     curve: Option<Vec<[f64; 2]>>,
-    /// Where two straight lines meet: opening over that at the end, and stress over the strength.
+    /// Point at which two straight lines meet: opening over the opening at the end, and stress over the strength.
     #[serde(skip_serializing_if = "Option::is_none")]
     kink: Option<[f64; 2]>,
     /// A table (`.csv`) of the corners with the columns `opening` and `stress`, from the folder of the case file.

@@ -13,9 +13,9 @@ use super::softened::Softened;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     corners: Arc<[Corner]>,
-    /// The last opening as given.
+    /// The last opening in the given unit.
     last_opening: f64,
-    /// The first stress as given.
+    /// The first stress in the given unit.
     strength: f64,
 }
 
@@ -24,11 +24,11 @@ pub struct Curve {
 struct Corner {
     opening: f64,
     stress: f64,
-    /// Area under the stress from no opening to here.
+    /// Area under the stress from the opening zero to the corner.
     area: f64,
 }
 
-/// Why points are no curve of a softening law.
+/// Reason why points are no curve of a softening law.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CurveError {
     /// Fewer than two points.
@@ -43,7 +43,7 @@ pub enum CurveError {
         point: usize,
         /// Opening of the point.
         opening: f64,
-        /// Opening of the point before.
+        /// Opening of the previous point.
         before: f64,
     },
     /// A stress is larger than the one before, or negative.
@@ -52,7 +52,7 @@ pub enum CurveError {
         point: usize,
         /// Stress of the point.
         stress: f64,
-        /// Stress of the point before.
+        /// Stress of the previous point.
         before: f64,
     },
     /// The last stress is not zero.
@@ -188,7 +188,7 @@ impl Curve {
         self.corners.windows(2).map(slope).fold(0.0, f64::max)
     }
 
-    /// The bond past its limit, with kappa = `end` at the end of the curve, at the largest kappa so far.
+    /// State of a bond past its limit at the largest kappa so far, with kappa = `end` at the end of the curve.
     pub fn at(&self, end: f64, kappa: f64) -> Softened {
         let deformation = |corner: &Corner| corner.stress + end * corner.opening;
         let next = self.corners.partition_point(|it| deformation(it) <= kappa);
@@ -206,7 +206,7 @@ impl Curve {
         }
     }
 
-    /// Energy of the whole life of a bond over that at the limit, with kappa = `end` at the end of the curve.
+    /// Dissipated energy of a bond over the energy at its limit, with kappa = `end` at the end of the curve.
     pub fn total(&self, end: f64) -> f64 {
         let area = self.corners.last().map_or(0.0, |it| it.area);
         2.0 * end * area

@@ -17,7 +17,7 @@ pub const LAW: Law = Law {
         key: "scale",
         words: ", with a scale of",
         above: 0.0,
-        of_it_alone: "only a force that falls exponentially, {}, has a scale",
+        exclusive_reason: "only a force that falls exponentially, {}, has a scale",
         least_energy: 1.0,
     }),
     softens: true,

@@ -1,4 +1,4 @@
-//! What a law of softening is.
+//! Laws of softening.
 
 use super::curve::Curve;
 use super::softened::Softened;
@@ -11,17 +11,17 @@ const WORD: &str = "curve";
 pub struct Law {
     /// Word of the law in case files and in results.
     pub word: &'static str,
-    /// Sentence on what the force does.
+    /// Sentence on the force.
     pub words: &'static str,
     /// Papers of the law, by the keys of the references, with their equations; empty without any.
     pub source: &'static str,
-    /// What the force does, in few words.
+    /// Short description of the force.
     pub force: &'static str,
     /// Parameter of the law, if there is one.
     pub parameter: Option<Parameter>,
-    /// Whether a bond goes on after its limit at all.
+    /// Whether a bond still carries force after its limit.
     pub softens: bool,
-    /// Reason why only bonds that slide may follow the law, if that is so, with `{}` for the criterion of sliding.
+    /// Reason why the law is only for sliding bonds, with `{}` for the criterion of sliding; None for any bond.
     pub sliding_because: Option<&'static str>,
     /// Force and energy after the limit.
     pub fall: Fall,
@@ -30,15 +30,15 @@ pub struct Law {
 /// Force and energy of a bond after its limit.
 #[derive(Debug, Clone)]
 pub enum Fall {
-    /// Functions of the law's parameter (any number where it has none).
+    /// Functions of the law's parameter, which is arbitrary for a law without one.
     Formula {
-        /// The bond past its limit, from the parameter and the largest kappa = e/e_0 so far.
+        /// State of a bond past its limit, from the parameter and the largest kappa = e/e_0 so far.
         at: fn(f64, f64) -> Softened,
         /// kappa at which the bond breaks; infinite if never.
         end: fn(f64) -> f64,
         /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
         total: fn(f64) -> f64,
-        /// The parameter for which the whole life takes so many times what the bond stores at its limit: the inverse of `total`.
+        /// The parameter for a given ratio `total`.
         for_energy: fn(f64) -> f64,
     },
     /// Stress over the opening of a crack, as a user gave it; the parameter is kappa at its end.
@@ -52,32 +52,32 @@ pub enum Fall {
 pub struct Parameter {
     /// Name of the parameter.
     pub key: &'static str,
-    /// What the parameter says about the force, in words before its value.
+    /// Description of the parameter, for text before its value.
     pub words: &'static str,
     /// Value that the parameter must exceed.
     pub above: f64,
-    /// Reason why no other law has the parameter, with `{}` for this one.
-    pub of_it_alone: &'static str,
-    /// Energy of the whole life of a bond, over what it stores at its limit, that any parameter exceeds.
+    /// Reason why only this law has the parameter, with `{}` for the law.
+    pub exclusive_reason: &'static str,
+    /// Ratio of dissipated energy to energy stored at the limit that every parameter exceeds.
     pub least_energy: f64,
 }
 
 impl Parameter {
-    /// The deformation at which a force has fallen to zero, over that at the limit, of a law that falls without a jump above a value, for which
-    /// the whole life takes the least energy.
+    /// The parameter `end` of a law whose force falls to zero: the deformation at zero force over the deformation at the limit, which must exceed
+    /// `above`.
     pub const fn end(above: f64, least_energy: f64) -> Self {
         Self {
             key: "end",
             words: ", to zero at",
             above,
-            of_it_alone: "only a force that falls to zero, such as {}, has an end",
+            exclusive_reason: "only a force that falls to zero, such as {}, has an end",
             least_energy,
         }
     }
 }
 
 impl Law {
-    /// The bond past its limit, from the law's parameter and the largest kappa = e/e_0 so far.
+    /// State of a bond past its limit, from the law's parameter and the largest kappa = e/e_0 so far.
     pub fn at(&self, parameter: f64, kappa: f64) -> Softened {
         match &self.fall {
             Fall::Formula { at, .. } => at(parameter, kappa),
@@ -103,7 +103,7 @@ impl Law {
         }
     }
 
-    /// The parameter for which the whole life of a bond takes so many times what it stores at its limit, more than the least.
+    /// The parameter for which the dissipated energy of a bond is `energy` times the energy stored at its limit, more than the least ratio.
     pub fn parameter_for(&self, energy: f64) -> f64 {
         match &self.fall {
             Fall::Formula { for_energy, .. } => for_energy(energy),
@@ -111,10 +111,10 @@ impl Law {
         }
     }
 
-    /// Openings of a crack over G/f_t and stresses over the strength f_t from the limit to the end of the law, shape (n, 2); None for a law
-    /// that no fracture energy G decides about.
+    /// Openings of a crack over G/f_t and stresses over the strength f_t from the limit to the end of the law, shape (n, 2); None for a law without a
+    /// parameter from the fracture energy G.
     pub fn stress_over_opening(&self) -> Option<Vec<[f64; 2]>> {
-        /// Energy of a bond's whole life over the energy at its limit: so large that the elastic energy is a small part of it.
+        /// Dissipated energy of a bond over the energy at its limit: so large that the elastic energy is negligible.
         const ENERGY: f64 = 1e3;
         const INTERVALS: u32 = 720;
         self.parameter?;

@@ -1,4 +1,4 @@
-//! What a bond does between its limit and its breakage: the fall of its force.
+//! Laws of softening: the fall of the force of a bond between its limit and its breakage.
 //!
 //! All laws are written for a bond whose measure is e, with its limit e_0, as functions of the largest kappa = e/e_0 so far: the
 //! force is `mu` times that at the limit, and `omega = mu/kappa` times the elastic one of the same deformation. Unloading and
@@ -37,7 +37,7 @@ pub const LAWS: [&Law; 9] = [
 /// Distance of the end from the limit, over the limit, below which the force of a bond drops.
 const DROP: f64 = 1e-3;
 
-/// What happens after the limit.
+/// Law of the bonds after their limit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AfterLimit {
     law: Law,
@@ -112,7 +112,7 @@ impl AfterLimit {
         (!drops).then_some(kappa.min(last))
     }
 
-    /// Energy that the whole life of the bond takes, over that stored at the limit; infinite if it never ends.
+    /// Energy dissipated by the bond until it breaks over the energy stored at the limit; infinite if it never breaks.
     pub fn total_dissipated(&self, bond: usize) -> f64 {
         self.law.total(self.parameter_of(bond))
     }

@@ -7,7 +7,7 @@ pub struct Softened {
     pub force: f64,
     /// Secant stiffness over elastic stiffness.
     pub secant: f64,
-    /// Energy that is gone, over that stored at the limit.
+    /// Dissipated energy over the energy stored at the limit.
     pub dissipated: f64,
 }
 

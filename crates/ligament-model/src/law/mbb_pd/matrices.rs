@@ -7,7 +7,7 @@ use crate::element::imaginary::{StrainStiffness, entries};
 use crate::law::{BondStiffness, LawInput, bulk_stiffness, materials};
 
 /// Stiffness of bonds with given micro-modulus matrices and energy fractions of their first ends (n_bonds).
-pub(super) fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffness {
+pub(super) fn bond_stiffness(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> BondStiffness {
     let along = |((matrix, _), &[a, b]): (&(Matrix3<f64>, f64), &[f64; 2])| {
         let stretch = Vector3::new(a * a, b * b, a * b);
         stretch.dot(&(matrix * stretch))
@@ -27,7 +27,7 @@ pub(super) fn of_matrices(bonds: &BondSet, matrices: &[(Matrix3<f64>, f64)]) -> 
     }
 }
 
-/// Plane stiffness of the materials of each bond ([`materials::of_bond`]), shape (n_bonds), Pa.
+/// Plane stiffness of the materials of each bond ([`materials::fractions_of_bond`]), shape (n_bonds), Pa.
 pub(super) fn plane_stiffnesses(input: &LawInput<'_, 2>) -> Vec<Matrix3<f64>> {
     let (bonds, plane) = (input.bonds, input.space.plane());
     let of_materials: Vec<Matrix3<f64>> = (input.elasticity.iter())
@@ -35,7 +35,7 @@ pub(super) fn plane_stiffnesses(input: &LawInput<'_, 2>) -> Vec<Matrix3<f64>> {
         .collect();
     let bulk: Vec<f64> = of_materials.iter().map(bulk_stiffness).collect();
     let of_bond = |&ends: &[u32; 2]| {
-        let shares = materials::of_bond(input.cloud, ends, &bulk);
+        let shares = materials::fractions_of_bond(input.cloud, ends, &bulk);
         shares.fold(Matrix3::zeros(), |sum, (material, share)| {
             sum + share * of_materials[material]
         })

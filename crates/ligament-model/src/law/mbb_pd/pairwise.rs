@@ -4,7 +4,7 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::BondClass;
 
-/// Ratios of the printed factors psi_1, psi_2, psi_6 of each bond to those of the energy form ([`super::factors`]), as means of its ends,
+/// Ratios of the printed factors psi_1, psi_2, psi_6 of each bond to the factors of the energy form ([`super::factors`]), as means of its ends,
 /// shape (n_bonds, 3):
 ///
 /// psi_1 = 2/(V (sum_H abs(xi) + sum_S (1 + tan(theta)/2)^2 abs(xi))), psi_2 with V and cot, psi_6 = 2/(V sum_S (csc(2 theta) + 1)^2 abs(xi)).

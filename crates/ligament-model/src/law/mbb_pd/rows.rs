@@ -2,13 +2,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::matrices::{of_matrices, plane_stiffnesses};
+use super::matrices::{bond_stiffness, plane_stiffnesses};
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::imaginary::BondClass;
 use crate::law::{BondStiffness, LawInput};
 
-/// Micro-modulus matrices: the symmetric part of diag(psi_1, psi_2, psi_6) c, of which a bond has the rows of its class, with the means of
+/// Micro-modulus matrices: the symmetric part of diag(psi_1, psi_2, psi_6) c, restricted to the rows of the class of a bond, with the means of
 /// its ends and
 ///
 /// psi_1 = 2/(V (sum_H + sum_S)), psi_2 = 2/(V (sum_V + sum_S)), psi_6 = 2/(V sum_S)
@@ -40,7 +40,7 @@ pub(super) fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
         (0.5 * (rows + rows.transpose()), of_a / (of_a + of_b))
     };
     let matrices: Vec<(Matrix3<f64>, f64)> = (0..bonds.len()).map(of_bond).collect();
-    of_matrices(bonds, &matrices)
+    bond_stiffness(bonds, &matrices)
 }
 
 /// Factors psi_1, psi_2 and psi_6 of a point, 1/m^4; infinite where the point has no bond that resists the strain.

@@ -49,7 +49,7 @@ fn fields_of_a_tip_are_derivatives_of_its_displacements() {
     for (quantity, intensity) in modes {
         for angle in [-3.0, -1.2, 0.0, 0.4, 2.5_f64] {
             let place = [0.01 * angle.cos(), 0.01 * angle.sin()];
-            let field = ElasticField::of_tip(quantity, MODULI, 0.01, angle);
+            let field = ElasticField::near_tip(quantity, MODULI, 0.01, angle);
             let step = 1e-6;
             let derivative = |axis: usize| -> [f64; 2] {
                 let moved = |by: f64| {
@@ -106,7 +106,7 @@ fn a_ring_finds_the_intensities_of_its_field() {
                 let from_tip = minus(cloud.positions[at.point as usize], ring.tip);
                 let mode = |mode, intensity| {
                     let at = (norm(from_tip), ring.angle(from_tip));
-                    scaled(ElasticField::of_tip(mode, MODULI, at.0, at.1), intensity)
+                    scaled(ElasticField::near_tip(mode, MODULI, at.0, at.1), intensity)
                 };
                 let both = sum(
                     &mode(TipQuantity::Opening, 2.0),

@@ -1,4 +1,4 @@
-//! A scene as paths of a picture.
+//! Drawing of a scene as paths.
 
 use super::outline::unit_normal;
 use super::visible::DepthBuffer;
@@ -133,11 +133,11 @@ fn cut(polygon: &[([f64; 2], f64)], level: f64, sign: f64) -> Vec<([f64; 2], f64
     let mut kept = Vec::with_capacity(polygon.len() + 1);
     for (place, &(from, start)) in polygon.iter().enumerate() {
         let (to, end) = polygon[(place + 1) % polygon.len()];
-        let [here, there] = [start, end].map(|it| sign * (it - level) >= 0.0);
-        if here {
+        let [starts_in, ends_in] = [start, end].map(|it| sign * (it - level) >= 0.0);
+        if starts_in {
             kept.push((from, start));
         }
-        if here != there {
+        if starts_in != ends_in {
             let share = (level - start) / (end - start);
             let at = [0, 1].map(|axis| from[axis] + share * (to[axis] - from[axis]));
             kept.push((at, level));
@@ -150,7 +150,7 @@ fn flat([x, y, _]: [f64; 3]) -> [f64; 2] {
     [x, y]
 }
 
-/// Brightness of a triangle as seen, from either side.
+/// Brightness of a triangle, seen from either side.
 fn brightness(corners: [[f64; 3]; 3]) -> f64 {
     let normal = unit_normal(corners);
     let to_eye = if normal[2] < 0.0 { -1.0 } else { 1.0 };

@@ -1,4 +1,4 @@
-//! A mesh with the names of its groups at them.
+//! Picture of a mesh with the names of its groups.
 
 use std::path::PathBuf;
 
@@ -35,7 +35,7 @@ const FRONT: View = View {
     up: Upward::Z,
 };
 
-/// A name, and the places at one of which it may stand, m.
+/// A name with its possible places, m.
 type Label = (String, Vec<[f64; 3]>);
 
 /// Draws a mesh with a name at each of its groups that can be seen: surfaces and several parts of a solid, curves and several parts of a body in
@@ -55,8 +55,8 @@ pub fn draw_groups(
 
 fn drawing(mesh: &AnyMesh, name: impl Fn(&Group) -> String) -> Drawing {
     let ((scene, places), views) = match mesh {
-        AnyMesh::Plane(mesh) => (of_plane(mesh), &[FRONT][..]),
-        AnyMesh::Solid(mesh) => (of_solid(mesh), &SIDES[..]),
+        AnyMesh::Plane(mesh) => (plane_scene(mesh), &[FRONT][..]),
+        AnyMesh::Solid(mesh) => (solid_scene(mesh), &SIDES[..]),
     };
     let labels = mesh.groups().iter().map(&name).zip(places);
     let labels: Vec<Label> = labels.collect();
@@ -118,7 +118,7 @@ fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
 }
 
 /// The outside of a solid with the edges of its surface groups, and the places of its groups.
-fn of_solid(mesh: &SolidMesh) -> (Scene, Vec<Vec<[f64; 3]>>) {
+fn solid_scene(mesh: &SolidMesh) -> (Scene, Vec<Vec<[f64; 3]>>) {
     let outside = outer_faces(&mesh.cells);
     let triangles = outside.iter().flat_map(|face| face.triangles()).collect();
     let mut scene = unloaded(mesh.positions.clone(), triangles);
@@ -153,7 +153,7 @@ fn of_solid(mesh: &SolidMesh) -> (Scene, Vec<Vec<[f64; 3]>>) {
 }
 
 /// The cells of a body in the plane with the edges of its groups, and the places of its groups.
-fn of_plane(mesh: &Mesh) -> (Scene, Vec<Vec<[f64; 3]>>) {
+fn plane_scene(mesh: &Mesh) -> (Scene, Vec<Vec<[f64; 3]>>) {
     let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|[x, y]| [*x, *y, 0.0]).collect();
     let triangles = mesh
         .cells

@@ -18,8 +18,8 @@ use crate::picture::PictureError;
 use crate::picture::field::{Field, NONE};
 use crate::picture::request::{CrackDrawing, SolidRequest};
 
-/// Fields that exist only on a crack surface, in the order of the components of a jump.
-const OF_CRACK: [&ResultField; 2] = [&OPENING, &SLIDING];
+/// Fields on a crack surface only, in the order of the components of a jump.
+const CRACK_FIELDS: [&ResultField; 2] = [&OPENING, &SLIDING];
 
 /// Number of boxes up to which all faces are drawn where there is a crack.
 const MOST_WHOLE: usize = 100_000;
@@ -41,7 +41,7 @@ pub(in crate::picture) fn read(
 ) -> Result<(Scene, Option<Field>), PictureError> {
     let body = SolidBody::read(file)?;
     let is_drawn = field != NONE
-        && !(crack == Some(CrackDrawing::Lines) && OF_CRACK.iter().any(|it| it.name == field));
+        && !(crack == Some(CrackDrawing::Lines) && CRACK_FIELDS.iter().any(|it| it.name == field));
     let read = is_drawn.then(|| Field::read(file, field)).transpose()?;
     let solid = Solid {
         displacement: body.vectors(file, DISPLACEMENT.name)?,
@@ -107,7 +107,7 @@ impl Solid<'_> {
         }
     }
 
-    /// The outside of cells with corners at places that follow points.
+    /// The outer faces of cells whose corners follow points.
     fn cells(
         &self,
         cells: &[SolidCell],
@@ -131,7 +131,7 @@ impl Solid<'_> {
         scene
     }
 
-    /// Faces of boxes that no other box shares, and those between points that a crack parts.
+    /// Faces of boxes without a neighbour, and faces between points that a crack separates.
     fn boxes(&self, boxes: &[[[f64; 3]; 2]], links: Option<&Links>) -> Scene {
         let mut scene = Scene::default();
         let Some([low, high]) = boxes.first() else {
@@ -159,7 +159,7 @@ impl Solid<'_> {
                 sharing.entry(middle).or_default().push(number as u32);
             }
         }
-        // Where a crack moved boxes apart, boxes behind them can be seen through the steps.
+        // Boxes behind a crack can be seen through the gaps that it opens.
         let shows_all = links.is_some() && boxes.len() <= MOST_WHOLE;
         let mut named: HashMap<[i64; 3], u32> = HashMap::new();
         let mut outside = Vec::new();
@@ -197,7 +197,7 @@ impl Solid<'_> {
         let tetrahedra = Tetrahedra::new(&self.body.grid);
         let nodes = tetrahedra.nodes.iter();
         let distances: Vec<f64> = nodes.map(|it| section.distance(*it)).collect();
-        let mut scene = self.on_level(&tetrahedra, &distances, 0.0);
+        let mut scene = self.level_surface(&tetrahedra, &distances, 0.0);
         scene.edges = rim(&scene.triangles);
         if with_edges {
             self.add_edges(&mut scene);
@@ -214,13 +214,13 @@ impl Solid<'_> {
             option: "field",
             value: "NAME",
         }))?;
-        let mut scene = self.on_level(&tetrahedra, &values, level);
+        let mut scene = self.level_surface(&tetrahedra, &values, level);
         self.add_edges(&mut scene);
         Ok(scene)
     }
 
     /// The level surface of values of the nodes of tetrahedra, with the field.
-    fn on_level(&self, tetrahedra: &Tetrahedra, values: &[f64], level: f64) -> Scene {
+    fn level_surface(&self, tetrahedra: &Tetrahedra, values: &[f64], level: f64) -> Scene {
         let found = level_set(&tetrahedra.corners, values, level);
         let mut scene = Scene::default();
         for (ends, share) in &found.places {
@@ -244,13 +244,13 @@ impl Solid<'_> {
         for (place, pairs) in surface.places.iter().zip(&surface.parted) {
             self.push(&mut scene, *place, pairs.as_flattened());
         }
-        let own = OF_CRACK.iter().position(|it| it.name == field);
+        let own = CRACK_FIELDS.iter().position(|it| it.name == field);
         let drawn = own.map(|which| {
             let jumps = cracks.jumps(&surface, &self.displacement);
             scene.values = jumps.iter().map(|it| it[which]).collect();
             Field {
                 name: field.to_owned(),
-                unit: OF_CRACK[which].unit,
+                unit: CRACK_FIELDS[which].unit,
                 location: FieldLocation::Point,
                 values: scene.values.clone(),
             }

@@ -2,7 +2,7 @@
 
 use super::View;
 
-/// Parts of a solid that are drawn: places with their displacements, triangles between them and lines over them.
+/// Drawable parts of a solid: places with their displacements, triangles between them and lines over them.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Scene {
     /// Places without load, shape (n_places), m.
@@ -28,7 +28,7 @@ impl Scene {
         self.places.len() as u32 - 1
     }
 
-    /// Positions and displacements as seen, to the right and up, m.
+    /// Positions and displacements in the axes of the view, to the right and up, m.
     pub(crate) fn projected_places(&self, view: View) -> [Vec<[f64; 2]>; 2] {
         [&self.places, &self.moved].map(|all| {
             let seen = all.iter().map(|it| view.projected_places(*it));
@@ -36,7 +36,7 @@ impl Scene {
         })
     }
 
-    /// Places moved by a multiple of their displacements, as seen: to the right, up and to the eye, m.
+    /// Deformed places in the axes of the view: to the right, up and to the eye, m.
     pub(super) fn deformed(&self, view: View, factor: f64) -> Vec<[f64; 3]> {
         let moved = self.places.iter().zip(&self.moved);
         moved

@@ -55,7 +55,7 @@ impl View {
         }
     }
 
-    /// A place as seen: to the right, up and towards the eye, m.
+    /// A place in the axes of the view: to the right, up and towards the eye, m.
     pub(super) fn projected_places(self, place: [f64; 3]) -> [f64; 3] {
         let along = |axis: [f64; 3]| (0..3).map(|k| axis[k] * place[k]).sum();
         self.axes().map(along)

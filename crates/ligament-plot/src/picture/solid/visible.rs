@@ -21,8 +21,8 @@ pub(super) struct DepthBuffer {
 /// Share of a triangle by which a dot may lie outside of it, so that none is lost between two triangles.
 const SLACK: f64 = 1e-9;
 
-/// The part of a range in which none of three linear functions is below zero.
-fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
+/// The part of a range in which three linear functions are not negative.
+fn nonnegative_range(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
     let mut part = whole;
     for (start, slope) in starts.into_iter().zip(slopes) {
         let zero = -(SLACK + start) / slope;
@@ -41,7 +41,7 @@ fn within(whole: Range<f64>, starts: [f64; 3], slopes: [f64; 3]) -> Range<f64> {
 const NONE: u32 = u32::MAX;
 
 impl DepthBuffer {
-    /// The buffer of triangles as seen (to the right, up, to the eye, m) in a part of the picture, with a scale in pixels per metre.
+    /// The buffer of triangles in the axes of the view (to the right, up, to the eye, m) for a part of the picture, with a scale in pixels per metre.
     pub(super) fn new(
         seen: &[[f64; 3]],
         triangles: &[[u32; 3]],
@@ -97,7 +97,7 @@ impl DepthBuffer {
             let starts = shares.map(|([_, up], at)| at + up * row as f64);
             let slopes = shares.map(|it| it.0[0]);
             let whole = columns.start as f64..columns.end as f64 - 1.0;
-            let inside = within(whole, starts, slopes);
+            let inside = nonnegative_range(whole, starts, slopes);
             let depth = (0..3).map(|it| starts[it] * depths[it]).sum::<f64>();
             let first = inside.start.ceil() as usize;
             let end = (inside.end.floor() + 1.0).max(0.0) as usize;

@@ -159,7 +159,7 @@ impl<'a> TriangulatedSurface<'a> {
     }
 }
 
-/// Corners of a triangle, beginning with those of an edge.
+/// Corners of a triangle, beginning with the ends of an edge.
 fn from_edge(nodes: [u32; 3], edge: [u32; 2]) -> Option<[u32; 3]> {
     let turns = (0..3).map(|k| [nodes[k], nodes[(k + 1) % 3], nodes[(k + 2) % 3]]);
     turns

@@ -1,4 +1,4 @@
-//! From choices of criteria to the limits of the bonds.
+//! Criteria with the limits of the bonds, from the choices of a user.
 
 use super::KINDS;
 use super::basis::Basis;
@@ -56,7 +56,7 @@ pub fn criteria<const D: usize>(
     Ok(Criteria { list })
 }
 
-/// The refusal in space of a kind that exists in the plane alone, with those that exist in space.
+/// Error for a solid whose kind of failure exists only in the plane; it lists the kinds that exist in space.
 fn plane_only(kind: &Kind) -> NoLimit {
     let in_space = KINDS.iter().filter(|it| it.limits.solid.is_some());
     NoLimit::PlaneOnly {
@@ -65,7 +65,7 @@ fn plane_only(kind: &Kind) -> NoLimit {
     }
 }
 
-/// Multiplies limits (n_bonds) by the factor f of what they come from: a strength by f, an energy by sqrt(f).
+/// Multiplies limits (n_bonds) by the random factor f of a strength, or by sqrt(f) of an energy.
 fn scatter<const D: usize>(choice: &Choice, limits: &mut [f64], basis: &Basis<'_, D>) {
     let of = choice.limits_from();
     let share = match of {
@@ -122,11 +122,11 @@ fn after<const D: usize>(
 }
 
 impl Choice {
-    /// Whether what is chosen goes together, on the exact path from breakage to breakage or with load steps.
+    /// Checks that the keys of a choice are compatible, on the exact path from breakage to breakage or with load steps.
     ///
     /// # Errors
     ///
-    /// If a key does not go with the kind or the law of softening, is missing beside another or out of range.
+    /// If a key does not belong to the kind or the law of softening, is missing beside another or out of range.
     pub fn check(&self, on_exact_path: bool) -> Result<(), Unfit> {
         self.refuse_parameters()?;
         self.check_together()?;
@@ -149,7 +149,7 @@ impl Choice {
         Ok(())
     }
 
-    /// Parameters of other laws than what bonds do after the limit.
+    /// Refuses parameters that the law of softening does not have.
     fn refuse_parameters(&self) -> Result<(), Unfit> {
         let own = self.after.parameter.map(|it| it.key);
         let given = self.parameters();
@@ -162,12 +162,12 @@ impl Choice {
                 field: other.key,
                 named: Setting::Field(other.key),
                 setting: Setting::After(self.after.word),
-                reason: Advice::new(other.of_it_alone, [Setting::After(word)]),
+                reason: Advice::new(other.exclusive_reason, [Setting::After(word)]),
             }),
         }
     }
 
-    /// Keys that mean nothing with the kind: a user who gives one expects what will not happen.
+    /// Refuses keys without effect on the kind, from which a user would expect one.
     fn refuse_keys(&self) -> Result<(), Unfit> {
         let calibration = ("calibration", self.calibration.map(|_| 0.0));
         let others = [
@@ -182,23 +182,25 @@ impl Choice {
         let Some((key, _)) = refused.next() else {
             return Ok(());
         };
-        let takers = takers(key);
+        let kinds_with_key = kinds_with_key(key);
         let reason = match (key, self.kind.keys) {
             ("limit", ["critical_stretch", ..]) => {
                 "it has two limits: `critical_stretch` of opening and `critical_angle` of shear"
                     .to_owned()
             }
-            ("limit", _) => format!("its limits come from the material; {takers} take one"),
+            ("limit", _) => format!("its limits come from the material; {kinds_with_key} take one"),
             ("calibration", _) => {
-                format!("only the limit of {takers} can come from the strengths in two ways")
+                format!(
+                    "only the limit of {kinds_with_key} can come from the strengths in two ways"
+                )
             }
-            ("friction_angle", _) => format!("only {takers} have friction"),
-            ("cohesion", _) => format!("only {takers} has a cohesion"),
+            ("friction_angle", _) => format!("only {kinds_with_key} have friction"),
+            ("cohesion", _) => format!("only {kinds_with_key} has a cohesion"),
             ("fibre_distance", _) => {
-                format!("only {takers} looks at a fibre beside the axis of the bond")
+                format!("only {kinds_with_key} looks at a fibre beside the axis of the bond")
             }
             _ => format!(
-                "only {takers} has a limit for opening and one for shear; others take one as `limit`"
+                "only {kinds_with_key} has a limit for opening and one for shear; others take one as `limit`"
             ),
         };
         Err(Unfit::NotWith {
@@ -209,7 +211,7 @@ impl Choice {
         })
     }
 
-    /// A kind with two limits takes both or none.
+    /// Refuses one limit alone of a kind with two.
     fn check_together(&self) -> Result<(), Unfit> {
         let of_kind =
             (self.own_limits().into_iter()).filter(|(key, _)| self.kind.keys.contains(key));
@@ -226,7 +228,7 @@ impl Choice {
         }
     }
 
-    /// What bonds may do after their limit depends on the criterion and on what drives the load.
+    /// Refuses softening that the criterion or the control of the load does not allow.
     fn refuse_softening(&self, on_exact_path: bool) -> Result<(), Unfit> {
         let law = &self.after;
         if let Some(reason) = self.kind.softens_because.filter(|_| !law.softens) {
@@ -279,8 +281,8 @@ impl Choice {
     }
 }
 
-/// The kinds that take a key, in words: "a", "b" and "c".
-fn takers(key: &str) -> String {
+/// Names of the kinds that have a key: `a`, `b` and `c`.
+fn kinds_with_key(key: &str) -> String {
     let kinds = KINDS.iter().filter(|it| it.keys.contains(&key));
     let words: Vec<String> = kinds.map(|it| format!("\"{}\"", it.word)).collect();
     match words.as_slice() {

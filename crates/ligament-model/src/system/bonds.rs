@@ -1,4 +1,4 @@
-//! Implementation of the interface to the equations for a bond system.
+//! Implementation of [`Bonds`] for a bond system.
 
 use super::contact::Moved;
 use super::{BondSystem, ElementSystem, UnbrokenBonds};
@@ -134,7 +134,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         bonds: &[u32],
     ) -> Vec<BondDeformation> {
         let of_bond = |&bond: &u32| {
-            let element = self.whole(intact, bond as usize);
+            let element = self.whole_element(intact, bond as usize);
             element.deformation(displacement).measured()
         };
         bonds.iter().map(of_bond).collect()
@@ -150,12 +150,12 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
     }
 
     fn terms(&self, intact: &[bool], bond: usize, remaining: &StiffnessFactors) -> Vec<Term> {
-        self.whole(intact, bond).weakened(remaining).terms()
+        self.whole_element(intact, bond).weakened(remaining).terms()
     }
 
     fn add_blocks(&self, bonds: UnbrokenBonds<'_>, point: u32, lower: &[u32], blocks: &mut [f64]) {
         for &bond in self.topology.elements_at_points.at(point) {
-            let Some(element) = self.left(bonds, bond as usize) else {
+            let Some(element) = self.remaining_element(bonds, bond as usize) else {
                 continue;
             };
             element.upper_blocks(point, |other, block| {
@@ -197,7 +197,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
 
     fn add_derivatives(&self, intact: &[bool], add: &mut dyn FnMut(usize, usize, f64)) {
         for bond in 0..self.system.bonds.len() {
-            self.whole(intact, bond).derivatives(&mut *add);
+            self.whole_element(intact, bond).derivatives(&mut *add);
         }
     }
 
@@ -218,7 +218,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         remaining: &StiffnessFactors,
         [one, other]: [&Deformations; 2],
     ) -> f64 {
-        let element = self.whole(intact, bond).weakened(remaining);
+        let element = self.whole_element(intact, bond).weakened(remaining);
         element.mutual_energy(&of_bonds(one)[bond], &of_bonds(other)[bond])
     }
 
@@ -271,7 +271,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         measured: &BondDeformation,
     ) -> f64 {
         let deformation = Deformation::with_measures(measured);
-        let element = self.whole(intact, bond).weakened(remaining);
+        let element = self.whole_element(intact, bond).weakened(remaining);
         element.mutual_energy(&deformation, &deformation)
     }
 
@@ -291,7 +291,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         let deformations: &[E::Deformation] = of_bonds(deformations);
         let family = self.system.bonds.incidence.at(point).iter();
         let shares = family.filter_map(|&bond| {
-            let element = self.left(bonds, bond as usize)?;
+            let element = self.remaining_element(bonds, bond as usize)?;
             let deformation = &deformations[bond as usize];
             let energy = element.mutual_energy(deformation, deformation);
             let is_first = self.topology.ends[bond as usize][0] == point;
@@ -406,7 +406,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
             return 0.0;
         };
         let pulls = crossing.iter().filter_map(|&(bond, first_is_near)| {
-            let element = self.left(bonds, bond as usize)?;
+            let element = self.remaining_element(bonds, bond as usize)?;
             let forces = element.end_forces(&deformations[bond as usize])?;
             // The end force keeps the end in place against the bond, whose pull is opposite.
             Some(-forces[usize::from(!first_is_near)][place])

@@ -12,9 +12,9 @@ use crate::thermal::ThermalStrain;
 pub(crate) struct ElementsAtPoint<const D: usize> {
     /// Volume of the elements at the point, m^3.
     pub(crate) volume: f64,
-    /// Strain of the point by least squares.
+    /// Strain at the point by least squares.
     strain: SymTensor<D>,
-    /// Stress of the strain, Pa.
+    /// Stress at this strain, Pa.
     pub(crate) stress: SymTensor<D>,
 }
 

@@ -6,9 +6,8 @@ use super::hooke::Moduli;
 use super::kind::Limits;
 use crate::material::VolumetricSplit;
 
-/// Limits of a stress across the bonds over E', from those of the materials (n_materials), with the coefficients of its measure that a
-/// function makes of the index of a material and its moduli. A bond of several materials has those of the softest.
-pub(super) fn of_stress<const D: usize, const N: usize>(
+/// Limits of a stress across the bonds over E', from the limits of the materials (n_materials), with coefficients of the measure as a function of the index of a material and its moduli. A bond of several materials has the coefficients of the softest one.
+pub(super) fn stress_limits<const D: usize, const N: usize>(
     basis: &Basis<'_, D>,
     of_materials: &[f64],
     coefficients: impl Fn(usize, &Moduli) -> [f64; N],
