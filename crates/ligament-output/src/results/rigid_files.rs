@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use ligament_analysis::contact::{RigidBody, RigidState};
 use ligament_analysis::result_fields::DISPLACEMENT;
 
+use super::FIELDS;
 use crate::Error;
 use crate::FieldLocation;
 use crate::vtu::read::VtuFile;
@@ -12,7 +13,6 @@ use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
 
 /// Beginning of the name of a file of rigid bodies, in the place of that of the fields.
 pub(super) const STEM: &str = "rigid";
-const FIELDS: &str = "fields";
 
 /// Rigid bodies in a state, by their surfaces.
 #[derive(Debug, Clone, PartialEq, Default)]
