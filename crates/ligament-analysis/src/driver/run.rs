@@ -225,9 +225,10 @@ impl<E: Equations> Run<'_, E> {
         &mut self,
         record: &StepRecord,
         (balanced, rates): (&Balanced, Option<Rates<'_>>),
-        [is_last, is_whole]: [bool; 2],
+        shown: [bool; 2],
         method: ObserverMethod,
     ) -> Result<(), ObserverError> {
+        let [is_last, is_whole] = shown;
         let softened = self.softened();
         let Self {
             problem,

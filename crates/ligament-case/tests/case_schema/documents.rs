@@ -100,7 +100,6 @@ scatter = { of = "strength", modulus = 12 }
 criterion = [{ kind = "frictional" }, { kind = "tension", limit = 1e-4, after = { kink = [0.2, 0.3] }, end = 9 }]
 [output]
 stress = ["material", "virial"]
-during_breakage = 20
 "#;
 
 const LATTICE: &str = r#"

@@ -6,11 +6,9 @@ use ligament_analysis::largest_utilisation::LargestUtilisations;
 use serde::{Deserialize, Serialize};
 
 use super::between_breakages::StatesBetweenBreakages;
-use super::rigid_files::STEM;
 use super::softening_table::{self, SofteningProgress};
-use super::stored_state::StoredState;
+use super::stored_state::{BONDS, FIELDS, RIGID, StoredState};
 use super::tables::{FILES, TablesProgress};
-use super::{BONDS, FIELDS};
 use crate::file_digest::FileDigest;
 use crate::folder::{Kind, ResultFolder};
 
@@ -66,7 +64,7 @@ impl OutputState {
         let softening = softening.map(|progress| (softening_table::FILE, progress.written));
         // Of the states between breakages some are dropped later.
         let may_be_dropped = |name: &str| {
-            let state = [FIELDS, BONDS, STEM].map(|stem| StoredState::of_file(name, stem));
+            let state = [FIELDS, BONDS, RIGID].map(|stem| StoredState::of_file(name, stem));
             let mut between = state.into_iter().flatten();
             between.any(|it| it.breakages().is_some()) && !folder.file(name).exists()
         };

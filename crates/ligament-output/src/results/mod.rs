@@ -78,14 +78,11 @@ use rule::{WrittenState, n_bonds_of_body};
 pub use softening_table::CrackedBelow;
 use softening_table::SofteningTable;
 pub use stored_state::StoredState;
+use stored_state::{BONDS, FIELDS, RIGID};
 pub use surface_files::{SURFACE_FILES, stored_jumps, write_series, write_surface};
 pub use tables::criterion_labels;
 use tables::{CRITERIA_FILE, Tables, deformation_names};
 pub use tables::{history_columns, history_row};
-
-/// Beginnings of the names of the files of a state.
-const FIELDS: &str = "fields";
-const BONDS: &str = "bonds";
 
 /// Observer that writes the results of a run.
 pub struct ResultWriter<'a> {
@@ -195,7 +192,7 @@ impl<'a> ResultWriter<'a> {
         let is_rigid = !problem.contact.rigid_bodies.is_empty();
         let beside = |(time, name): &(f64, String)| (*time, rigid_files::name_beside(name));
         let rigid: Vec<(f64, String)> = fields.iter().filter(|_| is_rigid).map(beside).collect();
-        remove_others(folder, rigid_files::STEM, &rigid)?;
+        remove_others(folder, RIGID, &rigid)?;
         let mut step_of_breaking = vec![-1; fixed.domain_factor.len()];
         set_steps_of_breaking(&mut step_of_breaking, problem, &breaks);
         Ok(Self {
@@ -276,7 +273,7 @@ impl<'a> ResultWriter<'a> {
         let collections = [
             (FIELDS, &mut self.fields_collection),
             (BONDS, &mut self.bonds_collection),
-            (rigid_files::STEM, &mut self.rigid_collection),
+            (RIGID, &mut self.rigid_collection),
         ];
         for (stem, collection) in collections {
             let is_kept = |name: &str| {

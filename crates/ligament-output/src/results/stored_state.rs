@@ -7,6 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::vtu;
 
+/// Beginnings of the names of the files of a state: its fields, its bonds, and its rigid bodies.
+pub(super) const FIELDS: &str = "fields";
+pub(super) const BONDS: &str = "bonds";
+pub(super) const RIGID: &str = "rigid";
+
 /// A state of a run, in the order of the states: `45` is the end of load step 45 (or an event, a row of a motion, a mode), `45:120` the
 /// equilibrium of that step after 120 of its breakages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
