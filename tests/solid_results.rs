@@ -22,7 +22,7 @@ fn the_crack_of_a_stored_run_is_a_surface_with_its_opening() {
         write_results(folder.path(), &body);
         assert!(has_solid(folder.path()).unwrap());
         let cracks = SolidCracks::open(folder.path()).unwrap();
-        let surface = write_surface(folder.path(), &cracks, 3).unwrap();
+        let surface = write_surface(folder.path(), &cracks, 3.into()).unwrap();
         assert!(
             (surface.area() / 60.0 - 1.0).abs() < 0.01,
             "{}",
@@ -77,7 +77,7 @@ fn cells_open_along_the_crack_of_a_stored_run() {
     let folder = tempfile::tempdir().unwrap();
     write_results(folder.path(), &block([12, 5, 7], 0.2));
     let cracks = SolidCracks::open(folder.path()).unwrap();
-    write_surface(folder.path(), &cracks, 3).unwrap();
+    write_surface(folder.path(), &cracks, 3.into()).unwrap();
     let file = VtuFile::open(folder.path().join("opened.vtu")).unwrap();
     let points = file.points().unwrap();
     let moved = file

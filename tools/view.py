@@ -20,7 +20,7 @@ SIZE = (1000, 900)
 def parse():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, metavar="RESULT_FOLDER")
-    parser.add_argument("--step", type=int, help="the step of a fields_NNNN.vtu [default: the last]")
+    parser.add_argument("--step", help="the step of a fields_NNNN.vtu, or 45:120 of fields_0045_0120.vtu [default: the last]")
     parser.add_argument("--field", default="damage", metavar="NAME", help="[default: damage]")
     parser.add_argument("--range", type=float, nargs=2, metavar=("LEAST", "LARGEST"), help="of the colours [default: 0 1 for damage]")
     parser.add_argument("--factor", type=float, help="times the displacement [default: such that it is 5 %% of the body]")
@@ -30,8 +30,10 @@ def parse():
 
 
 def steps(folder):
-    """Files of fields by their steps."""
-    return {int(path.stem.removeprefix("fields_")): path for path in sorted(folder.glob("fields_*.vtu"))}
+    """Files of fields by their states in order: "45", or between breakages "45:120" before it."""
+    numbers = lambda path: [int(it) for it in path.stem.removeprefix("fields_").split("_")]
+    ordered = sorted(folder.glob("fields_*.vtu"), key=lambda path: (*numbers(path), float("inf")))
+    return {":".join(map(str, numbers(path))): path for path in ordered}
 
 
 def time_of(folder, file):
@@ -70,9 +72,9 @@ def main():
     found = steps(arguments.folder)
     if not found:
         parser.error(f"{arguments.folder} has no fields_NNNN.vtu: it is no result folder of a run with loads")
-    step = max(found) if arguments.step is None else arguments.step
+    step = list(found)[-1] if arguments.step is None else arguments.step
     if step not in found:
-        parser.error(f"there are no fields of step {step}, but of {', '.join(str(it) for it in found)}")
+        parser.error(f"there are no fields of step {step}, but of {', '.join(found)}")
     grid = pyvista.read(found[step])
     if arguments.field not in fields_of(grid):
         parser.error(f"there is no {arguments.field}, but {', '.join(fields_of(grid).keys())}")
@@ -86,7 +88,7 @@ def main():
     bar = {"title": arguments.field, "color": "black", "vertical": True, "fmt": "%.3g"}
     deformed = grid.warp_by_vector("displacement", factor=factor)
     plotter.add_mesh(deformed, scalars=arguments.field, clim=limits, cmap="cividis", scalar_bar_args=bar, lighting=False)
-    bonds = arguments.folder / f"bonds_{step:04}.vtu"
+    bonds = found[step].with_name(found[step].name.replace("fields", "bonds", 1))
     if bonds.is_file():
         lines = pyvista.read(bonds).warp_by_vector("displacement", factor=factor)
         broken = lines.extract_cells(np.flatnonzero(lines.cell_data["intact"] == 0))

@@ -335,6 +335,26 @@ pub trait Observer {
         true
     }
 
+    /// Whether the observer reads the body in an equilibrium of a load step in which `broken` bonds broke so far, before others break.
+    ///
+    /// On a divided body all processes take part if one reads it.
+    fn looks_between_breakages(
+        &mut self,
+        _step: usize,
+        _broken: usize,
+    ) -> Result<bool, ObserverError> {
+        Ok(false)
+    }
+
+    /// Called in an equilibrium between the breakages of a load step that an observer reads; its record is no row of the history.
+    fn between_breakages(
+        &mut self,
+        _record: &StepRecord,
+        _view: &View<'_>,
+    ) -> Result<(), ObserverError> {
+        Ok(())
+    }
+
     /// Called at the end of a load step or event.
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError>;
 }

@@ -1,5 +1,6 @@
 //! The commands as a user calls them: the program is run, and its files and messages are checked.
 
+mod between_breakages;
 mod cad;
 mod calibrate_command;
 mod cite_command;

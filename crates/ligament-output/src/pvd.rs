@@ -73,6 +73,20 @@ impl Collection {
         replace_file(&self.path, self.to_xml().as_bytes())
     }
 
+    /// Takes files off the list whose names are not kept.
+    ///
+    /// # Errors
+    ///
+    /// If the collection cannot be written.
+    pub(crate) fn retain(&mut self, is_kept: impl Fn(&str) -> bool) -> Result<(), Error> {
+        let n_before = self.outputs.len();
+        self.outputs.retain(|(_, file)| is_kept(file));
+        match self.outputs.len() {
+            after if after == n_before => Ok(()),
+            _ => replace_file(&self.path, self.to_xml().as_bytes()),
+        }
+    }
+
     fn to_xml(&self) -> String {
         let mut xml = String::from(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\

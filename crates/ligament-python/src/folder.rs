@@ -17,7 +17,7 @@ use ligament_output::results::location;
 use ligament_output::results::outputs::{OutputKind, Outputs, kind_of, require_results};
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
 use ligament_output::results::steps::StepChoice;
-use ligament_output::results::stored_jumps;
+use ligament_output::results::{StoredState, stored_jumps};
 use ligament_output::vtu::read::{TAG_NOUNS, VtuFile};
 use ligament_plot::stored_loading::stored_loading;
 use ligament_report::{DIGITS, MEGABYTE, SIZE, STEPS, write_report};
@@ -47,6 +47,12 @@ type Limits = (Option<u32>, Option<u32>, Option<f64>);
 /// The exception of a fault in a folder.
 fn folder_error(py: Python<'_>) -> impl Fn(Error) -> PyErr {
     move |error| errors::program_error(py, &error)
+}
+
+/// The state of a name, `45` or `45:120`.
+fn stored_state(py: Python<'_>, name: &str) -> PyResult<StoredState> {
+    name.parse()
+        .map_err(|error: String| errors::request_error(py, &error))
 }
 
 #[pymethods]
@@ -92,22 +98,31 @@ impl Folder {
         Ok(loading.probes.into_keys().collect())
     }
 
-    /// Steps with fields; of natural modes the numbers of the modes.
+    /// Steps with fields at their ends; of natural modes the numbers of the modes.
     fn steps(&self, py: Python<'_>) -> PyResult<Vec<usize>> {
-        Ok(self.outputs(py)?.files.into_keys().collect())
+        let states = self.outputs(py)?.states().into_iter();
+        let ends = states.filter(|it| it.breakages().is_none());
+        Ok(ends.map(|it| it.step).collect())
     }
 
-    /// The step that a name or a number means, among those with fields or among all of the history.
-    fn step(&self, py: Python<'_>, name: &str, of_fields: bool) -> PyResult<usize> {
+    /// Names of all states with fields: `45` is the end of a step, `45:120` the step after 120 breakages.
+    fn states(&self, py: Python<'_>) -> PyResult<Vec<String>> {
+        let states = self.outputs(py)?.states();
+        Ok(states.iter().map(StoredState::to_string).collect())
+    }
+
+    /// Name of the state that a name or a number means, among those with fields or also among all of the history.
+    fn state(&self, py: Python<'_>, name: &str, of_fields: bool) -> PyResult<String> {
         let fault = |error: String| errors::request_error(py, &error);
-        let all = match of_fields {
-            true => self.steps(py)?,
-            false => {
-                let history =
-                    CsvTable::read(self.path.join("history.csv")).map_err(folder_error(py))?;
-                history.values("step").map_err(folder_error(py))?
-            }
-        };
+        let mut all = self.outputs(py)?.states();
+        if !of_fields {
+            let history =
+                CsvTable::read(self.path.join("history.csv")).map_err(folder_error(py))?;
+            let steps: Vec<usize> = history.values("step").map_err(folder_error(py))?;
+            all.extend(steps.into_iter().map(StoredState::end));
+            all.sort_unstable();
+            all.dedup();
+        }
         let choice: StepChoice = name
             .parse()
             .map_err(|it| fault(format!("step `{name}`: {it}")))?;
@@ -116,25 +131,25 @@ impl Folder {
             .map_err(|it| errors::program_error(py, &it))?
             .as_slice()
         {
-            [one] => Ok(one.step),
+            [one] => Ok(one.state.to_string()),
             _ => Err(fault(format!(
                 "`{name}` means several steps; name one of them"
             ))),
         }
     }
 
-    /// The file with the fields of a step.
-    fn file(&self, py: Python<'_>, step: usize) -> PyResult<PathBuf> {
+    /// The file with the fields of a state.
+    fn file(&self, py: Python<'_>, state: &str) -> PyResult<PathBuf> {
         let mut outputs = self.outputs(py)?;
-        let file = outputs.files.remove(&step);
+        let file = outputs.files.remove(&stored_state(py, state)?);
         file.ok_or_else(|| {
-            errors::request_error(py, &format!("there are no fields of step {step}"))
+            errors::request_error(py, &format!("there are no fields of step {state}"))
         })
     }
 
-    /// Names of the fields in a step, each with the names of its components and whether it stays as it is in all steps.
-    fn fields<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Bound<'py, PyDict>> {
-        let file = VtuFile::open(self.file(py, step)?).map_err(folder_error(py))?;
+    /// Names of the fields in a state, each with the names of its components and whether it stays as it is in all states.
+    fn fields<'py>(&self, py: Python<'py>, state: &str) -> PyResult<Bound<'py, PyDict>> {
+        let file = VtuFile::open(self.file(py, state)?).map_err(folder_error(py))?;
         let location = location(&file);
         let named = PyDict::new(py);
         for name in file.fields(location) {
@@ -154,16 +169,16 @@ impl Folder {
         Ok(named)
     }
 
-    /// A field of a step, shape (n_points) or (n_points, n_components).
-    fn field<'py>(&self, py: Python<'py>, step: usize, name: &str) -> PyResult<Bound<'py, PyAny>> {
-        let path = self.file(py, step)?;
+    /// A field of a state, shape (n_points) or (n_points, n_components).
+    fn field<'py>(&self, py: Python<'py>, state: &str, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        let path = self.file(py, state)?;
         let read = py.detach(|| Values::read(&path, name));
         read.map_err(folder_error(py))?.array(py)
     }
 
     /// Positions of the points by a file of fields, shape (n_points, 3), m.
-    fn positions<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Bound<'py, PyAny>> {
-        let path = self.file(py, step)?;
+    fn positions<'py>(&self, py: Python<'py>, state: &str) -> PyResult<Bound<'py, PyAny>> {
+        let path = self.file(py, state)?;
         let read = py.detach(|| VtuFile::open(path).and_then(|it| positions_of_fields(&it)));
         rows(py, read.map_err(folder_error(py))?.into_flattened(), 3)
     }
@@ -195,9 +210,10 @@ impl Folder {
         has_solid(&self.path).map_err(folder_error(py))
     }
 
-    /// The cracks in the state of a step, as lines.
-    fn cracks<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Vec<Line<'py>>> {
-        let lines = py.detach(|| StoredCracks::open(&self.path).map(|it| it.lines(step)));
+    /// The cracks in a state, as lines.
+    fn cracks<'py>(&self, py: Python<'py>, state: &str) -> PyResult<Vec<Line<'py>>> {
+        let state = stored_state(py, state)?;
+        let lines = py.detach(|| StoredCracks::open(&self.path).map(|it| it.lines(state)));
         let lines = lines.map_err(folder_error(py))?.into_iter();
         lines
             .map(|line| {
@@ -207,15 +223,16 @@ impl Folder {
             .collect()
     }
 
-    /// Openings along a line in a step: distances from its start, openings and slidings, not a number where a side has too few points.
+    /// Openings along a line in a state: distances from its start, openings and slidings, not a number where a side has too few points.
     fn openings<'py>(
         &self,
         py: Python<'py>,
-        step: usize,
+        state: &str,
         ends: [[f64; 2]; 2],
         samples: usize,
     ) -> PyResult<Bound<'py, PyDict>> {
-        let found = py.detach(|| stored_openings(&self.path, step, ends, samples));
+        let state = stored_state(py, state)?;
+        let found = py.detach(|| stored_openings(&self.path, state, ends, samples));
         let found = found.map_err(folder_error(py))?;
         let jump = |axis: usize| {
             found
@@ -230,12 +247,13 @@ impl Folder {
         Ok(named)
     }
 
-    /// The crack surface of a solid in the state of a step.
-    fn surface<'py>(&self, py: Python<'py>, step: usize) -> PyResult<Bound<'py, PyDict>> {
+    /// The crack surface of a solid in a state.
+    fn surface<'py>(&self, py: Python<'py>, state: &str) -> PyResult<Bound<'py, PyDict>> {
+        let state = stored_state(py, state)?;
         let read = py.detach(|| {
             let cracks = SolidCracks::open(&self.path)?;
-            let surface = cracks.surface(step);
-            let jumps = stored_jumps(&self.path, &cracks, &surface, step)?;
+            let surface = cracks.surface(state);
+            let jumps = stored_jumps(&self.path, &cracks, &surface, state)?;
             Ok::<_, Error>((surface, jumps))
         });
         let (surface, jumps) = read.map_err(folder_error(py))?;

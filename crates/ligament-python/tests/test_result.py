@@ -101,6 +101,22 @@ def test_fields_are_there_for_the_steps_that_are_kept(result: Any) -> None:
         result.field("damages")
 
 
+def test_states_between_breakages_are_read_by_their_names(plate: dict[str, Any], result: Any) -> None:
+    seen = ligament.run(plate, output__during_breakage=4, progress=False)
+    assert seen.steps == result.steps
+    between = [it for it in seen.states if ":" in it]
+    assert [it for it in seen.states if ":" not in it] == [str(it) for it in result.steps]
+    assert between and seen.states.index(between[-1]) == len(seen.states) - 2
+    for state in between:
+        step, breakages = map(int, state.split(":"))
+        before = int(seen.columns["broken_bonds"][step]) - int(seen.columns["broken_in_step"][step])
+        # The ends of the bonds that broke until then are damaged, and no other point is.
+        ends = np.concatenate([np.asarray(seen.breaks[name])[: before + breakages] for name in ("cell_a", "cell_b")])
+        assert np.count_nonzero(seen.field("damage", state)) == len(np.unique(ends))
+        assert seen.plot(step=state).svg
+    np.testing.assert_array_equal(seen.columns["reaction"], result.columns["reaction"])
+
+
 def test_components_and_steps_have_the_names_of_the_command_line(result: Any) -> None:
     whole = result.field("displacement", 10)
     np.testing.assert_array_equal(result.field("displacement.y", 10), whole[:, 1])

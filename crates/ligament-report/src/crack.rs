@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
 use ligament_output::Error;
+use ligament_output::results::StoredState;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::SolidCracks;
 use rayon::prelude::*;
@@ -17,35 +18,40 @@ use crate::parts::ColumnTexts;
 /// Digits of the positions of nodes.
 const DIGITS: u32 = 6;
 
-/// The cracks of the steps.
+/// The cracks of the states.
 ///
 /// # Errors
 ///
 /// If a file cannot be used.
 pub(crate) fn describe(
     folder: &Path,
-    steps: &[usize],
+    states: &[StoredState],
     body: &Body,
     texts: &mut ColumnTexts,
 ) -> Result<Value, Error> {
     match body.dimension {
         3 => Ok(solid_cracks(
             &SolidCracks::open(folder)?,
-            steps,
+            states,
             body,
             texts,
         )),
-        _ => Ok(in_plane(&StoredCracks::open(folder)?, steps, body, texts)),
+        _ => Ok(in_plane(&StoredCracks::open(folder)?, states, body, texts)),
     }
 }
 
 /// Crack lines of the steps, each a list of lines of coordinates x, y, `null` where unchanged from the step before, and their length; triangles
 /// of a mesh that are cut at some time, with the sides of their corners in each step.
-fn in_plane(cracks: &StoredCracks, steps: &[usize], body: &Body, texts: &mut ColumnTexts) -> Value {
+fn in_plane(
+    cracks: &StoredCracks,
+    states: &[StoredState],
+    body: &Body,
+    texts: &mut ColumnTexts,
+) -> Value {
     let (mut before, mut lengths) = (Value::Null, Vec::new());
     let mut of_steps = Vec::new();
-    for &step in steps {
-        let lines = cracks.lines(step);
+    for &state in states {
+        let lines = cracks.lines(state);
         lengths.push(lines.iter().fold(0.0, |sum, line| sum + line.length()));
         let coordinate = |it: &f64| (it * 1e7).round() / 1e7;
         let now: Value = (lines.into_iter())
@@ -64,23 +70,23 @@ fn in_plane(cracks: &StoredCracks, steps: &[usize], body: &Body, texts: &mut Col
         "size": column("crack length", "m", &lengths),
         "area": column("crack area", "m^2", &areas),
     });
-    let triangles = triangles(cracks, steps);
+    let triangles = triangles(cracks, states);
     if !triangles.is_empty() {
         let corners: Vec<[u32; 3]> = triangles.iter().map(|it| it.0).collect();
         described["of"] = mesh_simplices(&corners, body, texts);
-        let sides = (0..steps.len()).map(|step| triangles.iter().map(|it| it.1[step]).collect());
+        let sides = (0..states.len()).map(|step| triangles.iter().map(|it| it.1[step]).collect());
         add_sides(&mut described, sides, texts);
     }
     described
 }
 
 /// Triangles of the cells that are cut at some time, by their corners in the files, with the codes of their sides in each step.
-fn triangles(cracks: &StoredCracks, steps: &[usize]) -> Vec<([u32; 3], Vec<f64>)> {
-    let of_step = |step: &usize| -> BTreeMap<usize, [u8; 4]> {
-        let sides = cracks.sides(*step).into_iter().enumerate();
+fn triangles(cracks: &StoredCracks, states: &[StoredState]) -> Vec<([u32; 3], Vec<f64>)> {
+    let of_state = |state: &StoredState| -> BTreeMap<usize, [u8; 4]> {
+        let sides = cracks.sides(*state).into_iter().enumerate();
         sides.filter(|it| it.1 != [0; 4]).collect()
     };
-    let of_steps: Vec<BTreeMap<usize, [u8; 4]>> = steps.par_iter().map(of_step).collect();
+    let of_steps: Vec<BTreeMap<usize, [u8; 4]>> = states.par_iter().map(of_state).collect();
     let cut: BTreeSet<usize> = of_steps.iter().flat_map(BTreeMap::keys).copied().collect();
     let mut triangles = Vec::new();
     for number in cut {
@@ -110,12 +116,12 @@ fn numbered_from_first([first, second, third]: [u8; 3]) -> [u8; 4] {
 /// Tetrahedra that are cut at some time, with the sides of their corners in each step; and the area of the crack surface.
 fn solid_cracks(
     cracks: &SolidCracks,
-    steps: &[usize],
+    states: &[StoredState],
     body: &Body,
     texts: &mut ColumnTexts,
 ) -> Value {
-    let of_steps: Vec<(Vec<[u8; 4]>, f64)> = (steps.par_iter())
-        .map(|step| (cracks.sides(*step), cracks.surface(*step).area()))
+    let of_steps: Vec<(Vec<[u8; 4]>, f64)> = (states.par_iter())
+        .map(|state| (cracks.sides(*state), cracks.surface(*state).area()))
         .collect();
     let areas: Vec<f64> = of_steps.iter().map(|it| it.1).collect();
     let area = column("crack area", "m^2", &areas);

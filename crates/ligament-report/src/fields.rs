@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use ligament_output::Error;
+use ligament_output::results::StoredState;
 use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
 use ligament_output::vtu::read::{TAG_NOUNS, VtuFile};
 use rayon::prelude::*;
@@ -69,7 +70,7 @@ struct IncompleteField {
 ///
 /// If a file cannot be used, or has other points than the first one.
 pub(crate) fn read(
-    files: &BTreeMap<usize, PathBuf>,
+    files: &BTreeMap<StoredState, PathBuf>,
     body: &Body,
     digits: u32,
 ) -> Result<Vec<Field>, Error> {

@@ -8,7 +8,7 @@ use ligament_output::folder::RESOLVED_CASE;
 use ligament_output::results::fields::DISPLACEMENT;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::stored::StoredRun;
-use ligament_output::results::{first_field_of, stored_rigid_bodies};
+use ligament_output::results::{StoredState, first_field_of, stored_rigid_bodies};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, read_text};
 use ligament_plot::picture::stored_precracks;
@@ -63,7 +63,8 @@ impl PageRun {
         let case = read_text(&folder.join(RESOLVED_CASE))?;
         let loading = stored_loading(folder)?;
         let inputs = Inputs::read(folder, choice.unit_of)?;
-        let steps: Vec<usize> = files.keys().copied().collect();
+        let states: Vec<StoredState> = files.keys().copied().collect();
+        let steps: Vec<usize> = states.iter().map(|it| it.step).collect();
         let first = VtuFile::open(first_file(&files, folder)?)?;
         let body = Body::read(&first)?;
         let mut budget = Budget::new(choice.letters);
@@ -85,9 +86,10 @@ impl PageRun {
             "title": title,
             "kind": if is_modes { "modes" } else { "steps" },
             "steps": steps,
+            "between": between_breakages(&files)?,
             "opensAt": match loading.in_time {
                 true => steps.len().saturating_sub(1),
-                false => steps.iter().position(|it| Some(*it) == peak).unwrap_or(0),
+                false => states.iter().position(|it| Some(*it) == peak).unwrap_or(0),
             },
             "inTime": loading.in_time,
             "beforeBreakages": loading.follows_path,
@@ -112,8 +114,8 @@ impl PageRun {
 /// The drawn outputs of a run.
 struct DrawnOutputs<'a> {
     outputs: &'a Outputs,
-    /// Files of the steps, or modes, of the page.
-    files: &'a BTreeMap<usize, PathBuf>,
+    /// Files of the states, or modes, of the page.
+    files: &'a BTreeMap<StoredState, PathBuf>,
     body: &'a Body,
     /// The resolved case.
     case: &'a toml::Table,
@@ -136,10 +138,10 @@ impl DrawnOutputs<'_> {
         let moved = fields.iter().find(|it| it.name == DISPLACEMENT.name);
         let before = texts.n_characters();
         let described = describe_body(body, moved.map_or(0.0, |it| it.usual), texts);
-        let steps: Vec<usize> = self.files.keys().copied().collect();
+        let states: Vec<StoredState> = self.files.keys().copied().collect();
         let cracks = match self.outputs.kind {
             OutputKind::Modes => Value::Null,
-            OutputKind::Steps => crack::describe(folder, &steps, body, texts)?,
+            OutputKind::Steps => crack::describe(folder, &states, body, texts)?,
         };
         budget.try_take("body", texts.n_characters() - before);
         let fields: Vec<Value> = (fields.into_iter())
@@ -171,7 +173,7 @@ impl DrawnOutputs<'_> {
 }
 
 /// Rigid bodies of a run: places and triangles, and the displacements of the places in each step of the page; null where it has none.
-fn rigid_bodies(files: &BTreeMap<usize, PathBuf>) -> Result<Value, Error> {
+fn rigid_bodies(files: &BTreeMap<StoredState, PathBuf>) -> Result<Value, Error> {
     let mut ways = Vec::new();
     let mut first = None;
     for path in files.values() {
@@ -189,21 +191,41 @@ fn rigid_bodies(files: &BTreeMap<usize, PathBuf>) -> Result<Value, Error> {
     }))
 }
 
+/// Breakages of its step before each state between them, with its load, by the place of the state in the page.
+fn between_breakages(files: &BTreeMap<StoredState, PathBuf>) -> Result<Value, Error> {
+    let mut between = serde_json::Map::new();
+    for (place, (state, path)) in files.iter().enumerate() {
+        if let Some(breakages) = state.breakages() {
+            let file = VtuFile::open(path)?;
+            let values = file.field_data()?;
+            let value = |name: &str| values.iter().find(|it| it.0 == name).map(|it| it.1);
+            let described = json!({
+                "breakages": breakages,
+                "displacement": value("load_displacement"),
+                "reaction": value("load_reaction"),
+            });
+            between.insert(place.to_string(), described);
+        }
+    }
+    Ok(Value::Object(between))
+}
+
 /// Coordinates of places one after the other in single precision.
 fn rounded(places: &[[f64; 3]]) -> Vec<f32> {
     places.iter().flatten().map(|it| *it as f32).collect()
 }
 
 /// The step with fields under the largest load that the body carries; none for modes and for a run without a history.
-fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
+fn peak(outputs: &Outputs) -> Result<Option<StoredState>, Error> {
     let history = outputs.folder.join("history.csv");
     if outputs.kind == OutputKind::Modes || !history.is_file() {
         return Ok(None);
     }
     let rows = CsvTable::read(history)?.numbers(["step", "reaction", "at_rest"])?;
+    let state = |row: &[f64; 3]| StoredState::end(row[0] as usize);
     let stored = rows
         .into_iter()
-        .filter(|it| outputs.files.contains_key(&(it[0] as usize)));
+        .filter(|it| outputs.files.contains_key(&state(it)));
     // States at rest come first: a state in which bonds were still breaking is not in equilibrium.
     let size = |[_, reaction, at_rest]: &[f64; 3]| (*at_rest, reaction.abs());
     let largest = stored.reduce(|largest, it| {
@@ -213,11 +235,15 @@ fn peak(outputs: &Outputs) -> Result<Option<usize>, Error> {
             largest
         }
     });
-    Ok(largest.map(|it| it[0] as usize))
+    Ok(largest.as_ref().map(state))
 }
 
-/// The files of the steps of a page: all, or an even selection with the first step, the peak and the last step.
-fn chosen(outputs: &Outputs, most: usize, peak: Option<usize>) -> BTreeMap<usize, PathBuf> {
+/// The files of the states of a page: all, or an even selection with the first state, the peak and the last state.
+fn chosen(
+    outputs: &Outputs,
+    most: usize,
+    peak: Option<StoredState>,
+) -> BTreeMap<StoredState, PathBuf> {
     let count = outputs.files.len();
     if count <= most || outputs.kind == OutputKind::Modes {
         return outputs.files.clone();
@@ -226,14 +252,17 @@ fn chosen(outputs: &Outputs, most: usize, peak: Option<usize>) -> BTreeMap<usize
     let places: Vec<usize> = (0..=last).map(|it| it * (count - 1) / last).collect();
     let numbered = outputs.files.iter().enumerate();
     let of_choice = numbered
-        .filter(|(place, (step, _))| places.binary_search(place).is_ok() || Some(**step) == peak);
+        .filter(|(place, (state, _))| places.binary_search(place).is_ok() || Some(**state) == peak);
     of_choice
-        .map(|(_, (step, path))| (*step, path.clone()))
+        .map(|(_, (state, path))| (*state, path.clone()))
         .collect()
 }
 
-/// First file of the steps of a page; an error where no step was chosen.
-fn first_file<'a>(files: &'a BTreeMap<usize, PathBuf>, folder: &Path) -> Result<&'a Path, Error> {
+/// First file of the states of a page; an error where no state was chosen.
+fn first_file<'a>(
+    files: &'a BTreeMap<StoredState, PathBuf>,
+    folder: &Path,
+) -> Result<&'a Path, Error> {
     let first = files.values().next().map(PathBuf::as_path);
     first.ok_or_else(|| Error::NoResults {
         path: folder.to_path_buf(),

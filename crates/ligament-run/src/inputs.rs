@@ -18,7 +18,7 @@ pub struct Inputs(String);
 
 /// Keys that may change when a run is resumed, because they do not change earlier results. The driver checks that completed load steps
 /// stay.
-pub const CHANGEABLE_KEYS: [&str; 11] = [
+pub const CHANGEABLE_KEYS: [&str; 12] = [
     "fracture.stop.load_fraction",
     "fracture.stop.displacement",
     "fracture.stop.bonds",
@@ -28,6 +28,7 @@ pub const CHANGEABLE_KEYS: [&str; 11] = [
     "motion.stop.bonds",
     "motion.stop.wall_time",
     "output.fields_every",
+    "output.during_breakage",
     "output.checkpoint_every",
     "output.picture",
 ];
@@ -93,6 +94,7 @@ impl Inputs {
     ) -> Result<Self, (PathBuf, io::Error)> {
         let mut plain = case.clone();
         plain.case.output.fields_every = None;
+        plain.case.output.during_breakage = 0;
         plain.case.output.checkpoint_every = None;
         plain.case.output.picture = false;
         if let Some(fracture) = &mut plain.case.fracture {

@@ -179,6 +179,7 @@ pub fn write_rule(case: &CaseFile) -> WriteRule {
     let output = &case.case.output;
     WriteRule {
         fields_every: output.fields_every.unwrap_or_default() as usize,
+        during_breakage: output.during_breakage as usize,
         bonds: output.bonds,
         model: output.model,
         utilisations: case.case.refine.is_some(),

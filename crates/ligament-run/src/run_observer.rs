@@ -170,6 +170,22 @@ impl Observer for RunObserver<'_> {
         self.writer.looks(step)
     }
 
+    fn looks_between_breakages(
+        &mut self,
+        step: usize,
+        broken: usize,
+    ) -> Result<bool, ObserverError> {
+        self.writer.looks_between_breakages(step, broken)
+    }
+
+    fn between_breakages(
+        &mut self,
+        record: &StepRecord,
+        view: &View<'_>,
+    ) -> Result<(), ObserverError> {
+        self.writer.between_breakages(record, view)
+    }
+
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         self.last = StepLine {
             step: record.step as u64,
@@ -218,6 +234,15 @@ impl Observer for PieceObserver<'_> {
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         let writer = self.writer.as_mut();
         writer.map_or(Ok(()), |it| it.step(record, view))
+    }
+
+    fn between_breakages(
+        &mut self,
+        record: &StepRecord,
+        view: &View<'_>,
+    ) -> Result<(), ObserverError> {
+        let writer = self.writer.as_mut();
+        writer.map_or(Ok(()), |it| it.between_breakages(record, view))
     }
 
     fn asks(&mut self, end: Option<&Termination>) -> Result<bool, ObserverError> {

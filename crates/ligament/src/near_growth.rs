@@ -243,6 +243,22 @@ impl Observer for Guarded<'_> {
         self.observer.looks(step)
     }
 
+    fn looks_between_breakages(
+        &mut self,
+        step: usize,
+        broken: usize,
+    ) -> Result<bool, ObserverError> {
+        self.observer.looks_between_breakages(step, broken)
+    }
+
+    fn between_breakages(
+        &mut self,
+        record: &StepRecord,
+        view: &View<'_>,
+    ) -> Result<(), ObserverError> {
+        self.observer.between_breakages(record, view)
+    }
+
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         if let Some(limits) = self.limits.as_ref().filter(|_| view.is_whole) {
             let points = limits.reached(view);

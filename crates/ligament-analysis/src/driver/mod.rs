@@ -4,6 +4,7 @@ mod breaks;
 mod checkpoint;
 pub mod elastic;
 mod energies;
+mod equations;
 pub mod event;
 pub mod motion;
 mod prediction;

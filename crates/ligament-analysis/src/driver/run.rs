@@ -13,16 +13,16 @@ use serde::Serialize;
 use super::breaks::{self, Breaking, Judged};
 use super::checkpoint::{CheckValues, Progress, RestoredRun, WayKind};
 use super::energies::Energies;
+use super::equations::Equations;
 use super::record::{StepCounters, step_record};
 use super::run_messages;
 use super::start::{ElasticAnswer, Start, begin, report_detached_parts, report_mechanisms};
 use super::way::{Outcome, Rows, Stop, StopRules};
 use crate::balanced::{Attempt, Balanced};
-use crate::bond_numbers::{BondNumbers, sum_over_bonds};
+use crate::bond_numbers::sum_over_bonds;
 use crate::breakage::Breakage;
-use crate::breaking::{self, BreakingRule, FirstToBreak, first_of_all};
-use crate::connectivity::{AddedSupport, Fragments};
-use crate::costs::Costs;
+use crate::breaking::{FirstToBreak, first_of_all};
+use crate::connectivity::AddedSupport;
 use crate::equilibrium::{ControlledQuantity, Dissipation, Equilibrium, Target};
 use crate::error::SetupError;
 use crate::history::{
@@ -35,78 +35,13 @@ use crate::result_fields::Solution as BalancedState;
 use crate::serial::{self, Serial, Sink};
 use crate::softened::SoftenedOfAll;
 use crate::softening::Softening;
-use crate::solver::SolverChoice;
 use crate::state::{Solution, State};
 use crate::termination::Verdict;
 use crate::unbalanced::Unbalanced;
 use crate::user_message::Message;
 
-/// Equations of a run: those of its equilibria, or the bonds that explicit steps move without any.
-pub trait Equations {
-    /// Global numbers of the local bonds.
-    fn numbers(&self) -> &BondNumbers;
-
-    /// Connected parts of the body.
-    fn fragments(&self) -> &Fragments;
-
-    /// Accumulated costs.
-    fn costs(&self) -> &Costs;
-
-    /// Solver that was chosen.
-    fn choice(&self) -> SolverChoice;
-
-    /// Appends the bytes from which they are restored.
-    fn write(&self, out: &mut dyn Sink);
-}
-
-impl Equations for Equilibrium {
-    fn numbers(&self) -> &BondNumbers {
-        self.numbers()
-    }
-
-    fn fragments(&self) -> &Fragments {
-        self.fragments()
-    }
-
-    fn costs(&self) -> &Costs {
-        self.costs()
-    }
-
-    fn choice(&self) -> SolverChoice {
-        *self.choice()
-    }
-
-    fn write(&self, out: &mut dyn Sink) {
-        self.write(out);
-    }
-}
-
-/// Bonds that break next in a balanced state of a body by a rule, in order. Collective.
-pub(super) fn next_to_break(
-    problem: &Problem,
-    equations: &impl Equations,
-    rule: &BreakingRule,
-    (state, balanced): (&State, &Balanced),
-) -> Vec<u32> {
-    let criteria = problem.criteria_in(state, balanced);
-    if problem.criteria.list.is_empty() {
-        return Vec::new();
-    }
-    let rule = BreakingRule {
-        tie_tolerance: equations.choice().tie_tolerance(rule.tie_tolerance),
-        ..*rule
-    };
-    let in_file = |bond| problem.system.ends_in_file(bond);
-    let (numbers, deformations) = (equations.numbers(), &balanced.deformations);
-    breaking::next_to_break(
-        numbers,
-        &rule,
-        deformations,
-        &criteria,
-        &state.intact,
-        in_file,
-    )
-}
+/// Method of an observer that takes a record and the state of the body.
+type ObserverMethod = fn(&mut dyn Observer, &StepRecord, &View<'_>) -> Result<(), ObserverError>;
 
 /// A run: the body in its present state, with its equations, its energies and its record.
 ///
@@ -284,6 +219,41 @@ impl<E: Equations> Run<'_, E> {
         step_record(&self.problem, solution, &self.energies, fragments, counters)
     }
 
+    /// Passes the present balanced state with its record to a method of the observer; without `is_whole` displacements are known at supported
+    /// and loaded points alone. Collective.
+    fn show(
+        &mut self,
+        record: &StepRecord,
+        (balanced, rates): (&Balanced, Option<Rates<'_>>),
+        shown: [bool; 2],
+        method: ObserverMethod,
+    ) -> Result<(), ObserverError> {
+        let [is_last, is_whole] = shown;
+        let softened = self.softened();
+        let Self {
+            problem,
+            observer,
+            equations,
+            state,
+            ..
+        } = self;
+        let criteria = problem.criteria_in(state, balanced);
+        let view = View {
+            softened,
+            system: &*problem.system,
+            state,
+            balanced,
+            loads: &*problem.loads,
+            criteria: &criteria,
+            fragments: equations.fragments(),
+            costs: equations.costs(),
+            motion: rates,
+            is_last,
+            is_whole,
+        };
+        method(*observer, record, &view)
+    }
+
     /// Adds a record to the history, passes it to the observer and tells what is wrong with it; without `is_whole` displacements are known at
     /// supported and loaded points alone.
     pub(super) fn push(
@@ -292,7 +262,8 @@ impl<E: Equations> Run<'_, E> {
         (balanced, rates): (&Balanced, Option<Rates<'_>>),
         [is_last, is_whole]: [bool; 2],
     ) -> Result<(), ObserverError> {
-        let softened = self.softened();
+        let method: ObserverMethod = |observer, record, view| observer.step(record, view);
+        self.show(&record, (balanced, rates), [is_last, is_whole], method)?;
         let Self {
             problem,
             observer,
@@ -301,22 +272,7 @@ impl<E: Equations> Run<'_, E> {
             progress,
             ..
         } = self;
-        let criteria = problem.criteria_in(state, balanced);
         let fragments = equations.fragments();
-        let view = View {
-            softened,
-            system: &*problem.system,
-            state,
-            balanced,
-            loads: &*problem.loads,
-            criteria: &criteria,
-            fragments,
-            costs: equations.costs(),
-            motion: rates,
-            is_last,
-            is_whole,
-        };
-        observer.step(&record, &view)?;
         let (step, is_moving) = (record.step, rates.is_some());
         let mut messages = Vec::new();
         if is_whole && (record.at_rest || !is_moving) {
@@ -643,12 +599,33 @@ impl<'a> Run<'a> {
         self.record_shown(balanced, counters, [false, false])
     }
 
-    fn record_shown(
+    /// Whether an observer reads the equilibrium of a step in which so many bonds broke, before others break. Collective.
+    pub(super) fn is_seen_between_breakages(
+        &mut self,
+        step: usize,
+        broken: usize,
+    ) -> Result<bool, ObserverError> {
+        let is_seen = self.observer.looks_between_breakages(step, broken)?;
+        Ok(self.problem.system.subdomain.any(is_seen))
+    }
+
+    /// Shows the observer an equilibrium between the breakages of a step.
+    pub(super) fn show_between_breakages(
         &mut self,
         balanced: &Balanced,
         counters: StepCounters,
-        shown: [bool; 2],
-    ) -> Result<(), SetupError> {
+    ) -> Result<(), ObserverError> {
+        let record = self.counted_row(balanced, counters);
+        self.show(
+            &record,
+            (balanced, None),
+            [false, true],
+            |observer, record, view| observer.between_breakages(record, view),
+        )
+    }
+
+    /// Record of an equilibrium with the numbers of broken bonds, solves and negative eigenvalues that the run counts.
+    fn counted_row(&self, balanced: &Balanced, counters: StepCounters) -> StepRecord {
         let Progress {
             broken,
             solves: [last, recorded],
@@ -661,7 +638,16 @@ impl<'a> Run<'a> {
             negative_eigenvalues,
             ..counters
         };
-        let record = self.row((balanced, None), counters);
+        self.row((balanced, None), counters)
+    }
+
+    fn record_shown(
+        &mut self,
+        balanced: &Balanced,
+        counters: StepCounters,
+        shown: [bool; 2],
+    ) -> Result<(), SetupError> {
+        let record = self.counted_row(balanced, counters);
         let progress = &mut self.progress;
         progress.solves[1] = self.equations.costs().solves;
         progress.peak = progress.peak.max(record.reaction);

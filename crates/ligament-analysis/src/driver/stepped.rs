@@ -7,10 +7,11 @@ use std::io::Read;
 use std::time::Instant;
 
 use super::checkpoint::{Restored, RestoredRun, WayKind};
+use super::equations::next_to_break;
 use super::prediction::{self, Prediction};
 use super::prepared::Prepared;
 use super::record::{StepCounters, largest_ratio};
-use super::run::{Run, next_to_break};
+use super::run::Run;
 use super::start::ElasticAnswer;
 use super::way::{LoadPoint, Outcome, Rows, Stop, StopRules, Way};
 use crate::balanced::Balanced;
@@ -316,6 +317,7 @@ impl<'a> LoadSteps<'a> {
                 if counters.at_rest || end.is_some() {
                     return self.record(&balanced, counters, end);
                 }
+                self.show_between_breakages(&balanced, counters)?;
                 counters.rounds += 1;
                 counters.broken_in_step += next.len();
                 let at = [counters.step, counters.rounds];
@@ -394,6 +396,24 @@ impl<'a> LoadSteps<'a> {
         let end = end.or(done.then_some(Termination::StepsDone));
         let position = (WayKind::LoadSteps, &(counters, load_factors));
         Ok(self.run.offer(position, balanced, end)?)
+    }
+
+    /// Shows an equilibrium between two breakages of the load step to an observer that reads it.
+    fn show_between_breakages(
+        &mut self,
+        balanced: &Balanced,
+        mut counters: StepCounters,
+    ) -> Result<(), SetupError> {
+        let StepCounters {
+            step,
+            broken_in_step,
+            ..
+        } = counters;
+        if broken_in_step > 0 && self.run.is_seen_between_breakages(step, broken_in_step)? {
+            counters.largest_ratio = largest_ratio(&self.run.problem, &self.run.state, balanced);
+            self.run.show_between_breakages(balanced, counters)?;
+        }
+        Ok(())
     }
 
     /// Records the end of the load step, and stops where the run ends.

@@ -45,6 +45,11 @@ pub(super) fn solver_schema(generator: &mut SchemaGenerator) -> Schema {
 pub struct Output {
     /// Load steps or rows of a motion (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone.
     pub fields_every: Option<u32>,
+    /// Largest number of states between the breakages of a load step with field files of their own, evenly spread over its breakages: the growth of a
+    /// crack that runs within one step.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(extend("default" = 0))]
+    pub during_breakage: u32,
     /// Whether the bonds are written as lines with each field file.
     pub bonds: bool,
     /// Whether `model.vtu` is written, which `ligament explain` reads.
@@ -77,10 +82,15 @@ pub enum StressField {
     Traction,
 }
 
+fn is_zero(number: &u32) -> bool {
+    *number == 0
+}
+
 impl Default for Output {
     fn default() -> Self {
         Self {
             fields_every: None,
+            during_breakage: 0,
             bonds: false,
             model: true,
             checkpoint_every: None,

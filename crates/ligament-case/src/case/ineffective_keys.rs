@@ -49,7 +49,7 @@ const STAGES: CaseSetting =
     CaseSetting::Setting("[[stage]]", |it| it.scheme.is_none() && it.has_stages);
 const EXPLICIT: CaseSetting = CaseSetting::Scheme(&[Scheme::Explicit]);
 
-const NOT_WITH: [IneffectiveKeys; 19] = [
+const NOT_WITH: [IneffectiveKeys; 22] = [
     row(
         CaseSetting::Analysis(&[Analysis::Static, Analysis::Fracture, Analysis::Motion]),
         ("", &["modal"]),
@@ -145,6 +145,21 @@ const NOT_WITH: [IneffectiveKeys; 19] = [
         CaseSetting::Scheme(&[Scheme::Implicit, Scheme::Auto]),
         ("motion", &["safety"]),
         "implicit steps are stable at any length",
+    ),
+    row(
+        CaseSetting::Analysis(&[Analysis::Static]),
+        ("output", &["during_breakage"]),
+        "no bond breaks in an elastic solution",
+    ),
+    row(
+        MOTION,
+        ("output", &["during_breakage"]),
+        "a motion has no load steps: more `rows` in [motion] show more of its states",
+    ),
+    row(
+        EVENT,
+        ("output", &["during_breakage"]),
+        "every event is an equilibrium between breakages: `fields_every` chooses those with field files",
     ),
     row(
         EVENT,

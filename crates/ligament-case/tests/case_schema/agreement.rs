@@ -294,6 +294,7 @@ fn what_is_wrong_is_refused_by_both() {
         ("/output", json!({ "stress": "virial" })),
         ("/output", json!({ "stress": ["virial", "virial"] })),
         ("/output", json!({ "fields_every": -1 })),
+        ("/output", json!({ "during_breakage": -1 })),
     ] {
         let mut wrong = small.clone();
         match pointer.rsplit_once('/') {

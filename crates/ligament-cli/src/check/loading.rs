@@ -83,8 +83,12 @@ pub(super) fn write_room(
         let words = format!("about {of_one} every {} events", fields.every);
         return report.detail("fields on disk", words);
     };
+    let between = match case.case.output.during_breakage {
+        0 => String::new(),
+        most => format!(", and up to {most} between the breakages of a load step"),
+    };
     let words = format!(
-        "about {}, at most {most} states of {of_one}",
+        "about {}, at most {most} states of {of_one}{between}",
         megabytes(all)
     );
     report.detail("fields on disk", words)?;

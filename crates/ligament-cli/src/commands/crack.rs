@@ -9,9 +9,10 @@ use ligament_output::csv::read::CsvTable;
 use ligament_output::quantity::{place, quantity};
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
-use ligament_output::results::steps::{StepChoice, StepName, time_of};
+use ligament_output::results::steps::{NamedStep, StepChoice, StepName, time_of};
 use ligament_output::results::{
-    CRACK_FILES, CrackedBelow, SURFACE_FILES, write_cracks, write_series, write_surface,
+    CRACK_FILES, CrackedBelow, SURFACE_FILES, StoredState, write_cracks, write_series,
+    write_surface,
 };
 use ligament_plot::picture::{IsosurfaceRequest, write_isosurfaces};
 use ligament_post::surfaces::CrackSurface;
@@ -77,11 +78,11 @@ impl CrackArgs {
             CRACK_FILES[3]
         );
         let cracks = StoredCracks::open_below(&self.results, self.force_left)?;
-        let steps = self.step.steps(&self.results, &cracks.steps())?;
-        let step = steps.first().map_or(0, |it| it.step);
-        let lines = write_cracks(&self.results, &cracks, step)?;
+        let steps = self.step.steps(&self.results, cracks.states())?;
+        let state = one_state(&steps)?;
+        let lines = write_cracks(&self.results, &cracks, state)?;
         let mut out = terminal::stdout();
-        let when = time_words(&self.results, step)?;
+        let when = time_words(&self.results, state)?;
         let length = lines.iter().fold(0.0, |sum, line| sum + line.length());
         writeln!(
             out,
@@ -102,7 +103,7 @@ impl CrackArgs {
                 quantity(line.length(), "m")
             )?;
         }
-        write_speeds(&mut out, &self.results, step)?;
+        write_speeds(&mut out, &self.results, state.step)?;
         Ok(writeln!(
             out,
             "{} in {}",
@@ -134,12 +135,20 @@ fn write_speeds(out: &mut dyn Write, folder: &Path, step: usize) -> anyhow::Resu
     Ok(())
 }
 
-/// The step, or the time of a motion, in words.
-fn time_words(folder: &Path, step: usize) -> anyhow::Result<String> {
-    let time = time_of(folder, step)?;
+/// The one state that is meant.
+fn one_state(steps: &[NamedStep]) -> anyhow::Result<StoredState> {
+    match steps {
+        [one] => Ok(one.state),
+        all => anyhow::bail!("--step means {} states; name one of them", all.len()),
+    }
+}
+
+/// The state, or the time of a motion, in words.
+fn time_words(folder: &Path, state: StoredState) -> anyhow::Result<String> {
+    let time = time_of(folder, state.step)?;
     Ok(match time {
         Some(time) => format!("t = {}", quantity(time, "s")),
-        None => format!("step {step}"),
+        None => format!("step {state}"),
     })
 }
 
@@ -173,10 +182,10 @@ impl CrackArgs {
             }
             one => one,
         };
-        let steps = choice.steps(&self.results, &cracks.steps())?;
-        let step = steps.first().map_or(0, |it| it.step);
-        let surface = write_surface(&self.results, &cracks, step)?;
-        write_measures(&mut out, &time_words(&self.results, step)?, &surface)?;
+        let steps = choice.steps(&self.results, cracks.states())?;
+        let state = one_state(&steps)?;
+        let surface = write_surface(&self.results, &cracks, state)?;
+        write_measures(&mut out, &time_words(&self.results, state)?, &surface)?;
         let names = SURFACE_FILES
             .into_iter()
             .filter(|it| self.results.join(it).is_file());
@@ -205,12 +214,12 @@ impl CrackArgs {
                 0 => writeln!(
                     out,
                     "step {}: {} is nowhere {level}, no file",
-                    it.step, self.field
+                    it.state, self.field
                 )?,
                 count => writeln!(
                     out,
                     "step {}: {} = {level} on {}, {count} triangles in {}",
-                    it.step,
+                    it.state,
                     self.field,
                     quantity(it.area, "m^2"),
                     it.path.display()

@@ -30,6 +30,7 @@ Examples:
   ligament plot --curve results/wave --y energies           of a motion over the time, as the force without --y
   ligament plot results/wave --step t=2e-5 t=4e-5           the outputs nearest to these times
   ligament plot results/disk --animate crack.gif --field damage --fps 12
+  ligament plot results/disk --animate crack.gif --step 45:      the states of step 45, with output.during_breakage in the case
   ligament plot results/plate-modes                         the first six modes
   ligament plot results/horizon-study                       the curves of all runs of a study
   ligament plot results/horizon-study --crack=lines         their crack paths over one another
@@ -49,8 +50,8 @@ pub struct PlotArgs {
     /// Field to draw, or none [default: damage where bonds broke, of softening bonds by their way of failing, else displacement]
     #[arg(long, value_name = "NAME")]
     pub field: Option<String>,
-    /// Steps or modes to draw: numbers, -1 for the last, first (breakage), peak, last, of a motion times in s as t=4e-5, or all: a picture each,
-    /// in files with numbers [default: the last step, the first six modes]
+    /// Steps or modes to draw: numbers, -1 for the last, first (breakage), peak, last, 45:120 for step 45 after 120 breakages, 45: for all states of
+    /// step 45, of a motion times in s as t=4e-5, or all: a picture each, in files with numbers [default: the last step, the first six modes]
     #[arg(long, visible_alias = "mode", value_name = "STEP", num_args = 1.., value_delimiter = ',', allow_negative_numbers = true)]
     pub step: Vec<StepChoice>,
     /// Draw this number of outputs, evenly spaced, side by side

@@ -41,7 +41,7 @@ pub struct ProfileArgs {
     /// In place of fields the opening and sliding of a straight crack along the line, from the points within a horizon on both sides
     #[arg(long, conflicts_with = "field")]
     pub opening: bool,
-    /// Step: a number, first (breakage), peak, last or all
+    /// Step: a number, 45:120 (step 45 after 120 breakages), first (breakage), peak, last or all
     #[arg(long, value_name = "STEP", default_value = "last")]
     pub step: StepChoice,
     /// Number of equally spaced points on the line
@@ -59,15 +59,15 @@ impl ProfileArgs {
     /// The table of the openings along the line.
     fn openings(&self) -> anyhow::Result<String> {
         let outputs = Outputs::list(&self.results)?;
-        let stored: Vec<usize> = outputs.files.keys().copied().collect();
         let names = ["step", "along", "x", "y", "opening", "sliding"];
         let mut text = line(&names.map(Value::from));
-        for step in self.step.steps(&self.results, &stored)? {
+        for step in self.step.steps(&self.results, &outputs.states())? {
             let ends = [self.from, self.to];
             let samples = self.samples as usize;
-            for it in stored_openings(&self.results, step.step, ends, samples)? {
+            let name = step.state.to_string();
+            for it in stored_openings(&self.results, step.state, ends, samples)? {
                 let [x, y] = it.place;
-                let place = [step.step.into(), it.along.into(), x.into(), y.into()];
+                let place = [Value::Text(&name), it.along.into(), x.into(), y.into()];
                 let jump = it
                     .jump
                     .map_or([Value::Missing, Value::Missing], |it| it.map(Value::from));

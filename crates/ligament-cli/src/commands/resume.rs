@@ -22,7 +22,7 @@ Examples:
 
 --set can only change keys that leave earlier results unchanged: fracture.stop.load_fraction, .displacement, .bonds and .wall_time,
 fracture.steps (completed ones must stay, new ones can follow), fracture.max_iterations, output.fields_every,
-output.checkpoint_every and output.picture.";
+output.during_breakage, output.checkpoint_every and output.picture.";
 
 /// `ligament resume`.
 #[derive(Debug, Args)]

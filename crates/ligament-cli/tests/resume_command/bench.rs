@@ -19,7 +19,7 @@ support = [{ group = "bottom", displacement = { x = 0.0, y = 0.0 } }]
 
 pub(super) const STEPPED: &str = "load = [{ group = \"top\", displacement = { y = 1e-5 } }]
 fracture = { steps = 100, bonds_per_iteration = 1, stop = { bonds = 150 } }
-output = { fields_every = 7, bonds = true, checkpoint_every = EVERY }";
+output = { fields_every = 7, during_breakage = 3, bonds = true, checkpoint_every = EVERY }";
 pub(super) const EVENT: &str = "load = [{ group = \"top\", displacement = { y = 1e-5 } }]
 fracture = { control = \"event\", stop = { bonds = 150 } }
 output = { fields_every = 20, bonds = true, checkpoint_every = EVERY }";

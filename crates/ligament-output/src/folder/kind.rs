@@ -149,11 +149,14 @@ pub fn is_derived_file(name: &str) -> bool {
     OF_SURFACES.contains(&name) || is_numbered(name, &NUMBERED_SURFACES)
 }
 
-/// Whether the name of a grid file is one of these prefixes and a number.
+/// Whether the name of a grid file is one of these prefixes with a number, and that of a state between breakages with another one.
 fn is_numbered(name: &str, beginnings: &[&str]) -> bool {
     let stem = vtu::stem(name).unwrap_or_default();
     let numbers = beginnings.iter().filter_map(|it| stem.strip_prefix(it));
-    numbers.into_iter().any(is_number)
+    numbers.into_iter().any(|it| match it.split_once('_') {
+        Some((step, breakages)) => is_number(step) && is_number(breakages),
+        None => is_number(it),
+    })
 }
 
 fn is_number(text: &str) -> bool {
@@ -182,6 +185,8 @@ mod tests {
             "fields_0000.vtu",
             "bonds_12345.vtu",
             "fields_0001.pvtu",
+            "fields_0045_0120.vtu",
+            "bonds_0045_0120.vtu",
             "fields_0001.piece_12.vtu",
             "model.pvtu",
             "input-mesh.msh",
@@ -196,6 +201,8 @@ mod tests {
             "report.html",
             "fields_0000.png",
             "fields_a.vtu",
+            "fields_0045_.vtu",
+            "fields_0045_0120_1.vtu",
             "fields_0001.piece_a.vtu",
             "my-history.csv",
             "input-data.csv",

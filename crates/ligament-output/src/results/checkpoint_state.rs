@@ -5,7 +5,9 @@ use ligament_analysis::first_bonds::FirstBonds;
 use ligament_analysis::largest_utilisation::LargestUtilisations;
 use serde::{Deserialize, Serialize};
 
+use super::between_breakages::StatesBetweenBreakages;
 use super::softening_table::{self, SofteningProgress};
+use super::stored_state::{BONDS, FIELDS, RIGID, StoredState};
 use super::tables::{FILES, TablesProgress};
 use crate::file_digest::FileDigest;
 use crate::folder::{Kind, ResultFolder};
@@ -20,6 +22,8 @@ pub struct OutputState {
     pub(super) fields: Vec<(f64, String)>,
     /// Times and names of the files of bonds.
     pub(super) bonds: Vec<(f64, String)>,
+    /// The kept states between breakages.
+    pub(super) between: StatesBetweenBreakages,
     /// Ends of the broken bonds with the steps.
     pub(super) breaks: Vec<([u32; 2], u32)>,
     pub(super) largest: Option<LargestUtilisations>,
@@ -58,7 +62,14 @@ impl OutputState {
         let tables = FILES.iter().copied().zip(self.tables.of_files);
         let softening = self.softening.iter();
         let softening = softening.map(|progress| (softening_table::FILE, progress.written));
+        // Of the states between breakages some are dropped later.
+        let may_be_dropped = |name: &str| {
+            let state = [FIELDS, BONDS, RIGID].map(|stem| StoredState::of_file(name, stem));
+            let mut between = state.into_iter().flatten();
+            between.any(|it| it.breakages().is_some()) && !folder.file(name).exists()
+        };
         let whole = self.whole.iter().map(|(name, it)| (name.as_str(), *it));
+        let whole = whole.filter(|(name, _)| !may_be_dropped(name));
         let mut all = tables.chain(softening).chain(whole);
         all.find_map(|(name, written)| written.mismatch(&folder.file(name)))
     }

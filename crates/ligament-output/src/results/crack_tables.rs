@@ -16,6 +16,7 @@ use super::columns::{CRACK, CRACK_TIPS, TIP_SPEED, names};
 use super::crack_growth::{CrackSize, ROWS, write_growth};
 use super::cracks::{CrackRecord, StoredCracks};
 use super::opened_files::{OPENED, write_opened_plane_cells};
+use super::stored_state::StoredState;
 use super::surface_files::fields_until;
 use crate::Error;
 use crate::atomic::remove_file;
@@ -37,7 +38,7 @@ struct RecordWithLines<'a> {
     lines: Vec<CrackLine>,
 }
 
-/// Writes the cracks of a step as lines, and their growth over all steps; returns the lines of the step.
+/// Writes the cracks of a state as lines, and their growth over all steps; returns the lines of the state.
 ///
 /// # Errors
 ///
@@ -45,14 +46,14 @@ struct RecordWithLines<'a> {
 pub fn write_cracks(
     folder: &Path,
     cracks: &StoredCracks,
-    step: usize,
+    state: StoredState,
 ) -> Result<Vec<CrackLine>, Error> {
-    let lines = cracks.lines(step);
-    write_lines(&folder.join(CRACK_FILES[0]), step, &lines)?;
+    let lines = cracks.lines(state);
+    write_lines(&folder.join(CRACK_FILES[0]), state.step, &lines)?;
     write_grid(&folder.join(CRACK_FILES[1]), &lines)?;
     let opened = folder.join(CRACK_FILES[4]);
-    let has_cells = match fields_until(folder, step)? {
-        Some(fields) => write_opened_plane_cells(&opened, cracks, step, &fields)?,
+    let has_cells = match fields_until(folder, state)? {
+        Some(fields) => write_opened_plane_cells(&opened, cracks, state, &fields)?,
         None => false,
     };
     if !has_cells {

@@ -1,6 +1,6 @@
 //! Crack lines of a stored run.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
 use ligament_analysis::result_fields::{DISPLACEMENT, HORIZON, VOLUME};
@@ -15,6 +15,7 @@ use super::columns::is_in_time;
 use super::outputs::{OutputKind, Outputs, cut_pairs};
 use super::point_fields::location;
 use super::softening_table::{self, CrackedBelow};
+use super::stored_state::StoredState;
 use crate::csv::read::{CsvTable, Row};
 use crate::vtu::read::{TAG_NOUNS, VtuFile};
 use crate::{Error, FieldLocation, vtu};
@@ -35,6 +36,8 @@ pub struct StoredCracks {
     /// Faces that opened, with the event of opening.
     opened: Vec<(usize, OpeningEvent)>,
     records: Vec<CrackRecord>,
+    /// States of which the cracks are known: the rows of the history and the stored states.
+    states: Vec<StoredState>,
     /// Whether the run is a motion, whose load factor is the time.
     pub(super) in_time: bool,
 }
@@ -106,13 +109,15 @@ impl StoredCracks {
         let all = breaks.chain(softened_pairs(folder, cracked)?);
         let opened = all.filter_map(|(tags, event)| Some((place(tags)?, event)));
         let history = CsvTable::read(folder.join("history.csv"))?;
+        let records = history.rows(CrackRecord::read)?;
         Ok(Self {
             thickness: body.thickness,
             cut: cut.into_iter().filter_map(place).collect(),
             opened: opened.collect(),
             horizon: body.horizon,
             in_time: is_in_time(history.columns()),
-            records: history.rows(CrackRecord::read)?,
+            states: known_states(&records, &outputs),
+            records,
             positions: body.positions,
             cells: match body.canvas {
                 Canvas::Between(cells) => cells,
@@ -122,10 +127,10 @@ impl StoredCracks {
         })
     }
 
-    /// The cracks in the state of a step, or of the last step before it. Pre-cracks are not included, but cracks start there.
-    pub fn lines(&self, step: usize) -> Vec<CrackLine> {
-        let until = self.records.iter().take_while(|it| it.step <= step);
-        until.last().map_or_else(Vec::new, |it| self.lines_at(it))
+    /// The cracks in a state, or in the last one before it. Pre-cracks are not included, but cracks start there.
+    pub fn lines(&self, state: impl Into<StoredState>) -> Vec<CrackLine> {
+        let record = record_at(&self.records, state.into());
+        record.map_or_else(Vec::new, |it| self.lines_at(&it))
     }
 
     /// The cracks in the state of a record.
@@ -133,16 +138,18 @@ impl StoredCracks {
         crack_lines(&self.faces, &self.face_states(Some(record)), &self.horizon)
     }
 
-    /// The cells between the points of the body, opened along the cracks and the pre-cracks in the state of a step, or of the last step
-    /// before it.
-    pub fn opened_cells(&self, step: usize) -> OpenedCells<Cell> {
-        opened_cells((&self.positions, &self.cells), self.is_separated(step))
+    /// The cells between the points of the body, opened along the cracks and the pre-cracks in a state, or in the last one before it.
+    pub fn opened_cells(&self, state: impl Into<StoredState>) -> OpenedCells<Cell> {
+        opened_cells(
+            (&self.positions, &self.cells),
+            self.is_separated(state.into()),
+        )
     }
 
-    /// Sides of the cracks and the pre-cracks on which the corners of the [cells](Self::cells) lie in the state of a step, or of the last
-    /// step before it, shape (n_cells).
-    pub fn sides(&self, step: usize) -> Vec<[u8; 4]> {
-        sides_of_cells(&self.cells, self.is_separated(step))
+    /// Sides of the cracks and the pre-cracks on which the corners of the [cells](Self::cells) lie in a state, or in the last one before
+    /// it, shape (n_cells).
+    pub fn sides(&self, state: impl Into<StoredState>) -> Vec<[u8; 4]> {
+        sides_of_cells(&self.cells, self.is_separated(state.into()))
     }
 
     /// The cells between the points of the body, in the order of the files; empty for a lattice.
@@ -150,10 +157,10 @@ impl StoredCracks {
         &self.cells
     }
 
-    /// Whether the face between a pair of points is open in the state of a step, or of the last step before it.
-    fn is_separated(&self, step: usize) -> impl Fn([u32; 2]) -> bool {
-        let record = self.records.iter().take_while(|it| it.step <= step).last();
-        let parts = self.face_states(record);
+    /// Whether the face between a pair of points is open in a state, or in the last one before it.
+    fn is_separated(&self, state: StoredState) -> impl Fn([u32; 2]) -> bool {
+        let record = record_at(&self.records, state);
+        let parts = self.face_states(record.as_ref());
         move |pair| {
             let face = self.faces.between(pair);
             face.is_some_and(|it| parts[it] != FaceState::Whole)
@@ -188,30 +195,53 @@ impl StoredCracks {
         self.horizon.iter().sum::<f64>() / self.horizon.len().max(1) as f64
     }
 
-    /// Numbers of the steps of the history.
-    pub fn steps(&self) -> Vec<usize> {
-        self.records.iter().map(|it| it.step).collect()
+    /// States of which the cracks are known: the rows of the history and the stored states, ascending.
+    pub fn states(&self) -> &[StoredState] {
+        &self.states
     }
 }
 
-/// Openings at evenly spread places of a line between two ends (m) in a step with fields, from the points within a mean horizon on both
+/// States of which the cracks are known: the rows of the history and the stored states, ascending.
+pub(super) fn known_states(records: &[CrackRecord], outputs: &Outputs) -> Vec<StoredState> {
+    let rows = records.iter().map(|it| StoredState::end(it.step));
+    let between = outputs.files.keys().copied();
+    let all: BTreeSet<StoredState> = rows
+        .chain(between.filter(|it| it.breakages().is_some()))
+        .collect();
+    all.into_iter().collect()
+}
+
+/// The record of a state, or of the last one before it; between breakages that of the step before with the bonds that broke since.
+pub(super) fn record_at(records: &[CrackRecord], state: StoredState) -> Option<CrackRecord> {
+    let until = records
+        .iter()
+        .take_while(|it| StoredState::end(it.step) <= state);
+    let record = *until.last()?;
+    let broken_bonds = record.broken_bonds + state.breakages().unwrap_or(0);
+    Some(CrackRecord {
+        broken_bonds,
+        ..record
+    })
+}
+
+/// Openings at evenly spread places of a line between two ends (m) in a state with fields, from the points within a mean horizon on both
 /// sides.
 ///
 /// # Errors
 ///
-/// If the folder has no results of a body in the plane, or none of the step.
+/// If the folder has no results of a body in the plane, or none of the state.
 pub fn stored_openings(
     folder: &Path,
-    step: usize,
+    state: StoredState,
     ends: [[f64; 2]; 2],
     samples: usize,
 ) -> Result<Vec<CrackOpening>, Error> {
     let cracks = StoredCracks::open(folder)?;
     let outputs = Outputs::list(folder)?;
-    let Some(path) = outputs.files.get(&step) else {
+    let Some(path) = outputs.files.get(&state) else {
         return Err(Error::NoResults {
             path: folder.to_path_buf(),
-            reason: format!("it has no fields of step {step}"),
+            reason: format!("it has no fields of step {state}"),
         });
     };
     let file = VtuFile::open(path)?;

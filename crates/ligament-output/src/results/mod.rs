@@ -11,12 +11,14 @@
 //! | `timings.csv` | the time of each load step, in a file of its own, so that histories can be compared bitwise |
 //! | `rigid_NNNN.vtu`, `rigid.pvd` | surfaces of the rigid bodies, as in the state of the fields with this number |
 //! | `fields_NNNN.vtu`, `fields.pvd` | fields on the cells of the mesh or the lattice |
+//! | `fields_NNNN_BBBB.vtu` | the same between the breakages of a load step, after so many of them |
 //! | `bonds_NNNN.vtu`, `bonds.pvd` | the bonds as lines, if requested |
 //!
 //! The cracks of a stored run as lines, their tips and their growth are written later ([`write_cracks`]), as is the surface in a solid on
 //! which a field has a value ([`write_level_set`]). A modal analysis writes `modes.csv`, `mode_NNNN.vtu` and `modes.pvd` instead
 //! ([`write_modes`]).
 
+mod between_breakages;
 pub mod bond_arrays;
 mod checkpoint_state;
 pub mod columns;
@@ -40,6 +42,7 @@ pub mod solid_body;
 pub mod solid_cracks;
 pub mod steps;
 pub mod stored;
+pub mod stored_state;
 mod surface_files;
 mod tables;
 
@@ -56,8 +59,9 @@ use crate::Error;
 use crate::file_digest::FileDigest;
 use crate::folder::ResultFolder;
 use crate::pvd::Collection;
-use crate::vtu::{self, Field};
+use crate::vtu::Field;
 
+use between_breakages::StatesBetweenBreakages;
 pub use checkpoint_state::OutputState;
 pub use crack_tables::{CRACK_FILES, write_cracks};
 pub use first_field::{BondOutcome, first_field, first_field_of};
@@ -70,8 +74,11 @@ pub use pieces::PieceWriter;
 pub use point_fields::{location, sides_between_materials};
 pub use rigid_files::{StoredRigidBodies, stored_rigid_bodies};
 pub use rule::WriteRule;
+use rule::{WrittenState, n_bonds_of_body};
 pub use softening_table::CrackedBelow;
 use softening_table::SofteningTable;
+pub use stored_state::StoredState;
+use stored_state::{BONDS, FIELDS, RIGID};
 pub use surface_files::{SURFACE_FILES, stored_jumps, write_series, write_surface};
 pub use tables::criterion_labels;
 use tables::{CRITERIA_FILE, Tables, deformation_names};
@@ -91,6 +98,10 @@ pub struct ResultWriter<'a> {
     fields_collection: Collection,
     bonds_collection: Collection,
     rigid_collection: Collection,
+    /// The kept states between breakages.
+    between: StatesBetweenBreakages,
+    /// Number of bonds of the body.
+    n_bonds: usize,
     /// Ends of the broken bonds, with the steps.
     breaks: Vec<([u32; 2], u32)>,
     /// Step of breaking of each bond, -1 while it is intact, shape (n_bonds).
@@ -131,6 +142,8 @@ impl<'a> ResultWriter<'a> {
             fields_collection: Collection::new(folder.file("fields.pvd")),
             bonds_collection: Collection::new(folder.file("bonds.pvd")),
             rigid_collection: Collection::new(folder.file("rigid.pvd")),
+            between: StatesBetweenBreakages::default(),
+            n_bonds: n_bonds_of_body(problem),
             breaks: Vec::new(),
             step_of_breaking: vec![-1; fixed.domain_factor.len()],
             whole: Vec::new(),
@@ -156,24 +169,30 @@ impl<'a> ResultWriter<'a> {
             tables,
             softening,
             first,
-            fields,
-            bonds,
+            mut fields,
+            mut bonds,
+            between,
             breaks,
             largest,
-            whole,
+            mut whole,
         } = so_far;
+        // What the run dropped after the checkpoint, it drops again.
+        let is_there = |name: &String| folder.file(name).is_file();
+        fields.retain(|(_, name)| is_there(name));
+        bonds.retain(|(_, name)| is_there(name));
+        whole.retain(|(name, _)| is_there(name));
         // Where the body is divided, this process does not have all bonds.
         let is_whole = problem.system.subdomain.is_whole();
         let (softening, largest) = (softening.filter(|_| is_whole), largest.filter(|_| is_whole));
         if rule.model {
             model_file::write(folder.path(), grid, fixed, problem, None)?;
         }
-        remove_others(folder, "fields", &fields)?;
-        remove_others(folder, "bonds", &bonds)?;
+        remove_others(folder, FIELDS, &fields)?;
+        remove_others(folder, BONDS, &bonds)?;
         let is_rigid = !problem.contact.rigid_bodies.is_empty();
         let beside = |(time, name): &(f64, String)| (*time, rigid_files::name_beside(name));
         let rigid: Vec<(f64, String)> = fields.iter().filter(|_| is_rigid).map(beside).collect();
-        remove_others(folder, rigid_files::STEM, &rigid)?;
+        remove_others(folder, RIGID, &rigid)?;
         let mut step_of_breaking = vec![-1; fixed.domain_factor.len()];
         set_steps_of_breaking(&mut step_of_breaking, problem, &breaks);
         Ok(Self {
@@ -191,6 +210,8 @@ impl<'a> ResultWriter<'a> {
             fields_collection: Collection::with_outputs(folder.file("fields.pvd"), fields)?,
             bonds_collection: Collection::with_outputs(folder.file("bonds.pvd"), bonds)?,
             rigid_collection: Collection::with_outputs(folder.file("rigid.pvd"), rigid)?,
+            between,
+            n_bonds: n_bonds_of_body(problem),
             breaks,
             step_of_breaking,
             whole,
@@ -213,6 +234,7 @@ impl<'a> ResultWriter<'a> {
             first: self.first,
             fields: self.fields_collection.outputs().to_vec(),
             bonds: self.bonds_collection.outputs().to_vec(),
+            between: self.between.clone(),
             breaks: self.breaks.clone(),
             largest: self.largest.clone(),
             whole: self.whole.clone(),
@@ -237,29 +259,59 @@ impl<'a> ResultWriter<'a> {
         Ok(())
     }
 
-    fn write_fields(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
-        let name = fields_file(record, view);
+    /// Writes the fields of a state, and its bonds if requested.
+    fn write(&mut self, written: WrittenState<'_>) -> Result<(), Error> {
+        self.write_fields(written)?;
+        match self.rule.bonds {
+            true => self.write_bonds(written),
+            false => Ok(()),
+        }
+    }
+
+    /// Removes the states between breakages that are no longer kept.
+    fn remove_dropped(&mut self) -> Result<(), Error> {
+        let collections = [
+            (FIELDS, &mut self.fields_collection),
+            (BONDS, &mut self.bonds_collection),
+            (RIGID, &mut self.rigid_collection),
+        ];
+        for (stem, collection) in collections {
+            let is_kept = |name: &str| {
+                let state = StoredState::of_file(name, stem);
+                let between = state.filter(|it| it.breakages().is_some());
+                between.is_none_or(|it| self.between.has(it))
+            };
+            collection.retain(is_kept)?;
+            self.whole.retain(|(name, _)| is_kept(name));
+            remove_others(self.folder, stem, collection.outputs())?;
+        }
+        Ok(())
+    }
+
+    fn write_fields(&mut self, written: WrittenState<'_>) -> Result<(), Error> {
+        let name = written.fields_file();
         point_fields::write(
             &self.folder.file(&name),
             self.grid,
             self.fixed,
             self.rule,
-            (record, view),
+            written,
         )?;
         self.record_file(&name)?;
         let bodies = &self.problem.contact.rigid_bodies;
         if !bodies.is_empty() {
             let name = rigid_files::name_beside(&name);
-            let field_data = rule::field_data(record);
-            let states = &record.rigid_bodies;
+            let states = &written.record.rigid_bodies;
+            let field_data = written.field_data();
             rigid_files::write(&self.folder.file(&name), bodies, states, &field_data)?;
             self.record_file(&name)?;
-            self.rigid_collection.append(rule::time(record), name)?;
+            self.rigid_collection.append(written.time, name)?;
         }
-        self.fields_collection.append(rule::time(record), name)
+        self.fields_collection.append(written.time, name)
     }
 
-    fn write_bonds(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), Error> {
+    fn write_bonds(&mut self, written: WrittenState<'_>) -> Result<(), Error> {
+        let view = written.view;
         let (system, balanced) = (view.system, view.balanced);
         let names = deformation_names(system);
         let component = |place: usize| {
@@ -285,16 +337,16 @@ impl<'a> ResultWriter<'a> {
         }
         let named = names.iter().zip(&deformations);
         cell_fields.extend(named.map(|(name, values)| Field::scalar(name, values)));
-        let name = format!("bonds_{:04}.vtu", record.step);
+        let name = format!("{BONDS}_{}.vtu", written.state.in_file_name());
         let displacement = [Field::numbers(DISPLACEMENT.name, 3, &[], &displacement)];
         lines.write(
             &self.folder.file(&name),
             self.grid,
             [&displacement, &cell_fields],
-            (&system.subdomain, &rule::field_data(record)),
+            (&system.subdomain, &written.field_data()),
         )?;
         self.record_file(&name)?;
-        self.bonds_collection.append(rule::time(record), name)
+        self.bonds_collection.append(written.time, name)
     }
 }
 
@@ -333,12 +385,30 @@ impl Observer for ResultWriter<'_> {
         self.rule.is_due(step) || self.softening.is_some()
     }
 
+    fn looks_between_breakages(
+        &mut self,
+        step: usize,
+        broken: usize,
+    ) -> Result<bool, ObserverError> {
+        let most = self.rule.during_breakage;
+        if most > 0 && self.between.enter(step, broken, most) {
+            observer_result(self.remove_dropped())?;
+        }
+        Ok(self.between.has(StoredState::between(step, broken)))
+    }
+
+    fn between_breakages(
+        &mut self,
+        record: &StepRecord,
+        view: &View<'_>,
+    ) -> Result<(), ObserverError> {
+        let written = WrittenState::between_breakages(record, view, self.n_bonds);
+        observer_result(self.write(written))
+    }
+
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
         if self.rule.writes_fields(record, view) {
-            observer_result(self.write_fields(record, view))?;
-            if self.rule.bonds {
-                observer_result(self.write_bonds(record, view))?;
-            }
+            observer_result(self.write(WrittenState::of_row(record, view)))?;
         }
         self.first.step(record, view)?;
         if let Some(table) = &mut self.softening {
@@ -375,12 +445,6 @@ fn set_steps_of_breaking(
             step_of_breaking[bond] = i64::from(*step);
         }
     }
-}
-
-/// Name of the field file of a state.
-fn fields_file(record: &StepRecord, view: &View<'_>) -> String {
-    let stem = format!("fields_{:04}", record.step);
-    vtu::file_name(&stem, &view.system.subdomain)
 }
 
 fn observer_result(result: Result<(), Error>) -> Result<(), ObserverError> {

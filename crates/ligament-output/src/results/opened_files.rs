@@ -9,6 +9,7 @@ use ligament_post::surfaces::opened_cells;
 
 use super::cracks::StoredCracks;
 use super::solid_cracks::SolidCracks;
+use super::stored_state::StoredState;
 use crate::vtu::read::VtuFile;
 use crate::vtu::{self, Cell, Cells, Field, UnstructuredGrid};
 use crate::{Error, FieldLocation};
@@ -24,32 +25,32 @@ pub(super) fn has_cells(cracks: &SolidCracks) -> bool {
     matches!(cracks.body.grid.canvas, Canvas::Solid(_))
 }
 
-/// Writes the cells of a solid, cut by the crack of a step, with stored fields.
+/// Writes the cells of a solid, cut by the crack of a state, with stored fields.
 pub(super) fn write_opened_cells(
     path: &Path,
     cracks: &SolidCracks,
-    step: usize,
+    state: StoredState,
     fields: &VtuFile,
 ) -> Result<(), Error> {
     let grid = &cracks.body.grid;
     let Canvas::Solid(cells) = &grid.canvas else {
         return Ok(());
     };
-    let links = cracks.links(step);
+    let links = cracks.links(state);
     let opened = opened_cells((&grid.positions, cells), &cracks.tetrahedra, &links);
     write(path, opened, fields)
 }
 
-/// Writes the cells of a body in the plane, cut by the cracks of a step, with stored fields; returns whether it has cells between points.
+/// Writes the cells of a body in the plane, cut by the cracks of a state, with stored fields; returns whether it has cells between points.
 pub(super) fn write_opened_plane_cells(
     path: &Path,
     cracks: &StoredCracks,
-    step: usize,
+    state: StoredState,
     fields: &VtuFile,
 ) -> Result<bool, Error> {
     let has_cells = !cracks.cells().is_empty();
     if has_cells {
-        write(path, cracks.opened_cells(step), fields)?;
+        write(path, cracks.opened_cells(state), fields)?;
     }
     Ok(has_cells)
 }

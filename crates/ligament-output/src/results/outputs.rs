@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use ligament_model::Absence;
 
 use super::model_file::model_file;
+use super::stored_state::StoredState;
 use crate::atomic::remove_file;
 use crate::folder::{Kind, RESOLVED_CASE, ResultFolder, refuse_links};
 use crate::vtu;
@@ -29,8 +30,8 @@ pub struct Outputs {
     pub folder: PathBuf,
     /// The kind of all outputs in the folder.
     pub kind: OutputKind,
-    /// Files of the outputs by the number of the step or the mode; one or more.
-    pub files: BTreeMap<usize, PathBuf>,
+    /// Files of the outputs by the state of the run or the number of the mode; one or more.
+    pub files: BTreeMap<StoredState, PathBuf>,
 }
 
 impl Outputs {
@@ -57,6 +58,11 @@ impl Outputs {
             kind,
             files,
         })
+    }
+
+    /// The stored states, or modes, ascending.
+    pub fn states(&self) -> Vec<StoredState> {
+        self.files.keys().copied().collect()
     }
 }
 
@@ -176,8 +182,11 @@ pub(super) fn remove_others(
     Ok(())
 }
 
-/// The files `STEM_NNNN.vtu`, or in pieces `STEM_NNNN.pvtu`, by their numbers.
-pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize, PathBuf>, Error> {
+/// The files `STEM_NNNN.vtu`, or in pieces `STEM_NNNN.pvtu`, by their states.
+pub(super) fn numbered_files(
+    folder: &Path,
+    stem: &str,
+) -> Result<BTreeMap<StoredState, PathBuf>, Error> {
     let is_piece = |path: &Path| {
         path.file_stem()
             .is_some_and(|it| Path::new(it).extension().is_some())
@@ -186,18 +195,15 @@ pub(super) fn numbered_files(folder: &Path, stem: &str) -> Result<BTreeMap<usize
     Ok(files.filter(|(_, path)| !is_piece(path)).collect())
 }
 
-/// The grid files `STEM_NNNN`, including pieces, with their numbers.
-fn grids(folder: &Path, stem: &str) -> Result<Vec<(usize, PathBuf)>, Error> {
+/// The grid files `STEM_NNNN`, including pieces, with their states.
+fn grids(folder: &Path, stem: &str) -> Result<Vec<(StoredState, PathBuf)>, Error> {
     let failed = Error::system("list", folder);
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(&failed)? {
         let path = entry.map_err(&failed)?.path();
         let name = path.file_name().and_then(|name| name.to_str());
-        let number = name.and_then(vtu::stem).and_then(|name| {
-            let number = name.strip_prefix(stem)?.strip_prefix('_')?;
-            number.parse().ok()
-        });
-        files.extend(number.map(|number| (number, path)));
+        let state = name.and_then(|name| StoredState::of_file(name, stem));
+        files.extend(state.map(|state| (state, path)));
     }
     Ok(files)
 }

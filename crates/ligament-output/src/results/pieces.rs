@@ -6,8 +6,8 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
 use ligament_model::{BodyGrid, ConstantFields};
 
-use super::rule::WriteRule;
-use super::{fields_file, model_file, observer_result, point_fields};
+use super::rule::{WriteRule, WrittenState, n_bonds_of_body};
+use super::{model_file, observer_result, point_fields};
 use crate::Error;
 
 /// Observer that writes the pieces of a rank other than 0 into the folder of rank 0, whenever the [`super::ResultWriter`] of rank 0 writes
@@ -17,6 +17,8 @@ pub struct PieceWriter<'a> {
     grid: &'a BodyGrid,
     fixed: &'a ConstantFields,
     rule: WriteRule,
+    /// Number of bonds of the body.
+    n_bonds: usize,
 }
 
 impl<'a> PieceWriter<'a> {
@@ -40,7 +42,15 @@ impl<'a> PieceWriter<'a> {
             grid,
             fixed,
             rule,
+            n_bonds: n_bonds_of_body(problem),
         })
+    }
+
+    fn write(&self, written: WrittenState<'_>) -> Result<(), ObserverError> {
+        let path = self.folder.join(written.fields_file());
+        observer_result(point_fields::write(
+            &path, self.grid, self.fixed, self.rule, written,
+        ))
     }
 }
 
@@ -49,13 +59,15 @@ impl Observer for PieceWriter<'_> {
         if !self.rule.writes_fields(record, view) {
             return Ok(());
         }
-        let path = self.folder.join(fields_file(record, view));
-        observer_result(point_fields::write(
-            &path,
-            self.grid,
-            self.fixed,
-            self.rule,
-            (record, view),
-        ))
+        self.write(WrittenState::of_row(record, view))
+    }
+
+    fn between_breakages(
+        &mut self,
+        record: &StepRecord,
+        view: &View<'_>,
+    ) -> Result<(), ObserverError> {
+        let written = WrittenState::between_breakages(record, view, self.n_bonds);
+        self.write(written)
     }
 }

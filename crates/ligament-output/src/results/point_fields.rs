@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use ligament_analysis::history::{StepRecord, View};
+use ligament_analysis::history::View;
 use ligament_analysis::result_fields::{
     Components, FIELDS, FieldValues, HELD, HORIZON, MATERIAL, ModelPoints, ResultField,
 };
@@ -12,7 +12,7 @@ use ligament_model::subdomain::Subdomain;
 use ligament_model::{BodyGrid, Canvas, ConstantFields};
 
 use super::grid::{fixed_fields, material_of_cells, write_grid};
-use super::rule::{WriteRule, field_data};
+use super::rule::{WriteRule, WrittenState};
 use crate::vtu::read::VtuFile;
 use crate::vtu::{Cell, Field};
 use crate::{Error, FieldLocation};
@@ -29,10 +29,10 @@ pub(super) fn write(
     grid: &BodyGrid,
     fixed: &ConstantFields,
     rule: WriteRule,
-    (record, view): (&StepRecord, &View<'_>),
+    written: WrittenState<'_>,
 ) -> Result<(), Error> {
-    let system = view.system;
-    let mut values = point_fields(rule, view);
+    let system = written.view.system;
+    let mut values = point_fields(rule, written.view);
     let ghosts = corners(grid, &system.subdomain);
     for (field, values) in &mut values {
         // Only the owner of a point has all of its bonds.
@@ -57,7 +57,7 @@ pub(super) fn write(
         spacing: &system.spacing,
     };
     fields.extend(fixed_fields(model));
-    let whole = (&system.subdomain, &field_data(record)[..]);
+    let whole = (&system.subdomain, &written.field_data()[..]);
     write_grid(path, grid, [&fields, &material_of_cells(model)], whole)
 }
 

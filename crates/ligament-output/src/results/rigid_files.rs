@@ -5,14 +5,11 @@ use std::path::{Path, PathBuf};
 use ligament_analysis::contact::{RigidBody, RigidState};
 use ligament_analysis::result_fields::DISPLACEMENT;
 
+use super::stored_state::{FIELDS, RIGID};
 use crate::Error;
 use crate::FieldLocation;
 use crate::vtu::read::VtuFile;
 use crate::vtu::{Cell, Cells, Field, UnstructuredGrid, write_vtu};
-
-/// Beginning of the name of a file of rigid bodies, in the place of that of the fields.
-pub(super) const STEM: &str = "rigid";
-const FIELDS: &str = "fields";
 
 /// Rigid bodies in a state, by their surfaces.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -40,7 +37,7 @@ impl StoredRigidBodies {
 
 /// Name of the file of rigid bodies beside a file of fields.
 pub(super) fn name_beside(fields: &str) -> String {
-    fields.replacen(FIELDS, STEM, 1)
+    fields.replacen(FIELDS, RIGID, 1)
 }
 
 /// Writes the surfaces of rigid bodies in their states, with the number of the body of each triangle in the order of the case, from 1.

@@ -1,17 +1,21 @@
 //! Rule for the contents and the frequency of the output, and the time of a state in it.
 
+use ligament_analysis::driver::Problem;
 use ligament_analysis::history::{StepRecord, View};
 use ligament_analysis::interface::StressReading;
 use ligament_analysis::material_stress::MaterialStress;
 use ligament_analysis::result_fields::FieldReading;
 
-use crate::vtu::TIME_VALUE;
+use super::stored_state::StoredState;
+use crate::vtu::{self, TIME_VALUE};
 
 /// Rule for the contents and the frequency of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct WriteRule {
     /// Number of load steps between outputs of fields, besides the first and the last; 0: only these two.
     pub fields_every: usize,
+    /// Largest number of states between the breakages of a load step that are kept.
+    pub during_breakage: usize,
     /// Whether to write the bonds as well.
     pub bonds: bool,
     /// Whether to write the model, by which a bond can be explained later.
@@ -28,24 +32,71 @@ pub struct WriteRule {
     pub traction: bool,
 }
 
-/// Time of a state in the collections: in a motion its time (s), otherwise the number of its row in the history, because loads and
-/// displacements may stay constant or decrease.
-pub(super) fn time(record: &StepRecord) -> f64 {
-    match record.motion {
-        Some(_) => record.load_factor,
-        None => record.step as f64,
+/// A state that is written.
+#[derive(Clone, Copy)]
+pub(super) struct WrittenState<'a> {
+    /// Number of the state.
+    pub(super) state: StoredState,
+    /// Time of the state in the collections: in a motion its time (s), otherwise the number of its row in the history, because loads and
+    /// displacements may stay constant or decrease; between breakages after the row before, by the share of all bonds that broke since.
+    pub(super) time: f64,
+    /// Record of the state.
+    pub(super) record: &'a StepRecord,
+    /// The state itself.
+    pub(super) view: &'a View<'a>,
+}
+
+impl<'a> WrittenState<'a> {
+    /// The state of a row of the history.
+    pub(super) fn of_row(record: &'a StepRecord, view: &'a View<'a>) -> Self {
+        Self {
+            state: StoredState::end(record.step),
+            time: match record.motion {
+                Some(_) => record.load_factor,
+                None => record.step as f64,
+            },
+            record,
+            view,
+        }
+    }
+
+    /// A state between the breakages of a load step of a body with so many bonds.
+    pub(super) fn between_breakages(
+        record: &'a StepRecord,
+        view: &'a View<'a>,
+        n_bonds: usize,
+    ) -> Self {
+        let breakages = record.broken_in_step;
+        Self {
+            state: StoredState::between(record.step, breakages),
+            time: record.step as f64 - 1.0 + breakages as f64 / n_bonds as f64,
+            record,
+            view,
+        }
+    }
+
+    /// Name of the file of fields.
+    pub(super) fn fields_file(&self) -> String {
+        let stem = format!("fields_{}", self.state.in_file_name());
+        vtu::file_name(&stem, &self.view.system.subdomain)
+    }
+
+    /// Field data of the files: the time, then `load_factor`, `displacement` and `reaction` of the record. No field has one of these names,
+    /// because readers look for a name in both.
+    pub(super) fn field_data(&self) -> [(&'static str, f64); 4] {
+        [
+            (TIME_VALUE, self.time),
+            ("load_factor", self.record.load_factor),
+            ("load_displacement", self.record.displacement),
+            ("load_reaction", self.record.reaction),
+        ]
     }
 }
 
-/// Field data of the files of a state: its time, then `load_factor`, `displacement` and `reaction` of its row in the history. No field has
-/// one of these names, because readers look for a name in both.
-pub(super) fn field_data(record: &StepRecord) -> [(&'static str, f64); 4] {
-    [
-        (TIME_VALUE, time(record)),
-        ("load_factor", record.load_factor),
-        ("load_displacement", record.displacement),
-        ("load_reaction", record.reaction),
-    ]
+/// Number of bonds of the body. Collective.
+pub(super) fn n_bonds_of_body(problem: &Problem) -> usize {
+    let (ends, subdomain) = (&problem.system.ends, &problem.system.subdomain);
+    subdomain.count(ends.iter().filter(|it| subdomain.owns_bond(**it)).count())
 }
 
 impl WriteRule {

@@ -9,10 +9,14 @@ use ligament_post::surfaces::{
 };
 
 use super::columns::is_in_time;
-use super::cracks::{CrackRecord, OpeningEvent, broken_pairs, records_with_growth, softened_pairs};
+use super::cracks::{
+    CrackRecord, OpeningEvent, broken_pairs, known_states, record_at, records_with_growth,
+    softened_pairs,
+};
 use super::outputs::{OutputKind, Outputs, bonded_pairs, cut_pairs};
 use super::softening_table::CrackedBelow;
 use super::solid_body::{SolidBody, is_solid};
+use super::stored_state::StoredState;
 use crate::Error;
 use crate::csv::read::CsvTable;
 use crate::vtu::read::VtuFile;
@@ -30,6 +34,8 @@ pub struct SolidCracks {
     opened: Vec<([u32; 2], OpeningEvent, usize)>,
     /// Rows of the history.
     pub(super) records: Vec<CrackRecord>,
+    /// States of which the cracks are known: the rows of the history and the stored states.
+    states: Vec<StoredState>,
     /// Whether the run is a motion, whose load factor is the time.
     pub(super) in_time: bool,
     /// Mean horizon of the points, m.
@@ -100,30 +106,30 @@ impl SolidCracks {
             tetrahedra,
             at_first,
             opened,
+            states: known_states(&records, &outputs),
             records,
             in_time: is_in_time(history.columns()),
         })
     }
 
-    /// Links of the points in the state of a step, or of the last step before it.
-    pub fn links(&self, step: usize) -> Links {
-        let until = self.records.iter().take_while(|it| it.step <= step);
+    /// Links of the points in a state, or in the last one before it.
+    pub fn links(&self, state: impl Into<StoredState>) -> Links {
         let mut links = self.at_first.clone();
-        if let Some(record) = until.last() {
+        if let Some(record) = record_at(&self.records, state.into()) {
             let open = self.opened.iter().filter(|it| record.is_after(it.1));
             open.for_each(|(pair, ..)| links.name(*pair, Link::Open));
         }
         links
     }
 
-    /// The smoothed crack surface in the state of a step.
-    pub fn surface(&self, step: usize) -> CrackSurface {
-        crack_surface(&self.tetrahedra, &self.links(step)).smoothed()
+    /// The smoothed crack surface in a state.
+    pub fn surface(&self, state: impl Into<StoredState>) -> CrackSurface {
+        crack_surface(&self.tetrahedra, &self.links(state)).smoothed()
     }
 
-    /// Sides of the crack on which the corners of the [tetrahedra](Self::tetrahedra) lie in the state of a step, shape (n_tetrahedra).
-    pub fn sides(&self, step: usize) -> Vec<[u8; 4]> {
-        sides_of_tetrahedra(&self.tetrahedra, &self.links(step))
+    /// Sides of the crack on which the corners of the [tetrahedra](Self::tetrahedra) lie in a state, shape (n_tetrahedra).
+    pub fn sides(&self, state: impl Into<StoredState>) -> Vec<[u8; 4]> {
+        sides_of_tetrahedra(&self.tetrahedra, &self.links(state))
     }
 
     /// Tetrahedra that are cut at some time.
@@ -174,9 +180,9 @@ impl SolidCracks {
         self.mean_horizon
     }
 
-    /// Numbers of the steps of the history.
-    pub fn steps(&self) -> Vec<usize> {
-        self.records.iter().map(|it| it.step).collect()
+    /// States of which the cracks are known: the rows of the history and the stored states, ascending.
+    pub fn states(&self) -> &[StoredState] {
+        &self.states
     }
 }
 

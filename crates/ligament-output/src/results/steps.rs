@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use super::columns::{TIME, is_in_time};
+use super::stored_state::StoredState;
 use crate::Error;
 use crate::csv::read::CsvTable;
 use crate::remedy::Remedy;
@@ -19,29 +20,35 @@ pub enum StepName {
     Peak,
     /// The last step.
     Last,
-    /// The step with this number.
-    Number(usize),
+    /// This state: the end of a step, or one between its breakages.
+    State(StoredState),
     /// The step at this place from the end: 1 is the last, 2 the one before.
     FromEnd(usize),
     /// The stored step nearest to this time of a motion, s.
     At(f64),
 }
 
+/// Words for a selection that cannot be read.
+const EXPECTED: &str = "expected the number of a step, -1 for the last, -2 for the one before, first (breakage), peak, last or all, 45:120 for \
+    step 45 after 120 breakages, 45: for all states of step 45, or a time of a motion in s such as t=4e-5";
+
 /// Selection of stored steps by a word.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StepChoice {
-    /// All stored steps.
+    /// All stored states.
     All,
+    /// All stored states of a step: between its breakages, and at its end.
+    Step(usize),
     /// The one step that a name selects.
     One(StepName),
 }
 
-/// A stored step with the event that selected it.
+/// A stored state with the event that selected it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct NamedStep {
-    /// Number of the stored step.
-    pub step: usize,
-    /// Event that selected the step, and its step. Where that step is not stored, the stored step is the next one, or the last.
+    /// The stored state.
+    pub state: StoredState,
+    /// Event that selected the state, and its step. Where the end of that step is not stored, the state is the next one, or the last.
     pub happened: Option<(&'static str, usize)>,
 }
 
@@ -91,15 +98,15 @@ pub enum StepError {
         /// Number of the stored steps.
         n_stored: usize,
     },
-    /// The step with the number is not stored.
-    #[error("{path} has no output of step {number}; there are {}", listed(stored))]
+    /// The state is not stored.
+    #[error("{path} has no output of step {state}; there are {}", listed(stored))]
     NotStored {
         /// Folder of the results.
         path: PathBuf,
-        /// Requested number.
-        number: usize,
-        /// Numbers of the stored steps.
-        stored: Vec<usize>,
+        /// Requested state.
+        state: StoredState,
+        /// The stored states.
+        stored: Vec<StoredState>,
         /// Remedy for the user.
         #[source]
         remedy: Remedy,
@@ -112,7 +119,7 @@ impl fmt::Display for StepName {
             Self::First => f.write_str("first"),
             Self::Peak => f.write_str("peak"),
             Self::Last => f.write_str("last"),
-            Self::Number(number) => write!(f, "{number}"),
+            Self::State(state) => write!(f, "{state}"),
             Self::FromEnd(number) => write!(f, "-{number}"),
             Self::At(time) => write!(f, "t={time:?}"),
         }
@@ -122,10 +129,15 @@ impl fmt::Display for StepName {
 impl FromStr for StepChoice {
     type Err = String;
 
-    /// Parses `first`, `peak`, `last`, `all`, a number, where -1 is the last step and -2 the one before, or a time in s such as `t=4e-5`.
+    /// Parses `first`, `peak`, `last`, `all`, `45:` for all states of step 45, a number, where -1 is the last state and -2 the one before, `45:120` for step 45 after 120 breakages, or
+    /// a time in s such as `t=4e-5`.
     fn from_str(text: &str) -> Result<Self, String> {
         Ok(Self::One(match text.trim() {
             "all" => return Ok(Self::All),
+            step if step.ends_with(':') => {
+                let step = step[..step.len() - 1].parse();
+                return step.map(Self::Step).map_err(|_| EXPECTED.to_owned());
+            }
             "first" => StepName::First,
             "peak" => StepName::Peak,
             "last" => StepName::Last,
@@ -134,43 +146,56 @@ impl FromStr for StepChoice {
                 StepName::At(time.ok_or("expected a time in s, such as t=4e-5")?)
             }
             number => {
-                let (number, name): (&str, fn(usize) -> StepName) = match number.strip_prefix('-') {
-                    Some(back) => (back, StepName::FromEnd),
-                    None => (number, StepName::Number),
+                let found = match number.strip_prefix('-') {
+                    Some(back) => back
+                        .parse()
+                        .ok()
+                        .filter(|it| *it > 0)
+                        .map(StepName::FromEnd),
+                    None => number.parse().ok().map(StepName::State),
                 };
-                let number = number.parse().ok().map(name);
-                let number = number.filter(|it| *it != StepName::FromEnd(0));
-                number.ok_or(
-                    "expected the number of a step, -1 for the last, -2 for the one before, first (breakage), peak, last or all, or a time of a motion in s such as t=4e-5",
-                )?
+                found.ok_or(EXPECTED)?
             }
         }))
     }
 }
 
 impl StepChoice {
-    /// Selects from the steps `stored` in a folder, ascending.
+    /// Selects from the states `stored` in a folder, ascending.
     ///
     /// # Errors
     ///
-    /// If no such event happened, a step given by its number is not stored, or there is no history.
-    pub fn steps(self, folder: &Path, stored: &[usize]) -> Result<Vec<NamedStep>, StepError> {
-        let numbered = |step| NamedStep {
-            step,
+    /// If no such event happened, a state given by its number is not stored, or there is no history.
+    pub fn steps(self, folder: &Path, stored: &[StoredState]) -> Result<Vec<NamedStep>, StepError> {
+        let numbered = |state| NamedStep {
+            state,
             happened: None,
         };
-        let not_stored = |number| StepError::NotStored {
-            path: folder.to_path_buf(),
-            number,
-            stored: stored.to_vec(),
-            remedy: Remedy::RunAgain {
-                key: "output.fields_every",
-                value: "1",
-            },
+        let not_stored = |state: StoredState| {
+            let [key, value] = match state.breakages() {
+                None => ["output.fields_every", "1"],
+                Some(_) => ["output.during_breakage", "50"],
+            };
+            StepError::NotStored {
+                path: folder.to_path_buf(),
+                state,
+                stored: stored.to_vec(),
+                remedy: Remedy::RunAgain { key, value },
+            }
         };
-        let last = *stored.last().ok_or_else(|| not_stored(0))?;
+        let last = *stored
+            .last()
+            .ok_or_else(|| not_stored(StoredState::end(0)))?;
         Ok(match self {
             Self::All => stored.iter().copied().map(numbered).collect(),
+            Self::Step(step) => {
+                let of_step = stored.iter().filter(|it| it.step == step);
+                let found: Vec<NamedStep> = of_step.copied().map(numbered).collect();
+                match found.is_empty() {
+                    true => return Err(not_stored(StoredState::end(step))),
+                    false => found,
+                }
+            }
             Self::One(StepName::Last) => vec![numbered(last)],
             Self::One(StepName::FromEnd(back)) => {
                 let place = stored.len().checked_sub(back);
@@ -183,15 +208,14 @@ impl StepChoice {
                 )]
             }
             Self::One(StepName::At(time)) => vec![numbered(nearest(time, folder, stored)?)],
-            Self::One(StepName::Number(number)) if stored.contains(&number) => {
-                vec![numbered(number)]
-            }
-            Self::One(StepName::Number(number)) => return Err(not_stored(number)),
+            Self::One(StepName::State(state)) if stored.contains(&state) => vec![numbered(state)],
+            Self::One(StepName::State(state)) => return Err(not_stored(state)),
             Self::One(name @ (StepName::First | StepName::Peak)) => {
                 let happened = event(name, folder)?;
-                let step = stored.iter().copied().find(|step| *step >= happened.1);
+                let at = StoredState::end(happened.1);
+                let state = stored.iter().copied().find(|it| *it >= at);
                 vec![NamedStep {
-                    step: step.unwrap_or(last),
+                    state: state.unwrap_or(last),
                     happened: Some(happened),
                 }]
             }
@@ -204,7 +228,7 @@ impl NamedStep {
     /// event.
     pub fn words(&self) -> Option<[String; 2]> {
         let (what, step) = self.happened?;
-        let [stored, short] = match self.step.cmp(&step) {
+        let [stored, short] = match self.state.cmp(&StoredState::end(step)) {
             Ordering::Equal => return Some([what.to_owned(), what.to_owned()]),
             Ordering::Greater => ["next stored after", "after"],
             Ordering::Less => ["last stored before", "before"],
@@ -216,8 +240,8 @@ impl NamedStep {
     }
 }
 
-/// The stored step nearest to a time of a motion, the earlier of two.
-fn nearest(time: f64, folder: &Path, stored: &[usize]) -> Result<usize, StepError> {
+/// The stored state nearest to a time of a motion, the earlier of two.
+fn nearest(time: f64, folder: &Path, stored: &[StoredState]) -> Result<StoredState, StepError> {
     let no_times = || StepError::NoTimes {
         path: folder.to_path_buf(),
     };
@@ -227,10 +251,10 @@ fn nearest(time: f64, folder: &Path, stored: &[usize]) -> Result<usize, StepErro
         return Err(no_times());
     }
     let rows = sheet.numbers(["step", TIME])?.into_iter();
-    let rows = rows.filter(|it| stored.contains(&(it[0] as usize)));
-    let away = |it: &[f64; 2]| (it[1] - time).abs();
-    let nearest = rows.min_by(|one, other| away(one).total_cmp(&away(other)));
-    nearest.map(|it| it[0] as usize).ok_or_else(no_times)
+    let rows = rows.map(|[step, at]| (StoredState::end(step as usize), (at - time).abs()));
+    let rows = rows.filter(|(state, _)| stored.contains(state));
+    let nearest = rows.min_by(|one, other| one.1.total_cmp(&other.1));
+    nearest.map(|it| it.0).ok_or_else(no_times)
 }
 
 /// Description and step of the event of a name, from the history.
@@ -282,9 +306,9 @@ pub fn time_of(folder: &Path, step: usize) -> Result<Option<f64>, Error> {
 }
 
 /// List of numbers for a message, abbreviated if long.
-pub fn listed(numbers: &[usize]) -> String {
+pub fn listed<N: ToString>(numbers: &[N]) -> String {
     const MOST: usize = 24;
-    let words: Vec<String> = numbers.iter().map(usize::to_string).collect();
+    let words: Vec<String> = numbers.iter().map(N::to_string).collect();
     match words.as_slice() {
         [first @ .., last] if words.len() > MOST => {
             format!("{}, ..., {last}", first[..MOST - 2].join(", "))
@@ -307,9 +331,13 @@ mod tests {
         folder
     }
 
+    fn ends(steps: &[usize]) -> Vec<StoredState> {
+        steps.iter().copied().map(StoredState::end).collect()
+    }
+
     fn found(word: &str, stored: &[usize]) -> Vec<NamedStep> {
         let choice: StepChoice = word.parse().unwrap();
-        choice.steps(folder(HISTORY).path(), stored).unwrap()
+        choice.steps(folder(HISTORY).path(), &ends(stored)).unwrap()
     }
 
     /// At the peak, step 2, the first bond softens; step 4 has a larger reaction, but its bonds were still breaking.
@@ -318,7 +346,7 @@ mod tests {
         let steps = |word| {
             found(word, &[0, 1, 2, 3, 4])
                 .iter()
-                .map(|it| it.step)
+                .map(|it| it.state.step)
                 .collect::<Vec<_>>()
         };
         assert_eq!(steps("first"), [2]);
@@ -329,7 +357,7 @@ mod tests {
         assert_eq!(steps("all"), [0, 1, 2, 3, 4]);
         let brittle = HISTORY.replace("1e-9", "0");
         let choice = StepChoice::One(StepName::First);
-        let first = choice.steps(folder(&brittle).path(), &[3]).unwrap()[0];
+        let first = choice.steps(folder(&brittle).path(), &ends(&[3])).unwrap()[0];
         assert_eq!(first.words().unwrap()[0], "first breakage");
     }
 
@@ -341,12 +369,16 @@ mod tests {
         let motion = folder(&format!("{columns}\n{}\n", rows.join("\n")));
         let step = |text: &str| {
             let choice: StepChoice = text.parse().unwrap();
-            choice.steps(motion.path(), &[0, 2, 4]).unwrap()[0].step
+            choice.steps(motion.path(), &ends(&[0, 2, 4])).unwrap()[0]
+                .state
+                .step
         };
         assert_eq!(["t=0", "t=1.2e-6", "t=1"].map(step), [0, 2, 4]);
         assert!("t=soon".parse::<StepChoice>().is_err());
         let choice: StepChoice = "t=1e-6".parse().unwrap();
-        let error = choice.steps(folder(HISTORY).path(), &[0]).unwrap_err();
+        let error = choice
+            .steps(folder(HISTORY).path(), &ends(&[0]))
+            .unwrap_err();
         assert!(error.to_string().contains("it is no motion"), "{error}");
         assert_eq!(time_of(motion.path(), 3).unwrap(), Some(3e-6));
         assert_eq!(time_of(folder(HISTORY).path(), 3).unwrap(), None);
@@ -355,7 +387,7 @@ mod tests {
     #[test]
     fn the_next_stored_step_stands_in_and_says_so() {
         let peak = found("peak", &[0, 3, 4])[0];
-        assert_eq!((peak.step, peak.happened), (3, Some(("peak", 2))));
+        assert_eq!((peak.state.step, peak.happened), (3, Some(("peak", 2))));
         let words = peak.words().unwrap();
         assert_eq!(
             words,
@@ -363,7 +395,7 @@ mod tests {
         );
         // A run that was killed has no fields of its last steps.
         let before = found("first", &[0, 1])[0];
-        assert_eq!(before.step, 1);
+        assert_eq!(before.state.step, 1);
         let words = before.words().unwrap();
         assert_eq!(words[0], "last stored before the first softening in step 2");
         assert_eq!(
@@ -374,11 +406,41 @@ mod tests {
     }
 
     #[test]
+    fn states_between_breakages_have_names_of_their_own() {
+        let stored = [
+            StoredState::end(2),
+            StoredState::between(3, 1),
+            StoredState::between(3, 2),
+            StoredState::end(3),
+        ];
+        let of = |word: &str| {
+            let choice: StepChoice = word.parse().unwrap();
+            let steps = choice.steps(folder(HISTORY).path(), &stored);
+            steps.map(|all| {
+                all.iter()
+                    .map(|it| it.state.to_string())
+                    .collect::<Vec<_>>()
+            })
+        };
+        assert_eq!(of("3:2").unwrap(), ["3:2"]);
+        assert_eq!(of("3").unwrap(), ["3"]);
+        assert_eq!(of("3:").unwrap(), ["3:1", "3:2", "3"]);
+        assert!(of("4:").is_err());
+        assert_eq!(of("-2").unwrap(), ["3:2"]);
+        assert_eq!(of("all").unwrap(), ["2", "3:1", "3:2", "3"]);
+        let error = of("3:7").unwrap_err().to_string();
+        assert!(
+            error.ends_with("no output of step 3:7; there are 2, 3:1, 3:2, 3"),
+            "{error}"
+        );
+    }
+
+    #[test]
     fn what_is_not_there_is_told() {
         let error = |word: &str, history: &str| {
             let choice: StepChoice = word.parse().unwrap();
             choice
-                .steps(folder(history).path(), &[0, 1])
+                .steps(folder(history).path(), &ends(&[0, 1]))
                 .unwrap_err()
                 .to_string()
         };
@@ -389,7 +451,7 @@ mod tests {
         assert!(error("peak", &intact).contains("no step under load is at rest"));
         let empty = tempfile::tempdir().unwrap();
         let none = StepChoice::One(StepName::Peak)
-            .steps(empty.path(), &[0])
+            .steps(empty.path(), &ends(&[0]))
             .unwrap_err();
         assert!(none.to_string().contains("no history.csv"), "{none}");
         assert!(

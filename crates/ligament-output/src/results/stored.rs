@@ -11,6 +11,7 @@ use ligament_model::thermal::StressFreeStrains;
 
 use super::model_file::{COEFFICIENTS, GROUP, INTERFACE, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
+use super::stored_state::StoredState;
 use super::tables::stored_names;
 use crate::csv::read::{CsvTable, Row};
 use crate::remedy::Remedy;
@@ -30,8 +31,8 @@ pub struct StoredRun {
     pub breaks: Vec<StoredBreak>,
     /// Names of the stored components of a bond's deformation: two, or three for bonds with strains of their own.
     pub deformation_names: &'static [&'static str],
-    /// Files of fields by their steps.
-    fields: BTreeMap<usize, PathBuf>,
+    /// Files of fields by their states.
+    fields: BTreeMap<StoredState, PathBuf>,
 }
 
 /// The model of a run.
@@ -180,9 +181,11 @@ impl StoredRun {
         })
     }
 
-    /// The steps with fields, ascending.
+    /// The steps with fields at their ends, ascending.
     pub fn field_steps(&self) -> impl Iterator<Item = usize> {
-        self.fields.keys().copied()
+        let states = self.fields.keys();
+        let ends = states.filter(|it| it.breakages().is_none());
+        ends.map(|it| it.step)
     }
 
     /// The row of the history of a step.
@@ -190,13 +193,13 @@ impl StoredRun {
         self.history.iter().find(|row| row.step == step)
     }
 
-    /// The motions of the points in a step; `None` where the step has no fields.
+    /// The motions of the points at the end of a step; `None` where it has no fields.
     ///
     /// # Errors
     ///
     /// If the file cannot be used.
     pub fn motions(&self, step: usize) -> Result<Option<Motions>, Error> {
-        let Some(path) = self.fields.get(&step) else {
+        let Some(path) = self.fields.get(&StoredState::end(step)) else {
             return Ok(None);
         };
         let file = VtuFile::open(path)?;

@@ -20,6 +20,7 @@ use super::crack_growth::{CrackSize, write_growth};
 use super::opened_files::{OPENED, has_cells, write_opened_cells};
 use super::outputs::Outputs;
 use super::solid_cracks::SolidCracks;
+use super::stored_state::StoredState;
 use crate::Error;
 use crate::atomic::remove_file;
 use crate::pvd::Collection;
@@ -30,7 +31,7 @@ use crate::vtu::{self, Cell, Cells, Field, UnstructuredGrid};
 /// Names of the files of cracks beside the results of a run of a solid.
 pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", OPENED, "crack_growth.csv"];
 
-/// Writes the surface of a step, and its growth over all steps; returns the surface.
+/// Writes the surface of a state, and its growth over all steps; returns the surface.
 ///
 /// # Errors
 ///
@@ -38,18 +39,18 @@ pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", OPENED, "crack_g
 pub fn write_surface(
     folder: &Path,
     cracks: &SolidCracks,
-    step: usize,
+    state: StoredState,
 ) -> Result<CrackSurface, Error> {
-    let surface = cracks.surface(step);
+    let surface = cracks.surface(state);
     let [grid, stl, opened, growth] = SURFACE_FILES.map(|name| folder.join(name));
-    let fields = fields_until(folder, step)?;
+    let fields = fields_until(folder, state)?;
     write_grid(&grid, cracks, &surface, fields.as_ref(), &[])?;
     match surface.triangles.is_empty() {
         true => remove_file(&stl)?,
         false => replace_file(&stl, &stl_of(&surface))?,
     }
     match fields.filter(|_| has_cells(cracks)) {
-        Some(fields) => write_opened_cells(&opened, cracks, step, &fields)?,
+        Some(fields) => write_opened_cells(&opened, cracks, state, &fields)?,
         None => remove_file(&opened)?,
     }
     let least = cracks.mean_horizon().powi(2);
@@ -57,7 +58,7 @@ pub fn write_surface(
     Ok(surface)
 }
 
-/// Writes the surfaces and the opened cells of all stored steps as series; returns the number of steps.
+/// Writes the surfaces and the opened cells of all stored states as series; returns the number of states.
 ///
 /// # Errors
 ///
@@ -66,26 +67,26 @@ pub fn write_series(folder: &Path, cracks: &SolidCracks) -> Result<usize, Error>
     let outputs = Outputs::list(folder)?;
     let mut surfaces = Collection::new(folder.join("crack.pvd"));
     let mut bodies = Collection::new(folder.join("opened.pvd"));
-    for (&step, path) in &outputs.files {
+    for (&state, path) in &outputs.files {
         let fields = VtuFile::open(path)?;
-        let (surface, time) = (cracks.surface(step), fields.time()?);
-        let time = time.unwrap_or(step as f64);
+        let (surface, time) = (cracks.surface(state), fields.time()?);
+        let time = time.unwrap_or(state.step as f64);
         if !surface.triangles.is_empty() {
-            let name = format!("crack_{step:04}.vtu");
+            let name = format!("crack_{}.vtu", state.in_file_name());
             let (path, field_data) = (folder.join(&name), fields.field_data()?);
             write_grid(&path, cracks, &surface, Some(&fields), &field_data)?;
             surfaces.append(time, name)?;
         }
         if has_cells(cracks) {
-            let name = format!("opened_{step:04}.vtu");
-            write_opened_cells(&folder.join(&name), cracks, step, &fields)?;
+            let name = format!("opened_{}.vtu", state.in_file_name());
+            write_opened_cells(&folder.join(&name), cracks, state, &fields)?;
             bodies.append(time, name)?;
         }
     }
     Ok(outputs.files.len())
 }
 
-/// Opening and sliding (m) at each vertex of the surface of a step, from the stored displacements of this step or of the last stored step
+/// Opening and sliding (m) at each vertex of the surface of a state, from its stored displacements or those of the last stored state
 /// before it; NaN where there are none.
 ///
 /// # Errors
@@ -95,9 +96,9 @@ pub fn stored_jumps(
     folder: &Path,
     cracks: &SolidCracks,
     surface: &CrackSurface,
-    step: usize,
+    state: StoredState,
 ) -> Result<Vec<[f64; 2]>, Error> {
-    jumps(cracks, surface, fields_until(folder, step)?.as_ref())
+    jumps(cracks, surface, fields_until(folder, state)?.as_ref())
 }
 
 fn jumps(
@@ -111,10 +112,10 @@ fn jumps(
     })
 }
 
-/// The stored fields of a step, or of the last step before it with fields.
-pub(super) fn fields_until(folder: &Path, step: usize) -> Result<Option<VtuFile>, Error> {
+/// The stored fields of a state, or of the last one before it.
+pub(super) fn fields_until(folder: &Path, state: StoredState) -> Result<Option<VtuFile>, Error> {
     let outputs = Outputs::list(folder)?;
-    let path = outputs.files.range(..=step).next_back();
+    let path = outputs.files.range(..=state).next_back();
     path.map(|(_, path)| VtuFile::open(path)).transpose()
 }
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::fields::DISPLACEMENT;
-use ligament_output::results::{location, sides_between_materials};
+use ligament_output::results::{StoredState, location, sides_between_materials};
 use ligament_output::vtu::Cell;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::{Error, FieldLocation};
@@ -77,18 +77,18 @@ impl Body {
         self.interfaces.iter().map(|side| side.map(moved)).collect()
     }
 
-    /// Cuts the cells of a mesh along the cracks in the state of a step, so that they open with the displacement, and gives the new
+    /// Cuts the cells of a mesh along the cracks in a state, so that they open with the displacement, and gives the new
     /// corners the means of `values` (n_points); other bodies are unchanged.
     pub(super) fn open(
         &mut self,
         cracks: &StoredCracks,
-        step: usize,
+        state: StoredState,
         values: Option<&mut Vec<f64>>,
     ) {
         if !self.is_mesh() {
             return;
         }
-        let opened = cracks.opened_cells(step);
+        let opened = cracks.opened_cells(state);
         let moved = [0, 1].map(|axis| opened.means(|point| self.displacement[point][axis]));
         self.displacement = moved[0]
             .iter()

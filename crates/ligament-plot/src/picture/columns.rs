@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use ligament_output::csv::read::CsvTable;
+use ligament_output::results::StoredState;
 use ligament_output::results::columns::{HISTORY, TIME, is_in_time, unit_of, unit_of_crack};
 use ligament_output::results::steps::{StepChoice, StepName};
 
@@ -222,7 +223,8 @@ fn first_failure(
     points: &[[f64; 2]],
 ) -> Option<(&'static str, [f64; 2])> {
     let choice = StepChoice::One(StepName::First);
-    let (what, step) = choice.steps(folder, steps).ok()?.first()?.happened?;
+    let stored: Vec<StoredState> = steps.iter().copied().map(StoredState::end).collect();
+    let (what, step) = choice.steps(folder, &stored).ok()?.first()?.happened?;
     let row = steps.iter().position(|it| *it == step)?;
     Some((what, points[row])).filter(|it| it.1[1].is_finite())
 }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use ligament_output::csv::read::CsvTable;
+use ligament_output::results::StoredState;
 use ligament_output::results::cracks::columns_of_ends;
 use ligament_output::results::outputs::cut_pairs;
 
@@ -24,8 +25,8 @@ pub(super) struct BrokenBonds {
     pub(super) name: String,
     /// Colour of the criterion.
     pub(super) colour: Rgb,
-    /// Tags of the ends with the step in which they broke.
-    bonds: Vec<([i64; 2], usize)>,
+    /// Tags of the ends with the first state in which they are broken.
+    bonds: Vec<([i64; 2], StoredState)>,
 }
 
 /// All bonds that were broken or cut in a run.
@@ -44,7 +45,7 @@ impl Crack {
         let cut = (!cut.is_empty()).then(|| BrokenBonds {
             name: "pre-crack".to_owned(),
             colour: CUT,
-            bonds: cut.into_iter().map(|ends| (ends, 0)).collect(),
+            bonds: cut.into_iter().map(|ends| (ends, 0.into())).collect(),
         });
         let broken = bonds_by_criterion(&CsvTable::read(folder.join("breaks.csv"))?)?;
         Ok(Self {
@@ -53,10 +54,12 @@ impl Crack {
         })
     }
 
-    /// The bonds of a kind that are broken in the output of a step, by the tags of their ends.
-    pub(super) fn broken_until(&self, kind: &BrokenBonds, step: usize) -> Vec<[i64; 2]> {
-        let is_broken =
-            |at: usize| kind.is_cut() || at < step || (at == step && !self.breaks_after_output);
+    /// The bonds of a kind that are broken in an output, by the tags of their ends.
+    pub(super) fn broken_until(&self, kind: &BrokenBonds, state: StoredState) -> Vec<[i64; 2]> {
+        let is_broken = |at: StoredState| {
+            let is_before = at.step < state.step || !self.breaks_after_output;
+            kind.is_cut() || (at <= state && is_before)
+        };
         let bonds = kind.bonds.iter().filter(|(_, at)| is_broken(*at));
         bonds.map(|(ends, _)| *ends).collect()
     }
@@ -75,10 +78,14 @@ fn bonds_by_criterion(sheet: &CsvTable) -> Result<Vec<BrokenBonds>, PictureError
     let mut by_name: BTreeMap<String, Vec<_>> = BTreeMap::new();
     let rows = sheet.rows(|row| {
         let ends = [row.value(&ends[0])?, row.value(&ends[1])?];
-        Ok((row.value("criterion")?, (ends, row.value("step")?)))
+        Ok((row.value("criterion")?, ends, row.value("step")?))
     })?;
-    for (name, bond) in rows {
-        by_name.entry(name).or_default().push(bond);
+    let mut breakages: BTreeMap<usize, usize> = BTreeMap::new();
+    for (name, ends, step) in rows {
+        let count = breakages.entry(step).or_default();
+        *count += 1;
+        let at = StoredState::between(step, *count);
+        by_name.entry(name).or_default().push((ends, at));
     }
     let of_name = |(name, bonds)| BrokenBonds {
         name,
@@ -122,18 +129,35 @@ mod tests {
         let crack = crack(BREAKS, false);
         let names: Vec<&str> = crack.kinds.iter().map(|it| it.name.as_str()).collect();
         assert_eq!(names, ["frictional", "tension"]);
-        let of = |kind: usize, step| crack.broken_until(&crack.kinds[kind], step);
+        let of = |kind: usize, step: usize| crack.broken_until(&crack.kinds[kind], step.into());
         assert_eq!(of(1, 2), [[5, 6]]);
         assert_eq!(of(1, 9), [[5, 6], [8, 9]]);
         assert!(of(0, 2).is_empty());
         assert_ne!(crack.kinds[0].colour, crack.kinds[1].colour);
     }
 
+    #[test]
+    fn between_breakages_the_bonds_of_a_step_break_one_after_the_other() {
+        let crack = crack(
+            &BREAKS.replace("2,3,", "2,2,").replace("3,4,", "3,2,"),
+            false,
+        );
+        let of = |state| {
+            let kinds = crack.kinds.iter();
+            kinds
+                .map(|kind| crack.broken_until(kind, state).len())
+                .sum::<usize>()
+        };
+        let states = [1, 2, 3].map(|count| of(StoredState::between(2, count)));
+        assert_eq!(states, [1, 2, 3]);
+        assert_eq!([of(StoredState::end(1)), of(StoredState::end(2))], [0, 3]);
+    }
+
     /// On the exact path an output shows the state just before the bond of its event breaks.
     #[test]
     fn on_the_exact_path_bonds_break_after_the_output() {
         let crack = crack(BREAKS, true);
-        assert_eq!(crack.broken_until(&crack.kinds[1], 2).len(), 0);
-        assert_eq!(crack.broken_until(&crack.kinds[1], 3).len(), 1);
+        let of = |step: usize| crack.broken_until(&crack.kinds[1], step.into()).len();
+        assert_eq!([2, 3].map(of), [0, 1]);
     }
 }

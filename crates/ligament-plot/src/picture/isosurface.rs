@@ -7,7 +7,7 @@ use ligament_output::remedy::Remedy;
 use ligament_output::results::outputs::Outputs;
 use ligament_output::results::solid_body::{SolidBody, is_solid};
 use ligament_output::results::steps::StepChoice;
-use ligament_output::results::write_level_set;
+use ligament_output::results::{StoredState, write_level_set};
 use ligament_output::vtu::read::VtuFile;
 
 use super::PictureError;
@@ -22,15 +22,15 @@ pub struct IsosurfaceRequest {
     pub field: String,
     /// Value of the field on the surface, SI units.
     pub level: f64,
-    /// The steps, or modes: one is written as `iso.vtu`, all as `iso_NNNN.vtu` and `iso.pvd`.
+    /// The steps, or modes: one is written as `iso.vtu`, several or all as `iso_NNNN.vtu` and `iso.pvd`.
     pub step: StepChoice,
 }
 
 /// A surface that was written.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Isosurface {
-    /// Step of the surface.
-    pub step: usize,
+    /// State, or mode, of the surface.
+    pub state: StoredState,
     /// Area in the body without load, m^2.
     pub area: f64,
     /// Number of triangles; without any there is no file.
@@ -47,26 +47,25 @@ pub struct Isosurface {
 pub fn write_isosurfaces(request: &IsosurfaceRequest) -> Result<Vec<Isosurface>, PictureError> {
     let folder = &request.folder;
     let outputs = Outputs::list(folder)?;
-    let stored: Vec<usize> = outputs.files.keys().copied().collect();
-    let steps = request.step.steps(folder, &stored)?;
-    let is_series = request.step == StepChoice::All;
+    let steps = request.step.steps(folder, &outputs.states())?;
+    let is_series = request.step == StepChoice::All || steps.len() > 1;
     let mut collection = match is_series {
         true => Some(Collection::new(folder.join("iso.pvd"))),
         false => None,
     };
     let mut written = Vec::new();
-    for step in steps.iter().map(|it| it.step) {
+    for state in steps.iter().map(|it| it.state) {
         let name = match is_series {
-            true => format!("iso_{step:04}.vtu"),
+            true => format!("iso_{}.vtu", state.in_file_name()),
             false => "iso.vtu".to_owned(),
         };
-        let Some(fields) = outputs.files.get(&step) else {
+        let Some(fields) = outputs.files.get(&state) else {
             continue;
         };
         let file = VtuFile::open(fields)?;
-        let surface = write(request, (step, &file), folder.join(&name))?;
+        let surface = write(request, (state, &file), folder.join(&name))?;
         if let Some(collection) = collection.as_mut().filter(|_| surface.triangles > 0) {
-            collection.append(file.time()?.unwrap_or(step as f64), name)?;
+            collection.append(file.time()?.unwrap_or(state.step as f64), name)?;
         }
         written.push(surface);
     }
@@ -75,7 +74,7 @@ pub fn write_isosurfaces(request: &IsosurfaceRequest) -> Result<Vec<Isosurface>,
 
 fn write(
     request: &IsosurfaceRequest,
-    (step, file): (usize, &VtuFile),
+    (state, file): (StoredState, &VtuFile),
     path: PathBuf,
 ) -> Result<Isosurface, PictureError> {
     if !is_solid(file)? {
@@ -95,7 +94,7 @@ fn write(
     let of = (file, &body);
     let (area, triangles) = write_level_set(&path, of, &field.values, request.level)?;
     Ok(Isosurface {
-        step,
+        state,
         area,
         triangles,
         path,

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 use ligament_output::csv::read::CsvTable;
+use ligament_output::results::StoredState;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::{Error, read_text};
 
@@ -45,9 +46,9 @@ pub(super) struct Lines {
 }
 
 impl Lines {
-    /// The cracks in the state of a step, with their tips.
-    pub(super) fn from_cracks(cracks: &StoredCracks, step: usize) -> Self {
-        let lines = cracks.lines(step);
+    /// The cracks in a state, with their tips.
+    pub(super) fn from_cracks(cracks: &StoredCracks, state: StoredState) -> Self {
+        let lines = cracks.lines(state);
         let length: f64 = lines.iter().map(|line| line.length()).sum();
         Self {
             name: "crack path".to_owned(),
@@ -66,7 +67,7 @@ impl Lines {
             detail: String::new(),
             colour,
             width: WIDTH,
-            ..Self::from_cracks(cracks, usize::MAX)
+            ..Self::from_cracks(cracks, StoredState::end(usize::MAX))
         }
     }
 

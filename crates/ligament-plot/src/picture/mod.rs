@@ -36,6 +36,7 @@ pub mod units;
 use std::path::PathBuf;
 
 use ligament_output::remedy::Remedy;
+use ligament_output::results::StoredState;
 use ligament_output::results::steps::{StepError, listed};
 use thiserror::Error;
 
@@ -88,14 +89,14 @@ pub enum PictureError {
     #[error(transparent)]
     Step(#[from] StepError),
     /// There is no mode of this number.
-    #[error("{path} has no output of mode {number}; there are {}", listed(known))]
+    #[error("{path} has no output of mode {mode}; there are {}", listed(known))]
     NoSuchMode {
         /// Folder of the modes.
         path: PathBuf,
         /// Number of a mode that does not exist.
-        number: usize,
+        mode: StoredState,
         /// Numbers of the existing modes.
-        known: Vec<usize>,
+        known: Vec<StoredState>,
     },
     /// Lines are drawn on the body without its displacement.
     #[error(

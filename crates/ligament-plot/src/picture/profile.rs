@@ -43,8 +43,7 @@ pub struct ProfileRequest {
 /// If there is no such step or field, or a file cannot be used.
 pub fn profile(request: &ProfileRequest) -> Result<String, PictureError> {
     let outputs = Outputs::list(&request.folder)?;
-    let stored: Vec<usize> = outputs.files.keys().copied().collect();
-    let steps = request.step.steps(&request.folder, &stored)?;
+    let steps = request.step.steps(&request.folder, &outputs.states())?;
     let fields = request.fields.iter().map(String::as_str);
     let header: Vec<Value<'_>> = PROFILE_COLUMNS
         .into_iter()
@@ -52,13 +51,14 @@ pub fn profile(request: &ProfileRequest) -> Result<String, PictureError> {
         .map(Value::from)
         .collect();
     let mut text = line(&header);
-    for step in steps {
-        let Some(path) = outputs.files.get(&step.step) else {
+    for state in steps.iter().map(|it| it.state) {
+        let name = state.to_string();
+        let Some(path) = outputs.files.get(&state) else {
             continue;
         };
         let sampled = SampledField::read(&VtuFile::open(path)?, request)?;
         for (along, [x, y], values) in sampled.rows {
-            let place: [Value<'_>; 4] = [step.step.into(), along.into(), x.into(), y.into()];
+            let place: [Value<'_>; 4] = [Value::Text(&name), along.into(), x.into(), y.into()];
             let values = values
                 .into_iter()
                 .map(|it| it.map_or(Value::Missing, Value::from));

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 
 use ligament_output::csv::read::CsvTable;
 use ligament_output::remedy::Remedy;
+use ligament_output::results::StoredState;
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::steps::{NamedStep, StepChoice, StepName};
+use ligament_output::vtu::read::VtuFile;
 
 use super::PictureError;
 
@@ -26,7 +28,7 @@ pub enum Choice {
     Displacements(Vec<f64>),
 }
 
-/// The row of the history of a step.
+/// The load of a state, as in the row of the history of its step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct HistoryRow {
     /// Load factor; in a motion the time, s.
@@ -60,15 +62,53 @@ pub(super) fn history_rows(folder: &Path) -> Result<BTreeMap<usize, HistoryRow>,
     Ok(rows.into_iter().collect())
 }
 
+/// Load of a state between breakages, by the field data of its file.
+fn load_between_breakages(path: &Path) -> Result<HistoryRow, PictureError> {
+    let file = VtuFile::open(path)?;
+    let values = file.field_data()?;
+    let value = |name: &str| {
+        let found = values.iter().find(|it| it.0 == name);
+        found.map_or(f64::NAN, |it| it.1)
+    };
+    Ok(HistoryRow {
+        load_factor: value("load_factor"),
+        displacement: value("load_displacement"),
+        reaction: value("load_reaction"),
+        at_rest: true,
+    })
+}
+
 /// An output to draw.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct SelectedOutput {
-    /// Number of the step or the mode.
-    pub(super) number: usize,
+    /// State, or number of the mode.
+    pub(super) state: StoredState,
     /// File of the output.
     pub(super) path: PathBuf,
     /// Long and short description of the event that selected the step, if any.
     pub(super) happened: Option<[String; 2]>,
+    /// Load of the state, where it is known.
+    pub(super) load: Option<HistoryRow>,
+}
+
+impl SelectedOutput {
+    fn new(
+        outputs: &Outputs,
+        rows: &BTreeMap<usize, HistoryRow>,
+        (state, happened): (StoredState, Option<[String; 2]>),
+    ) -> Result<Self, PictureError> {
+        let path = outputs.files[&state].clone();
+        let load = match state.breakages() {
+            Some(_) => Some(load_between_breakages(&path)?),
+            None => rows.get(&state.step).copied(),
+        };
+        Ok(Self {
+            state,
+            path,
+            happened,
+            load,
+        })
+    }
 }
 
 /// The chosen outputs, in the order of the choice.
@@ -77,14 +117,14 @@ pub(super) fn selected_outputs(
     choice: &Choice,
     rows: &BTreeMap<usize, HistoryRow>,
 ) -> Result<Vec<SelectedOutput>, PictureError> {
-    let all: Vec<usize> = outputs.files.keys().copied().collect();
+    let all = outputs.states();
     let last = all.len() - 1;
-    let numbers = match choice {
+    let states = match choice {
         Choice::Default if outputs.kind == OutputKind::Modes => {
             all.iter().copied().take(FIRST_MODES).collect()
         }
         Choice::Default | Choice::Strip(1) => vec![all[last]],
-        Choice::Steps(steps) => return outputs_by_name(outputs, steps, &all),
+        Choice::Steps(steps) => return outputs_by_name(outputs, steps, (&all, rows)),
         Choice::Strip(count) => {
             let count = (*count).min(all.len());
             let place = |it: usize| (2 * it * last + count - 1) / (2 * (count - 1)).max(1);
@@ -92,31 +132,29 @@ pub(super) fn selected_outputs(
         }
         Choice::Displacements(displacements) => {
             let of_outputs = || {
-                let rows = all.iter().map(|step| Some((*step, rows.get(step)?)));
+                let ends = all.iter().filter(|it| it.breakages().is_none());
+                let rows = ends.map(|it| Some((*it, rows.get(&it.step)?)));
                 rows.flatten()
             };
             let nearest = |wanted: &f64| {
-                let away = |(_, row): &(usize, &HistoryRow)| (row.displacement - wanted).abs();
+                let away =
+                    |(_, row): &(StoredState, &HistoryRow)| (row.displacement - wanted).abs();
                 let nearest = of_outputs().min_by(|a, b| away(a).total_cmp(&away(b)));
-                nearest.map(|(step, _)| step)
+                nearest.map(|(state, _)| state)
             };
-            let found: Option<Vec<usize>> = displacements.iter().map(nearest).collect();
+            let found: Option<Vec<StoredState>> = displacements.iter().map(nearest).collect();
             found.ok_or_else(|| PictureError::NoHistory(outputs.folder.clone()))?
         }
     };
-    let output = |number: usize| SelectedOutput {
-        number,
-        path: outputs.files[&number].clone(),
-        happened: None,
-    };
-    Ok(numbers.into_iter().map(output).collect())
+    let output = |state| SelectedOutput::new(outputs, rows, (state, None));
+    states.into_iter().map(output).collect()
 }
 
 /// Outputs selected by name.
 fn outputs_by_name(
     outputs: &Outputs,
     names: &[StepChoice],
-    all: &[usize],
+    (all, rows): (&[StoredState], &BTreeMap<usize, HistoryRow>),
 ) -> Result<Vec<SelectedOutput>, PictureError> {
     let mut found: Vec<NamedStep> = Vec::new();
     for name in names {
@@ -125,25 +163,21 @@ fn outputs_by_name(
         }
         found.extend(name.steps(&outputs.folder, all)?);
     }
-    let output = |it: &NamedStep| SelectedOutput {
-        number: it.step,
-        path: outputs.files[&it.step].clone(),
-        happened: it.words(),
-    };
-    Ok(found.iter().map(output).collect())
+    let output = |it: &NamedStep| SelectedOutput::new(outputs, rows, (it.state, it.words()));
+    found.iter().map(output).collect()
 }
 
 /// Checks that a mode is requested by number and exists.
-fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<(), PictureError> {
+fn require_mode(
+    outputs: &Outputs,
+    name: StepChoice,
+    all: &[StoredState],
+) -> Result<(), PictureError> {
     let path = outputs.folder.clone();
     match name {
-        StepChoice::One(StepName::Number(number)) if !all.contains(&number) => {
+        StepChoice::One(StepName::State(mode)) if !all.contains(&mode) => {
             let known = all.to_vec();
-            Err(PictureError::NoSuchMode {
-                path,
-                number,
-                known,
-            })
+            Err(PictureError::NoSuchMode { path, mode, known })
         }
         StepChoice::One(
             StepName::First | StepName::Peak | StepName::FromEnd(_) | StepName::At(_),
@@ -152,7 +186,9 @@ fn require_mode(outputs: &Outputs, name: StepChoice, all: &[usize]) -> Result<()
             what: "first breakage and no peak",
             remedy: Remedy::OmitOption("step"),
         }),
-        StepChoice::All | StepChoice::One(StepName::Last | StepName::Number(_)) => Ok(()),
+        StepChoice::All
+        | StepChoice::Step(_)
+        | StepChoice::One(StepName::Last | StepName::State(_)) => Ok(()),
     }
 }
 
@@ -166,7 +202,7 @@ mod tests {
             kind,
             files: steps
                 .iter()
-                .map(|&it| (it, PathBuf::from(it.to_string())))
+                .map(|&it| (StoredState::end(it), PathBuf::from(it.to_string())))
                 .collect(),
         }
     }
@@ -186,7 +222,7 @@ mod tests {
                 )
             });
         let found = selected_outputs(&outputs, choice, &BTreeMap::from(rows));
-        found.unwrap().into_iter().map(|it| it.number).collect()
+        found.unwrap().into_iter().map(|it| it.state.step).collect()
     }
 
     #[test]
@@ -205,7 +241,7 @@ mod tests {
         let numbers = |numbers: &[usize]| {
             let names = numbers
                 .iter()
-                .map(|it| StepChoice::One(StepName::Number(*it)));
+                .map(|it| StepChoice::One(StepName::State((*it).into())));
             Choice::Steps(names.collect())
         };
         assert_eq!(steps(&numbers(&[20, 5])), [20, 5]);

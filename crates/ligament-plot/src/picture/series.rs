@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use ligament_output::results::StoredState;
 use ligament_output::{check_file, is_stream, write_file};
 
 use super::PictureError;
@@ -41,7 +42,7 @@ pub fn draw_each(request: &FieldRequest) -> Result<Vec<PathBuf>, PictureError> {
     let file = request.target.file(|| subject.default_file(request))?;
     let series = Series::new(request, &subject)?;
     let mut written = Vec::new();
-    let files = |output: &Output<'_>| numbered_file(&file, output.number());
+    let files = |output: &Output<'_>| numbered_file(&file, output.state());
     for output in &series.outputs {
         request.target.check(&files(output))?;
     }
@@ -103,11 +104,11 @@ fn one_subject(request: &FieldRequest, option: &'static str) -> Result<Subject, 
 }
 
 /// The file with a number before its ending, with as many digits as in the names of outputs.
-fn numbered_file(file: &Path, number: usize) -> PathBuf {
+fn numbered_file(file: &Path, state: StoredState) -> PathBuf {
     let part =
         |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
     let (stem, ending) = (part(file.file_stem()), part(file.extension()));
-    file.with_file_name(format!("{stem}-{number:04}.{ending}"))
+    file.with_file_name(format!("{stem}-{}.{ending}", state.in_file_name()))
 }
 
 impl<'a> Series<'a> {
@@ -166,7 +167,7 @@ mod tests {
 
     #[test]
     fn files_of_a_series_sort_by_their_numbers() {
-        let of = |file: &str, number| numbered_file(Path::new(file), number);
+        let of = |file: &str, step: usize| numbered_file(Path::new(file), step.into());
         assert_eq!(of("out/a.b.png", 7), Path::new("out/a.b-0007.png"));
         assert_eq!(of("crack.svg", 12345), Path::new("crack-12345.svg"));
     }

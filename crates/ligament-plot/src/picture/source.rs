@@ -12,7 +12,7 @@ use ligament_output::results::fields::{DISPLACEMENT, OPENING};
 use ligament_output::results::outputs::{OutputKind, Outputs};
 use ligament_output::results::solid_body::is_solid;
 use ligament_output::results::solid_cracks::{SolidCracks, has_solid};
-use ligament_output::results::{first_field_of, stored_rigid_bodies};
+use ligament_output::results::{StoredState, first_field_of, stored_rigid_bodies};
 use ligament_output::vtu::read::VtuFile;
 
 use super::body::{Body, MODE_SHARE};
@@ -215,29 +215,29 @@ impl Source {
 }
 
 impl Output<'_> {
-    /// Number of the step or the mode.
-    pub(super) fn number(&self) -> usize {
-        self.selected.number
+    /// The state, or number of the mode.
+    pub(super) fn state(&self) -> StoredState {
+        self.selected.state
     }
 
-    /// The row of the history of the step.
+    /// The load of the state.
     fn history_row(&self) -> Option<&HistoryRow> {
-        self.source.rows.get(&self.selected.number)
+        self.selected.load.as_ref()
     }
 
     /// Long and short words of the title.
     pub(super) fn title(&self) -> Vec<[String; 2]> {
-        let (source, number) = (self.source, self.selected.number);
+        let (source, state) = (self.source, self.selected.state);
         let same = |text: String| [text.clone(), text];
         let mut words = Vec::new();
         if self.is_labelled {
             words.push(same(source.label.clone()));
         }
         if source.outputs.kind == OutputKind::Modes {
-            let frequency = source.frequencies.get(&number);
+            let frequency = source.frequencies.get(&state.step);
             let frequency =
                 frequency.map_or(String::new(), |it| format!(": {} Hz", four_digits(*it)));
-            words.push(same(format!("mode {number}{frequency}")));
+            words.push(same(format!("mode {state}{frequency}")));
             return words;
         }
         if let (Some(row), Some(units)) = (self.history_row(), &source.time) {
@@ -245,7 +245,14 @@ impl Output<'_> {
             words.extend(self.selected.happened.clone());
             return words;
         }
-        words.push(same(format!("step {number}")));
+        let step = state.step;
+        words.push(match state.breakages() {
+            Some(count) => [
+                format!("step {step} after {count} breakages"),
+                format!("step {state}"),
+            ],
+            None => same(format!("step {step}")),
+        });
         words.extend(self.selected.happened.clone());
         if let (Some(row), Some([displacement, force])) = (self.history_row(), &source.units) {
             // A change of temperature loads a body that nothing moves.
@@ -303,7 +310,7 @@ impl Output<'_> {
         let opens = !self.draws_lines() && !field.as_ref().is_some_and(on_cells);
         if let Some(cracks) = self.source.cracks.as_ref().filter(|_| opens) {
             let values = field.as_mut().map(|it| &mut it.values);
-            body.open(cracks, self.selected.number, values);
+            body.open(cracks, self.selected.state, values);
         }
         Ok(Panel {
             title: self.title(),
@@ -325,7 +332,7 @@ impl Output<'_> {
             return Err(PictureError::LinesOfSolid(Remedy::OmitOption("with-lines")));
         }
         let cracks = source.solid_cracks.as_ref();
-        let cracks = cracks.map(|it| (it, self.selected.number));
+        let cracks = cracks.map(|it| (it, self.selected.state));
         let drawn = (&source.solid, source.drawing);
         let (scene, mut field) = solid::read(file, field, drawn, cracks)?;
         if source.outputs.kind == OutputKind::Modes {
@@ -358,7 +365,7 @@ impl Output<'_> {
     /// Lines over the body, its cracks above all others.
     fn lines(&self) -> Vec<Lines> {
         let cracks = self.source.cracks.as_ref().filter(|_| self.draws_lines());
-        let cracks = cracks.map(|it| Lines::from_cracks(it, self.selected.number));
+        let cracks = cracks.map(|it| Lines::from_cracks(it, self.selected.state));
         self.source.lines.iter().cloned().chain(cracks).collect()
     }
 
@@ -382,7 +389,7 @@ impl Output<'_> {
         let kinds = kinds.filter(|(_, kind)| !(kind.is_cut() && panel.body.is_mesh()));
         panel.broken = kinds
             .map(|(crack, kind)| {
-                let bonds = crack.broken_until(kind, self.selected.number).into_iter();
+                let bonds = crack.broken_until(kind, self.selected.state).into_iter();
                 (kind.colour, bonds.filter_map(line).collect())
             })
             .collect();

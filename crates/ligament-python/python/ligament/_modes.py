@@ -68,7 +68,7 @@ class Modes(Stored):
     @functools.cached_property
     def position(self) -> Floats:
         """Positions of the points (n, 2) or (n, 3), m."""
-        positions = self._run.positions(1)
+        positions = self._run.positions("1")
         return positions if self._run.is_solid() else read_only(positions[:, :2].copy())
 
     def shape(self, mode: int, field: str = "displacement") -> NDArray[Any]:
@@ -78,7 +78,7 @@ class Modes(Stored):
             raise LigamentError(f"there is no mode {mode}; {hint}", hint=hint)
         at = mode % len(self) + 1
         if (at, field) not in self._shapes:
-            self._shapes[at, field] = self._run.field(at, field)
+            self._shapes[at, field] = self._run.field(str(at), field)
         return self._shapes[at, field]
 
     @property

@@ -23,9 +23,9 @@ from ligament._modes import Modes
 from ligament._picture import Picture
 from ligament._stored import Floats, Stored, read_only, table
 
-# A step by its number, from the end (-1 is the last) or by what happened in it: the first breakage or softening, the largest load. In a motion a
-# step is a row of the history, and a time in s means the nearest one.
-Step = int | Literal["first", "peak", "last"]
+# A step by its number, from the end (-1 is the last state) or by what happened in it, "first" (breakage or softening), "peak" or "last"; "45:120" is
+# step 45 after 120 breakages. In a motion a step is a row of the history, and a time in s means the nearest one.
+Step = int | str
 
 # Width of one of two pictures beside each other, mm.
 HALF = 100.0
@@ -91,8 +91,8 @@ class Result(Stored):
 
     def __init__(self, folder: str | os.PathLike[str], title: str | None = None, home: Home | None = None) -> None:
         super().__init__(folder, title, home)
-        self._fields: dict[tuple[int, str], NDArray[Any]] = {}
-        self._infos: dict[int, dict[str, tuple[list[str], bool, str]]] = {}
+        self._fields: dict[tuple[str, str], NDArray[Any]] = {}
+        self._infos: dict[str, dict[str, tuple[list[str], bool, str]]] = {}
 
     @functools.cached_property
     def columns(self) -> dict[str, Any]:
@@ -141,7 +141,7 @@ class Result(Stored):
     @functools.cached_property
     def points(self) -> dict[str, NDArray[Any]]:
         """Arrays over the points that never change: position (n, 2) or (n, 3), volume, horizon and others."""
-        first = self.steps[0]
+        first = self.states[0]
         fixed = [name for name, (_, stays, _) in self._info(first).items() if stays]
         position = self._positions if self.is_solid else read_only(self._positions[:, :2].copy())
         return {"position": position, **{name: self._whole(name, first) for name in fixed}}
@@ -152,7 +152,7 @@ class Result(Stored):
 
     @property
     def _positions(self) -> Floats:
-        return self._model[0] if self._model else self._run.positions(self.steps[0])
+        return self._model[0] if self._model else self._run.positions(self.states[0])
 
     @functools.cached_property
     def is_solid(self) -> bool:
@@ -206,6 +206,12 @@ class Result(Stored):
         """Steps of which there are fields."""
         return self._run.steps()
 
+    @functools.cached_property
+    def states(self) -> list[str]:
+        """All states of which there are fields, in their order, as `step` takes them: ``"45"`` is the end of step 45, and ``"45:120"`` the step
+        after 120 breakages (``output__during_breakage``)."""
+        return self._run.states()
+
     @property
     def _rows(self) -> list[int]:
         """The rows of the history of the steps of which there are fields."""
@@ -214,7 +220,7 @@ class Result(Stored):
     @property
     def field_names(self) -> list[str]:
         """Names of the fields of the points that change with the steps."""
-        return [name for name, (_, stays, _) in self._info(self.steps[-1]).items() if not stays]
+        return [name for name, (_, stays, _) in self._info(self.states[-1]).items() if not stays]
 
     def number(self, name: str) -> float:
         """A number of the summary by its dotted name, such as ``first_peak.reaction``."""
@@ -227,14 +233,14 @@ class Result(Stored):
 
         Components are named as on the command line: ``displacement.y``, ``displacement.magnitude``, ``stress.xx``. A step is a number, -1
         for the last, or ``"first"`` (breakage or softening), ``"peak"`` or ``"last"``; where fields of a named step were not kept, those of
-        the next one are taken. The same array is returned each time.
+        the next one are taken; or one of `states`. The same array is returned each time.
 
         ``stress`` is the stress that the material of each point carries (``output__stress=["material"]``). ``stress_effective``
         (``"effective"``) is that of sound material at the strain of the bonds left, without a value where these do not span the space.
         ``stress_virial`` at single points of an irregular mesh is off by a tenth to a quarter inside the body and by a third and more
         at its edges; its mean over many points is right.
         """
-        at = self._step(step, time)
+        at = self._state(step, time)
         base, part = self._named(name, at)
         values = self._whole(base, at)
         if part is None:
@@ -243,23 +249,23 @@ class Result(Stored):
             return self._fields.setdefault((at, name), read_only(np.linalg.norm(values, axis=1)))
         return values[:, self._info(at)[base][0].index(part)]
 
-    def _step(self, step: Step | None, time: float | None = None) -> int:
-        """The step with fields that is meant."""
-        return self._run.step(_meant(step, time), True)
+    def _state(self, step: Step | None, time: float | None = None) -> str:
+        """The state with fields that is meant."""
+        return self._run.state(_meant(step, time), True)
 
-    def _info(self, step: int) -> dict[str, tuple[list[str], bool, str]]:
-        if step not in self._infos:
-            self._infos[step] = self._run.fields(step)
-        return self._infos[step]
+    def _info(self, state: str) -> dict[str, tuple[list[str], bool, str]]:
+        if state not in self._infos:
+            self._infos[state] = self._run.fields(state)
+        return self._infos[state]
 
-    def _whole(self, name: str, step: int) -> NDArray[Any]:
-        if (step, name) not in self._fields:
-            self._fields[step, name] = self._run.field(step, name)
-        return self._fields[step, name]
+    def _whole(self, name: str, state: str) -> NDArray[Any]:
+        if (state, name) not in self._fields:
+            self._fields[state, name] = self._run.field(state, name)
+        return self._fields[state, name]
 
-    def _named(self, name: str, step: int) -> tuple[str, str | None]:
+    def _named(self, name: str, state: str) -> tuple[str, str | None]:
         """The field and the component, if any, that a name means."""
-        fields = self._info(step)
+        fields = self._info(state)
         if name in fields:
             return name, None
         parts = {base: components + [NORM] * (components == VECTOR) for base, (components, _, _) in fields.items()}
@@ -278,7 +284,7 @@ class Result(Stored):
         if self.is_solid:
             hint = "`crack_surface` has its crack as triangles"
             raise LigamentError(f"lines of cracks are those of a body in the plane, and this one is a solid; {hint}", hint=hint)
-        lines = self._run.cracks(self._run.step(_meant(step, time), False))
+        lines = self._run.cracks(self._run.state(_meant(step, time), False))
         return [CrackLine(points, (ends[0], ends[1]), length) for points, ends, length in lines]
 
     def crack_opening(
@@ -296,7 +302,7 @@ class Result(Stored):
         """
         if samples < 2:
             raise LigamentError(f"a line has two samples or more, not {samples}")
-        return CrackOpening(**self._run.openings(self._step(step, time), [list(start), list(end)], samples))
+        return CrackOpening(**self._run.openings(self._state(step, time), [list(start), list(end)], samples))
 
     def crack_surface(self, step: Step | None = None, *, time: float | None = None) -> CrackSurface:
         """The crack of a solid in a step, or at a time of a motion, as a surface, the last step where none is said.
@@ -306,7 +312,7 @@ class Result(Stored):
         if not self.is_solid:
             hint = "`crack_path` has its cracks as lines"
             raise LigamentError(f"a crack surface is that of a solid, and this body lies in the plane; {hint}", hint=hint)
-        return CrackSurface(**self._run.surface(self._run.step(_meant(step, time), False)))
+        return CrackSurface(**self._run.surface(self._run.state(_meant(step, time), False)))
 
     def plot(
         self,
@@ -330,7 +336,7 @@ class Result(Stored):
         solid is seen from ``"x"``, ``"y"``, ``"z"``, ``"iso"`` or an azimuth and an elevation in degrees; `section` is a plane such as
         ``"z=0.05"``, and `level` draws the surface on which the field has this value.
         """
-        at = self._step(step, time)
+        at = self._state(step, time)
         if field not in (None, "none"):
             self._named(str(field), at)
         seen = view if view is None or isinstance(view, str) else f"{view[0]},{view[1]}"
@@ -375,7 +381,7 @@ class Result(Stored):
         """The body in a step, or at a time of a motion, as a grid of PyVista, with all fields."""
         import pyvista
 
-        return pyvista.read(self._run.file(self._step(step, time)))
+        return pyvista.read(self._run.file(self._state(step, time)))
 
     def to_xarray(self) -> Any:
         """The fields over the steps and points as a data set of xarray, with units and, at each step, displacement and force of the load, and
@@ -391,15 +397,16 @@ class Result(Stored):
         for axis, values in zip(VECTOR, self.points["position"].T, strict=False):
             coordinates[axis] = ("point", values, {"units": "m"})
         fields: dict[str, Any] = {}
-        for name, (components, stays, unit) in self._info(self.steps[-1]).items():
+        last = str(self.steps[-1])
+        for name, (components, stays, unit) in self._info(last).items():
             dimensions = ["step", "point"]
             if components:
                 dimensions.append("axis" if components == VECTOR else f"{name}_component")
                 coordinates[dimensions[-1]] = components
             if stays:
-                fields[name] = (dimensions[1:], self._whole(name, self.steps[-1]), {"units": unit})
+                fields[name] = (dimensions[1:], self._whole(name, last), {"units": unit})
             else:
-                fields[name] = (dimensions, np.stack([self._whole(name, step) for step in self.steps]), {"units": unit})
+                fields[name] = (dimensions, np.stack([self._whole(name, str(step)) for step in self.steps]), {"units": unit})
         return xarray.Dataset(fields, coordinates, {"title": self.title})
 
     def __repr__(self) -> str:

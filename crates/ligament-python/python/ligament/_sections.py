@@ -1152,6 +1152,9 @@ class Output(TypedDict, total=False):
 
     fields_every: int
     """Load steps or rows of a motion (default 10) or events of the exact path (100) between two field files; 0: the first and the last state alone."""
+    during_breakage: int
+    """Largest number of states between the breakages of a load step with field files of their own, evenly spread over its breakages: the growth of a
+crack that runs within one step. Default 0."""
     bonds: bool
     """Whether the bonds are written as lines with each field file. Default false."""
     model: bool

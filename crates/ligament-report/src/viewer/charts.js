@@ -192,7 +192,7 @@ class Charts {
   showSize(run, number) {
     const along = run.time ?? run.history.get("displacement");
     const isThere = run.size?.values.some((it) => it > 0) && along;
-    const x = isThere && run.rows.map((row) => along.values[row] * 10 ** along.shift);
+    const x = isThere && run.rows.map((_, place) => run.valueAt(along.name, place) * 10 ** along.shift);
     const series = isThere ? [{ label: run.label, colour: 1, x, y: valuesIn(run.size, run.size.shift), steps: [...x.keys()] }] : [];
     this.size.show({
       series, xLabel: labelWithUnit(inWords(along?.name ?? ""), along?.unit), yLabel: labelWithUnit(run.size?.name ?? "", run.size?.unit),
@@ -204,7 +204,7 @@ class Charts {
   showSpent(run, number) {
     const energy = run.history.get("dissipated_energy");
     const areas = run.area?.values ?? [];
-    const last = areas.length - 1;
+    const last = run.rows.findLastIndex((row) => row >= 0);
     const isThere = areas[last] > 0 && energy;
     const given = run.description.fractureEnergy;
     const text = document.getElementById("spent-note");

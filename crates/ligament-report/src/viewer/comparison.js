@@ -95,10 +95,10 @@ function differenceRange(values) {
 
 // The state of a result in words, with the share of its largest force.
 function stateText(run, step) {
-  const words = run.when(run.steps[step]);
+  const words = run.whenAt(step);
   if (!run.loads) return words;
   const forces = run.history.get("reaction").values;
   const largest = Math.max(...forces);
-  const row = run.rows[step];
-  return `${words}, ${Math.round((100 * forces[row]) / largest)} % of its largest force${row > forces.indexOf(largest) ? ", after it" : ""}`;
+  const isAfter = run.axis.ofSteps[step] > run.history.get("step").values[forces.indexOf(largest)];
+  return `${words}, ${Math.round((100 * run.valueAt("reaction", step)) / largest)} % of its largest force${isAfter ? ", after it" : ""}`;
 }

@@ -197,8 +197,8 @@ class Page {
     this.charts.mark(run, step);
     this.showPoint();
     Object.assign(document.documentElement.dataset, {
-      drawn: `${run.label} ${run.steps[step]} ${choice.id}`,
-      compared: panes.slice(1).map((pane) => `${pane.run.label} ${pane.run.steps[pane.step]} ${this.isDifference ? "difference" : "both"}`).join(),
+      drawn: `${run.label} ${run.numberAt(step)} ${choice.id}`,
+      compared: panes.slice(1).map((pane) => `${pane.run.label} ${pane.run.numberAt(pane.step)} ${this.isDifference ? "difference" : "both"}`).join(),
     });
   }
 
@@ -221,11 +221,12 @@ class Page {
   tellStep() {
     const { run, step } = this;
     const row = run.rows[step];
-    const words = [run.when(run.steps[step])];
+    const words = [run.whenAt(step)];
     const told = run.isModes ? ["frequency"] : ["displacement", "reaction"];
     for (const name of run.time ? [] : told) {
       const column = run.history.get(name);
-      if (column && row >= 0) words.push(withUnit(shortText(column.values[row] * 10 ** column.shift), column.unit));
+      const value = run.valueAt(name, step);
+      if (value !== undefined) words.push(withUnit(shortText(value * 10 ** column.shift), column.unit));
     }
     const atRest = run.history.get("at_rest")?.values[row];
     if (atRest === 0) words.push("not converged");
@@ -448,7 +449,7 @@ class Page {
   // The picture of the body, or the pictures of both beside one another.
   saveBody() {
     const [first, ...others] = this.shown.map((it) => it.canvas);
-    const names = [...this.wanted.map((it) => it.label), this.isDifference ? "difference" : "", this.choice.id, this.run.steps[this.step]];
+    const names = [...this.wanted.map((it) => it.label), this.isDifference ? "difference" : "", this.choice.id, this.run.numberAt(this.step)];
     let whole = first;
     if (others.length > 0) {
       whole = Object.assign(document.createElement("canvas"), { width: first.width + others[0].width, height: first.height });

@@ -46,7 +46,7 @@ class Pane {
   async readBroken(step, mode) {
     const { run } = this;
     if (mode !== "bonds" || !run.bonds) return null;
-    const [ends, breaks, count] = await Promise.all([run.bonds.ends(), run.bonds.breaks(), run.bonds.countAt(run.steps[step])]);
+    const [ends, breaks, count] = await Promise.all([run.bonds.ends(), run.bonds.breaks(), run.bonds.countAt(step)]);
     return Array.from(breaks.bond.subarray(0, count), (bond) => [ends.a[bond], ends.b[bond]]);
   }
 

@@ -16,8 +16,10 @@ class Run {
     this.choices = this.fields.flatMap(choicesOfField);
     this.history = new Map(description.history.map((column) => [column.name, column]));
     const rows = this.history.get("step")?.values ?? [];
-    // The row of the history of each step of the page.
-    this.rows = this.steps.map((step) => rows.indexOf(step));
+    // Breakages of its step before each state of the page that lies between them, with its load, by the place of the state.
+    this.between = description.between;
+    // The row of the history of each step of the page; -1 between breakages.
+    this.rows = this.steps.map((step, place) => (this.between[place] ? -1 : rows.indexOf(step)));
     // The time of each row of a motion; null in statics.
     this.time = description.inTime ? this.history.get("time") : null;
     // Size and area of the cracks over the steps of the page.
@@ -29,16 +31,24 @@ class Run {
 
   // What curves of the run are drawn over: places of all rows, and of the steps of the page, with their label.
   get axis() {
-    const x = this.time ? valuesIn(this.time, this.time.shift) : this.history.get("step")?.values ?? [];
+    const [steps, broken] = ["step", "broken_in_step"].map((name) => this.history.get(name)?.values ?? []);
+    const x = this.time ? valuesIn(this.time, this.time.shift) : steps;
     const label = this.time ? labelWithUnit("time", this.time.unit) : this.isModes ? "mode" : "step";
-    return { x, ofSteps: this.time ? this.rows.map((row) => x[row]) : this.steps, label };
+    // Between the breakages of a step their share leads from the step before to its end.
+    const ofStep = (step, place) => (this.between[place] ? step - 1 + this.between[place].breakages / broken[steps.indexOf(step)] : step);
+    return { x, ofSteps: this.time ? this.rows.map((row) => x[row]) : this.steps.map(ofStep), label };
+  }
+
+  // Displacement or reaction in a state of the page, or another column of the history at the end of a step, SI units.
+  valueAt(name, place) {
+    return this.between[place]?.[name] ?? this.history.get(name)?.values[this.rows[place]];
   }
 
   // Force of each step of the page over the largest, and its step; null where no force grows and falls.
   get loads() {
     const column = this.history.get("reaction");
     if (!column || this.time || this.isModes) return null;
-    const forces = this.rows.map((row) => column.values[row] ?? 0);
+    const forces = this.rows.map((_, place) => this.valueAt("reaction", place) ?? 0);
     const largest = Math.max(...forces);
     return largest > 0 ? { shares: forces.map((it) => it / largest), peak: forces.indexOf(largest) } : null;
   }
@@ -60,6 +70,18 @@ class Run {
     const row = this.time ? this.history.get("step").values.indexOf(number) : -1;
     if (row < 0) return `${this.isModes ? "mode" : "step"} ${number}`;
     return `t = ${withUnit(shortText(this.time.values[row] * 10 ** this.time.shift), this.time.unit)}`;
+  }
+
+  // A state of the page in words.
+  whenAt(place) {
+    const between = this.between[place];
+    return this.when(this.steps[place]) + (between ? ` after ${between.breakages} breakages` : "");
+  }
+
+  // The number of a state of the page.
+  numberAt(place) {
+    const between = this.between[place];
+    return between ? `${this.steps[place]}:${between.breakages}` : `${this.steps[place]}`;
   }
 
   // Positions, tags and triangles; read once.
@@ -237,13 +259,15 @@ class Bonds {
     return { bond, step, round, criterion, utilisation, order };
   }
 
-  // How many of the broken bonds have broken in the state of a step: on the exact path it is that before the step's breakages.
-  async countAt(stepNumber) {
+  // How many of the broken bonds have broken in a state of the page: on the exact path it is that before the breakages of its step.
+  async countAt(place) {
     const { step } = await this.breaks();
-    const before = this.run.description.beforeBreakages;
+    const { run } = this;
+    const between = run.between[place];
+    const isBefore = run.description.beforeBreakages || between;
     let count = 0;
-    while (count < step.length && (before ? step[count] < stepNumber : step[count] <= stepNumber)) count++;
-    return count;
+    while (count < step.length && (isBefore ? step[count] < run.steps[place] : step[count] <= run.steps[place])) count++;
+    return count + (between?.breakages ?? 0);
   }
 
   // Texts of the properties of a bond by name.

@@ -6,6 +6,7 @@ use ligament_mesh::SolidCell;
 use ligament_model::{Canvas, box_corners};
 use ligament_output::FieldLocation;
 use ligament_output::remedy::Remedy;
+use ligament_output::results::StoredState;
 use ligament_output::results::fields::{DISPLACEMENT, OPENING, ResultField, SLIDING};
 use ligament_output::results::solid_body::SolidBody;
 use ligament_output::results::solid_cracks::SolidCracks;
@@ -29,15 +30,15 @@ struct Solid<'a> {
     body: SolidBody,
     displacement: Vec<[f64; 3]>,
     field: Option<Field>,
-    cracks: Option<(&'a SolidCracks, usize)>,
+    cracks: Option<(&'a SolidCracks, StoredState)>,
 }
 
-/// The scene of an output, and the field that is drawn; `cracks` with the step where they are drawn.
+/// The scene of an output, and the field that is drawn; `cracks` with the state in which they are drawn.
 pub(in crate::picture) fn read(
     file: &VtuFile,
     field: &str,
     (request, crack): (&SolidRequest, Option<CrackDrawing>),
-    cracks: Option<(&SolidCracks, usize)>,
+    cracks: Option<(&SolidCracks, StoredState)>,
 ) -> Result<(Scene, Option<Field>), PictureError> {
     let body = SolidBody::read(file)?;
     let is_drawn = field != NONE
@@ -52,8 +53,8 @@ pub(in crate::picture) fn read(
     let scene = match (request.section, request.level, crack, cracks) {
         (Some(section), ..) => solid.section(section, request.view.is_some()),
         (_, Some(level), ..) => solid.level(level)?,
-        (_, _, Some(CrackDrawing::Lines), Some((cracks, step))) => {
-            return Ok(solid.crack(field, cracks, step));
+        (_, _, Some(CrackDrawing::Lines), Some((cracks, state))) => {
+            return Ok(solid.crack(field, cracks, state));
         }
         _ => solid.outline(),
     };
@@ -88,7 +89,7 @@ impl Solid<'_> {
         let grid = &self.body.grid;
         let links = self
             .cracks
-            .map(|(cracks, step)| (cracks, cracks.links(step)));
+            .map(|(cracks, state)| (cracks, cracks.links(state)));
         match &grid.canvas {
             Canvas::Boxes(boxes) => self.boxes(boxes, links.as_ref().map(|it| &it.1)),
             Canvas::Solid(cells) => match links {
@@ -238,8 +239,13 @@ impl Solid<'_> {
     }
 
     /// The surface of the crack, and the edges of the body around it.
-    fn crack(&self, field: &str, cracks: &SolidCracks, step: usize) -> (Scene, Option<Field>) {
-        let surface = cracks.surface(step);
+    fn crack(
+        &self,
+        field: &str,
+        cracks: &SolidCracks,
+        state: StoredState,
+    ) -> (Scene, Option<Field>) {
+        let surface = cracks.surface(state);
         let mut scene = Scene::default();
         for (place, pairs) in surface.places.iter().zip(&surface.parted) {
             self.push(&mut scene, *place, pairs.as_flattened());
