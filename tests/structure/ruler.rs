@@ -14,7 +14,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-case", 80_250),
     ("ligament-cli", 60_601),
     ("ligament-linalg", 28_982),
-    ("ligament-mesh", 85_019),
+    ("ligament-mesh", 87_704),
     ("ligament-model", 227_524),
     ("ligament-output", 77_087),
     ("ligament-petsc", 2_978),
@@ -23,7 +23,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-python", 14_474),
     ("ligament-report", 20_786),
     ("ligament-run", 31_827),
-    ("ligament-study", 89_082),
+    ("ligament-study", 90_043),
     ("ligament-verify", 80_888),
 ];
 
