@@ -9,7 +9,7 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 120_857),
+    ("ligament", 120_830),
     ("ligament-analysis", 204_701),
     ("ligament-case", 80_250),
     ("ligament-cli", 60_601),
@@ -20,7 +20,7 @@ const TOKENS: [(&str, usize); 16] = [
     ("ligament-petsc", 2_978),
     ("ligament-plot", 59_914),
     ("ligament-post", 27_808),
-    ("ligament-python", 14_474),
+    ("ligament-python", 14_442),
     ("ligament-report", 20_786),
     ("ligament-run", 31_827),
     ("ligament-study", 90_043),
