@@ -34,13 +34,14 @@ SKETCHED = {"support": (89, 97, 107), "load": (122, 64, 181)}
 ROOT = Path(__file__).resolve().parents[1]
 # How far outside of a triangle a place still belongs to it, over its height, and the share of the differences within the ends of the colours.
 OUTSIDE, WITHIN = 0.1, 0.98
-# Studies whose results are compared: the case, its settings and the axis, a result of few points first. The tall plate has not all of the others.
+# Studies whose results are compared: the case, its settings and the axis, a result of few points first. The tall plate has not all of the others;
+# `same` is the first once more.
 STUDIES = {
     "meshes": (
         "plate-tension",
         "probe = []",
-        f"key = 'mesh.file'\nvalues = {[str(ROOT / 'meshes' / it) for it in ('plate-coarse.msh', 'plate.msh', 'plate-tall.msh')]}\n"
-        "labels = ['coarse', 'fine', 'tall']",
+        f"key = 'mesh.file'\nvalues = {[str(ROOT / 'meshes' / it) for it in ('plate-coarse.msh', 'plate.msh', 'plate-tall.msh', '../meshes/plate-coarse.msh')]}\n"
+        "labels = ['coarse', 'fine', 'tall', 'same']",
     ),
     "lattices": (
         "lattice-plate",
@@ -48,6 +49,8 @@ STUDIES = {
         "keys = ['lattice.cells', 'lattice.spacing']\nvalues = [[[16, 24], 5e-3], [[40, 60], 2e-3]]\nlabels = ['coarse', 'fine']",
     ),
 }
+# Colours of crack lines over a difference: of the coarser result and of the finer one.
+CRACK_COLOURS = (0, 140, 64), (13, 13, 13)
 # Fields that are compared: of a value, of a vector, and of large values.
 COMPARED = ("damage", "displacement", "strain_energy_density")
 TITLE = "A title with <script>throw 1</script> & \"quotes\""
@@ -443,7 +446,10 @@ def lattice_values(values, places, spacing, at):
 def differences(own, there):
     """Values at the points of the coarser result, of the finer one there (NaN outside), and their difference; of vectors their lengths."""
     size = (lambda it: np.linalg.norm(it, axis=1)) if own.shape[1] > 1 else (lambda it: it[:, 0])
-    return size(own), size(there), size(there) - size(own)
+    difference = size(there) - size(own)
+    # Shares of points sum to one but for rounding.
+    difference[np.abs(difference) < 1e-12 * np.abs(size(own)).max()] = 0.0
+    return size(own), size(there), difference
 
 
 def exact_comparison(runs, folders, labels, steps):
@@ -546,6 +552,19 @@ def check_difference(page, exact, field, is_known):
     return outside
 
 
+def check_crack_lines(page, runs, labels, steps):
+    """Over the difference are the crack lines of both results: those of the finer one black, of the coarser one green."""
+    choose(page, "cracks", "open" if "open" in page.value("[...document.getElementById('cracks').options].map((it) => it.value)") else "lines")
+    page.key("d", "d")
+    page.until("document.documentElement.dataset.compared.endsWith('difference')")
+    for label, step, colour in zip(labels, steps, CRACK_COLOURS, strict=True):
+        lines = [it for it in runs[label]["cracks"]["lines"][: runs[label]["steps"].index(step) + 1] if it is not None][-1]
+        seen = pixels(page, colour)
+        assert (len(seen) > 5) == bool(lines), (label, len(seen), lines)
+    page.key("d", "d")
+    page.until("document.documentElement.dataset.compared.endsWith('both')")
+
+
 def check_pair(page, runs, folders, other):
     """Compares the coarse result with another; returns how many values it compared, and how many points are outside of the other body."""
     labels = ["coarse", other]
@@ -560,13 +579,17 @@ def check_pair(page, runs, folders, other):
         drawn(page, field)
         count += check_two_panes(page, exact, field)
         outside = check_difference(page, exact, field, is_known=not runs[other]["body"]["half"])
+    if other == "same":
+        assert not any(np.any(exact[field][2]) for field in COMPARED), "a result has no difference from itself"
+        assert page.value("document.querySelector('#compared-values tbody tr:last-of-type').cells[1].textContent") == "0"
+    check_crack_lines(page, runs, labels, steps)
     return count, outside
 
 
 def check_compared(program, place):
     """Results of studies side by side and their difference; returns how many values it compared."""
     count = 0
-    for name, others in {"meshes": ["fine", "tall"], "lattices": ["fine"]}.items():
+    for name, others in {"meshes": ["fine", "tall", "same"], "lattices": ["fine"]}.items():
         report, folders = run_study(program, name, place)
         with browser.Browser() as page:
             page.open(report, READY)

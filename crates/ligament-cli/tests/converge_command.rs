@@ -146,6 +146,104 @@ fn a_mesh_alone_is_split() {
     );
 }
 
+/// A Gmsh file of a bar of 12 x 4 x 4 cubes of 5 mm, each of six tetrahedra along its diagonal, with the planes of its ends and the planes of
+/// symmetry as groups.
+fn bar_of_tetrahedra() -> String {
+    const PERMUTATIONS: [[usize; 3]; 6] = [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ];
+    const SIZE: [usize; 3] = [12, 4, 4];
+    let number = |[x, y, z]: [usize; 3]| 1 + x + 13 * (y + 5 * z);
+    let mut nodes = String::new();
+    let mut elements = Vec::new();
+    for z in 0..=SIZE[2] {
+        for y in 0..=SIZE[1] {
+            for x in 0..=SIZE[0] {
+                let [px, py, pz] = [x, y, z].map(|it| 0.005 * it as f64);
+                nodes += &format!("{} {px} {py} {pz}\n", number([x, y, z]));
+                if x == SIZE[0] || y == SIZE[1] || z == SIZE[2] {
+                    continue;
+                }
+                for axes in PERMUTATIONS {
+                    let mut at = [x, y, z];
+                    let mut corners = vec![at];
+                    for axis in axes {
+                        at[axis] += 1;
+                        corners.push(at);
+                    }
+                    elements.push((4, 1, corners.clone()));
+                    let planes = [(2, 0, 0), (3, 0, SIZE[0]), (4, 1, 0), (5, 2, 0)];
+                    for (group, axis, place) in planes {
+                        let face = corners.iter().filter(|it| it[axis] == place);
+                        let face: Vec<_> = face.copied().collect();
+                        if face.len() == 3 {
+                            elements.push((2, group, face));
+                        }
+                    }
+                }
+            }
+        }
+    }
+    let rows = (1..).zip(&elements).map(|(tag, (kind, group, corners))| {
+        let corners = corners.iter().map(|it| number(*it).to_string());
+        let corners: Vec<String> = corners.collect();
+        format!("{tag} {kind} 2 {group} {group} {}\n", corners.join(" "))
+    });
+    let rows: String = rows.collect();
+    format!(
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n5\n3 1 \"bar\"\n2 2 \"left\"\n2 3 \"right\"\n2 4 \"side\"\n2 5 \"bottom\"\n\
+         $EndPhysicalNames\n$Nodes\n{}\n{nodes}$EndNodes\n$Elements\n{}\n{rows}$EndElements\n",
+        13 * 5 * 5,
+        elements.len()
+    )
+}
+
+/// A solid of tetrahedra is split in eight without Gmsh: the interval of the stiffness of a bar has E A/L. A solid of hexahedra is refused.
+#[test]
+fn a_solid_of_tetrahedra_is_split() {
+    let place = Place::with(
+        "title = \"Bar\"\n[mesh]\nfile = \"bar.msh\"\n[material]\nyoung = 1e9\npoisson = 0.25\n[model]\nlaw = \"bbpd\"\n\
+         [correction]\nsurface = \"patch\"\n[[support]]\ngroup = \"left\"\ndisplacement = { x = 0.0 }\n[[support]]\ngroup = \"side\"\n\
+         displacement = { y = 0.0 }\n[[support]]\ngroup = \"bottom\"\ndisplacement = { z = 0.0 }\n[[load]]\ngroup = \"right\"\n\
+         displacement = { x = 6e-6 }\n",
+    );
+    fs::write(place.path("bar.msh"), bar_of_tetrahedra()).unwrap();
+    let output = place.converge(&[]);
+    assert_success(&output);
+    let words = stdout(&output);
+    assert!(words.contains("split in eight"), "{words}");
+    assert!(
+        words.contains("2025 and 2025 points at h, 325 and 325 at 2h"),
+        "{words}"
+    );
+    let stiffness = place.result("elastic_stiffness");
+    // The bar is 60 x 20 x 20 mm.
+    let limit = 1e9 * 0.02 * 0.02 / 0.06;
+    let bound = |name: &str| stiffness["interval"][name].as_f64().unwrap();
+    assert!(
+        bound("lower") < limit && limit < bound("upper"),
+        "{stiffness}"
+    );
+    // Bodies with the patch correction have the stiffness of a bar within 1 %.
+    assert!(
+        bound("upper") - bound("lower") < 0.03 * limit,
+        "{stiffness}"
+    );
+    let cube = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n\
+                8 0 1 1\n$EndNodes\n$Elements\n1\n1 5 2 1 1 1 2 3 4 5 6 7 8\n$EndElements\n";
+    fs::write(place.path("bar.msh"), cube).unwrap();
+    let output = place.converge(&[]);
+    assert_eq!(output.status.code(), Some(1));
+    let words = stderr(&output);
+    assert!(words.contains("1 of the shape \"hexahedron\""), "{words}");
+    assert!(words.contains("--geometry"), "{words}");
+}
+
 /// What has no limit is refused with the reason and a remedy.
 #[test]
 fn what_has_no_limit_is_refused() {

@@ -126,13 +126,6 @@ pub fn cells_at_edges(cells: &[Cell]) -> BTreeMap<[u32; 2], (usize, [u32; 2])> {
     edges
 }
 
-/// Edges that belong to one of the planar cells alone, with the cell on their left, ascending by their nodes.
-pub fn outer_edges(cells: &[Cell]) -> Vec<[u32; 2]> {
-    let edges = cells_at_edges(cells).into_values();
-    let outer = edges.filter(|(n_cells, _)| *n_cells == 1);
-    outer.map(|(_, edge)| edge).collect()
-}
-
 impl MeshCell<2> for Cell {
     fn from_corners(corners: &[u32]) -> Option<Self> {
         let triangle = corners.try_into().ok().map(Self::Triangle);

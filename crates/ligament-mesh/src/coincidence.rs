@@ -3,6 +3,15 @@
 /// Distance along every axis, relative to the size of the mesh, below which nodes coincide.
 const COINCIDENCE: f64 = 1e-12;
 
+/// Side of a bin of nodes over the distance of coincident nodes: few nodes are near the border of their bin.
+const BIN: f64 = 1e6;
+
+/// Number of nodes that are compared with a node at most, before nodes are sorted instead.
+const COMPARED: usize = 64;
+
+/// An empty place of a table.
+const EMPTY: u32 = u32::MAX;
+
 /// Longest side of the box around positions, m.
 pub(crate) fn size<const D: usize>(positions: impl Iterator<Item = [f64; D]> + Clone) -> f64 {
     let extent = |axis: usize| {
@@ -23,9 +32,13 @@ pub(crate) fn coincident_pairs<const D: usize>(
         values.fold(f64::INFINITY, f64::min)
     });
     let across = D - 1;
+    let n_sets = match are_apart(positions, lowest, width) {
+        true => 0,
+        false => 1 << across,
+    };
     // Two sets of strips are shifted by half a width (in space, four sets of columns): near nodes share a strip of one set, in which they
     // are adjacent along the last axis.
-    (0..1 << across).flat_map(move |shifted: usize| {
+    (0..n_sets).flat_map(move |shifted: usize| {
         let place = |position: &[f64; D], axis: usize| {
             let shift = if (shifted >> axis) & 1 == 1 { 0.5 } else { 0.0 };
             ((position[axis] - lowest[axis]) / width + shift).floor() as i64
@@ -49,6 +62,61 @@ pub(crate) fn coincident_pairs<const D: usize>(
             .collect();
         near
     })
+}
+
+/// Whether a table of the nodes by their bins shows that no two nodes are within a width along every axis. Bins with many nodes show nothing.
+fn are_apart<const D: usize>(positions: &[[f64; D]], lowest: [f64; D], width: f64) -> bool {
+    if positions.len() >= EMPTY as usize / 2 || width <= 0.0 {
+        return false;
+    }
+    let slots = (2 * positions.len()).next_power_of_two();
+    let mut table = vec![EMPTY; slots];
+    // Wider than the rounding of strips.
+    let reach = 2.0 * width;
+    for (node, position) in (0..).zip(positions) {
+        let bin = |shift: f64| -> [i64; D] {
+            let along = |axis: usize| (position[axis] - lowest[axis] + shift) / (BIN * width);
+            std::array::from_fn(|axis| along(axis).floor() as i64)
+        };
+        let (own, ends) = (bin(0.0), [bin(-reach), bin(reach)]);
+        let mut free = None;
+        for corner in 0..1_usize << D {
+            let near: [i64; D] = std::array::from_fn(|axis| ends[corner >> axis & 1][axis]);
+            // Bins of several corners are looked at once.
+            let is_repeated =
+                (0..D).any(|axis| corner >> axis & 1 == 1 && ends[0][axis] == ends[1][axis]);
+            if is_repeated {
+                continue;
+            }
+            let mut slot = hash(near) & (slots - 1);
+            let mut compared = 0;
+            while table[slot] != EMPTY {
+                let other = positions[table[slot] as usize];
+                let is_near = (0..D).all(|axis| (other[axis] - position[axis]).abs() <= reach);
+                if is_near || compared == COMPARED {
+                    return false;
+                }
+                compared += 1;
+                slot = (slot + 1) & (slots - 1);
+            }
+            if near == own {
+                free = Some(slot);
+            }
+        }
+        if let Some(slot) = free {
+            table[slot] = node;
+        }
+    }
+    true
+}
+
+/// A number that differs for different bins as a rule (Fibonacci hashing, D. E. Knuth, The Art of Computer Programming 3, section 6.4).
+fn hash<const D: usize>(bin: [i64; D]) -> usize {
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mixed = bin.iter().fold(0, |mixed: u64, it| {
+        (mixed.rotate_left(32) ^ *it as u64).wrapping_mul(GOLDEN)
+    });
+    (mixed >> 32) as usize
 }
 
 /// The lowest of the nodes at the place of each node, shape (n_nodes); `None` where no nodes coincide.

@@ -1,7 +1,8 @@
 //! Cracks that are in the mesh: places where nodes are doubled, so that the cells on either side have their own.
 
-use crate::cell::{Cell, MeshCell, outer_edges};
+use crate::cell::{Cell, MeshCell};
 use crate::coincidence::lowest_at_place;
+use crate::edges::outer_edges;
 use crate::mesh::{Mesh, SolidMesh};
 use crate::solid::{Faces, SolidCell};
 

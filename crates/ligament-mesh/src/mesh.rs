@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::cell::{Cell, MeshCell, ascending, outer_edges};
+use crate::cell::{Cell, MeshCell, ascending};
+use crate::edges::outer_edges;
 use crate::portion::Portion;
 use crate::remark::Remark;
 use crate::solid::SolidCell;

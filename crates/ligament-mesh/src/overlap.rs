@@ -53,7 +53,9 @@ where
 }
 
 /// Lowest and highest corner of the box around positions.
-fn box_around<const D: usize>(positions: impl Iterator<Item = [f64; D]>) -> [[f64; D]; 2] {
+pub(crate) fn box_around<const D: usize>(
+    positions: impl Iterator<Item = [f64; D]>,
+) -> [[f64; D]; 2] {
     let empty = [[f64::INFINITY; D], [f64::NEG_INFINITY; D]];
     positions.fold(empty, |[low, high], p| {
         [

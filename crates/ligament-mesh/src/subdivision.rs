@@ -2,8 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::bisection::{Bisection, Unbisectable};
 use crate::cell::{Cell, ascending};
-use crate::mesh::{Group, Mesh};
+use crate::mesh::{Group, Mesh, SolidMesh};
 
 impl Mesh {
     /// The mesh with each cell split in four at the middles of its sides, a quadrangle also at the mean of its corners. Groups keep their
@@ -46,6 +47,22 @@ impl Mesh {
             fields: Vec::new(),
             remarks: Vec::new(),
         }
+    }
+}
+
+impl SolidMesh {
+    /// The mesh with each tetrahedron split in eight at the middles of its edges, by three bisections. Groups keep their names and numbers.
+    /// The outline stays the same polyhedron.
+    ///
+    /// # Errors
+    /// Returns an error if the mesh has other cells than tetrahedra.
+    pub fn split_in_eight(&self) -> Result<Self, Unbisectable> {
+        let mut bisection = Bisection::new(self)?;
+        for _ in 0..3 {
+            let all = vec![true; bisection.cells().len()];
+            bisection.bisect(&all);
+        }
+        Ok(bisection.mesh())
     }
 }
 
@@ -124,6 +141,7 @@ impl NewNodes {
 mod tests {
     use super::*;
     use crate::gmsh;
+    use crate::mesh::AnyMesh;
 
     /// A triangle beside a square, with a curve and a surface as groups.
     const TRIANGLE_AND_SQUARE: &[u8] = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
@@ -161,5 +179,30 @@ mod tests {
         // A file of it holds the same mesh.
         let file = gmsh::write(&split);
         assert_eq!(gmsh::parse(file.as_bytes()).unwrap(), split);
+    }
+
+    /// Two tetrahedra on a common face, with this face and one of them as groups.
+    #[test]
+    fn each_tetrahedron_becomes_eight_and_groups_stay() {
+        let file = b"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
+            $PhysicalNames\n2\n2 4 \"between\"\n3 5 \"upper\"\n$EndPhysicalNames\n\
+            $Nodes\n5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 0 0 -1\n$EndNodes\n\
+            $Elements\n3\n1 2 2 4 4 1 2 3\n2 4 2 5 5 1 2 3 4\n3 4 2 6 6 1 2 3 5\n$EndElements\n";
+        let AnyMesh::Solid(mesh) = gmsh::parse_any(file).unwrap() else {
+            panic!("a solid");
+        };
+        let split = mesh.split_in_eight().unwrap();
+        // 5 nodes and 9 edges.
+        assert_eq!((split.positions.len(), split.cells.len()), (14, 16));
+        for cell in &split.cells {
+            assert!((cell.volume(&split.positions) - 1.0 / 48.0).abs() < 1e-16);
+        }
+        let between = split.group("between").unwrap();
+        assert_eq!((between.faces.len(), between.nodes.len()), (4, 6));
+        let upper = split.group("upper").unwrap();
+        assert_eq!((upper.cells.len(), upper.nodes.len()), (8, 10));
+        let file = gmsh::write(&split);
+        let read = gmsh::parse_any(file.as_bytes()).unwrap();
+        assert_eq!(read, AnyMesh::Solid(split));
     }
 }

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use ligament::body::Points;
 use ligament_case::point_table;
-use ligament_mesh::AnyMesh;
 use ligament_mesh::gmsh::{self, CoordinatePlane, Element};
 use ligament_output::replace_file;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
@@ -57,11 +56,8 @@ pub(crate) fn write_mesh(
         }));
     }
     let mesh = gmsh::assemble(&nodes, &all, CoordinatePlane::Xy);
-    let text = match mesh.map_err(|error| errors::body_error(py, &error.to_string()))? {
-        AnyMesh::Plane(mesh) => gmsh::write(&mesh),
-        AnyMesh::Solid(mesh) => gmsh::write(&mesh),
-    };
-    written(py, &path, &text)
+    let mesh = mesh.map_err(|error| errors::body_error(py, &error.to_string()))?;
+    written(py, &path, &gmsh::write_any(&mesh))
 }
 
 /// Writes a table of values (n) at positions (n, 2) or (n, 3), m.

@@ -53,10 +53,7 @@ impl RefinedBody {
 
     /// Text of a Gmsh file of the refined mesh; none in the first pass.
     pub fn gmsh_text(&self) -> Option<String> {
-        Some(match &self.graded.as_ref()?.mesh {
-            AnyMesh::Plane(mesh) => gmsh::write(mesh),
-            AnyMesh::Solid(mesh) => gmsh::write(mesh),
-        })
+        Some(gmsh::write_any(&self.graded.as_ref()?.mesh))
     }
 
     /// Horizon that the finest points have in the end, m, by the size that the refinement asks for.

@@ -46,7 +46,7 @@ pub struct ConvergeArgs {
     /// The number of the geometry that is the size h, where a factor on all sizes changes nothing
     #[arg(long, value_name = "NAME=VALUE", value_parser = number_setting)]
     pub size: Option<(String, f64)>,
-    /// Split each cell of the mesh in four; the mesh of the case is 2h
+    /// Split each cell of the mesh in four, tetrahedra in eight; the mesh of the case is 2h
     #[arg(long, conflicts_with_all = ["geometry", "numbers", "size"])]
     pub split: bool,
     /// Also run the bodies of h with 4/3 of the horizon factor

@@ -213,6 +213,25 @@ impl<'a> Cursor<'a> {
         Ok(&self.bytes[begin..self.offset])
     }
 
+    /// Next word of the row, if it has digits alone: in one pass over them, as most of a file is such words. The cursor stays before any other.
+    fn digits(&mut self) -> Option<u64> {
+        let rest = &self.bytes[self.offset..];
+        let word = rest.iter().position(|byte| !is_blank(*byte))?;
+        let mut end = word;
+        let mut value: u64 = 0;
+        while let Some(digit @ b'0'..=b'9') = rest.get(end) {
+            value = value
+                .checked_mul(10)?
+                .checked_add(u64::from(digit - b'0'))?;
+            end += 1;
+        }
+        let is_whole = end > word && rest.get(end).is_none_or(u8::is_ascii_whitespace);
+        is_whole.then(|| {
+            self.offset += end;
+            value
+        })
+    }
+
     fn parsed<T: std::str::FromStr>(&mut self, expected: &'static str) -> Result<T, GmshError> {
         self.parsed_by(expected, |text| text.parse().ok())
     }
@@ -263,7 +282,10 @@ impl<'a> Cursor<'a> {
     /// Next `size_t`.
     pub(super) fn size(&mut self, expected: &'static str) -> Result<u64, GmshError> {
         match self.encoding {
-            Encoding::Ascii => self.parsed(expected),
+            Encoding::Ascii => match self.digits() {
+                Some(value) => Ok(value),
+                None => self.parsed(expected),
+            },
             Encoding::LittleEndian => self.raw().map(u64::from_le_bytes),
             Encoding::BigEndian => self.raw().map(u64::from_be_bytes),
         }

@@ -49,7 +49,7 @@ use crate::mesh::{AnyMesh, Mesh};
 
 pub use arrays::{Element, assemble};
 pub use error::GmshError;
-pub use write::write;
+pub use write::{write, write_any};
 
 pub use crate::coordinate_plane::CoordinatePlane;
 pub use crate::remark::FilePosition;

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::{self, Write};
 
 use crate::cell::MeshCell;
-use crate::mesh::{Group, Mesh};
+use crate::mesh::{AnyMesh, Group, Mesh};
 
 /// Text of a Gmsh file (4.1, ASCII) of a planar or solid mesh, from which [`parse_any`](super::parse_any) makes an equal mesh: nodes with
 /// their tags and all digits, cells in their order, and groups with their names, numbers and dimensions, also for elements in several
@@ -26,6 +26,18 @@ pub fn write<const D: usize, C: MeshCell<D>>(mesh: &Mesh<D, C>) -> String {
         cells: &cells,
         groups: &mesh.groups,
     })
+}
+
+/// Text of a Gmsh file like that of [`write()`].
+///
+/// # Panics
+///
+/// Panics as [`write()`] does.
+pub fn write_any(mesh: &AnyMesh) -> String {
+    match mesh {
+        AnyMesh::Plane(mesh) => write(mesh),
+        AnyMesh::Solid(mesh) => write(mesh),
+    }
 }
 
 /// A mesh to be written.

@@ -2,6 +2,8 @@
 
 const CRACK = [0.9, 0.15, 0.16, 1];
 const CRACK_OVER_RED = [0.05, 0.05, 0.05, 1];
+// Of the coarser of two results, over their difference.
+const COARSER_CRACK = [0, 0.55, 0.25, 1];
 const PRECRACK = [0.55, 0.55, 0.55, 1];
 const INTERFACE = [0.15, 0.15, 0.15, 0.8];
 const INTACT = [0.1, 0.45, 0.85, 0.9];
@@ -25,17 +27,17 @@ class Lines {
     this.reference = body.dimension === 2 ? new Places(body.x, body.y) : null;
   }
 
-  // A place in the plane that moves with the points about it.
-  moved(x, y) {
+  // A place in the plane that moves with the points about it, as a scene draws it.
+  moved(x, y, over = this.scene) {
     const near = this.reference.nearest(x, y, 4, 3 * this.reference.size);
     const { factor, displacement: [ux, uy] } = this.scene;
     const share = factor / Math.max(near.length, 1);
     const [px, py] = near.reduce(([px, py], { point }) => [px + share * ux[point], py + share * uy[point]], [x, y]);
-    return this.scene.relative([px, py, 0]);
+    return over.relative([px, py, 0]);
   }
 
-  // Crack lines of a step, on the deformed body.
-  cracks(step) {
+  // Crack lines of a step, on the deformed body, as a scene draws them.
+  cracks(step, over = this.scene) {
     const lines = this.run.description.cracks?.lines;
     if (!lines) return [];
     let at = step;
@@ -44,7 +46,7 @@ class Lines {
     for (const line of lines[at] ?? []) {
       let before = null;
       for (let place = 0; place < line.length; place += 2) {
-        const now = this.moved(line[place], line[place + 1]);
+        const now = this.moved(line[place], line[place + 1], over);
         // A piece between fragments that have parted is no longer anywhere.
         if (before && Math.hypot(...minus3(now, before)) < TORN * Math.hypot(line[place] - line[place - 2], line[place + 1] - line[place - 1])) {
           segments.push([before, now]);
@@ -109,15 +111,17 @@ class Lines {
     return segments;
   }
 
-  // All layers over the body of a step.
-  layers({ step, mode, broken, family, chosen, reaction, symbols, isOverRed }) {
+  // All layers over the body of a step; `finer` is the pane whose cracks are seen as well.
+  layers({ step, mode, broken, family, chosen, reaction, symbols, isOverRed, finer }) {
     const crack = isOverRed ? CRACK_OVER_RED : CRACK;
+    const isLines = mode === "lines";
     const layers = [
       lineLayer(this.interfaces(), INTERFACE, 1.2),
       lineLayer((broken ?? []).map((it) => this.bond(it)), [...crack.slice(0, 3), 0.6], 1),
       // Pre-cracks open as well.
       lineLayer(["none", "open"].includes(mode) ? [] : this.precracks(), PRECRACK, 3),
-      lineLayer(mode === "lines" ? this.cracks(step) : [], crack, 3),
+      lineLayer(isLines ? this.cracks(step) : [], finer ? COARSER_CRACK : crack, 3),
+      lineLayer(isLines && finer ? finer.lines.cracks(finer.step, this.scene) : [], crack, 3),
       ...(symbols ? symbols.layers() : []),
       lineLayer(this.forces(reaction), FORCE, 2),
     ];

@@ -160,6 +160,12 @@ class Page {
     if (choices.some(([id]) => id === before)) element("cracks").value = before;
   }
 
+  // How cracks are drawn: over a difference as the lines of both results, in place of opened bodies.
+  get mode() {
+    const chosen = element("cracks").value;
+    return this.isDifference && chosen === "open" && this.panes.some((it) => it.run.description.cracks?.lines) ? "lines" : chosen;
+  }
+
   get choice() {
     return this.run.choice(element("field").value);
   }
@@ -186,7 +192,7 @@ class Page {
     // Bodies that are still read are drawn with the step as soon as they are there.
     if (wanted.length !== panes.length || wanted.some((it, place) => it !== panes[place].run)) return;
     const asked = ++this.asked;
-    const mode = element("cracks").value;
+    const { mode } = this;
     const states = await Promise.all(panes.map((pane) => pane.read(run === pane.run ? step : run.stepAlike(step, pane.run), choice, mode)));
     // One picture a frame: a slow machine would pile them up.
     await new Promise(requestAnimationFrame);
@@ -244,7 +250,7 @@ class Page {
     // Beside the points, which lie in planes of many meshes.
     const section = isCut ? { axis: Number(axis), at: at + 1e-6 * (high[axis] - low[axis]) } : null;
     element("cut-text").textContent = isCut ? `${"xyz"[axis]} = ${shortText(1e3 * at)} mm` : "";
-    for (const pane of this.panes) pane.place({ factor: Number(element("magnification").value), mode: element("cracks").value, section });
+    for (const pane of this.panes) pane.place({ factor: Number(element("magnification").value), mode: this.mode, section });
     this.colour();
   }
 
@@ -292,8 +298,9 @@ class Page {
     const bytes = colourTable(this.range.map);
     coarse.colour(values, this.range, bytes);
     const missing = this.panes.find((it) => !it.choice);
+    const cracks = this.mode === "lines" ? "; cracks: finer black, coarser green" : "";
     const grey = outside > 0 ? `; grey: ${outside} of ${values.length} points outside of the finer body` : "";
-    const note = missing ? `grey: without this field in ${missing.run.label}` : `at the points of the coarser result, 98 % within these ends${grey}`;
+    const note = missing ? `grey: without this field in ${missing.run.label}` : `at the points of the coarser result, 98 % within these ends${grey}${cracks}`;
     this.showLegend(bytes, { ...shown, label: `finer less coarser: ${shown.label}`, note });
   }
 
@@ -309,12 +316,14 @@ class Page {
   }
 
   redraw() {
+    const finer = this.isDifference ? this.comparison.coarserFirst(this.panes)[1] : null;
     for (const pane of this.shown) {
       pane.draw({
-        mode: element("cracks").value,
+        mode: this.mode,
         isOverRed: this.range?.map !== "cividis",
         withForces: element("forces").checked,
         withSymbols: element("symbols").checked,
+        finer,
       });
     }
     if (this.run.isSolid) drawAxes(element("axes"), this.camera);

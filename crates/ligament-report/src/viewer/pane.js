@@ -62,7 +62,7 @@ class Pane {
     this.scene.upload();
   }
 
-  draw({ mode, isOverRed, withForces, withSymbols }) {
+  draw({ mode, isOverRed, withForces, withSymbols, finer }) {
     if (!this.values || !this.scene.vertices) return;
     this.scene.draw(this.lines.layers({
       step: this.step,
@@ -73,6 +73,7 @@ class Pane {
       reaction: withForces ? this.reaction : null,
       symbols: withSymbols ? this.symbols : null,
       isOverRed,
+      finer,
     }));
   }
 

@@ -1,12 +1,14 @@
 //! Bodies of a case at the sizes h and 2h of their points, two of each size where a mesh can be made anew.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use ligament_case::case::{CaseFile, MeshSection};
 use ligament_case::input_file;
 use ligament_case::mesh_file::read_any_mesh;
 use ligament_case::point_table::is_table;
-use ligament_mesh::{AnyMesh, Mesh, gmsh};
+use ligament_mesh::{AnyMesh, Faces, Mesh, SolidMesh, gmsh};
 use ligament_output::replace_file;
 
 use super::displaced_nodes::with_displaced_nodes;
@@ -112,11 +114,7 @@ pub(super) fn meshes(
             };
             meshing.bodies(mesh.ok().as_ref())
         }
-        (None, Ok(AnyMesh::Plane(mesh))) => split(section, &mesh, folder),
-        (None, Ok(AnyMesh::Solid(_))) => {
-            let reason = "cells of a solid are not split: name the geometry of the mesh by `--geometry FILE.geo`";
-            Err(case.error("mesh.file", reason).into())
-        }
+        (None, Ok(mesh)) => split(case, section, &mesh, folder),
         (None, Err(error)) => Err(error.into()),
     }
 }
@@ -220,16 +218,16 @@ impl Meshing<'_> {
     ) -> anyhow::Result<[SizedBody; 2]> {
         let size = one.size;
         let first = body(size, one.mesher, &one.file);
-        let second = match (&one.mesh, &other.mesh) {
-            (AnyMesh::Plane(mesh), AnyMesh::Plane(twin)) if mesh == twin => {
+        let second = match one.mesh == other.mesh {
+            true => {
                 notes.push(format!(
                     "both meshers make the same mesh at {size}: the inner nodes of the second are displaced"
                 ));
                 let name = format!("{size}-displaced");
-                let file = written(&self.folder, &name, &with_displaced_nodes(mesh, 1))?;
+                let file = written(&self.folder, &name, &with_displaced_nodes(&one.mesh, 1))?;
                 in_xy(body(size, "displaced", &file), self.section)
             }
-            _ => body(size, other.mesher, &other.file),
+            false => body(size, other.mesher, &other.file),
         };
         Ok([first, second])
     }
@@ -259,7 +257,7 @@ impl Meshing<'_> {
         let plan = MeshPlan::new(&file, numbers, &self.folder, &name, &content);
         let failed = make(std::iter::once(&plan), &self.source.gmsh, self.print);
         let failed = failed.map_err(|error| match error {
-            MeshingError::NoProgram { .. } if self.dimensions < 3.0 => {
+            MeshingError::NoProgram { .. } => {
                 anyhow::anyhow!("{error}, or have the cells of the mesh split by `--split`")
             }
             other => other.into(),
@@ -295,15 +293,30 @@ impl Meshing<'_> {
     }
 }
 
-/// The mesh of a case as the size 2h, and its cells split in four as h, each also with displaced inner nodes.
-fn split(section: &MeshSection, coarse: &Mesh, folder: &Path) -> anyhow::Result<SizedBodies> {
+/// The mesh of a case as the size 2h, and its cells split in four, in space in eight, as h, each also with displaced inner nodes.
+fn split(
+    case: &CaseFile,
+    section: &MeshSection,
+    coarse: &AnyMesh,
+    folder: &Path,
+) -> anyhow::Result<SizedBodies> {
     let folder = folder.join(MESHES);
-    let fine = coarse.split_in_four();
-    let made = |size: &str, mesher: &'static str, mesh: &Mesh| {
+    let (fine, parts) = match coarse {
+        AnyMesh::Plane(mesh) => (AnyMesh::Plane(mesh.split_in_four()), "four"),
+        AnyMesh::Solid(mesh) => {
+            let split = mesh.split_in_eight();
+            let refused = |error| {
+                let reason = format!("{error}, or name its geometry by `--geometry FILE.geo`");
+                case.error("mesh.file", reason)
+            };
+            (AnyMesh::Solid(split.map_err(refused)?), "eight")
+        }
+    };
+    let made = |size: &str, mesher: &'static str, mesh: &AnyMesh| {
         let file = written(&folder, &format!("{size}-{mesher}"), mesh)?;
         anyhow::Ok(in_xy(body(size, mesher, &file), section))
     };
-    let moved = |mesh: &Mesh| with_displaced_nodes(mesh, 1);
+    let moved = |mesh: &AnyMesh| with_displaced_nodes(mesh, 1);
     let bodies = vec![
         made("h", "split", &fine)?,
         made("h", "displaced", &moved(&fine))?,
@@ -311,7 +324,11 @@ fn split(section: &MeshSection, coarse: &Mesh, folder: &Path) -> anyhow::Result<
         made("2h", "displaced", &moved(coarse))?,
     ];
     let mut notes = Vec::new();
-    if has_curved_outline(coarse) {
+    let is_curved = match coarse {
+        AnyMesh::Plane(mesh) => has_curved_outline(mesh),
+        AnyMesh::Solid(mesh) => has_curved_surface(mesh),
+    };
+    if is_curved {
         notes.push(
             "the outline seems to be curved, and its corners stay where they are: do not split this mesh again, but name its geometry by \
              `--geometry FILE.geo`"
@@ -321,12 +338,18 @@ fn split(section: &MeshSection, coarse: &Mesh, folder: &Path) -> anyhow::Result<
     Ok(SizedBodies {
         bodies,
         floor: FLOOR_OF_SPLIT,
-        origin: "the mesh of the case is 2h, and its cells split in four are h".to_owned(),
+        origin: format!("the mesh of the case is 2h, and its cells split in {parts} are h"),
         notes,
     })
 }
 
-/// Whether the outline has at least eight nodes at which it turns by 1 to 40 degrees, as the polygon in place of a curve does.
+/// Number of turns by [`CURVED`] from which on an outline is taken for a polygon in place of a curve.
+const LEAST_TURNS: usize = 8;
+
+/// Angles between neighbouring edges or faces in place of a curved outline, degrees.
+const CURVED: Range<f64> = 1.0..40.0;
+
+/// Whether the outline of a planar mesh turns as often as one in place of a curve.
 fn has_curved_outline(mesh: &Mesh) -> bool {
     let angles = mesh.angles_at_nodes();
     let mut nodes: Vec<u32> = mesh.outline().into_iter().flatten().collect();
@@ -335,15 +358,37 @@ fn has_curved_outline(mesh: &Mesh) -> bool {
     let turn = |node: &u32| (angles[*node as usize].to_degrees() - 180.0).abs();
     nodes
         .iter()
-        .filter(|node| (1.0..40.0).contains(&turn(node)))
+        .filter(|node| CURVED.contains(&turn(node)))
         .count()
-        >= 8
+        >= LEAST_TURNS
+}
+
+/// Whether the surface of a solid turns at as many edges as one in place of a curved surface.
+fn has_curved_surface(mesh: &SolidMesh) -> bool {
+    let mut normals: BTreeMap<[u32; 2], Vec<[f64; 3]>> = BTreeMap::new();
+    for side in Faces::new(&mesh.cells, mesh.positions.len()).outer() {
+        let corners = side.face.corners();
+        let ends = corners.iter().cycle().skip(1);
+        for (&a, &b) in corners.iter().zip(ends) {
+            let at_edge = normals.entry([a.min(b), a.max(b)]).or_default();
+            at_edge.push(side.face.area_vector(&mesh.positions));
+        }
+    }
+    let turn = |at_edge: &&Vec<[f64; 3]>| {
+        let [u, v] = at_edge.as_slice() else {
+            return false;
+        };
+        let dot = |a: &[f64; 3], b: &[f64; 3]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+        let cosine = dot(u, v) / (dot(u, u) * dot(v, v)).sqrt();
+        CURVED.contains(&cosine.clamp(-1.0, 1.0).acos().to_degrees())
+    };
+    normals.values().filter(turn).count() >= LEAST_TURNS
 }
 
 /// Writes a mesh into a folder, and returns its path.
-fn written(folder: &Path, name: &str, mesh: &Mesh) -> anyhow::Result<PathBuf> {
+fn written(folder: &Path, name: &str, mesh: &AnyMesh) -> anyhow::Result<PathBuf> {
     let path = std::path::absolute(folder.join(format!("{name}.msh")))?;
-    replace_file(&path, gmsh::write(mesh).as_bytes())?;
+    replace_file(&path, gmsh::write_any(mesh).as_bytes())?;
     Ok(path)
 }
 

@@ -8,6 +8,7 @@ use ligament_output::columns::aligned;
 use ligament_output::csv::Value;
 use ligament_output::quantity::{PrefixedUnit, between};
 use ligament_output::replace_file;
+use ligament_plot::picture::units::AxisUnit;
 use ligament_plot::plots::{Colour, Plot, Series};
 use serde::Serialize;
 
@@ -227,9 +228,19 @@ fn words(result: &Evaluated, width: usize) -> Vec<String> {
 
 /// A result over the spacing of the points: its runs, the line through the means, and the wedge of orders that ends in the interval at h = 0.
 fn plot(runs: &Runs<'_>, result: &Evaluated) -> Plot {
-    let at = |run: &SizedRun<'_>| {
+    let in_si = |run: &SizedRun<'_>| {
         let value = run.results.number(&result.name).ok();
         Some([runs.spacing(run)?, value?])
+    };
+    let largest = runs.runs.iter().filter_map(in_si);
+    let largest = largest.fold([0.0; 2], |most: [f64; 2], [spacing, value]| {
+        [most[0].max(spacing), most[1].max(value.abs())]
+    });
+    let units = [("m", largest[0]), (&result.unit, largest[1])]
+        .map(|(unit, size)| AxisUnit::new(unit, size));
+    let at = |run: &SizedRun<'_>| {
+        let [spacing, value] = in_si(run)?;
+        Some([spacing * units[0].factor, value * units[1].factor])
     };
     let mut meshers: Vec<&str> = runs.runs.iter().map(|run| run.body.mesher).collect();
     meshers.sort_unstable();
@@ -247,19 +258,19 @@ fn plot(runs: &Runs<'_>, result: &Evaluated) -> Plot {
     };
     let words = match result.interval {
         Some(Interval { lower, upper, .. }) => {
-            series.extend(wedge([mean(true), mean(false)], [lower, upper]));
+            let ends = [lower, upper].map(|end| end * units[1].factor);
+            series.extend(wedge([mean(true), mean(false)], ends));
             between([lower, upper], &result.unit)
         }
         None => "no interval".to_owned(),
     };
-    let y = match result.unit.as_str() {
-        "-" => result.label.clone(),
-        unit => format!("{}, {unit}", result.label),
-    };
     Plot::new(
         format!("{}-over-h", result.name),
         format!("{}: {words}", result.label),
-        ["spacing of the points, m", &y],
+        [
+            &units[0].label("spacing of the points"),
+            &units[1].label(&result.label),
+        ],
         series,
     )
 }

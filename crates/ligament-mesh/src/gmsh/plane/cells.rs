@@ -6,6 +6,7 @@ use super::super::element_type::Shape;
 use super::super::error::GmshError;
 use super::super::records::{Element, Records};
 use crate::cell::{Cell, MeshCell};
+use crate::edges::Edges;
 
 /// Twice the area of a triangle, relative to its longest side times the mesh size, that counts as zero.
 const FLATNESS: f64 = 1e-12;
@@ -66,26 +67,15 @@ pub(super) fn check_common_edges(
     cursor: &Cursor<'_>,
     records: &Records,
     planar: &Cells<Cell>,
+    edges: &Edges,
 ) -> Result<(), GmshError> {
-    let sides = |(cell, element): (&Cell, &u32)| {
-        let (corners, element) = (cell.corners().to_vec(), *element);
-        let n = corners.len();
-        (0..n).map(move |k| (corners[k], corners[(k + 1) % n], element))
+    let Some(pair) = edges.first_overlap() else {
+        return Ok(());
     };
-    let of_cells = planar.cells.iter().zip(&planar.elements);
-    let mut sides: Vec<(u32, u32, u32)> = of_cells.flat_map(sides).collect();
-    sides.sort_unstable();
-    // Cells are counter-clockwise, so that neighbours run along their common edge in opposite directions.
-    let same = |pair: &&[(u32, u32, u32)]| (pair[0].0, pair[0].1) == (pair[1].0, pair[1].1);
-    match sides.windows(2).find(same) {
-        Some(pair) => {
-            let [first, second] = [0, 1].map(|k| &records.elements[pair[k].2 as usize]);
-            Err(GmshError::OverlappingCells {
-                place: cursor.place(second.offset),
-                element: second.tag,
-                other: first.tag,
-            })
-        }
-        None => Ok(()),
-    }
+    let [first, second] = planar.elements_of(records, pair);
+    Err(GmshError::OverlappingCells {
+        place: cursor.place(second.offset),
+        element: second.tag,
+        other: first.tag,
+    })
 }

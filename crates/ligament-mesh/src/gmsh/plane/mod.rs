@@ -12,6 +12,8 @@ use crate::cell::Cell;
 use crate::coincidence::size;
 use crate::coordinate_plane::CoordinatePlane;
 use crate::crack::outer_edges_of;
+use crate::disjoint::are_disjoint;
+use crate::edges::Edges;
 use crate::mesh::Mesh;
 use crate::remark::Remark;
 
@@ -48,8 +50,13 @@ pub(super) fn assemble(
     let all = (assembly.nodes.as_slice(), positions.as_slice());
     let n_crack_faces = nodes::check_coincidence(cursor, all, cells, sides, refusal)?;
     let (planar, cell_of_element) = planar?;
-    cells::check_common_edges(cursor, records, &planar)?;
-    check_covering(cursor, records, &planar, &positions, Cell::triangles)?;
+    let edges = Edges::new(&planar.cells);
+    cells::check_common_edges(cursor, records, &planar, &edges)?;
+    let outer = edges.outer();
+    drop(edges);
+    if !are_disjoint(&positions, &planar.cells, &outer) {
+        check_covering(cursor, records, &planar, &positions, Cell::triangles)?;
+    }
     let mut remarks = assembly.remarks(planar.n_higher_order(records));
     remarks.extend(planar.remarks(n_crack_faces));
     remarks.extend(records.ignored.remark(cursor));
