@@ -69,7 +69,7 @@ pub(super) struct SizedBodies {
 
 impl SizedBodies {
     /// The bodies with a note that both sizes share one horizon.
-    pub(super) fn noted(mut self, has_fixed_horizon: bool) -> Self {
+    pub(super) fn with_note(mut self, has_fixed_horizon: bool) -> Self {
         if has_fixed_horizon {
             let note = "2h has the horizon of h: the limit is one of more and more bonds a family";
             self.notes.push(note.to_owned());
@@ -226,7 +226,7 @@ impl Meshing<'_> {
                     "both meshers make the same mesh at {size}: the inner nodes of the second are displaced"
                 ));
                 let name = format!("{size}-displaced");
-                let file = written(&self.folder, &name, &with_displaced_nodes(mesh, 1))?;
+                let file = write_mesh_to(&self.folder, &name, &with_displaced_nodes(mesh, 1))?;
                 in_xy(body(size, "displaced", &file), self.section)
             }
             _ => body(size, other.mesher, &other.file),
@@ -300,7 +300,7 @@ fn split(section: &MeshSection, coarse: &Mesh, folder: &Path) -> anyhow::Result<
     let folder = folder.join(MESHES);
     let fine = coarse.split_in_four();
     let made = |size: &str, mesher: &'static str, mesh: &Mesh| {
-        let file = written(&folder, &format!("{size}-{mesher}"), mesh)?;
+        let file = write_mesh_to(&folder, &format!("{size}-{mesher}"), mesh)?;
         anyhow::Ok(in_xy(body(size, mesher, &file), section))
     };
     let moved = |mesh: &Mesh| with_displaced_nodes(mesh, 1);
@@ -341,7 +341,7 @@ fn has_curved_outline(mesh: &Mesh) -> bool {
 }
 
 /// Writes a mesh into a folder, and returns its path.
-fn written(folder: &Path, name: &str, mesh: &Mesh) -> anyhow::Result<PathBuf> {
+fn write_mesh_to(folder: &Path, name: &str, mesh: &Mesh) -> anyhow::Result<PathBuf> {
     let path = std::path::absolute(folder.join(format!("{name}.msh")))?;
     replace_file(&path, gmsh::write(mesh).as_bytes())?;
     Ok(path)
