@@ -121,7 +121,7 @@ pub(super) fn meshes(
     }
 }
 
-/// The geometry beside a mesh with whose name the name of the mesh begins, `disk.geo` for `disk-4mm.msh`; the one with the longest name.
+/// The geometry beside a mesh, `disk.geo` for `disk-4mm.msh`: the longest name with which the name of the mesh begins.
 fn found_geometry(mesh: &Path) -> Option<PathBuf> {
     let folder = mesh.parent().filter(|it| !it.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
