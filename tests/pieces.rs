@@ -9,7 +9,8 @@ use ligament_model::subdomain::Subdomain;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::vtu::{
-    Cell, Field, GlobalIndices, SharedCells, TIME_VALUE, UnstructuredGrid, write_shared, write_vtu,
+    Cell, Cells, Field, GlobalIndices, SharedCells, TIME_VALUE, UnstructuredGrid, write_shared,
+    write_vtu,
 };
 use verification::threads_as_ranks::on_ranks;
 
@@ -73,7 +74,7 @@ impl Body {
     ) -> T {
         then(&UnstructuredGrid {
             points: &self.positions,
-            cells,
+            cells: Cells::Mixed(cells),
             point_fields: &[
                 Field::scalar("damage", &self.damage),
                 Field::components("stress", &["xx", "yy", "xy"], &self.stress),

@@ -3,7 +3,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use ligament_output::csv::{Table, Value};
-use ligament_output::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+use ligament_output::vtu::{Cell, Cells, Field, UnstructuredGrid, write_vtu};
 
 /// Fields of a load step: 14 of numbers and 2 of vectors on triangles.
 fn fields(criterion: &mut Criterion) {
@@ -35,7 +35,7 @@ fn fields(criterion: &mut Criterion) {
         point_fields.extend(names.iter().map(|name| Field::scalar(name, &numbers)));
         let grid = UnstructuredGrid {
             points: &points,
-            cells: &cells,
+            cells: Cells::Mixed(&cells),
             point_fields: &point_fields,
             cell_fields: &[],
             field_data: &[],

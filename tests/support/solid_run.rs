@@ -6,7 +6,7 @@ use std::path::Path;
 use ligament_mesh::SolidCell;
 use ligament_model::{BodyGrid, Canvas, box_corners};
 use ligament_output::csv::{Table, Value};
-use ligament_output::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+use ligament_output::vtu::{Cell, Cells, Field, UnstructuredGrid, write_vtu};
 
 /// Horizon of every point, m.
 pub const HORIZON: f64 = 2.2;
@@ -83,7 +83,7 @@ fn write_model(folder: &Path, body: &BodyGrid, bonds: &[[u32; 2]]) {
     let limit = vec![1e-3; bonds.len()];
     let grid = UnstructuredGrid {
         points: &body.positions,
-        cells: &lines,
+        cells: Cells::Mixed(&lines),
         point_fields: &[
             Field::scalar("volume", &ones),
             Field::scalar("horizon", &horizons),
@@ -230,7 +230,7 @@ fn write_fields(
             let cells: Vec<Cell> = cells.iter().copied().map(Cell::Solid).collect();
             let grid = UnstructuredGrid {
                 points: &body.positions,
-                cells: &cells,
+                cells: Cells::Mixed(&cells),
                 point_fields: &fields,
                 cell_fields: &[],
                 field_data: &[],
@@ -248,7 +248,7 @@ fn write_fields(
             let corners: Vec<[f64; 3]> = displacement.iter().flat_map(|it| [*it; 8]).collect();
             let grid = UnstructuredGrid {
                 points: &points,
-                cells: &cells,
+                cells: Cells::Mixed(&cells),
                 point_fields: &[Field::vector("displacement", &corners)],
                 cell_fields: &fields,
                 field_data: &[],

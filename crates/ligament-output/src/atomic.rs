@@ -1,7 +1,7 @@
 //! Atomic writes of whole files.
 
 use std::fs::{self, File};
-use std::io::{self, Read, Write};
+use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
@@ -125,10 +125,17 @@ pub fn rename(from: &Path, to: &Path) -> Result<(), Error> {
     fs::rename(from, to).map_err(Error::system("move", from))
 }
 
-/// Writes `contents` to a temporary file beside `path`, and renames it to `path`.
-pub(crate) fn replace_regular(path: &Path, contents: &[u8]) -> io::Result<()> {
+/// Writes a temporary file beside `path` with a function, and renames it to `path`.
+pub(crate) fn replace_regular(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     let temporary = temporary_path(path)?;
-    let write = |file: &mut File| file.write_all(contents);
+    let write = |file: &mut File| {
+        let mut buffered = BufWriter::new(file);
+        write(&mut buffered)?;
+        buffered.flush()
+    };
     let written = write_synced(&temporary, write).and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
         // The first failure is the one to report; the temporary file may not even exist.

@@ -56,9 +56,21 @@ pub fn write_file(path: &Path, contents: &[u8], replace: bool) -> Result<(), Err
 ///
 /// If the path is a link to a file or a folder, or cannot be written.
 pub fn replace_file(path: &Path, contents: &[u8]) -> Result<(), Error> {
+    replace_file_with(path, |out| out.write_all(contents))
+}
+
+/// Writes a file with a function, as [`replace_file`] writes contents.
+///
+/// # Errors
+///
+/// As for [`replace_file`], or if the function fails.
+pub(crate) fn replace_file_with(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), Error> {
     let written = match path_content(path)? {
-        PathContent::Stream => write_stream(path, contents),
-        PathContent::Nothing | PathContent::File => replace_regular(path, contents),
+        PathContent::Stream => write_stream(path, write),
+        PathContent::Nothing | PathContent::File => replace_regular(path, write),
     };
     written.map_err(Error::system("write", path))
 }
@@ -127,16 +139,19 @@ fn descriptor(_: &Path) -> Option<u32> {
     None
 }
 
-fn write_stream(path: &Path, contents: &[u8]) -> io::Result<()> {
+fn write_stream(
+    path: &Path,
+    write: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
     match descriptor(path) {
         // A file opened a second time would be overwritten from its beginning.
         Some(1) => {
             let mut stdout = io::stdout().lock();
-            stdout.write_all(contents)?;
+            write(&mut stdout)?;
             stdout.flush()
         }
-        Some(2) => io::stderr().lock().write_all(contents),
-        _ => open_stream(path)?.write_all(contents),
+        Some(2) => write(&mut io::stderr().lock()),
+        _ => write(&mut open_stream(path)?),
     }
 }
 

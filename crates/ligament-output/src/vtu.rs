@@ -8,16 +8,17 @@ mod pieces;
 pub mod read;
 
 use std::collections::HashSet;
-use std::fmt::Write as _;
+use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_mesh::SolidCell;
 use rayon::prelude::*;
 
-use crate::replace_file;
+use crate::single_file::replace_file_with;
 use crate::xml::escape_attribute;
 use crate::{Error, FieldLocation};
 
+use field::Array;
 pub use field::Field;
 pub(crate) use field::SelectedValues;
 pub use pieces::{
@@ -26,6 +27,9 @@ pub use pieces::{
 
 /// Name of the time in the field data of a grid, which VTK recognises.
 pub const TIME_VALUE: &str = "TimeValue";
+
+/// Number of values from which on an array is compressed and written by itself, so that only one is in memory.
+const LARGE: usize = 1 << 18;
 
 /// A cell given by its points, indices from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -127,13 +131,46 @@ impl Cell {
     }
 }
 
+/// The cells of a grid.
+#[derive(Debug, Clone, Copy)]
+pub enum Cells<'a> {
+    /// Cells of mixed types.
+    Mixed(&'a [Cell]),
+    /// Segments by their ends.
+    Lines(&'a [[u32; 2]]),
+}
+
+impl<'a> Cells<'a> {
+    fn len(self) -> usize {
+        match self {
+            Self::Mixed(cells) => cells.len(),
+            Self::Lines(lines) => lines.len(),
+        }
+    }
+
+    fn get(self, number: usize) -> Cell {
+        match self {
+            Self::Mixed(cells) => cells[number],
+            Self::Lines(lines) => Cell::Line(lines[number]),
+        }
+    }
+
+    /// The points of a cell.
+    fn points(self, number: usize) -> &'a [u32] {
+        match self {
+            Self::Mixed(cells) => cells[number].points(),
+            Self::Lines(lines) => &lines[number],
+        }
+    }
+}
+
 /// A grid with its fields.
 #[derive(Debug, Clone, Copy)]
 pub struct UnstructuredGrid<'a> {
     /// Reference positions, m; z = 0 in a planar grid.
     pub points: &'a [[f64; 3]],
-    /// Cells on these points, of mixed types.
-    pub cells: &'a [Cell],
+    /// Cells on these points.
+    pub cells: Cells<'a>,
     /// Fields on the points. ParaView colours by the first scalar and warps by the first vector.
     pub point_fields: &'a [Field<'a>],
     /// Fields on the cells.
@@ -154,7 +191,8 @@ impl UnstructuredGrid<'_> {
                 "a VTU file needs points and cells, got {n_points} points and {n_cells} cells; write no file instead"
             ));
         }
-        for (cell, points) in self.cells.iter().map(Cell::points).enumerate() {
+        for cell in 0..n_cells {
+            let points = self.cells.points(cell);
             if let Some(&point) = points.iter().find(|&&point| point as usize >= n_points) {
                 return refused(format!(
                     "cell {cell} names point {point}, but there are only {n_points} points (counted from 0)"
@@ -184,83 +222,91 @@ impl UnstructuredGrid<'_> {
         Ok(())
     }
 
-    /// The document, independent of the number of threads, which share arrays and blocks of fixed size.
-    fn to_xml(self) -> String {
-        let mut xml = format!(
+    /// Appends the document, independent of the number of threads, which share arrays and blocks of fixed size.
+    fn write(self, out: &mut dyn Write) -> io::Result<()> {
+        write!(
+            out,
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
              <VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-             compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n\
-             {}<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-            field_data_xml(self.field_data),
-            self.points.len(),
-            self.cells.len()
-        );
-        push_fields(&mut xml, "PointData", self.point_fields, |it| it.to_xml());
-        push_fields(&mut xml, "CellData", self.cell_fields, |it| it.to_xml());
-        xml.push_str("<Points>\n");
-        xml.push_str(&Field::vector("Points", self.points).to_xml());
-        xml.push_str("</Points>\n<Cells>\n");
-        xml.extend(cell_arrays(self.cells));
-        xml.push_str("</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-        xml
+             compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n"
+        )?;
+        write_field_data(self.field_data, out)?;
+        let (n_points, n_cells) = (self.points.len(), self.cells.len());
+        writeln!(
+            out,
+            "<Piece NumberOfPoints=\"{n_points}\" NumberOfCells=\"{n_cells}\">"
+        )?;
+        // Arrays of a large grid are in memory one at a time.
+        let together = LARGE / n_cells.max(n_points) + 1;
+        for (element, fields) in [
+            ("PointData", self.point_fields),
+            ("CellData", self.cell_fields),
+        ] {
+            out.write_all(opening(element, fields).as_bytes())?;
+            for fields in fields.chunks(together) {
+                let arrays: Vec<Array> = fields.par_iter().map(Field::array).collect();
+                arrays.iter().try_for_each(|it| it.write(out))?;
+            }
+            writeln!(out, "</{element}>")?;
+        }
+        out.write_all(b"<Points>\n")?;
+        Field::vector("Points", self.points).array().write(out)?;
+        out.write_all(b"</Points>\n<Cells>\n")?;
+        write_cells(self.cells, out)?;
+        out.write_all(b"</Cells>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n")
     }
 }
 
-/// The element `FieldData` of some numbers; empty without any.
-fn field_data_xml(numbers: &[(&str, f64)]) -> String {
+/// Appends the element `FieldData` of some numbers; nothing without any.
+fn write_field_data(numbers: &[(&str, f64)], out: &mut dyn Write) -> io::Result<()> {
     if numbers.is_empty() {
-        return String::new();
+        return Ok(());
     }
-    let array = |(name, number): &(&str, f64)| {
-        let array = Field::scalar(name, std::slice::from_ref(number)).to_xml();
+    out.write_all(b"<FieldData>\n")?;
+    for (name, number) in numbers {
+        let array = Field::scalar(name, std::slice::from_ref(number)).array();
         // Other arrays have the number of the points or cells.
-        array.replacen("<DataArray", "<DataArray NumberOfTuples=\"1\"", 1)
+        array.with_attribute("NumberOfTuples", 1).write(out)?;
+    }
+    out.write_all(b"</FieldData>\n")
+}
+
+/// Appends the arrays of cells, one after the other, which is the less memory.
+fn write_cells(cells: Cells<'_>, out: &mut dyn Write) -> io::Result<()> {
+    let numbers = 0..cells.len();
+    let ends = numbers.clone().scan(0, |end, cell| {
+        *end += cells.points(cell).len();
+        Some(*end as i64)
+    });
+    let offsets: Vec<i64> = ends.collect();
+    let points = numbers.clone().flat_map(|cell| cells.points(cell));
+    let mut connectivity = Vec::with_capacity(offsets.last().map_or(0, |end| *end as usize));
+    connectivity.extend(points.map(|&point| i64::from(point)));
+    Field::integer("connectivity", &connectivity)
+        .array()
+        .write(out)?;
+    drop(connectivity);
+    Field::integer("offsets", &offsets).array().write(out)?;
+    let types: Vec<u8> = numbers.map(|cell| cells.get(cell).vtk_type()).collect();
+    Field::bytes("types", &types).array().write(out)
+}
+
+/// The start tag of `PointData` or `CellData`, or of their outline for all pieces of a grid, with the names of the first scalar and the first
+/// vector, which readers show first.
+fn opening(element: &str, fields: &[Field<'_>]) -> String {
+    let named = |kind: &str, first: Option<&Field<'_>>| {
+        first.map_or_else(String::new, |it| {
+            format!(" {kind}=\"{}\"", escape_attribute(it.name))
+        })
     };
-    let arrays: String = numbers.iter().map(array).collect();
-    format!("<FieldData>\n{arrays}</FieldData>\n")
-}
-
-fn cell_arrays(cells: &[Cell]) -> [String; 3] {
-    let mut connectivity = Vec::with_capacity(4 * cells.len());
-    let mut offsets = Vec::with_capacity(cells.len());
-    for cell in cells {
-        connectivity.extend(cell.points().iter().map(|&point| i64::from(point)));
-        offsets.push(connectivity.len() as i64);
-    }
-    let types: Vec<u8> = cells.iter().map(Cell::vtk_type).collect();
-    [
-        Field::integer("connectivity", &connectivity),
-        Field::integer("offsets", &offsets),
-        Field::bytes("types", &types),
-    ]
-    .map(Field::to_xml)
-}
-
-/// Appends the element `PointData` or `CellData`, or its outline for all pieces of a grid, naming the first scalar and the first vector,
-/// which readers show first.
-fn push_fields(
-    xml: &mut String,
-    element: &str,
-    fields: &[Field<'_>],
-    array: fn(&Field<'_>) -> String,
-) {
-    let arrays: Vec<String> = fields.par_iter().map(array).collect();
-    // Writing to a string cannot fail.
-    let _ = write!(xml, "<{element}");
-    if let Some(first) = fields.iter().find(|field| field.is_scalar()) {
-        let _ = write!(xml, " Scalars=\"{}\"", escape_attribute(first.name));
-    }
-    if let Some(first) = fields.iter().find(|field| field.is_vector()) {
-        let _ = write!(xml, " Vectors=\"{}\"", escape_attribute(first.name));
-    }
-    xml.push_str(">\n");
-    xml.extend(arrays);
-    let _ = writeln!(xml, "</{element}>");
+    let scalar = named("Scalars", fields.iter().find(|it| it.is_scalar()));
+    let vector = named("Vectors", fields.iter().find(|it| it.is_vector()));
+    format!("<{element}{scalar}{vector}>\n")
 }
 
 /// Writes the grid to `path`, which should end in `.vtu`. The file appears complete or not at all.
 pub fn write_vtu(path: impl AsRef<Path>, grid: &UnstructuredGrid<'_>) -> Result<(), Error> {
     let path = path.as_ref();
     grid.check(path)?;
-    replace_file(path, grid.to_xml().as_bytes())
+    replace_file_with(path, |out| grid.write(out))
 }

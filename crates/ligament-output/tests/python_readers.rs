@@ -8,7 +8,7 @@ use std::process::Command;
 use ligament_mesh::SolidCell;
 use ligament_output::csv::Table;
 use ligament_output::pvd::Collection;
-use ligament_output::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+use ligament_output::vtu::{Cell, Cells, Field, UnstructuredGrid, write_vtu};
 
 /// 64 x 64 points: each scalar array fills one compression block exactly.
 const N_ROW: u32 = 64;
@@ -54,7 +54,7 @@ fn write_sample(folder: &Path) {
     material[..2].copy_from_slice(&[i64::MAX, i64::MIN]);
     let grid = UnstructuredGrid {
         points: &points,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &[
             Field::scalar("damage", &damage),
             Field::vector("displacement", &displacement),

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use ligament_mesh::SolidCell;
 use ligament_output::Error;
-use ligament_output::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+use ligament_output::vtu::{Cell, Cells, Field, UnstructuredGrid, write_vtu};
 use vtkio::IOBuffer;
 use vtkio::model::{
     Attribute, CellType, DataSet, Piece, UnstructuredGridPiece, VertexNumbers, Vtk,
@@ -30,7 +30,7 @@ const CELLS: [Cell; 4] = [
 fn grid<'a>(point_fields: &'a [Field<'a>], cell_fields: &'a [Field<'a>]) -> UnstructuredGrid<'a> {
     UnstructuredGrid {
         points: &POINTS,
-        cells: &CELLS,
+        cells: Cells::Mixed(&CELLS),
         point_fields,
         cell_fields,
         field_data: &[],
@@ -140,7 +140,7 @@ fn solid_cells_read_back() {
     .map(Cell::Solid);
     let grid = UnstructuredGrid {
         points: &points,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &[],
         cell_fields: &[],
         field_data: &[],
@@ -174,7 +174,7 @@ fn arrays_of_whole_compression_blocks_read_back() {
         let volume: Vec<_> = (0..n_points).map(|i| f64::from(i).sqrt()).collect();
         let grid = UnstructuredGrid {
             points: &points,
-            cells: &cells,
+            cells: Cells::Mixed(&cells),
             point_fields: &[Field::scalar("volume", &volume)],
             cell_fields: &[],
             field_data: &[],
@@ -227,7 +227,7 @@ fn the_number_of_threads_changes_no_byte() {
     let damage: Vec<_> = points.iter().map(|[x, ..]| x.cos()).collect();
     let grid = UnstructuredGrid {
         points: &points,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &[
             Field::scalar("volume", &volume),
             Field::scalar("damage", &damage),
@@ -285,7 +285,7 @@ fn refuses_two_fields_of_one_name() {
 fn refuses_a_cell_on_a_missing_point() {
     let cells = [Cell::Line([0, 1]), Cell::Line([1, 5])];
     let error = refusal(&UnstructuredGrid {
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         ..grid(&[], &[])
     });
     let expected = "cell 1 names point 5, but there are only 5 points (counted from 0)";
@@ -299,7 +299,7 @@ fn refuses_a_grid_that_readers_reject() {
         ..grid(&[], &[])
     };
     let no_cells = UnstructuredGrid {
-        cells: &[],
+        cells: Cells::Mixed(&[]),
         ..grid(&[], &[])
     };
     for grid in [no_points, no_cells] {

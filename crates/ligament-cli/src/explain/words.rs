@@ -62,6 +62,17 @@ fn is_pressed(lives: &BondHistories, deformation: &BondDeformation) -> bool {
     }
 }
 
+/// Whether a bond began to soften by the stress around it, for a criterion by which bonds begin or by which the others break at once; None for
+/// other criteria, and for a bond that never fails.
+fn began_by_stress(life: &BondHistory, limit: &Limit) -> Option<bool> {
+    const AT_ONCE: &str = "-at-once";
+    let name = limit.name.strip_suffix(AT_ONCE).unwrap_or(&limit.name);
+    let mut names = life.limits.iter().map(|it| it.name.strip_suffix(AT_ONCE));
+    let mut finite = life.limits.iter().filter(|it| it.limit.is_finite());
+    let can_fail = finite.clone().next().is_some();
+    (can_fail && names.any(|it| it == Some(name))).then(|| finite.any(|it| !it.after.is_brittle()))
+}
+
 /// The limits of a bond, each with the criterion's name and a description.
 pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
     let in_words = |limit: &Limit| {
@@ -71,7 +82,11 @@ pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
             .map(|(name, &value)| format!(", {name} = {}", number(value)))
             .collect();
         if limit.limit.is_infinite() {
-            return format!("never fails by its {what}{coefficient}");
+            return match began_by_stress(life, limit) {
+                Some(true) => "no longer counts: the bond began to soften".to_owned(),
+                Some(false) => format!("has not begun to soften by its {what}{coefficient}"),
+                None => format!("never fails by its {what}{coefficient}"),
+            };
         }
         let at = format!("{what} = {}{coefficient}", number(limit.limit));
         let end = limit.limit * limit.after.end(0);

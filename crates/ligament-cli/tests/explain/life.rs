@@ -374,3 +374,53 @@ fn an_interface_is_named_with_its_bonds() {
         );
     }
 }
+
+/// A bond that the stress around it lets soften is told with the limit at which it began. In one straight line its force falls to zero at
+/// e_f = e_c^2/e_i, so that it takes what a brittle bond of the critical stretch e_c does; e_c is what bonds that never began break at, over E'.
+#[test]
+fn softening_by_stress_is_told_from_where_it_began() {
+    const JOINT: &str = include_str!("../../../../cases/brick-joint/case.toml");
+    let folder = tempfile::tempdir().unwrap();
+    let limit = |found: &Value, place: usize, key: &str| found["limits"][place][key].as_f64();
+    let sound = run(
+        folder.path(),
+        JOINT,
+        &["fracture.steps=1", "load.0.displacement.y=1e-9"],
+    );
+    let words = explain(&sound, &["--bond", "385", "405"]);
+    assert!(words.contains("has not begun to soften"), "{words}");
+    let found = bond(&sound, 385, 405);
+    let bar = number(&found["limits"][0]["coefficients"][2]);
+    let critical = limit(&found, 0, "limit").unwrap() / bar;
+
+    let results = run(folder.path(), JOINT, &["output.fields_every=1"]);
+    let words = explain(&results, &["--bond", "385", "405"]);
+    assert!(
+        words.contains("no longer counts: the bond began to soften"),
+        "{words}"
+    );
+    let found = bond(&results, 385, 405);
+    let [began, end] = ["limit", "break_limit"].map(|it| limit(&found, 1, it).unwrap());
+    // The limits of bonds that never began are infinite, which JSON has no number for.
+    assert_eq!(limit(&found, 0, "limit"), None);
+    assert!(
+        (began * end / critical.powi(2) - 1.0).abs() < 1e-12,
+        "{began} {end}"
+    );
+    let broke = &found["breakage"];
+    let ratio = number(&found["limits"][1]["coefficients"][0]);
+    let measure = |at: &Value| {
+        let [stretch, shear] = ["stretch", "shear"].map(|it| number(&at[it]));
+        (stretch.max(0.0).powi(2) + shear.powi(2) * ratio).sqrt()
+    };
+    let beyond = number(&broke["utilisation"]);
+    assert!(
+        (measure(broke) / end / beyond - 1.0).abs() < 1e-9,
+        "{beyond}"
+    );
+    let path = found["path"].as_array().unwrap();
+    let last = path.iter().rfind(|it| it["intact"] == true).unwrap();
+    let utilisation = number(&last["utilisation"][1]);
+    assert!((measure(last) / began / utilisation - 1.0).abs() < 1e-6);
+    assert!(utilisation > 1.0 && number(&last["utilisation"][0]) == 0.0);
+}

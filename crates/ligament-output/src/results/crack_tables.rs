@@ -20,7 +20,7 @@ use super::surface_files::fields_until;
 use crate::Error;
 use crate::atomic::remove_file;
 use crate::csv::{Table, Value};
-use crate::vtu::{self, Cell, Field, UnstructuredGrid};
+use crate::vtu::{self, Cell, Cells, Field, UnstructuredGrid};
 
 /// Names of the files of cracks beside the results of a run.
 pub const CRACK_FILES: [&str; 5] = [
@@ -115,7 +115,7 @@ fn write_grid(path: &Path, lines: &[CrackLine]) -> Result<(), Error> {
     }
     let grid = UnstructuredGrid {
         points: &points,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &[Field::scalar("along", &along)],
         cell_fields: &[Field::integer("line", &numbers)],
         field_data: &[],

@@ -9,7 +9,9 @@ use ligament_model::subdomain::Subdomain;
 use ligament_model::{BodyGrid, Canvas, box_corners, raised};
 
 use crate::Error;
-use crate::vtu::{self, Field, GlobalIndices, SelectedValues, SharedCells, UnstructuredGrid};
+use crate::vtu::{
+    self, Cells, Field, GlobalIndices, SelectedValues, SharedCells, UnstructuredGrid,
+};
 
 /// Fields of a model that do not change in a run.
 pub(super) fn fixed_fields(model: ModelPoints<'_>) -> impl Iterator<Item = Field<'_>> {
@@ -43,7 +45,7 @@ pub fn write_points(path: &Path, grid: &BodyGrid, fields: &[Field<'_>]) -> Resul
 
 /// Bonds as lines between the points of a body, in the order of the file.
 pub(super) struct BondLines {
-    cells: Vec<vtu::Cell>,
+    lines: Vec<[u32; 2]>,
     /// First end of each bond; the owner of this point owns the bond.
     first_ends: Vec<u32>,
     /// Order of the bonds in the file; none where it is the present one.
@@ -69,7 +71,7 @@ impl BondLines {
         let place = |end: u32| places.as_ref().map_or(end, |it| it[end as usize]);
         let lines = ends.iter().map(|it| numbering.ordered(*it).map(place));
         Self {
-            cells: lines.map(vtu::Cell::Line).collect(),
+            lines: lines.collect(),
             first_ends: ends.iter().map(|it| it[0]).collect(),
             order,
         }
@@ -94,7 +96,7 @@ impl BondLines {
             cell_fields.iter().map(|it| it.ordered(of_bonds)).collect();
         let grid = UnstructuredGrid {
             points: &body.numbering.to_file(body.positions.clone()),
-            cells: &self.cells,
+            cells: Cells::Lines(&self.lines),
             point_fields: &point_fields,
             cell_fields: &cell_fields,
             field_data,
@@ -141,7 +143,7 @@ pub(super) fn write_grid(
     };
     let grid = UnstructuredGrid {
         points: &body.positions,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &all,
         cell_fields: of_cells,
         field_data,
@@ -175,7 +177,7 @@ fn write_point_cells(
     let of_corners: Vec<Field<'_>> = (of_corners.iter().map(|(it, at)| it.with(at))).collect();
     let grid = UnstructuredGrid {
         points: &corners,
-        cells: &cells(&canvas),
+        cells: Cells::Mixed(&cells(&canvas)),
         point_fields: &of_corners,
         cell_fields: &in_order,
         field_data,

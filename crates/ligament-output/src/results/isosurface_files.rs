@@ -13,7 +13,7 @@ use super::solid_body::SolidBody;
 use crate::Error;
 use crate::atomic::remove_file;
 use crate::vtu::read::VtuFile;
-use crate::vtu::{self, Cell, Field, UnstructuredGrid};
+use crate::vtu::{self, Cell, Cells, Field, UnstructuredGrid};
 
 /// A field interpolated to the vertices of a surface.
 struct InterpolatedField {
@@ -69,7 +69,7 @@ pub fn write_level_set(
         path,
         &UnstructuredGrid {
             points: &places,
-            cells: &cells,
+            cells: Cells::Mixed(&cells),
             point_fields: &point_fields.collect::<Vec<Field<'_>>>(),
             cell_fields: if is_mesh { &of_mesh } else { &[] },
             field_data: &file.field_data()?,

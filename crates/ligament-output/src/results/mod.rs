@@ -353,7 +353,7 @@ impl Observer for ResultWriter<'_> {
                     grid,
                     fixed,
                     &self.problem,
-                    Some((largest, &view.state.dissipated)),
+                    Some((largest, view.state)),
                 ))?;
             }
         }

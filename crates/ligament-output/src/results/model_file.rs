@@ -10,7 +10,7 @@
 //! | `interface.A-B` | 1 where the bond crosses the interface between the materials A and B |
 //! | `horizon` | H, m |
 //! | `length_factor`, `domain_factor` | alpha, Omega |
-//! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it |
+//! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it, or has not begun to soften by the stress around it |
 //! | `coefficient.NAME` | coefficient q of the criterion's measure, where it has one |
 //! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of the criterion's measure, where they differ from 1 |
 //! | `coefficient_4.NAME` to `coefficient_9.NAME` | further coefficients of a measure of stress, whose second and third have the two names above |
@@ -23,6 +23,8 @@ use ligament_analysis::driver::Problem;
 use ligament_analysis::largest_utilisation::{LargestUtilisation, LargestUtilisations};
 use ligament_analysis::load_program::BoundaryGroup;
 use ligament_analysis::result_fields::{HORIZON, VOLUME};
+use ligament_analysis::state::State;
+use ligament_model::failure::CriteriaInState;
 use ligament_model::{BodyGrid, ConstantFields};
 
 use super::grid::BondLines;
@@ -63,54 +65,91 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "coefficient_9",
 ];
 
-/// Writes the model, at the end of a run with the largest utilisations of its bonds and the energies that they dissipated (n_bonds, J).
+/// Number that a bond has, by its index in the file before it is put in order.
+type NumberOfBond<'a> = Box<dyn Fn(usize) -> f64 + Sync + 'a>;
+
+/// Integer that a bond has, by its index in the file before it is put in order.
+type IntegerOfBond<'a> = Box<dyn Fn(usize) -> i64 + Sync + 'a>;
+
+/// Writes the model, at the end of a run with the largest utilisations of its bonds, the energies that they dissipated (n_bonds, J), and
+/// the limits of bonds that began to soften by the stress around them.
 pub(super) fn write(
     folder: &Path,
     grid: &BodyGrid,
     fixed: &ConstantFields,
     problem: &Problem,
-    at_end: Option<(&LargestUtilisations, &[f64])>,
+    at_end: Option<(&LargestUtilisations, &State)>,
 ) -> Result<(), Error> {
     let (system, absent) = (&problem.system, &fixed.absent);
     let n_absent = absent.len();
     let of_absent: Vec<[u32; 2]> = absent.iter().map(|pair| pair.ends).collect();
     let lines = BondLines::new(grid, &system.ends, &of_absent);
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
-    let absence: Vec<i64> = std::iter::repeat_n(0, system.ends.len())
-        .chain(absent.iter().map(|pair| pair.absence.number()))
-        .collect();
-    let horizon: Vec<f32> = (system.horizons.iter())
-        .chain(absent.iter().map(|pair| &pair.horizon))
-        .map(|&horizon| horizon as f32)
-        .collect();
-    let nothing = std::iter::repeat_n(f32::NAN, n_absent);
-    let alpha: Vec<f32> = (system.weights.iter().zip(&fixed.domain_factor))
-        .map(|(weight, omega)| (weight / omega) as f32)
-        .chain(nothing.clone())
-        .collect();
-    let omega: Vec<f32> = (fixed.domain_factor.iter().map(|&omega| omega as f32))
-        .chain(nothing)
-        .collect();
-    let interfaces = interfaces(fixed, n_absent);
-    let limits = limits(problem, n_absent);
-    let largest = at_end.map(|(largest, _)| UtilisationColumns::new(largest, n_absent));
-    let dissipated = at_end.map(|(_, dissipated)| with_nan_for_absent(dissipated, n_absent));
+    let n_bonds = system.ends.len();
+    let count = n_bonds + n_absent;
+    let absence = |place: usize| {
+        let pair = place.checked_sub(n_bonds);
+        pair.map_or(0, |it| absent[it].absence.number())
+    };
+    let horizon = |place: usize| match place.checked_sub(n_bonds) {
+        None => system.horizons[place] as f32,
+        Some(pair) => absent[pair].horizon as f32,
+    };
+    let omega = |place: usize| {
+        fixed
+            .domain_factor
+            .get(place)
+            .map_or(f32::NAN, |it| *it as f32)
+    };
+    let alpha = |place: usize| {
+        let factors = fixed
+            .domain_factor
+            .get(place)
+            .zip(system.weights.get(place));
+        factors.map_or(f32::NAN, |(omega, weight)| (weight / omega) as f32)
+    };
+    let crosses: Vec<(String, IntegerOfBond<'_>)> = interfaces(fixed);
+    let criteria = at_end.map_or_else(
+        || problem.criteria.without_state(),
+        |(_, state)| state.softening.criteria(&problem.criteria),
+    );
+    let limits = limits(&criteria);
+    let limits: Vec<(&str, NumberOfBond<'_>)> = limits.iter().map(LimitColumn::by_bond).collect();
+    let unknown = LargestUtilisation {
+        utilisation: f32::NAN,
+        ..Default::default()
+    };
+    let of_bonds = at_end.map(|(largest, _)| largest.of_bonds.as_slice());
+    let largest = |place: usize| of_bonds.and_then(|it| it.get(place)).unwrap_or(&unknown);
+    let utilisation = |place: usize| largest(place).utilisation;
+    let step = |place: usize| i64::from(largest(place).step);
+    let criterion = |place: usize| i64::from(largest(place).criterion);
+    let dissipated = |place: usize| {
+        let of_bonds = at_end.and_then(|(_, state)| state.dissipated.get(place));
+        of_bonds.copied().unwrap_or(f64::NAN)
+    };
 
     let mut cell_fields = vec![
-        Field::integer("absent", &absence),
-        Field::single("horizon", &horizon),
-        Field::single("length_factor", &alpha),
-        Field::single("domain_factor", &omega),
+        Field::computed_integer("absent", count, &absence),
+        Field::computed_single("horizon", count, &horizon),
+        Field::computed_single("length_factor", count, &alpha),
+        Field::computed_single("domain_factor", count, &omega),
     ];
-    cell_fields.extend((interfaces.iter()).map(|(name, crosses)| Field::integer(name, crosses)));
+    let crosses = crosses.iter();
+    cell_fields.extend(crosses.map(|(name, it)| Field::computed_integer(name, count, it)));
     cell_fields.extend(
         limits
             .iter()
-            .map(|(name, values)| Field::scalar(name, values)),
+            .map(|(name, it)| Field::computed(name, count, it)),
     );
-    cell_fields.extend(largest.iter().flat_map(|columns| columns.fields()));
-    let dissipated = dissipated.iter();
-    cell_fields.extend(dissipated.map(|it| Field::scalar(DISSIPATED_ENERGY, it)));
+    if at_end.is_some() {
+        cell_fields.extend([
+            Field::computed_single("largest_utilisation", count, &utilisation),
+            Field::computed_integer("step_of_largest", count, &step),
+            Field::computed_integer("criterion_of_largest", count, &criterion),
+            Field::computed(DISSIPATED_ENERGY, count, &dissipated),
+        ]);
+    }
     let groups = groups(problem);
     let mut point_fields = vec![
         Field::scalar(VOLUME.name, &system.volumes),
@@ -126,13 +165,14 @@ pub(super) fn write(
 }
 
 /// Fields of the interfaces: a name and 1 for its bonds for each.
-fn interfaces(fixed: &ConstantFields, n_absent: usize) -> Vec<(String, Vec<i64>)> {
-    let field = |(name, crosses): &(String, Vec<bool>)| {
-        let crosses = crosses.iter().copied().map(i64::from);
-        let all = crosses.chain(std::iter::repeat_n(0, n_absent));
-        (format!("{INTERFACE}{name}"), all.collect())
-    };
-    fixed.interfaces.iter().map(field).collect()
+fn interfaces(fixed: &ConstantFields) -> Vec<(String, IntegerOfBond<'_>)> {
+    let mut fields = Vec::new();
+    for (name, crosses) in &fixed.interfaces {
+        let at = move |place: usize| crosses.get(place).map_or(0, |it| i64::from(*it));
+        let at: IntegerOfBond<'_> = Box::new(at);
+        fields.push((format!("{INTERFACE}{name}"), at));
+    }
+    fields
 }
 
 /// Fields of the supported and loaded points: a name and 1 at its points for each group.
@@ -148,72 +188,48 @@ fn groups(problem: &Problem) -> Vec<(String, Vec<i64>)> {
     problem.loads.groups().iter().map(field).collect()
 }
 
-/// Values of the bonds, followed by NaN for each absent bond.
-fn with_nan_for_absent(values: &[f64], n_absent: usize) -> Vec<f64> {
-    let nothing = std::iter::repeat_n(f64::NAN, n_absent);
-    values.iter().copied().chain(nothing).collect()
+/// Limits or coefficients of a criterion: every so many values one of a bond.
+struct LimitColumn<'a> {
+    name: String,
+    values: &'a [f64],
+    first: usize,
+    stride: usize,
 }
 
-/// Fields of the limits and coefficients of each criterion for each bond, by name.
-fn limits(problem: &Problem, n_absent: usize) -> Vec<(String, Vec<f64>)> {
-    let criteria = &problem.criteria.list;
+impl LimitColumn<'_> {
+    /// The name, and the value of a bond; NaN for absent bonds.
+    fn by_bond(&self) -> (&str, NumberOfBond<'_>) {
+        let value = |place: usize| self.values.get(self.first + self.stride * place);
+        let of_bond = move |place: usize| value(place).copied().unwrap_or(f64::NAN);
+        (&self.name, Box::new(of_bond))
+    }
+}
+
+/// Limits and coefficients of each criterion for each bond.
+fn limits<'a>(criteria: &'a CriteriaInState<'_>) -> Vec<LimitColumn<'a>> {
+    let list = &criteria.criteria().list;
     let mut found = Vec::new();
-    for (criterion, label) in criteria.iter().zip(criterion_labels(
-        criteria.iter().map(|criterion| criterion.name),
-    )) {
-        let mut push = |what: &str, values: &mut dyn Iterator<Item = f64>| {
-            let nothing = std::iter::repeat_n(f64::NAN, n_absent);
-            found.push((format!("{what}.{label}"), values.chain(nothing).collect()));
+    let labels = criterion_labels(list.iter().map(|criterion| criterion.name));
+    for (number, (criterion, label)) in list.iter().zip(labels).enumerate() {
+        let mut push = |what: &str, values: &'a [f64], first: usize, stride: usize| {
+            let name = format!("{what}.{label}");
+            found.push(LimitColumn {
+                name,
+                values,
+                first,
+                stride,
+            });
         };
-        push("limit", &mut criterion.limit.iter().copied());
+        push("limit", criteria.limits(number), 0, 1);
         let coefficients = &criterion.coefficient;
-        let count = coefficients.len() / criterion.limit.len().max(1);
-        for (place, what) in COEFFICIENTS.iter().take(count).enumerate() {
-            push(
-                what,
-                &mut coefficients.iter().skip(place).step_by(count).copied(),
-            );
+        let stride = coefficients.len() / criterion.limit.len().max(1);
+        for (first, what) in COEFFICIENTS.iter().take(stride).enumerate() {
+            push(what, coefficients, first, stride);
         }
-        let parameter = criterion.after.parameter();
+        let parameter = criteria.after(number).parameter();
         if !parameter.is_empty() {
-            push("after", &mut parameter.iter().copied());
+            push("after", parameter, 0, 1);
         }
     }
     found
-}
-
-/// Largest utilisations of all bonds as the columns of a file.
-struct UtilisationColumns {
-    utilisation: Vec<f32>,
-    step: Vec<i64>,
-    criterion: Vec<i64>,
-}
-
-impl UtilisationColumns {
-    /// The largest utilisations as arrays, with `n_absent` entries at their end for absent bonds.
-    fn new(largest: &LargestUtilisations, n_absent: usize) -> Self {
-        let nothing = LargestUtilisation {
-            utilisation: f32::NAN,
-            ..Default::default()
-        };
-        let all = || {
-            largest
-                .of_bonds
-                .iter()
-                .chain(std::iter::repeat_n(&nothing, n_absent))
-        };
-        Self {
-            utilisation: all().map(|largest| largest.utilisation).collect(),
-            step: all().map(|largest| i64::from(largest.step)).collect(),
-            criterion: all().map(|largest| i64::from(largest.criterion)).collect(),
-        }
-    }
-
-    fn fields(&self) -> [Field<'_>; 3] {
-        [
-            Field::single("largest_utilisation", &self.utilisation),
-            Field::integer("step_of_largest", &self.step),
-            Field::integer("criterion_of_largest", &self.criterion),
-        ]
-    }
 }

@@ -10,7 +10,7 @@ use ligament_post::surfaces::opened_cells;
 use super::cracks::StoredCracks;
 use super::solid_cracks::SolidCracks;
 use crate::vtu::read::VtuFile;
-use crate::vtu::{self, Cell, Field, UnstructuredGrid};
+use crate::vtu::{self, Cell, Cells, Field, UnstructuredGrid};
 use crate::{Error, FieldLocation};
 
 /// Name of the file of a step.
@@ -81,7 +81,7 @@ fn write<C: Into<Cell>>(
     );
     let grid = UnstructuredGrid {
         points: &opened.positions,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &point_fields,
         cell_fields: &[Field::integer("cell_of_mesh", &of)],
         field_data: &fields.field_data()?,

@@ -8,7 +8,7 @@ use ligament_analysis::result_fields::DISPLACEMENT;
 use crate::Error;
 use crate::FieldLocation;
 use crate::vtu::read::VtuFile;
-use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+use crate::vtu::{Cell, Cells, Field, UnstructuredGrid, write_vtu};
 
 /// Beginning of the name of a file of rigid bodies, in the place of that of the fields.
 pub(super) const STEM: &str = "rigid";
@@ -61,7 +61,7 @@ pub(super) fn write(
     }
     let grid = UnstructuredGrid {
         points: &places,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &[Field::vector(DISPLACEMENT.name, &displacement)],
         cell_fields: &[Field::integer("rigid_body", &numbers)],
         field_data,

@@ -25,7 +25,7 @@ use crate::atomic::remove_file;
 use crate::pvd::Collection;
 use crate::replace_file;
 use crate::vtu::read::VtuFile;
-use crate::vtu::{self, Cell, Field, UnstructuredGrid};
+use crate::vtu::{self, Cell, Cells, Field, UnstructuredGrid};
 
 /// Names of the files of cracks beside the results of a run of a solid.
 pub const SURFACE_FILES: [&str; 4] = ["crack.vtu", "crack.stl", OPENED, "crack_growth.csv"];
@@ -155,7 +155,7 @@ fn write_grid(
     let precrack: Vec<i64> = surface.is_precrack.iter().copied().map(i64::from).collect();
     let grid = UnstructuredGrid {
         points: &surface.places,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &[
             Field::scalar(OPENING.name, &opening),
             Field::scalar(SLIDING.name, &sliding),

@@ -2,8 +2,11 @@
 //!
 //! Blocks are compressed as a whole and by all threads. The writer of vtkio compresses number by number, which takes ten times as long.
 
+use std::io::{self, Write};
+
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
+use base64::write::EncoderWriter;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use rayon::prelude::*;
 
@@ -16,7 +19,7 @@ const BLOCK_SIZE: usize = 32_768;
 const COMPRESSION_LEVEL: u8 = 1;
 
 /// A named field: the same number of values for each point or cell.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct Field<'a> {
     /// Name in readers, unique among the point fields and among the cell fields.
     pub(super) name: &'a str,
@@ -38,38 +41,118 @@ pub(crate) enum SelectedValues {
     Byte(Vec<u8>),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 enum Numbers<'a> {
-    Double(&'a [f64]),
-    Single(&'a [f32]),
-    Integer(&'a [i64]),
-    Byte(&'a [u8]),
+    Double(Values<'a, f64>),
+    Single(Values<'a, f32>),
+    Integer(Values<'a, i64>),
+    Byte(Values<'a, u8>),
+}
+
+/// Values in an array, or computed where they are written, so that the array is never in memory.
+#[derive(Clone, Copy)]
+enum Values<'a, T> {
+    Listed(&'a [T]),
+    Computed(usize, &'a (dyn Fn(usize) -> T + Sync)),
+}
+
+impl<T> std::fmt::Debug for Values<'_, T> {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(formatter, "{} values", self.len())
+    }
+}
+
+impl<T> Values<'_, T> {
+    fn len(&self) -> usize {
+        match self {
+            Self::Listed(values) => values.len(),
+            Self::Computed(count, _) => *count,
+        }
+    }
+}
+
+impl<T: Copy> Values<'_, T> {
+    #[inline]
+    fn at(&self, place: usize) -> T {
+        match self {
+            Self::Listed(values) => values[place],
+            Self::Computed(_, value) => value(place),
+        }
+    }
 }
 
 impl<'a> Field<'a> {
     /// A field of numbers.
     pub fn scalar(name: &'a str, values: &'a [f64]) -> Self {
-        Self::new(name, Numbers::Double(values), 1, &[])
+        Self::new(name, Numbers::Double(Values::Listed(values)), 1, &[])
     }
 
     /// A field of numbers in single precision (seven digits).
     pub fn single(name: &'a str, values: &'a [f32]) -> Self {
-        Self::new(name, Numbers::Single(values), 1, &[])
+        Self::new(name, Numbers::Single(Values::Listed(values)), 1, &[])
     }
 
     /// A field of vectors; in the plane with a third component of 0, which VTK requires.
     pub fn vector(name: &'a str, values: &'a [[f64; 3]]) -> Self {
-        Self::new(name, Numbers::Double(values.as_flattened()), 3, &[])
+        Self::new(
+            name,
+            Numbers::Double(Values::Listed(values.as_flattened())),
+            3,
+            &[],
+        )
     }
 
     /// A field of integers, such as numbers of bonds or flags.
     pub fn integer(name: &'a str, values: &'a [i64]) -> Self {
-        Self::new(name, Numbers::Integer(values), 1, &[])
+        Self::new(name, Numbers::Integer(Values::Listed(values)), 1, &[])
+    }
+
+    /// A field of `count` numbers that a function gives by their indices.
+    pub fn computed(name: &'a str, count: usize, value: &'a (dyn Fn(usize) -> f64 + Sync)) -> Self {
+        Self::new(
+            name,
+            Numbers::Double(Values::Computed(count, value)),
+            1,
+            &[],
+        )
+    }
+
+    /// A field of `count` numbers in single precision that a function gives by their indices.
+    pub fn computed_single(
+        name: &'a str,
+        count: usize,
+        value: &'a (dyn Fn(usize) -> f32 + Sync),
+    ) -> Self {
+        Self::new(
+            name,
+            Numbers::Single(Values::Computed(count, value)),
+            1,
+            &[],
+        )
+    }
+
+    /// A field of `count` integers that a function gives by their indices.
+    pub fn computed_integer(
+        name: &'a str,
+        count: usize,
+        value: &'a (dyn Fn(usize) -> i64 + Sync),
+    ) -> Self {
+        Self::new(
+            name,
+            Numbers::Integer(Values::Computed(count, value)),
+            1,
+            &[],
+        )
     }
 
     /// A field with named components, such as a stress, shape (n, number of names).
     pub fn components(name: &'a str, names: &'a [&'a str], values: &'a [f64]) -> Self {
-        Self::new(name, Numbers::Double(values), names.len(), names)
+        Self::new(
+            name,
+            Numbers::Double(Values::Listed(values)),
+            names.len(),
+            names,
+        )
     }
 
     /// A field with `n_components` components, with or without names, shape (n, n_components).
@@ -79,7 +162,12 @@ impl<'a> Field<'a> {
         component_names: &'a [&'a str],
         values: &'a [f64],
     ) -> Self {
-        Self::new(name, Numbers::Double(values), n_components, component_names)
+        Self::new(
+            name,
+            Numbers::Double(Values::Listed(values)),
+            n_components,
+            component_names,
+        )
     }
 
     /// Whether the field has this name.
@@ -94,7 +182,7 @@ impl<'a> Field<'a> {
 
     /// A field of bytes, such as types of cells.
     pub(super) fn bytes(name: &'a str, values: &'a [u8]) -> Self {
-        Self::new(name, Numbers::Byte(values), 1, &[])
+        Self::new(name, Numbers::Byte(Values::Listed(values)), 1, &[])
     }
 
     fn new(
@@ -122,12 +210,15 @@ impl<'a> Field<'a> {
                 &taken
             }
         };
-        fn chosen<T: Copy>(values: &[T], n_components: usize, rows: &[u32]) -> Vec<T> {
-            let of_row = |&row: &u32| &values[n_components * row as usize..][..n_components];
-            rows.iter().flat_map(of_row).copied().collect()
+        fn chosen<T: Copy>(values: &Values<'_, T>, n_components: usize, rows: &[u32]) -> Vec<T> {
+            let places = rows.iter().flat_map(|&row| {
+                let first = n_components * row as usize;
+                first..first + n_components
+            });
+            places.map(|place| values.at(place)).collect()
         }
         let n = self.n_components;
-        match self.numbers {
+        match &self.numbers {
             Numbers::Double(values) => SelectedValues::Double(chosen(values, n, rows)),
             Numbers::Single(values) => SelectedValues::Single(chosen(values, n, rows)),
             Numbers::Integer(values) => SelectedValues::Integer(chosen(values, n, rows)),
@@ -141,10 +232,10 @@ impl<'a> Field<'a> {
         'a: 'b,
     {
         let numbers = match chosen {
-            SelectedValues::Double(values) => Numbers::Double(values),
-            SelectedValues::Single(values) => Numbers::Single(values),
-            SelectedValues::Integer(values) => Numbers::Integer(values),
-            SelectedValues::Byte(values) => Numbers::Byte(values),
+            SelectedValues::Double(values) => Numbers::Double(Values::Listed(values)),
+            SelectedValues::Single(values) => Numbers::Single(Values::Listed(values)),
+            SelectedValues::Integer(values) => Numbers::Integer(Values::Listed(values)),
+            SelectedValues::Byte(values) => Numbers::Byte(Values::Listed(values)),
         };
         Field {
             numbers,
@@ -155,7 +246,7 @@ impl<'a> Field<'a> {
 
     /// The number of points or cells that have values.
     pub(super) fn len(&self) -> usize {
-        let count = match self.numbers {
+        let count = match &self.numbers {
             Numbers::Double(values) => values.len(),
             Numbers::Single(values) => values.len(),
             Numbers::Integer(values) => values.len(),
@@ -175,13 +266,13 @@ impl<'a> Field<'a> {
         self.n_components == 3 && self.component_names.is_empty()
     }
 
-    /// The element `DataArray`.
-    pub(super) fn to_xml(self) -> String {
-        match self.numbers {
-            Numbers::Double(values) => self.data_array(values, f64::to_le_bytes),
-            Numbers::Single(values) => self.data_array(values, f32::to_le_bytes),
-            Numbers::Integer(values) => self.data_array(values, i64::to_le_bytes),
-            Numbers::Byte(values) => self.data_array(values, u8::to_le_bytes),
+    /// The element `DataArray`, compressed.
+    pub(super) fn array(&self) -> Array {
+        match &self.numbers {
+            Numbers::Double(values) => self.compressed(values, f64::to_le_bytes),
+            Numbers::Single(values) => self.compressed(values, f32::to_le_bytes),
+            Numbers::Integer(values) => self.compressed(values, i64::to_le_bytes),
+            Numbers::Byte(values) => self.compressed(values, u8::to_le_bytes),
         }
     }
 
@@ -212,37 +303,66 @@ impl<'a> Field<'a> {
         attributes
     }
 
-    fn data_array<T: Copy + Sync, const SIZE: usize>(
+    fn compressed<T: Copy + Sync, const SIZE: usize>(
         &self,
-        values: &[T],
+        values: &Values<'_, T>,
         to_le_bytes: impl Fn(T) -> [u8; SIZE] + Sync,
-    ) -> String {
-        let ordered: Vec<T>;
-        let values = match self.order {
-            None => values,
-            Some(order) => {
-                let n = self.n_components;
-                let row = |&row: &u32| &values[n * row as usize..n * (row as usize + 1)];
-                ordered = order.iter().flat_map(row).copied().collect();
-                &ordered
-            }
+    ) -> Array {
+        let n = self.n_components;
+        let n_values = self.order.map_or(values.len(), |order| n * order.len());
+        let place = |place: usize| match self.order {
+            None => place,
+            Some(order) => n * order[place / n] as usize + place % n,
         };
-        let blocks: Vec<Vec<u8>> = values
-            .par_chunks(BLOCK_SIZE / SIZE)
-            .map(|values| {
+        let of_block = BLOCK_SIZE / SIZE;
+        let blocks = (0..n_values.div_ceil(of_block))
+            .into_par_iter()
+            .map(|block| {
                 let mut bytes = Vec::with_capacity(BLOCK_SIZE);
-                for &value in values {
-                    bytes.extend_from_slice(&to_le_bytes(value));
+                let first = block * of_block;
+                for it in first..n_values.min(first + of_block) {
+                    bytes.extend_from_slice(&to_le_bytes(values.at(place(it))));
                 }
                 compress_to_vec_zlib(&bytes, COMPRESSION_LEVEL)
-            })
-            .collect();
-        let mut element = format!("<DataArray{} format=\"binary\">", self.attributes());
-        let header = header(&blocks, values.len() * SIZE);
-        BASE64_STANDARD.encode_string(header, &mut element);
-        BASE64_STANDARD.encode_string(blocks.concat(), &mut element);
-        element.push_str("</DataArray>\n");
-        element
+            });
+        Array {
+            attributes: self.attributes(),
+            n_bytes: n_values * SIZE,
+            blocks: blocks.collect(),
+        }
+    }
+}
+
+/// The element `DataArray` of a field.
+pub(super) struct Array {
+    /// XML attributes for type, name and components.
+    attributes: String,
+    /// Size of the values before compression, bytes.
+    n_bytes: usize,
+    /// Compressed blocks of the values.
+    blocks: Vec<Vec<u8>>,
+}
+
+impl Array {
+    /// The element with a further attribute.
+    pub(super) fn with_attribute(mut self, name: &str, value: usize) -> Self {
+        self.attributes
+            .insert_str(0, &format!(" {name}=\"{value}\""));
+        self
+    }
+
+    /// Appends the element to a document.
+    pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
+        write!(out, "<DataArray{} format=\"binary\">", self.attributes)?;
+        let header = header(&self.blocks, self.n_bytes);
+        out.write_all(BASE64_STANDARD.encode(header).as_bytes())?;
+        let mut encoder = EncoderWriter::new(&mut *out, &BASE64_STANDARD);
+        for block in &self.blocks {
+            encoder.write_all(block)?;
+        }
+        encoder.finish()?;
+        drop(encoder);
+        out.write_all(b"</DataArray>\n")
     }
 }
 

@@ -8,15 +8,15 @@
 //! Points of cells of several pieces are in all of these. The fields [`POINT_NUMBER`] and [`CELL_NUMBER`] are the indices of points and
 //! cells in the whole grid, from 0, so that a reader restores the grid as written by one process.
 
-use std::fmt::Write as _;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ligament_model::subdomain::Subdomain;
 
 use super::field::SelectedValues;
-use super::{Cell, Field, UnstructuredGrid, field_data_xml, push_fields, write_vtu};
+use super::{Cell, Cells, Field, UnstructuredGrid, opening, write_field_data, write_vtu};
 use crate::Error;
-use crate::replace_file;
+use crate::single_file::replace_file_with;
 use crate::xml::escape_attribute;
 
 /// Field of the indices of the points in the whole grid.
@@ -128,7 +128,7 @@ pub fn write_shared(
     let ranks = counts.iter().enumerate();
     let with_cells = ranks.filter(|(_, [count, _])| *count > 0.0);
     let pieces: Vec<PathBuf> = with_cells.map(|(rank, _)| piece(path, rank)).collect();
-    replace_file(path, outline(grid, &pieces, shared.global).as_bytes())
+    replace_file_with(path, |out| write_outline(grid, &pieces, shared.global, out))
 }
 
 /// Writes some cells of a grid with their points.
@@ -139,14 +139,14 @@ fn write_piece(
     global: GlobalIndices<'_>,
 ) -> Result<(), Error> {
     grid.check(path)?;
-    let corners = |&cell: &u32| grid.cells[cell as usize].points();
+    let corners = |&cell: &u32| grid.cells.points(cell as usize);
     let mut points: Vec<u32> = own.iter().flat_map(corners).copied().collect();
     points.sort_unstable();
     points.dedup();
     let place = |point: u32| points.partition_point(|it| *it < point) as u32;
     let cells = own
         .iter()
-        .map(|&cell| grid.cells[cell as usize].renumbered(place));
+        .map(|&cell| grid.cells.get(cell as usize).renumbered(place));
     let cells: Vec<Cell> = cells.collect();
     let positions: Vec<[f64; 3]> = points
         .iter()
@@ -166,7 +166,7 @@ fn write_piece(
     }
     let piece = UnstructuredGrid {
         points: &positions,
-        cells: &cells,
+        cells: Cells::Mixed(&cells),
         point_fields: &point_fields,
         cell_fields: &cell_fields,
         field_data: grid.field_data,
@@ -179,29 +179,38 @@ fn selected_fields<'a>(fields: &'a [Field<'a>], numbers: &'a [SelectedValues]) -
     pairs.map(|(field, numbers)| field.with(numbers)).collect()
 }
 
-/// The document that names the pieces.
-fn outline(grid: &UnstructuredGrid<'_>, pieces: &[PathBuf], global: GlobalIndices<'_>) -> String {
-    let mut xml = String::from(
+/// Appends the document that names the pieces.
+fn write_outline(
+    grid: &UnstructuredGrid<'_>,
+    pieces: &[PathBuf],
+    global: GlobalIndices<'_>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
+    write!(
+        out,
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
          <VTKFile type=\"PUnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" \
-         compressor=\"vtkZLibDataCompressor\">\n<PUnstructuredGrid GhostLevel=\"0\">\n",
-    );
-    xml.push_str(&field_data_xml(grid.field_data));
+         compressor=\"vtkZLibDataCompressor\">\n<PUnstructuredGrid GhostLevel=\"0\">\n"
+    )?;
+    write_field_data(grid.field_data, out)?;
     let mut point_fields = grid.point_fields.to_vec();
     point_fields.push(Field::integer(POINT_NUMBER, &[]));
     let mut cell_fields = grid.cell_fields.to_vec();
     if global.cells.is_some() {
         cell_fields.push(Field::integer(CELL_NUMBER, &[]));
     }
-    push_fields(&mut xml, "PPointData", &point_fields, |it| it.outline());
-    push_fields(&mut xml, "PCellData", &cell_fields, |it| it.outline());
+    for (element, fields) in [("PPointData", point_fields), ("PCellData", cell_fields)] {
+        out.write_all(opening(element, &fields).as_bytes())?;
+        for field in &fields {
+            out.write_all(field.outline().as_bytes())?;
+        }
+        writeln!(out, "</{element}>")?;
+    }
     let points = Field::vector("Points", &[]).outline();
-    // Writing to a string cannot fail.
-    let _ = write!(xml, "<PPoints>\n{points}</PPoints>\n");
+    write!(out, "<PPoints>\n{points}</PPoints>\n")?;
     for piece in pieces {
         let name = piece.file_name().unwrap_or_default().to_string_lossy();
-        let _ = writeln!(xml, "<Piece Source=\"{}\"/>", escape_attribute(&name));
+        writeln!(out, "<Piece Source=\"{}\"/>", escape_attribute(&name))?;
     }
-    xml.push_str("</PUnstructuredGrid>\n</VTKFile>\n");
-    xml
+    out.write_all(b"</PUnstructuredGrid>\n</VTKFile>\n")
 }

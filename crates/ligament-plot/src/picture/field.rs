@@ -138,7 +138,7 @@ pub(super) fn normalise_by_quantile(field: &mut Field) {
 
 #[cfg(test)]
 mod tests {
-    use ligament_output::vtu::{self, Cell, UnstructuredGrid, write_vtu};
+    use ligament_output::vtu::{self, Cell, Cells, UnstructuredGrid, write_vtu};
 
     use super::*;
 
@@ -146,7 +146,7 @@ mod tests {
         let path = folder.join("a.vtu");
         let grid = UnstructuredGrid {
             points: &[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
-            cells: &[Cell::Triangle([0, 1, 2])],
+            cells: Cells::Mixed(&[Cell::Triangle([0, 1, 2])]),
             point_fields: &[
                 vtu::Field::scalar("damage", &[0.0, 0.5, f64::NAN]),
                 vtu::Field::integer("fragment", &[1, 2, -3]),

@@ -6,7 +6,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 
 use super::*;
-use crate::vtu::{Cell, Field, UnstructuredGrid, write_vtu};
+use crate::vtu::{Cell, Cells, Field, UnstructuredGrid, write_vtu};
 use ligament_mesh::SolidCell;
 use proptest::prelude::*;
 
@@ -51,7 +51,7 @@ proptest! {
         let integers: Vec<i64> = (0..cells.len()).map(|it| integers[it % n_points]).collect();
         let grid = UnstructuredGrid {
             points: &points,
-            cells: &cells,
+            cells: Cells::Mixed(&cells),
             point_fields: &[Field::scalar(&name, &numbers), Field::single("f32", &single)],
             cell_fields: &[Field::integer(&name, &integers), Field::vector("v", &vectors)],
             field_data: &[],
@@ -90,7 +90,7 @@ fn sample() -> (tempfile::TempDir, PathBuf, String) {
     let path = folder.path().join("a.vtu");
     let grid = UnstructuredGrid {
         points: &[[0.0, 1.0, 4.0], [2.0, 3.0, 5.0]],
-        cells: &[Cell::Line([0, 1])],
+        cells: Cells::Mixed(&[Cell::Line([0, 1])]),
         point_fields: &[Field::scalar("damage", &[0.25, 0.5])],
         cell_fields: &[],
         field_data: &[],
