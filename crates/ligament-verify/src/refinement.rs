@@ -67,7 +67,7 @@ fn setup(case: &str, settings: &[&str]) -> anyhow::Result<Setup> {
     CaseFile::load(&repository().join(case), &settings)?.setup(&mut ())
 }
 
-fn solved(setup: Setup) -> anyhow::Result<Solution> {
+fn solve(setup: Setup) -> anyhow::Result<Solution> {
     Ok(setup.solve(&mut NoObserver)?)
 }
 
@@ -128,7 +128,7 @@ fn first_break(solution: &Solution) -> anyhow::Result<f64> {
 
 fn square() -> anyhow::Result<Values> {
     let setup = setup("cases/verification/refined-square.toml", &[])?;
-    let solution = solved(Setup {
+    let solution = solve(Setup {
         refine: Some(refinement_around(line([0.02, 0.05], [0.08, 0.05], 61))),
         ..setup
     })?;
@@ -143,10 +143,10 @@ fn hole(levels: u32) -> anyhow::Result<Values> {
     let place = tempfile::tempdir().context("no folder for a mesh")?;
     let mesh = place.path().join("hole.msh");
     let numbers = [("fine", 0.0025), ("coarse", 0.008), ("growth", 0.2)];
-    meshed("plate-with-hole.geo", &mesh, &numbers)?;
+    mesh_with("plate-with-hole.geo", &mesh, &numbers)?;
     let file = format!("mesh.file=\"{}\"", mesh.display());
     let setup = setup("cases/verification/strength-hole.toml", &[&file])?;
-    let solution = solved(Setup {
+    let solution = solve(Setup {
         refine: Some(Refine {
             passes: levels + 1,
             ..Refine::new(Fineness::Levels(levels))
@@ -158,7 +158,7 @@ fn hole(levels: u32) -> anyhow::Result<Values> {
 }
 
 /// Makes a mesh of a geometry of the repository with some of its numbers.
-fn meshed(geometry: &str, out: &std::path::Path, numbers: &[(&str, f64)]) -> anyhow::Result<()> {
+fn mesh_with(geometry: &str, out: &std::path::Path, numbers: &[(&str, f64)]) -> anyhow::Result<()> {
     make_mesh(&MeshRequest {
         geometry: repository().join("meshes").join(geometry),
         out: out.to_owned(),
@@ -172,8 +172,8 @@ fn meshed(geometry: &str, out: &std::path::Path, numbers: &[(&str, f64)]) -> any
 }
 
 fn panel() -> anyhow::Result<Values> {
-    let refined = solved(setup("cases/l-panel/refined.toml", &[])?)?;
-    let fine = solved(Setup {
+    let refined = solve(setup("cases/l-panel/refined.toml", &[])?)?;
+    let fine = solve(Setup {
         refine: Some(everywhere(0.5, 101)),
         ..setup("cases/l-panel/refined.toml", &[])?
     })?;
@@ -207,7 +207,7 @@ fn edge_crack() -> anyhow::Result<Values> {
             ("height", 0.1),
             ("algorithm", 5.0),
         ];
-        meshed("plate.geo", &mesh, &numbers)?;
+        mesh_with("plate.geo", &mesh, &numbers)?;
         let file = format!("mesh.file=\"{}\"", mesh.display());
         let cracked = || setup("cases/verification/refined-edge-crack.toml", &[&file]);
         let ahead = || refinement_around(line([0.03, 0.05], [0.1, 0.05], 281));
@@ -217,9 +217,9 @@ fn edge_crack() -> anyhow::Result<Values> {
                 ..cracked()?
             })
         };
-        let all = solved(refined(everywhere(0.1, 81))?)?;
-        let by_rule = solved(refined(ahead())?)?;
-        let too_near = solved(on_mesh_by(2.0, refined(ahead())?)?)?;
+        let all = solve(refined(everywhere(0.1, 81))?)?;
+        let by_rule = solve(refined(ahead())?)?;
+        let too_near = solve(on_mesh_by(2.0, refined(ahead())?)?)?;
         for (sum, solution) in sums.iter_mut().zip([&all, &by_rule, &too_near]) {
             *sum += largest(solution);
         }
@@ -234,7 +234,7 @@ fn edge_crack() -> anyhow::Result<Values> {
 fn disk() -> anyhow::Result<Values> {
     let setup = setup("cases/disk-stress/case.toml", &["fracture.stop.bonds=1"])?;
     let radius = 0.05;
-    let solution = solved(Setup {
+    let solution = solve(Setup {
         refine: Some(refinement_around(line(
             [0.3 * radius, -0.5 * radius],
             [0.3 * radius, 0.5 * radius],

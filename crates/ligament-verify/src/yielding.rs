@@ -66,7 +66,7 @@ fn compute(extent: Extent) -> anyhow::Result<Findings> {
         first_yield,
         known_table("bar-yield")?.judge(extent, bar_yield)?,
     ];
-    let plots = ["stretch", "sliding", "frictional"].map(over_orientation);
+    let plots = ["stretch", "sliding", "frictional"].map(orientation_plot);
     Ok(Findings {
         tables,
         plots: plots.into_iter().collect::<anyhow::Result<_>>()?,
@@ -116,7 +116,7 @@ fn bar_yield(labels: Labels<'_>) -> anyhow::Result<f64> {
 }
 
 /// Plot of the errors of a simple extension over its orientation (MPPD Figs 28 and 30).
-fn over_orientation(criterion: &str) -> anyhow::Result<Plot> {
+fn orientation_plot(criterion: &str) -> anyhow::Result<Plot> {
     let combination = named(criterion)?;
     let extension = PrincipalStretches::new(1.0, 0.0);
     let mut series = Vec::new();

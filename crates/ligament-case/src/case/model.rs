@@ -55,8 +55,8 @@ pub struct ModelSection {
     /// Stiffness against relative rotation.
     #[schemars(extend("description" = laws_text("Stiffness against relative rotation", |it| it.options.rotational_stiffness.is_some())))]
     pub rotational_stiffness: Option<RotationalStiffness>,
-    /// Stiffness against relative rotation over the stiffness of the law; 1 without the key.
-    #[schemars(transform = RotationalScale::FACTOR.keywords(), extend("description" = laws_text("Stiffness against relative rotation over the stiffness of the law; 1 without the \
+    /// Rotational stiffness over the stiffness of the law; 1 without the key.
+    #[schemars(transform = RotationalScale::FACTOR.keywords(), extend("description" = laws_text("Rotational stiffness over the stiffness of the law; 1 without the \
         key", |it| it.shear_form.is_some())))]
     pub rotational_factor: Option<f64>,
     /// Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of

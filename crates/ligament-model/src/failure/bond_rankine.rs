@@ -22,7 +22,7 @@ pub static BOND_RANKINE: Kind = Kind {
         "bond-rankine",
         "Tensile stress on the plane across the bond, from the `tensile_strength`: the strength of the material under any stress.",
         &[Measure::NormalStress],
-        PerSpace::both(limits, limits),
+        PerSpace::new(limits, limits),
     )
 };
 

@@ -27,7 +27,7 @@ pub static FIBRE: Kind = Kind {
         "fibre",
         "Stretch of the outermost fibre of a bond that bends, from the `tensile_strength` or a `limit`; with a `fibre_distance`.",
         &[Measure::Fibre],
-        PerSpace::both(limits, limits),
+        PerSpace::new(limits, limits),
     )
 };
 

@@ -17,7 +17,7 @@ pub static CRITICAL_STRETCH: Kind = Kind {
         "critical-stretch",
         "Stretch, from the `fracture_energy` or a `limit`.",
         &[Measure::Tension],
-        PerSpace::both(stretch_limits, stretch_limits),
+        PerSpace::new(stretch_limits, stretch_limits),
     )
 };
 
@@ -30,7 +30,7 @@ pub static BOND_ENERGY: Kind = Kind {
         "bond-energy",
         "Energy of stretch and sliding, from the `fracture_energy` or a `limit`; where bonds soften, from the `tensile_strength`.",
         &[Measure::Energy],
-        PerSpace::both(energy_limits, energy_limits),
+        PerSpace::new(energy_limits, energy_limits),
     )
 };
 

@@ -27,7 +27,7 @@ pub static FRICTIONAL: Kind = Kind {
         "Sliding that compression makes harder, from both strengths, from the `tensile_strength` and a `friction_angle`, or from a \
          `limit` and a `friction_angle`.",
         &[Measure::Friction],
-        PerSpace::both(limits, limits),
+        PerSpace::new(limits, limits),
     )
 };
 

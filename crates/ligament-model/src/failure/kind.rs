@@ -54,7 +54,7 @@ pub struct PerSpace {
 
 impl PerSpace {
     /// Limits in the plane and in space by one generic function.
-    pub(super) const fn both(plane: MakeLimits<2>, solid: MakeLimits<3>) -> Self {
+    pub(super) const fn new(plane: MakeLimits<2>, solid: MakeLimits<3>) -> Self {
         Self {
             plane,
             solid: Some(solid),

@@ -43,7 +43,7 @@ pub static MOHR_COULOMB: Kind = Kind {
             Measure::Energy,
             Measure::StoredEnergy,
         ],
-        PerSpace::both(limits, limits),
+        PerSpace::new(limits, limits),
     )
 };
 

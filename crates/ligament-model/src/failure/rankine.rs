@@ -37,7 +37,7 @@ pub static RANKINE: Kind = Kind {
         "Largest principal stress around the bond, at which it begins to soften, from the `tensile_strength`; it takes what \
          `bond-energy` gives it, from the `fracture_energy`.",
         &[Measure::NormalStress, Measure::Energy],
-        PerSpace::both(limits, limits),
+        PerSpace::new(limits, limits),
     )
 };
 

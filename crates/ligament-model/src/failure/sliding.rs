@@ -16,7 +16,7 @@ pub static SLIDING: Kind = Kind {
         "sliding",
         "Sliding, from the `tensile_strength` or a `limit`.",
         &[Measure::Sliding],
-        PerSpace::both(limits, limits),
+        PerSpace::new(limits, limits),
     )
 };
 

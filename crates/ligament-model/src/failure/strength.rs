@@ -14,7 +14,7 @@ pub static STRENGTH: Kind = Kind {
         "strength",
         "Stretch, from the energy at the `tensile_strength` (NHPD).",
         &[Measure::Tension],
-        PerSpace::both(limits, limits),
+        PerSpace::new(limits, limits),
     )
 };
 

@@ -32,7 +32,7 @@ pub static COMPRESSION: Kind = Kind {
     )
 };
 
-const LIMITS: PerSpace = PerSpace::both(limits, limits);
+const LIMITS: PerSpace = PerSpace::new(limits, limits);
 
 fn limits<const D: usize>(choice: &Choice, basis: &Basis<'_, D>) -> Result<Vec<Limits>, NoLimit> {
     let limit = limits_from_strength(choice, basis, limit);

@@ -272,7 +272,7 @@ impl<const D: usize> Surface<D> {
     }
 
     /// Numbers of the facets on both sides of some faces between points, where they belong to the surface.
-    pub(super) fn at_faces(&self, faces: impl Iterator<Item = u32>) -> Vec<u32> {
+    pub(super) fn facets_at(&self, faces: impl Iterator<Item = u32>) -> Vec<u32> {
         let n_outline = self.facets.len() as u32;
         let both = faces.flat_map(|face| [0, 1].map(|end| n_outline + 2 * face + end));
         both.filter(|&it| self.side_and_stiffness(it as usize).is_some())

@@ -397,11 +397,11 @@ impl<const D: usize> SurfacePair for FacetPair<D> {
                 .cracks
                 .iter()
                 .flat_map(|it| it.boundaries.cut());
-            search.join(self.surface.at_faces(cut.copied()));
+            search.join(self.surface.facets_at(cut.copied()));
         }
         if let Some(cracks) = &self.surface.cracks {
             let faces = broken.flat_map(|bond| cracks.boundaries.crossed_by(bond));
-            let facets = self.surface.at_faces(faces);
+            let facets = self.surface.facets_at(faces);
             search.join(facets);
         }
     }

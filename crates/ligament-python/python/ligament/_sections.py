@@ -193,7 +193,7 @@ then not to be trusted. Default false."""
 - `beam`: k_theta = k_t l/12.
 - `none`: k_theta = 0."""
     rotational_factor: float
-    """Stiffness against relative rotation over the stiffness of the law; 1 without the key; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`."""
+    """Rotational stiffness over the stiffness of the law; 1 without the key; of `nhpd`, `mppd`, `mppd-beam`, `orthotropic`."""
     cosserat_length: float
     """Stiffness against relative rotation of a Cosserat continuum with this characteristic length in bending, m; in the place of
 `rotational_factor`."""

@@ -71,7 +71,7 @@ pub(super) struct SizedBodies {
 
 impl SizedBodies {
     /// The bodies with a note that both sizes share one horizon.
-    pub(super) fn noted(mut self, has_fixed_horizon: bool) -> Self {
+    pub(super) fn with_note(mut self, has_fixed_horizon: bool) -> Self {
         if has_fixed_horizon {
             let note = "2h has the horizon of h: the limit is one of more and more bonds a family";
             self.notes.push(note.to_owned());
@@ -119,7 +119,7 @@ pub(super) fn meshes(
     }
 }
 
-/// The geometry beside a mesh with whose name the name of the mesh begins, `disk.geo` for `disk-4mm.msh`; the one with the longest name.
+/// The geometry beside a mesh, `disk.geo` for `disk-4mm.msh`: the longest name with which the name of the mesh begins.
 fn found_geometry(mesh: &Path) -> Option<PathBuf> {
     let folder = mesh.parent().filter(|it| !it.as_os_str().is_empty());
     let entries = std::fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
@@ -224,7 +224,7 @@ impl Meshing<'_> {
                     "both meshers make the same mesh at {size}: the inner nodes of the second are displaced"
                 ));
                 let name = format!("{size}-displaced");
-                let file = written(&self.folder, &name, &with_displaced_nodes(&one.mesh, 1))?;
+                let file = write_mesh_to(&self.folder, &name, &with_displaced_nodes(&one.mesh, 1))?;
                 in_xy(body(size, "displaced", &file), self.section)
             }
             false => body(size, other.mesher, &other.file),
@@ -313,7 +313,7 @@ fn split(
         }
     };
     let made = |size: &str, mesher: &'static str, mesh: &AnyMesh| {
-        let file = written(&folder, &format!("{size}-{mesher}"), mesh)?;
+        let file = write_mesh_to(&folder, &format!("{size}-{mesher}"), mesh)?;
         anyhow::Ok(in_xy(body(size, mesher, &file), section))
     };
     let moved = |mesh: &AnyMesh| with_displaced_nodes(mesh, 1);
@@ -386,7 +386,7 @@ fn has_curved_surface(mesh: &SolidMesh) -> bool {
 }
 
 /// Writes a mesh into a folder, and returns its path.
-fn written(folder: &Path, name: &str, mesh: &AnyMesh) -> anyhow::Result<PathBuf> {
+fn write_mesh_to(folder: &Path, name: &str, mesh: &AnyMesh) -> anyhow::Result<PathBuf> {
     let path = std::path::absolute(folder.join(format!("{name}.msh")))?;
     replace_file(&path, gmsh::write_any(mesh).as_bytes())?;
     Ok(path)

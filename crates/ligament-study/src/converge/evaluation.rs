@@ -106,7 +106,7 @@ impl Runs<'_> {
     /// # Errors
     ///
     /// If no run has a result of a name.
-    pub(super) fn evaluated(&self, names: &[String]) -> Result<Vec<Evaluated>, QuantityError> {
+    pub(super) fn evaluate(&self, names: &[String]) -> Result<Vec<Evaluated>, QuantityError> {
         let usual = self.usual_names();
         let names = if names.is_empty() { &usual } else { names };
         let first = self.runs.first().map(|run| &run.results);

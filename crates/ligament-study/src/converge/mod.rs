@@ -97,7 +97,7 @@ pub fn converge(
         Some(bodies) => bodies,
         None => bodies::meshes(case, &request.source, &path, &mut request.print())?,
     };
-    let bodies = bodies.noted(request.fixed_horizon);
+    let bodies = bodies.with_note(request.fixed_horizon);
     let planned = planned_runs(case, &bodies, request)?;
     for (name, text) in [
         (CASE, case.resolved_toml()?),
@@ -129,7 +129,7 @@ pub fn converge(
     };
     let done = sweep::done_runs(&study, &path, from)?;
     let runs = runs_to_evaluate(case, &bodies, &planned, (done, no_limit));
-    let results = runs.evaluated(&request.results)?;
+    let results = runs.evaluate(&request.results)?;
     report::write(case, &runs, &results, folder.path(), out)?;
     Ok(Some(results))
 }

@@ -146,7 +146,7 @@ pub(super) fn maps(title: &str, grid: &BodyGrid, collected: &CollectedSamples) -
             title: format!("{title}: {words}"),
             quantity: quantity.to_owned(),
             unit: "-",
-            bodies: vec![mapped(grid, values)?],
+            bodies: vec![mapped_body(grid, values)?],
             columns: 1,
             are_modes: false,
         })
@@ -169,7 +169,7 @@ pub(super) fn maps(title: &str, grid: &BodyGrid, collected: &CollectedSamples) -
 }
 
 /// The body with values of its points (n_points); none for a solid, or without values.
-fn mapped(grid: &BodyGrid, values: Vec<f64>) -> Option<MappedBody> {
+fn mapped_body(grid: &BodyGrid, values: Vec<f64>) -> Option<MappedBody> {
     let n_points = grid.positions.len();
     if values.len() != n_points {
         return None;

@@ -119,7 +119,7 @@ impl<'a> Curves<'a> {
     }
 
     /// The plot with the runs, the known line dashed, and fitted lines in the colours of their curves.
-    pub(super) fn drawn(&self, title: &str) -> Panels {
+    pub(super) fn panels(&self, title: &str) -> Panels {
         let plot = self.plot;
         let label =
             |given: &Option<String>, name: &str| given.clone().unwrap_or_else(|| with_unit(name));
@@ -206,13 +206,13 @@ fn equation(fit: &LineFit) -> String {
     let sign = if fit.intercept < 0.0 { '-' } else { '+' };
     format!(
         "{} x {sign} {}",
-        rounded(fit.slope),
-        rounded(fit.intercept.abs())
+        four_digits(fit.slope),
+        four_digits(fit.intercept.abs())
     )
 }
 
 /// A number with four digits; whole numbers up to 1e5 unrounded.
-pub(super) fn rounded(value: f64) -> String {
+pub(super) fn four_digits(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || ((100.0..1e5).contains(&size) && value.fract() == 0.0) {
         return value.to_string();

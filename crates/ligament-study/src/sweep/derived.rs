@@ -99,7 +99,7 @@ pub(super) struct Surroundings<'a> {
 }
 
 /// Checks all derived columns of a study.
-pub(super) fn checked(
+pub(super) fn check_columns(
     raw: Vec<RawDerived>,
     study: Surroundings<'_>,
     root: &KeyPath,

@@ -119,19 +119,25 @@ impl Grouping {
                 let runs = runs.copied().collect();
                 CurveRuns { label, runs }
             };
-            let curves = labelled(&curves).into_iter().map(curve).collect();
+            let curves = labelled_combinations(&curves)
+                .into_iter()
+                .map(curve)
+                .collect();
             PanelRuns { label, curves }
         };
         let of_unnamed = curves.iter().filter(|it| unnamed.contains(&it.index));
         Self {
-            panels: labelled(&panels).into_iter().map(panel).collect(),
+            panels: labelled_combinations(&panels)
+                .into_iter()
+                .map(panel)
+                .collect(),
             unnamed: of_unnamed.map(|it| (it.index, it.values.len())).collect(),
         }
     }
 }
 
 /// All combinations of the values of some axes, with their labels.
-fn labelled(axes: &[DrawnAxis<'_>]) -> Vec<(String, Vec<usize>)> {
+fn labelled_combinations(axes: &[DrawnAxis<'_>]) -> Vec<(String, Vec<usize>)> {
     let sizes: Vec<usize> = axes.iter().map(|it| it.values.len()).collect();
     let combined = combinations(&sizes).into_iter().map(|places| {
         let values = axes.iter().zip(places).map(|(it, place)| it.values[place]);

@@ -9,7 +9,7 @@ use ligament_plot::drawing::Drawing;
 
 use super::axis::axis_of_key;
 use super::cracks;
-use super::curves::{Curve, Curves, Panel, rounded};
+use super::curves::{Curve, Curves, Panel, four_digits};
 use super::evaluation::DerivedValues;
 use super::pictures;
 use super::plan::{Run, short_keys};
@@ -76,10 +76,10 @@ pub(super) fn write(
                         findings.remarks.extend(unnamed_axes(study, &curves, index));
                         write_pivots(study, &curves, out)?;
                         write_fits(&curves, out)?;
-                        let drawing = curves.drawn(&title).for_paper(WIDTH);
+                        let drawing = curves.panels(&title).for_paper(WIDTH);
                         let name = curves.name.clone();
                         drawn.push(curves);
-                        written(folder, &name, drawing)?
+                        write_drawing(folder, &name, drawing)?
                     }
                     Err(missing) => missing_column(study, index, &missing, &findings.problems),
                 }
@@ -87,7 +87,7 @@ pub(super) fn write(
             PlotContent::Curves { .. } | PlotContent::CrackPaths => {
                 let name = names.unique(pictures::name(plot).to_owned(), index);
                 let drawing = pictures::drawing(study, plot, rows, WIDTH);
-                written(folder, &name, drawing)?
+                write_drawing(folder, &name, drawing)?
             }
         };
         findings.problems.extend(problem);
@@ -115,7 +115,7 @@ impl FileNames {
 }
 
 /// Writes a drawing, or returns the reason why there is none.
-fn written<Reason: ToString>(
+fn write_drawing<Reason: ToString>(
     folder: &StudyFolder,
     name: &str,
     drawing: Result<Drawing, Reason>,
@@ -283,9 +283,9 @@ fn write_pivot(x: &str, curves: &Curves<'_>, panel: &Panel, out: &mut dyn Write)
         let mut row = vec![x.to_string()];
         for (means, _) in &all {
             let at = means.iter().find(|point| point[0] == x);
-            row.push(at.map_or_else(|| "-".to_owned(), |[_, y]| rounded(*y)));
+            row.push(at.map_or_else(|| "-".to_owned(), |[_, y]| four_digits(*y)));
         }
-        row.extend(line.iter().map(|known| rounded(known.at(x))));
+        row.extend(line.iter().map(|known| four_digits(known.at(x))));
         lines.push(row);
     }
     write_aligned(&lines, out)?;
@@ -312,12 +312,12 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
         let name = joined_label(panel, curve.name("runs"));
         match &curve.fit {
             Some(Ok(fit)) => {
-                let error = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), rounded);
+                let error = |error: Option<f64>| error.map_or_else(|| "-".to_owned(), four_digits);
                 lines.push(vec![
                     name,
-                    rounded(fit.slope),
+                    four_digits(fit.slope),
                     error(fit.slope_error),
-                    rounded(fit.intercept),
+                    four_digits(fit.intercept),
                     error(fit.intercept_error),
                     format!("{:.5}", fit.r_squared),
                     fit.points.to_string(),
@@ -328,7 +328,7 @@ fn write_fits(curves: &Curves<'_>, out: &mut dyn Write) -> io::Result<()> {
         }
     }
     if let Some(known) = &curves.plot.line {
-        let (slope, intercept) = (rounded(known.slope), rounded(known.intercept));
+        let (slope, intercept) = (four_digits(known.slope), four_digits(known.intercept));
         lines.push(vec![
             known.name().to_owned(),
             slope,

@@ -96,7 +96,7 @@ impl Study {
             axes: &axes,
             folder,
         };
-        let derived = derived::checked(raw.result, surroundings, &root)?;
+        let derived = derived::check_columns(raw.result, surroundings, &root)?;
         let plots = raw.plot.into_iter().enumerate();
         let plot = |(index, plot): (usize, RawPlot)| {
             plot.check(document, &axes, &root.child("plot").child(index))

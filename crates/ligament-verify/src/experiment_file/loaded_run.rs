@@ -78,7 +78,7 @@ impl LoadedRun<'_> {
     }
 
     /// The crack when the load first falls.
-    pub(super) fn at_peak(&self) -> anyhow::Result<Crack> {
+    pub(super) fn crack_at_peak(&self) -> anyhow::Result<Crack> {
         let peak = self.first_peak()?.load_factor;
         let until = self.breaks.partition_point(|it| it.load_factor <= peak);
         Ok(Crack::from_breakages(
@@ -127,16 +127,16 @@ impl LoadedRun<'_> {
         )
     }
 
-    pub(super) fn broken(&self) -> Vec<Break> {
+    pub(super) fn breaks(&self) -> Vec<Break> {
         breaks(&self.solution.model, self.breaks)
     }
 
     pub(super) fn branches(&self) -> anyhow::Result<Branches> {
-        Branches::new(&self.broken(), self.numbers)
+        Branches::new(&self.breaks(), self.numbers)
     }
 
     pub(super) fn notches(&self) -> anyhow::Result<CracksOfNotches> {
-        CracksOfNotches::new(&self.broken(), self.numbers)
+        CracksOfNotches::new(&self.breaks(), self.numbers)
     }
 
     pub(super) fn contact_pressure(&self) -> anyhow::Result<ContactPressure> {
@@ -167,11 +167,11 @@ impl LoadedRun<'_> {
 
     /// Load factor at which the cracks from both ends of a flaw through the origin at 45 degrees are `length` times `half_length` long in the mean,
     /// up to their farthest broken bonds.
-    pub(super) fn grown(&self, length: f64) -> anyhow::Result<f64> {
+    pub(super) fn load_at_length(&self, length: f64) -> anyhow::Result<f64> {
         let half = self.number("half_length")?;
         let tip = half * FRAC_1_SQRT_2;
         let mut farthest = [0.0_f64; 2];
-        let long = self.broken().into_iter().find(|it| {
+        let long = self.breaks().into_iter().find(|it| {
             let [x, y] = it.at;
             let (side, sign) = if x + y > 0.0 { (0, 1.0) } else { (1, -1.0) };
             let reach = (x - sign * tip).hypot(y - sign * tip);
@@ -275,7 +275,7 @@ pub(super) fn extent(crack: &Crack) -> f64 {
     (high - low).max(0.0)
 }
 
-pub(super) fn at_rim(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
+pub(super) fn share_of_breaks_at_rim(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let radius = ran.number("radius")?;
     ran.first()?;
     let is_on_rim = |[x, y]: [f64; 2]| x.hypot(y) > radius - ON_CIRCLE;
@@ -287,7 +287,7 @@ pub(super) fn at_rim(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     Ok(100.0 * early.iter().filter(ends_there).count() as f64 / early.len() as f64)
 }
 
-pub(super) fn to_platens(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
+pub(super) fn gap_to_platens(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let crack = ran.crack();
     let parts: Vec<Crack> = ran.cuts().iter().map(|&cut| crack.part_from(cut)).collect();
     let to_platen = |platen: Segment| {
@@ -301,7 +301,7 @@ pub(super) fn to_platens(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
         .fold(0.0, f64::max))
 }
 
-pub(super) fn between_cuts(ran: &LoadedRun<'_>) -> f64 {
+pub(super) fn gap_of_cuts(ran: &LoadedRun<'_>) -> f64 {
     let (crack, cuts) = (ran.crack(), ran.cuts());
     let parts: Vec<Crack> = cuts.iter().map(|&cut| crack.part_from(cut)).collect();
     let pairs = (1..cuts.len()).map(|second| {
@@ -334,7 +334,7 @@ pub(super) fn leads_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
 
 /// Angle to the x axis of the mean direction of the crack from the right end of the first cut, minus the angle for the left end, degrees,
 /// over their common length; NaN where there is no crack at an end.
-pub(super) fn towards_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
+pub(super) fn turn_to_left(ran: &LoadedRun<'_>) -> anyhow::Result<f64> {
     let crack = ran.crack();
     let [left, right] = *ran.cuts().first().context("the body has no cut")?;
     let angle = |end: [f64; 2], sign: f64| {

@@ -36,8 +36,8 @@ use ligament_model::moduli::{EngineeringConstants, family_stiffness};
 
 use super::history::{self, HistoryCollector};
 use super::loaded_run::{
-    LoadedRun, area, at_rim, axis, between_cuts, extent, half_turn, is_symmetric, leads_left, mean,
-    radius, to_platens, towards_left,
+    LoadedRun, area, axis, extent, gap_of_cuts, gap_to_platens, half_turn, is_symmetric,
+    leads_left, mean, radius, share_of_breaks_at_rim, turn_to_left,
 };
 use crate::anisotropy::Anisotropy;
 use crate::case_run::{CaseRun, Number};
@@ -182,7 +182,7 @@ static QUANTITIES: &[(&str, Source)] = &[
     ),
     (
         "breaks.largest_x",
-        Source::Run(|it| Ok(it.broken().iter().map(|it| it.at[0]).fold(0.0, f64::max))),
+        Source::Run(|it| Ok(it.breaks().iter().map(|it| it.at[0]).fold(0.0, f64::max))),
     ),
     // Fast cracks.
     (
@@ -232,27 +232,27 @@ static QUANTITIES: &[(&str, Source)] = &[
         Source::Run(|it| Ok(asymmetry(it.solution))),
     ),
     // Share of the first 100 broken bonds that end on the circle of `radius` about the origin, %.
-    ("breaks.at_rim", Source::Run(at_rim)),
+    ("breaks.at_rim", Source::Run(share_of_breaks_at_rim)),
     // Extent along y, mean x and |x|, mean y of the cracked points, m, and whether they join the platens, at the first peak and at the end.
     (
         "at_peak.extent",
-        Source::Run(|it| Ok(extent(&it.at_peak()?))),
+        Source::Run(|it| Ok(extent(&it.crack_at_peak()?))),
     ),
     (
         "at_peak.mean_x",
-        Source::Run(|it| Ok(mean(&it.at_peak()?, |[x, _]| x))),
+        Source::Run(|it| Ok(mean(&it.crack_at_peak()?, |[x, _]| x))),
     ),
     (
         "at_peak.mean_y",
-        Source::Run(|it| Ok(mean(&it.at_peak()?, |[_, y]| y))),
+        Source::Run(|it| Ok(mean(&it.crack_at_peak()?, |[_, y]| y))),
     ),
     (
         "at_peak.width",
-        Source::Run(|it| Ok(mean(&it.at_peak()?, |[x, _]| x * x).sqrt())),
+        Source::Run(|it| Ok(mean(&it.crack_at_peak()?, |[x, _]| x * x).sqrt())),
     ),
     (
         "at_peak.splits",
-        Source::Run(|it| it.splits(&it.at_peak()?)),
+        Source::Run(|it| it.splits(&it.crack_at_peak()?)),
     ),
     ("crack.extent", Source::Run(|it| Ok(extent(&it.crack())))),
     (
@@ -275,8 +275,8 @@ static QUANTITIES: &[(&str, Source)] = &[
     ),
     // Distance between a crack from a cut and a platen, the larger one of both platens, and between the cracks of neighbouring cuts or these
     // cuts, the largest one of all pairs, 0 with one cut, m.
-    ("crack.to_platens", Source::Run(to_platens)),
-    ("crack.between_cuts", Source::Run(|it| Ok(between_cuts(it)))),
+    ("crack.to_platens", Source::Run(gap_to_platens)),
+    ("crack.between_cuts", Source::Run(|it| Ok(gap_of_cuts(it)))),
     // Mean distance of a crack that goes along x (y) from its image after half a turn, m.
     (
         "crack.half_turn_x",
@@ -290,7 +290,7 @@ static QUANTITIES: &[(&str, Source)] = &[
     // degrees.
     ("crack.is_symmetric", Source::Run(is_symmetric)),
     ("crack.leads_left", Source::Run(leads_left)),
-    ("crack.towards_left", Source::Run(towards_left)),
+    ("crack.towards_left", Source::Run(turn_to_left)),
     // Radial displacements of a ring over Lame's, and stress concentrations at a hole with the scatter about them.
     ("ring.inside", Source::Run(|it| Ok(it.ring()?.inside))),
     ("ring.outside", Source::Run(|it| Ok(it.ring()?.outside))),
@@ -398,7 +398,7 @@ fn source(name: &str) -> anyhow::Result<Source> {
         (_, "lamina_elements") => Source::Modes(Cantilever::LaminaOfElements),
         (_, "ghost") => Source::Ghost,
         (_, "crack") => Source::Named(|it, name| it.crack_quantity(name)),
-        (_, "grown") => Source::Named(|it, length| it.grown(length.parse()?)),
+        (_, "grown") => Source::Named(|it, length| it.load_at_length(length.parse()?)),
         (_, CURVE) => Source::Curve,
         _ if history::NAMES.contains(&first) => Source::Row,
         _ => anyhow::bail!("no label, no number and no quantity is called `{name}`"),

@@ -50,7 +50,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
     for (mesh, figure) in DISKS {
         let case_run = |correction| of(&disk, correction, &[("mesh", mesh)]);
         let title = format!("Brazilian disk, lambda = 3, mesh of {mesh}");
-        maps.push(under_both(figure, title, case_run)?);
+        maps.push(crack_stages(figure, title, case_run)?);
     }
     for (case, figure) in SLOTS {
         let case_run = |correction| of(&slotted, correction, &[("slots", case), ("mesh", "2 mm")]);
@@ -59,9 +59,9 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
             Err(_) => format!("{case} slots"),
         };
         let title = format!("Disk with {slots}, lambda = 3");
-        maps.push(under_both(figure, title, case_run)?);
+        maps.push(crack_stages(figure, title, case_run)?);
     }
-    maps.push(under_both(
+    maps.push(crack_stages(
         24,
         "Plate with an inclined slot, theta = 62.5, lambda = 3".to_owned(),
         |correction| of(&inclined, correction, &[("theta", "62.5")]),
@@ -81,7 +81,7 @@ pub(super) fn maps() -> anyhow::Result<Vec<Maps>> {
 }
 
 /// Stages of a test, a row for each correction.
-fn under_both(
+fn crack_stages(
     figure: usize,
     title: String,
     case_run: impl Fn(&'static str) -> anyhow::Result<CaseRun>,

@@ -31,7 +31,7 @@ impl SolidOutline {
         let positions = cloud.positions.as_slice();
         let outer = Faces::new(cells, positions.len()).outer();
         let triangles = outer.iter().flat_map(|side| side.face.triangles());
-        let (triangles, filling) = dips::filled(triangles.collect(), positions);
+        let (triangles, filling) = dips::fill(triangles.collect(), positions);
         let is_on_outline = marked(&triangles, positions.len());
         let is_near = |cell: &&SolidCell| {
             let mut corners = cell.corners().iter();

@@ -18,7 +18,7 @@ const ROUND: f64 = 0.707;
 const FLATNESS: f64 = 1e-9;
 
 /// Triangles of an outline (counter-clockwise as seen from outside) after its dips are filled, and the tetrahedra that fill them.
-pub(super) fn filled(
+pub(super) fn fill(
     triangles: Vec<[u32; 3]>,
     positions: &[[f64; 3]],
 ) -> (Vec<[u32; 3]>, Vec<[u32; 4]>) {
