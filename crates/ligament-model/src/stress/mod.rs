@@ -12,10 +12,13 @@
 mod across;
 pub mod by_material;
 pub mod carried;
+pub mod crack_front;
 pub mod domain_integral;
+pub mod growing_tip;
 mod of_elements;
 pub mod point_strain;
 pub mod principal;
 pub mod stored;
+pub mod tip_field;
 pub mod traction;
 pub mod virial;
