@@ -15,6 +15,7 @@ mod face_friction;
 mod failure_criteria;
 mod fracture_energy;
 mod fragments;
+mod growing_tips;
 mod incremental;
 mod joints;
 mod mbb_pd_reference;

@@ -4,6 +4,7 @@
 mod bending;
 mod checkpoints_in_parts;
 mod connectivity;
+mod crack_fronts;
 mod discretisation;
 mod domain_factors;
 mod equilibrium;

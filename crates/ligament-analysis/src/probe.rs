@@ -2,7 +2,9 @@
 
 use ligament_model::stress::carried::StrainReading;
 use ligament_model::stress::domain_integral::DomainIntegral;
+use ligament_model::stress::growing_tip::GrowingTip;
 use ligament_model::stress::point_strain::Motion;
+use ligament_model::stress::tip_field::TipQuantity;
 
 use crate::contact::faces;
 use crate::history::Rates;
@@ -58,8 +60,10 @@ pub enum Reading {
         /// Component of the force.
         component: Component,
     },
-    /// Quantity at the tip of a crack.
+    /// Quantity at the tip or the front of a pre-crack.
     Tip(DomainIntegral),
+    /// Quantity at the present tip of a crack that grows from a pre-crack.
+    GrowingTip(GrowingTip),
 }
 
 /// Gap of a body, whose faces its loads open or close: a notch or a slot of its mesh, or a pre-crack.
@@ -480,7 +484,11 @@ impl Reading {
                         ..
                     },
             } => (place.clone(), *component),
-            Self::Field { .. } | Self::SectionForce { .. } | Self::Force { .. } | Self::Tip(_) => {
+            Self::Field { .. }
+            | Self::SectionForce { .. }
+            | Self::Force { .. }
+            | Self::Tip(_)
+            | Self::GrowingTip(_) => {
                 return None;
             }
         };
@@ -509,10 +517,14 @@ impl Reading {
                     .map(|point| system.layout.value(*point, *component, &forces))
                     .sum()
             }
-            Self::Tip(integral) => {
-                let forces = forces_on_points(solution);
-                let of_tip = |it: StrainReading<'_>| system.domain_integral(integral, it, &forces);
-                MaterialStress::Carried.with_strains(state, balanced, solution.loads, of_tip)
+            Self::Tip(integral) => value_of(integral, solution),
+            Self::GrowingTip(tip) => {
+                let (advance, integral) = system.at_growing_tip(tip, &state.intact);
+                match tip.quantity {
+                    TipQuantity::Advance if system.subdomain.communicator().rank() == 0 => advance,
+                    TipQuantity::Advance => 0.0,
+                    _ => integral.map_or(f64::NAN, |it| value_of(&it, solution)),
+                }
             }
             Self::SectionForce { bonds, component } => {
                 let deformations = &balanced.deformations;
@@ -575,6 +587,14 @@ impl PointField {
             PointReading::Scalar(at) => at(solution, point),
         }
     }
+}
+
+/// Value of an integral around the front of a crack; on a divided body the share of this process.
+fn value_of(integral: &DomainIntegral, solution: Solution<'_>) -> f64 {
+    let (system, state, balanced) = (solution.system, solution.state, solution.balanced);
+    let forces = forces_on_points(solution);
+    let of_front = |it: StrainReading<'_>| system.domain_integral(integral, it, &forces);
+    MaterialStress::Carried.with_strains(state, balanced, solution.loads, of_front)
 }
 
 /// Forces of supports and loads on all points (n_degrees_of_freedom), N and N m.

@@ -22,12 +22,12 @@ pub(crate) fn boxes_meet<const D: usize>(one: [[f64; D]; 2], other: [[f64; D]; 2
 }
 
 /// The point of a segment at a parameter: 0 at its first end, 1 at its second.
-pub(crate) fn point_at<const D: usize>([a, b]: [[f64; D]; 2], place: f64) -> [f64; D] {
+pub fn point_at<const D: usize>([a, b]: [[f64; D]; 2], place: f64) -> [f64; D] {
     std::array::from_fn(|axis| a[axis] + place * (b[axis] - a[axis]))
 }
 
 /// Parameter of the point of a segment nearest to a point: 0 at its first end, 1 at its second.
-pub(crate) fn nearest_place<const D: usize>([a, b]: [[f64; D]; 2], point: [f64; D]) -> f64 {
+pub fn nearest_place<const D: usize>([a, b]: [[f64; D]; 2], point: [f64; D]) -> f64 {
     let way = minus(b, a);
     let square = dot(way, way);
     if square == 0.0 {
@@ -37,7 +37,7 @@ pub(crate) fn nearest_place<const D: usize>([a, b]: [[f64; D]; 2], point: [f64; 
 }
 
 /// Distance of a point from a segment, m.
-pub(crate) fn distance_to<const D: usize>(segment: [[f64; D]; 2], point: [f64; D]) -> f64 {
+pub fn distance_to<const D: usize>(segment: [[f64; D]; 2], point: [f64; D]) -> f64 {
     norm(minus(
         point_at(segment, nearest_place(segment, point)),
         point,

@@ -114,9 +114,12 @@ impl Canvas {
 
 /// Positions in the plane as positions in space with z = 0.
 pub fn raised<const D: usize>(positions: &[[f64; D]]) -> Vec<[f64; 3]> {
-    let coordinate = |position: &[f64; D], axis: usize| position.get(axis).copied();
-    let raised = |it| std::array::from_fn(|axis| coordinate(it, axis).unwrap_or(0.0));
-    positions.iter().map(raised).collect()
+    positions.iter().copied().map(in_space).collect()
+}
+
+/// A position or a vector in the plane as one in space with z = 0.
+pub fn in_space<const D: usize>(position: [f64; D]) -> [f64; 3] {
+    std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0))
 }
 
 /// Corners of a box between its lowest and its highest corner, in the order of a hexahedron.

@@ -19,6 +19,7 @@ use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::carried::StrainReading;
 use crate::stress::domain_integral::DomainIntegral;
+use crate::stress::growing_tip::GrowingTip;
 use crate::stress::point_strain::Motion;
 use crate::stress::stored::StoredMotions;
 use crate::subdomain::Subdomain;
@@ -224,7 +225,7 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
     /// where its bonds do not span the space.
     fn whole_strain(&self, motion: Motion<'_>, point: u32) -> Vec<f64>;
 
-    /// Integral around the tip of a crack of a body in the plane with forces of supports and loads on the points (n_degrees_of_freedom), N;
+    /// Integral around the front of a crack with forces of supports and loads on the points (n_degrees_of_freedom), N;
     /// its part of the owned points. Not a number where the bonds of a point do not span the space.
     fn domain_integral(
         &self,
@@ -232,6 +233,10 @@ pub trait Bonds: std::fmt::Debug + Send + Sync {
         reading: StrainReading<'_>,
         forces: &[f64],
     ) -> f64;
+
+    /// Length by which a crack has grown from the tip of a pre-crack in the plane, m, and the integral around its tip; None where the ring leaves
+    /// the body or its material, or the crack is not straight within it. Collective.
+    fn at_growing_tip(&self, tip: &GrowingTip, intact: &[bool]) -> (f64, Option<DomainIntegral>);
 
     /// Stress on the plane across each bond in a motion with its deformations (n_bonds), from the moduli of a bond by its number, shape
     /// (n_bonds); of a bar where the bonds of neither end span the space.

@@ -17,8 +17,3 @@ pub(crate) fn narrowed<const D: usize>(position: Position) -> [f64; D] {
 pub(crate) fn in_dimensions<const D: usize>(position: &[f64]) -> [f64; D] {
     std::array::from_fn(|axis| position[axis])
 }
-
-/// A position in D dimensions, padded with zeros to three coordinates.
-pub(crate) fn widened<const D: usize>(position: [f64; D]) -> Position {
-    std::array::from_fn(|axis| position.get(axis).copied().unwrap_or(0.0))
-}

@@ -20,7 +20,7 @@ use self::criteria::{below_strength, rotation_as_sliding, stress_without_patch};
 use crate::body::{Body, Origin};
 use crate::described::Described;
 use crate::plausibility::corners;
-use crate::setup::{Horizon, MaterialRegion, Reading, Setup};
+use crate::setup::{Horizon, MaterialRegion, Reading, Setup, Tip};
 
 pub use criteria::few_bonds;
 pub(crate) use refinement::of_refinement;
@@ -117,11 +117,11 @@ pub(crate) fn of_model(
 /// Warning about the first ring that begins within two horizons from its tip; on one process.
 fn of_rings(setup: &Setup, body: &dyn Body, fixed: &ConstantFields) -> Option<Message> {
     setup.probes.iter().find_map(|probe| {
-        let Reading::Tip {
+        let Reading::Tip(Tip {
             position,
             radii: Some([inner, _]),
             ..
-        } = probe.reading
+        }) = probe.reading
         else {
             return None;
         };

@@ -7,10 +7,10 @@ use super::fault::KeyFault;
 use super::key_path::KeyPath;
 use super::places::Coordinates;
 use super::values::{exactly_one, one_of, require_column_name, required_key};
-use ligament::setup::{self, Axis, Reading};
+use ligament::setup::{self, Axis, Reading, Tip};
 use ligament_analysis::Component;
 use ligament_analysis::probe::PointField;
-use ligament_model::stress::domain_integral::TipQuantity;
+use ligament_model::stress::tip_field::TipQuantity;
 
 /// A column of the history.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -30,7 +30,8 @@ pub struct Probe {
     /// A group: with `field` the mean of the field over the volume of its points, with `component` the force that supports and loads exert
     /// on them.
     pub group: Option<String>,
-    /// The end of a straight pre-crack in the plane, m; with `quantity`.
+    /// The end of a straight pre-crack in the plane, or a place on the rim of a disk or a plane polygon in a solid, m; with
+    /// `quantity`.
     pub tip: Option<Coordinates>,
     /// The component that `between` (m or rad), `section` (N; `x`, `y`, or `z` in a solid) or `group` (N or N m) reads.
     pub component: Option<Component>,
@@ -40,6 +41,12 @@ pub struct Probe {
     pub quantity: Option<TipQuantity>,
     /// The inner and the outer radius of the ring around the `tip` over which the quantity is integrated, m; without it two and four horizons.
     pub radii: Option<[f64; 2]>,
+    /// The length of the front of a solid's pre-crack, with the `tip` in its middle, over which the quantity is a weighted mean, m; without it twice
+    /// the outer radius. The whole front of a disk if it is no longer.
+    pub front_length: Option<f64>,
+    /// Whether the ring follows the tip of a crack that grows from the `tip` in the plane.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub growing: bool,
 }
 
 impl Probe {
@@ -74,13 +81,15 @@ impl Probe {
             })
         };
         let tip = |position: Coordinates| {
-            Ok(Reading::Tip {
+            Ok(Reading::Tip(Tip {
                 position: position.position(),
                 quantity: self.quantity.ok_or_else(|| {
                     required_key(key, "quantity", "with `tip`, to say what to read")
                 })?,
                 radii: self.radii,
-            })
+                front_length: self.front_length,
+                growing: self.growing,
+            }))
         };
         self.require_keys_of_tip(key)?;
         let readings = [
@@ -96,7 +105,7 @@ impl Probe {
         })
     }
 
-    /// Refuses `quantity` and `radii` without a `tip`, and `component` and `field` beside a `tip`.
+    /// Refuses keys of tips without a `tip`, and `component` and `field` beside a `tip`.
     fn require_keys_of_tip(&self, key: &KeyPath) -> Result<(), KeyFault> {
         let (of_others, of_tips) = (
             [
@@ -106,17 +115,19 @@ impl Probe {
             [
                 ("quantity", self.quantity.is_some()),
                 ("radii", self.radii.is_some()),
+                ("front_length", self.front_length.is_some()),
+                ("growing", self.growing),
             ],
         );
         let (refused, reason) = match self.tip {
-            Some(_) => (of_others, "a probe of a `tip` takes `quantity`"),
+            Some(_) => (&of_others[..], "a probe of a `tip` takes `quantity`"),
             None => (
-                of_tips,
-                "only a probe of a `tip` takes `quantity` and `radii`",
+                &of_tips[..],
+                "only a probe of a `tip` takes `quantity`, `radii`, `front_length` and `growing`",
             ),
         };
-        match refused.into_iter().find(|it| it.1) {
-            Some((word, _)) => Err(KeyFault::new(key.child(word), reason)),
+        match refused.iter().find(|it| it.1) {
+            Some((word, _)) => Err(KeyFault::new(key.child(*word), reason)),
             None => Ok(()),
         }
     }

@@ -34,6 +34,15 @@ force_per_area = { z = 1 }
 name = "turned"
 group = "right"
 moment = { z = 1 }
+[[precrack]]
+centre = [0.2, 0.2, 0.2]
+normal = [0, 0, 1]
+radius = 0.1
+[[probe]]
+name = "front"
+tip = [0.3, 0.2, 0.2]
+quantity = "K_III"
+front_length = 0.1
 [[load]]
 name = "twisted"
 body_couple = { z = 1 }
@@ -252,6 +261,7 @@ name = "J"
 tip = [0, 0]
 quantity = "J"
 radii = [0.1, 0.2]
+growing = true
 [[load]]
 body_couple = 1.0
 [[load]]

@@ -163,7 +163,8 @@ fn write_probes(report: &mut Report<'_>, model: &Model, loading: &Loading) -> io
             (Reading::SectionForce { bonds, .. }, _) => format!("{} bonds", bonds.len()),
             (Reading::Field { place, .. }, _) => format!("mean over {} points", place.len()),
             (Reading::Force { points, .. }, _) => format!("force on {} points", points.len()),
-            (Reading::Tip(integral), _) => format!("ring with {} points", integral.n_points()),
+            (Reading::GrowingTip(_), _) => "ring that follows the crack".into(),
+            (Reading::Tip(integral), _) => format!("ring with {} points", integral.points().len()),
             _ => continue,
         };
         report.entry(&format!("probe {}", probe.name), reads)?;

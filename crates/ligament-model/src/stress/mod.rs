@@ -13,10 +13,13 @@
 mod across;
 pub mod by_material;
 pub mod carried;
+pub mod crack_front;
 pub mod domain_integral;
 mod elements;
+pub mod growing_tip;
 pub mod point_strain;
 pub mod principal;
 pub mod stored;
+pub mod tip_field;
 pub mod traction;
 pub mod virial;

@@ -16,6 +16,7 @@ use crate::product::NearLimits;
 use crate::rigid_motions::{self, FreeMotion, RigidMotions, Turn};
 use crate::stress::carried::StrainReading;
 use crate::stress::domain_integral::DomainIntegral;
+use crate::stress::growing_tip::GrowingTip;
 use crate::stress::point_strain::Motion;
 use crate::stress::stored::StoredMotions;
 use crate::stress::traction;
@@ -362,6 +363,10 @@ impl<const D: usize, const M: usize, E: Element<D, M>> Bonds for ElementSystem<D
         let layout = self.topology.layout;
         self.system
             .domain_integral(layout, integral, reading, forces)
+    }
+
+    fn at_growing_tip(&self, tip: &GrowingTip, intact: &[bool]) -> (f64, Option<DomainIntegral>) {
+        self.system.at_growing_tip(tip, intact)
     }
 
     fn stresses_across(

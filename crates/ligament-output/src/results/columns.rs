@@ -9,7 +9,7 @@ use ligament_analysis::contact::{ContactReading, RigidState};
 use ligament_analysis::costs::Costs;
 use ligament_analysis::history::{BreakRecord, ContactAtRest, InMotion, StepRecord};
 use ligament_analysis::probe::{PointField, motion_unit};
-use ligament_model::stress::domain_integral::TipQuantity;
+use ligament_model::stress::tip_field::TipQuantity;
 
 use crate::csv::Value;
 

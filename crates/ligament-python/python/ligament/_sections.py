@@ -827,7 +827,8 @@ class Probe(TypedDict, total=False):
     """A group: with `field` the mean of the field over the volume of its points, with `component` the force that supports and loads exert
 on them."""
     tip: Numbers
-    """The end of a straight pre-crack in the plane, m; with `quantity`."""
+    """The end of a straight pre-crack in the plane, or a place on the rim of a disk or a plane polygon in a solid, m; with
+`quantity`."""
     component: Literal["x", "y", "rotation", "z", "rotation_x", "rotation_y", "rotation_z"]
     """The component that `between` (m or rad), `section` (N; `x`, `y`, or `z` in a solid) or `group` (N or N m) reads.
 
@@ -891,14 +892,21 @@ on them."""
 - `strain.zz`: Strain zz of a solid.
 - `strain.xz`: Shear strain xz of a solid.
 - `strain.yz`: Shear strain yz of a solid."""
-    quantity: Literal["J", "K_I", "K_II"]
+    quantity: Literal["J", "K_I", "K_II", "K_III", "advance"]
     """The quantity that is read at the `tip`.
 
 - `J`: Energy release rate, J/m^2.
 - `K_I`: Stress intensity factor of opening, Pa m^0.5.
-- `K_II`: Stress intensity factor of sliding, Pa m^0.5: positive where the left side of the crack, seen towards its tip, slides towards the tip."""
+- `K_II`: Stress intensity factor of sliding, Pa m^0.5: positive where the left side of the crack, seen towards its tip, slides towards the tip; in a solid the side of the normal.
+- `K_III`: Stress intensity factor of sliding along the front of a solid, Pa m^0.5: positive where the side of the normal n slides along g x n, with the direction g of growth.
+- `advance`: Length by which the crack has grown from the tip of the pre-crack, m: with `growing`."""
     radii: Numbers
     """The inner and the outer radius of the ring around the `tip` over which the quantity is integrated, m; without it two and four horizons."""
+    front_length: float
+    """The length of the front of a solid's pre-crack, with the `tip` in its middle, over which the quantity is a weighted mean, m; without it twice
+the outer radius. The whole front of a disk if it is no longer."""
+    growing: bool
+    """Whether the ring follows the tip of a crack that grows from the `tip` in the plane."""
 
 
 class FractureStop(TypedDict, total=False):

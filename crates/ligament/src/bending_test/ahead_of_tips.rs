@@ -6,11 +6,12 @@ use ligament_model::PointCloud;
 
 use super::facets::{self, Facet, dot, mean, minus, size};
 use super::thinnest::{Section, path_to_side, thinnest_section};
-use crate::coordinates::{narrowed, widened};
+use crate::coordinates::narrowed;
 use crate::model::Model;
 use crate::patch_test::Untested;
 use crate::setup::{CrackShape, Position};
 use crate::system::over_dimension;
+use ligament_model::in_space;
 
 /// Ratio of the horizon to the smallest ligament above which peaks of bodies that soften are more than some 3 % too high: the stress of a
 /// criterion is a mean over a horizon, so that the tip of a crack is blunter than it should be.
@@ -46,10 +47,10 @@ fn ahead_of_tips<const D: usize>(model: &Model, cloud: &PointCloud<D>) -> Option
         let length = ligament_ahead(&facets, tip, direction)?;
         let nearest = nearest(cloud, tip);
         Some(Section {
-            place: widened(std::array::from_fn::<f64, D, _>(|axis| {
+            place: in_space(std::array::from_fn::<f64, D, _>(|axis| {
                 tip[axis] + 0.5 * length * direction[axis]
             })),
-            across: widened(direction),
+            across: in_space(direction),
             thickness: length,
             spacing: cloud.spacing[nearest],
             horizon: model.fixed.horizon[nearest],
@@ -84,7 +85,7 @@ fn nearest<const D: usize>(cloud: &PointCloud<D>, place: [f64; D]) -> usize {
 fn tips(shape: &CrackShape) -> Vec<Tip> {
     match shape {
         CrackShape::Line(points) => {
-            let points: Vec<Position> = points.iter().map(|&it| widened(it)).collect();
+            let points: Vec<Position> = points.iter().map(|&it| in_space(it)).collect();
             let [first, next] = [points[0], points[1]];
             let [before, last] = [points[points.len() - 2], points[points.len() - 1]];
             vec![from_to(next, first), from_to(before, last)]

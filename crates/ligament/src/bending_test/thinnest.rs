@@ -4,11 +4,11 @@ use ligament_model::PointCloud;
 use rayon::prelude::*;
 
 use super::facets::{self, Facet, dot, mean, minus, size};
-use crate::coordinates::widened;
 use crate::model::Model;
 use crate::patch_test::Untested;
 use crate::setup::Position;
 use crate::system::over_dimension;
+use ligament_model::in_space;
 
 /// Largest number of sides of an outline for which the quadratic search takes one or two seconds.
 pub const MOST_SIDES: usize = 20_000;
@@ -77,10 +77,10 @@ fn thinnest<const D: usize>(
         let (thickness, to) = path_to_side(&facets, middle, inward, true)?;
         let is_opposite = dot(inward, to.area) >= OPPOSITE * size(to.area);
         is_opposite.then(|| Section {
-            place: widened(std::array::from_fn::<f64, D, _>(|axis| {
+            place: in_space(std::array::from_fn::<f64, D, _>(|axis| {
                 middle[axis] + 0.5 * thickness * inward[axis]
             })),
-            across: widened(inward),
+            across: in_space(inward),
             thickness,
             spacing: around(&cloud.spacing, [from, to]),
             horizon: around(&model.fixed.horizon, [from, to]),

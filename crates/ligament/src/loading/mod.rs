@@ -2,6 +2,7 @@
 
 mod boundary;
 mod contact;
+mod fronts;
 mod motion;
 mod near_cells;
 mod places;

@@ -54,13 +54,8 @@ pub(super) fn on<const D: usize>(
             points: points(group)?,
             component: *component,
         },
-        &Reading::Tip {
-            position,
-            quantity,
-            radii,
-        } => {
-            let integral = tips::integral(narrowed(position), quantity, radii, setup, system);
-            probe::Reading::Tip(integral.map_err(|fault| field.part("reading").error(fault))?)
+        Reading::Tip(tip) => {
+            tips::reading(tip, setup, system).map_err(|fault| field.part("reading").error(fault))?
         }
     };
     Ok(probe::Probe {

@@ -14,7 +14,7 @@ use ligament_model::{Advice, Anisotropic, Elasticity, Material, Orthotropic, Pla
 use super::setting::Setting;
 use super::{
     Action, Alpha, Analysis, Calibration, CorrectionDomain, Couple, Fineness, Horizon, Interface,
-    Load, MaterialRegion, Place, Profile, Reading, Refine, Setup, Surface,
+    Load, MaterialRegion, Place, Profile, Reading, Refine, Setup, Surface, Tip,
 };
 use crate::body::Origin;
 use crate::error::{Fault, Field, SetupError};
@@ -323,15 +323,23 @@ impl Setup {
                 let found = ends.map(|it| it[..self.body.dimensions()].to_vec());
                 require(ends[0] != ends[1], field, "two different points", found)?;
             }
-            if let Reading::Tip {
+            if let Reading::Tip(Tip {
                 radii: Some([inner, outer]),
                 ..
-            } = probe.reading
+            }) = probe.reading
             {
                 let radii = Field::element("probes", index).part("radii");
                 let expected = "an inner radius above 0 and a larger outer one";
                 let grows = 0.0 < inner && inner < outer && outer.is_finite();
                 require(grows, radii, expected, [inner, outer])?;
+            }
+            if let Reading::Tip(Tip {
+                front_length: Some(length),
+                ..
+            }) = probe.reading
+            {
+                let field = Field::element("probes", index).part("front_length");
+                require(length > 0.0, field, "a length above 0", length)?;
             }
         }
         Ok(())

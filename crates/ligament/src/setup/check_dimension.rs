@@ -6,6 +6,7 @@ use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
 use ligament_model::law::{BondLaw, listed, orthotropic, suited};
 use ligament_model::material::Space;
+use ligament_model::stress::tip_field::TipQuantity;
 use ligament_model::tensor::SymTensor;
 use ligament_model::{Advice, ElementKind, StressAcrossPlane};
 
@@ -13,7 +14,7 @@ use super::check::{Checked, contradiction, positive, require, within};
 use super::setting::Setting;
 use super::{
     Action, Analysis, CorrectionDomain, CrackShape, Displacement, Form, Place, Position, Profile,
-    Reading, Section, Setup, Strains, Support,
+    Reading, Section, Setup, Strains, Support, Tip,
 };
 use crate::body::Origin;
 use crate::error::Field;
@@ -30,8 +31,25 @@ const UNKNOWN_ACROSS: &str = "in plane strain the stress across the plane is kno
 /// Message about a component of the strain that bodies in the plane do not have.
 const NO_STRAIN_ACROSS: &str = "of a body in the plane the strains xx, yy and xy are read";
 
-/// Message about tips of cracks in a solid.
-const NO_TIPS_OF_SOLIDS: &str = "tips of cracks are read in bodies in the plane alone";
+/// Reason why a probe cannot read a quantity at the tip of a pre-crack.
+fn unread_at_tip(tip: Tip, dimensions: usize) -> Option<&'static str> {
+    let is_solid = dimensions > 2;
+    match tip.quantity {
+        _ if is_solid && tip.growing => Some(
+            "only the tip of a crack in the plane can be `growing`: read the front of the pre-crack without it",
+        ),
+        TipQuantity::Advance if !tip.growing => {
+            Some("only a `growing` tip has an \"advance\": add growing = true")
+        }
+        TipQuantity::Tearing if !is_solid => {
+            Some("a crack in the plane has no K_III: read \"J\", \"K_I\" or \"K_II\"")
+        }
+        _ if !is_solid && tip.front_length.is_some() => {
+            Some("only the pre-crack of a solid has a front: remove `front_length`")
+        }
+        _ => None,
+    }
+}
 
 /// Message about a component of motion that points in a space do not have.
 fn no_motion(space: Space, is_field: bool) -> &'static str {
@@ -186,8 +204,11 @@ impl Setup {
                 }
                 Reading::Between { component, .. } => (component, "component"),
                 Reading::Force { component, .. } => (component, "component"),
-                Reading::Tip { .. } if self.dimensions() > 2 => {
-                    return contradiction(probed.part("reading"), NO_TIPS_OF_SOLIDS);
+                Reading::Tip(tip) => {
+                    if let Some(reason) = unread_at_tip(tip, self.dimensions()) {
+                        return contradiction(probed.part("reading"), reason);
+                    }
+                    continue;
                 }
                 Reading::At { field, .. } | Reading::Mean { field, .. } => match field.reading {
                     PointReading::Motion(component) => (component, "field"),
@@ -197,7 +218,7 @@ impl Setup {
                         None => continue,
                     },
                 },
-                Reading::Section { .. } | Reading::Tip { .. } => continue,
+                Reading::Section { .. } => continue,
             };
             if !components.contains(&component) {
                 return contradiction(probed.part(part), no_motion(self.space(), part == "field"));
@@ -249,7 +270,7 @@ impl Setup {
         for (index, probe) in self.probes.iter().enumerate() {
             let positions = match &probe.reading {
                 Reading::Section { line, .. } => line,
-                Reading::Tip { position, .. } => std::slice::from_ref(position),
+                Reading::Tip(tip) => std::slice::from_ref(&tip.position),
                 reading => reading.positions(),
             };
             if positions.iter().any(|it| self.leaves_plane(it)) {

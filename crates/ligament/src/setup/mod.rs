@@ -43,7 +43,7 @@ pub use ligament_model::law::{Calibration, Form, Law, Options, Strains};
 pub use ligament_model::material::PoissonForm;
 pub use not_together::{Exclusion, Feature, NOT_TOGETHER};
 pub use precrack::{CrackShape, PreCrack};
-pub use probe::{Probe, Reading};
+pub use probe::{Probe, Reading, Tip};
 pub use refine::{FinePlace, Fineness, Indicator, Refine};
 pub use section::Section;
 pub use stage::{Control, Course, Quantity, Stage};

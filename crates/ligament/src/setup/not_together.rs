@@ -171,7 +171,7 @@ features! {
         control(it, |it| matches!(it, Quantity::DissipatedEnergy))
     };
     TIPS = "probes of a tip", |it| {
-        let is_tip = |it: &Probe| matches!(it.reading, Reading::Tip { .. });
+        let is_tip = |it: &Probe| matches!(it.reading, Reading::Tip(_));
         Some(first("probes", &it.probes, is_tip)?.part("reading"))
     };
     TEMPERATURES = "changes of temperature", |it| when(!it.temperatures.is_empty(), "temperatures");

@@ -2,7 +2,7 @@
 
 use ligament_analysis::Component;
 use ligament_analysis::probe::{PointField, PointReading};
-use ligament_model::stress::domain_integral::TipQuantity;
+use ligament_model::stress::tip_field::TipQuantity;
 
 use super::conditions::{Axis, Position};
 
@@ -55,15 +55,23 @@ pub enum Reading {
         /// Component read: a force, N, or the sum of the moments on the points, N m.
         component: Component,
     },
-    /// A quantity at the tip of a straight pre-crack in the plane.
-    Tip {
-        /// Position of the tip, an end of a pre-crack, m.
-        position: Position,
-        /// Quantity read.
-        quantity: TipQuantity,
-        /// Radii of the ring around the tip over which the quantity is integrated, m; without them two and four horizons.
-        radii: Option<[f64; 2]>,
-    },
+    /// A quantity at the tip of a straight pre-crack in the plane, or at the front of a plane one in a solid.
+    Tip(Tip),
+}
+
+/// A quantity at the tip or the front of a pre-crack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tip {
+    /// Position of the tip, an end of a pre-crack, or of a place on the front, m.
+    pub position: Position,
+    /// Quantity read.
+    pub quantity: TipQuantity,
+    /// Radii of the ring around the tip over which the quantity is integrated, m; without them two and four horizons.
+    pub radii: Option<[f64; 2]>,
+    /// Length of the front of a solid's pre-crack over which the quantity is a mean, m; without it twice the outer radius.
+    pub front_length: Option<f64>,
+    /// Whether the ring follows the tip of a crack that grows in the plane.
+    pub growing: bool,
 }
 
 impl Reading {
@@ -78,7 +86,7 @@ impl Reading {
         match self {
             Self::Between { .. } => true,
             Self::At { field, .. } | Self::Mean { field, .. } => field.is_motion(),
-            Self::Section { .. } | Self::Force { .. } | Self::Tip { .. } => false,
+            Self::Section { .. } | Self::Force { .. } | Self::Tip(_) => false,
         }
     }
 
