@@ -31,7 +31,7 @@ impl Law {
 ///
 /// Poisson's ratio is the ratio of central forces, 1/3 or 1/4, for all materials ([`Isotropic::with_central_forces`]).
 fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
-    input.from_isotropic([constants::central_axial], |[c], bond| Densities {
+    input.isotropic_bonds([constants::central_axial], |[c], bond| Densities {
         axial: c / bond.horizon.powi(D as i32 + 1),
         shear: 0.0,
         rotational: 0.0,

@@ -35,7 +35,7 @@ fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
     let constant = |material: &Isotropic, space, thickness| {
         (D + 2) as f64 * constants::central_axial(material, space, thickness)
     };
-    input.from_isotropic([constant], |[c], bond| Densities {
+    input.isotropic_bonds([constant], |[c], bond| Densities {
         axial: c / bond.horizon.powi(D as i32 + 1) * (1.0 - bond.length / bond.horizon).max(0.0),
         shear: 0.0,
         rotational: 0.0,

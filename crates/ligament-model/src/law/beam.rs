@@ -70,7 +70,7 @@ fn nhpd_form(space: Space) -> ShearForm {
 /// chi^T) + (g + 4 d) chi : chi), and g = d leaves chi : chi alone.
 fn densities<const D: usize>(input: &LawInput<'_, D>, form: ShearForm) -> BondStiffness {
     let constants = [constants::axial, constants::bending, constants::shear];
-    input.from_isotropic(constants, |[c, d, shear], bond| {
+    input.isotropic_bonds(constants, |[c, d, shear], bond| {
         let (l, h) = (bond.length, bond.horizon);
         let d = d / h.powi(D as i32 - 1);
         Densities {

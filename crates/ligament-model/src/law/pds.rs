@@ -35,7 +35,7 @@ impl Law {
 /// All uniform strains have the energies of the isotropic body. In space a rigid rotation omega costs 2 (mu - lambda) |omega|^2 a
 /// volume, with Lame's mu and lambda: the law is stable for nu < 1/4, though not objective, and a free body is ill-posed above.
 pub(super) fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
-    input.from_isotropic(
+    input.isotropic_bonds(
         [constants::axial, constants::shear],
         |[axial, shear], bond| {
             let power = bond.horizon.powi(D as i32 + 1);

@@ -135,7 +135,7 @@ impl Eq for BondLaw {}
 
 impl<const D: usize> LawInput<'_, D> {
     /// Densities from constants of the materials, each computed from an isotropic material, the space and the thickness of the body.
-    pub(super) fn from_isotropic<const N: usize>(
+    pub(super) fn isotropic_bonds<const N: usize>(
         &self,
         constants: [fn(&Isotropic, Space, f64) -> f64; N],
         densities: impl Fn(&[f64; N], &BondGeometry<D>) -> Densities + Sync,
