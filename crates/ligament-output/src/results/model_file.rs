@@ -65,12 +65,6 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "coefficient_9",
 ];
 
-/// Number that a bond has, by its index in the file before it is put in order.
-type NumberOfBond<'a> = Box<dyn Fn(usize) -> f64 + Sync + 'a>;
-
-/// Integer that a bond has, by its index in the file before it is put in order.
-type IntegerOfBond<'a> = Box<dyn Fn(usize) -> i64 + Sync + 'a>;
-
 /// Writes the model, at the end of a run with the largest utilisations of its bonds, the energies that they dissipated (n_bonds, J), and
 /// the limits of bonds that began to soften by the stress around them.
 pub(super) fn write(
@@ -80,76 +74,19 @@ pub(super) fn write(
     problem: &Problem,
     at_end: Option<(&LargestUtilisations, &State)>,
 ) -> Result<(), Error> {
-    let (system, absent) = (&problem.system, &fixed.absent);
-    let n_absent = absent.len();
-    let of_absent: Vec<[u32; 2]> = absent.iter().map(|pair| pair.ends).collect();
+    let system = &problem.system;
+    let of_absent: Vec<[u32; 2]> = fixed.absent.iter().map(|pair| pair.ends).collect();
     let lines = BondLines::new(grid, &system.ends, &of_absent);
-    let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
-    let n_bonds = system.ends.len();
-    let count = n_bonds + n_absent;
-    let absence = |place: usize| {
-        let pair = place.checked_sub(n_bonds);
-        pair.map_or(0, |it| absent[it].absence.number())
-    };
-    let horizon = |place: usize| match place.checked_sub(n_bonds) {
-        None => system.horizons[place] as f32,
-        Some(pair) => absent[pair].horizon as f32,
-    };
-    let omega = |place: usize| {
-        fixed
-            .domain_factor
-            .get(place)
-            .map_or(f32::NAN, |it| *it as f32)
-    };
-    let alpha = |place: usize| {
-        let factors = fixed
-            .domain_factor
-            .get(place)
-            .zip(system.weights.get(place));
-        factors.map_or(f32::NAN, |(omega, weight)| (weight / omega) as f32)
-    };
-    let crosses: Vec<(String, IntegerOfBond<'_>)> = interfaces(fixed);
     let criteria = at_end.map_or_else(
         || problem.criteria.without_state(),
         |(_, state)| state.softening.criteria(&problem.criteria),
     );
-    let limits = limits(&criteria);
-    let limits: Vec<(&str, NumberOfBond<'_>)> = limits.iter().map(LimitColumn::by_bond).collect();
-    let unknown = LargestUtilisation {
-        utilisation: f32::NAN,
-        ..Default::default()
-    };
-    let of_bonds = at_end.map(|(largest, _)| largest.of_bonds.as_slice());
-    let largest = |place: usize| of_bonds.and_then(|it| it.get(place)).unwrap_or(&unknown);
-    let utilisation = |place: usize| largest(place).utilisation;
-    let step = |place: usize| i64::from(largest(place).step);
-    let criterion = |place: usize| i64::from(largest(place).criterion);
-    let dissipated = |place: usize| {
-        let of_bonds = at_end.and_then(|(_, state)| state.dissipated.get(place));
-        of_bonds.copied().unwrap_or(f64::NAN)
-    };
-
-    let mut cell_fields = vec![
-        Field::computed_integer("absent", count, &absence),
-        Field::computed_single("horizon", count, &horizon),
-        Field::computed_single("length_factor", count, &alpha),
-        Field::computed_single("domain_factor", count, &omega),
-    ];
-    let crosses = crosses.iter();
-    cell_fields.extend(crosses.map(|(name, it)| Field::computed_integer(name, count, it)));
-    cell_fields.extend(
-        limits
-            .iter()
-            .map(|(name, it)| Field::computed(name, count, it)),
-    );
-    if at_end.is_some() {
-        cell_fields.extend([
-            Field::computed_single("largest_utilisation", count, &utilisation),
-            Field::computed_integer("step_of_largest", count, &step),
-            Field::computed_integer("criterion_of_largest", count, &criterion),
-            Field::computed(DISSIPATED_ENERGY, count, &dissipated),
-        ]);
-    }
+    let mut columns = constant_columns(fixed, problem);
+    columns.extend(limits(&criteria));
+    columns.extend(at_end.into_iter().flat_map(columns_at_end));
+    let count = system.ends.len() + of_absent.len();
+    let cell_fields: Vec<Field<'_>> = columns.iter().map(|it| it.field(count)).collect();
+    let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
     let groups = groups(problem);
     let mut point_fields = vec![
         Field::scalar(VOLUME.name, &system.volumes),
@@ -164,15 +101,122 @@ pub(super) fn write(
     lines.write(&path, grid, fields, (subdomain, &[]))
 }
 
-/// Fields of the interfaces: a name and 1 for its bonds for each.
-fn interfaces(fixed: &ConstantFields) -> Vec<(String, IntegerOfBond<'_>)> {
-    let mut fields = Vec::new();
-    for (name, crosses) in &fixed.interfaces {
-        let at = move |place: usize| crosses.get(place).map_or(0, |it| i64::from(*it));
-        let at: IntegerOfBond<'_> = Box::new(at);
-        fields.push((format!("{INTERFACE}{name}"), at));
+/// A field of the bonds, followed by the absent bonds.
+struct Column<'a> {
+    name: String,
+    values: BondValues<'a>,
+}
+
+/// Values by the index of a bond, computed where they are written.
+enum BondValues<'a> {
+    Double(Box<dyn Fn(usize) -> f64 + Sync + 'a>),
+    Single(Box<dyn Fn(usize) -> f32 + Sync + 'a>),
+    Integer(Box<dyn Fn(usize) -> i64 + Sync + 'a>),
+}
+
+impl<'a> Column<'a> {
+    fn double(name: String, value: impl Fn(usize) -> f64 + Sync + 'a) -> Self {
+        let values = BondValues::Double(Box::new(value));
+        Self { name, values }
     }
-    fields
+
+    fn single(name: &str, value: impl Fn(usize) -> f32 + Sync + 'a) -> Self {
+        let (name, values) = (name.to_owned(), BondValues::Single(Box::new(value)));
+        Self { name, values }
+    }
+
+    fn integer(name: String, value: impl Fn(usize) -> i64 + Sync + 'a) -> Self {
+        let values = BondValues::Integer(Box::new(value));
+        Self { name, values }
+    }
+
+    /// The field of a number of bonds.
+    fn field(&self, count: usize) -> Field<'_> {
+        match &self.values {
+            BondValues::Double(value) => Field::computed(&self.name, count, value),
+            BondValues::Single(value) => Field::computed_single(&self.name, count, value),
+            BondValues::Integer(value) => Field::computed_integer(&self.name, count, value),
+        }
+    }
+}
+
+/// Fields that do not change in a run: why bonds are absent, their horizons and factors, and the interfaces that they cross.
+fn constant_columns<'a>(fixed: &'a ConstantFields, problem: &'a Problem) -> Vec<Column<'a>> {
+    let (system, absent) = (&problem.system, &fixed.absent);
+    let n_bonds = system.ends.len();
+    let absence = move |bond: usize| {
+        let pair = bond.checked_sub(n_bonds);
+        pair.map_or(0, |pair| absent[pair].absence.number())
+    };
+    let horizon = move |bond: usize| match bond.checked_sub(n_bonds) {
+        None => system.horizons[bond] as f32,
+        Some(pair) => absent[pair].horizon as f32,
+    };
+    let omegas = &fixed.domain_factor;
+    let omega = move |bond: usize| omegas.get(bond).map_or(f32::NAN, |it| *it as f32);
+    let alpha = move |bond: usize| {
+        let factors = omegas.get(bond).zip(system.weights.get(bond));
+        factors.map_or(f32::NAN, |(omega, weight)| (weight / omega) as f32)
+    };
+    let crosses = |(name, crosses): &'a (String, Vec<bool>)| {
+        let at = move |bond: usize| crosses.get(bond).map_or(0, |it| i64::from(*it));
+        Column::integer(format!("{INTERFACE}{name}"), at)
+    };
+    let mut columns = vec![
+        Column::integer("absent".to_owned(), absence),
+        Column::single("horizon", horizon),
+        Column::single("length_factor", alpha),
+        Column::single("domain_factor", omega),
+    ];
+    columns.extend(fixed.interfaces.iter().map(crosses));
+    columns
+}
+
+/// Fields of the limits and coefficients of each criterion.
+fn limits<'a>(criteria: &'a CriteriaInState<'_>) -> Vec<Column<'a>> {
+    let list = &criteria.criteria().list;
+    let mut columns = Vec::new();
+    let labels = criterion_labels(list.iter().map(|criterion| criterion.name));
+    for (number, (criterion, label)) in list.iter().zip(labels).enumerate() {
+        // Every so many values are one of a bond.
+        let mut push = |what: &str, values: &'a [f64], first: usize, stride: usize| {
+            let value = move |bond: usize| values.get(first + stride * bond);
+            let value = move |bond: usize| value(bond).copied().unwrap_or(f64::NAN);
+            columns.push(Column::double(format!("{what}.{label}"), value));
+        };
+        push("limit", criteria.limits(number), 0, 1);
+        let coefficients = &criterion.coefficient;
+        let stride = coefficients.len() / criterion.limit.len().max(1);
+        for (first, what) in COEFFICIENTS.iter().take(stride).enumerate() {
+            push(what, coefficients, first, stride);
+        }
+        let parameter = criteria.after(number).parameter();
+        if !parameter.is_empty() {
+            push("after", parameter, 0, 1);
+        }
+    }
+    columns
+}
+
+/// Fields that are known at the end of a run: the largest utilisations and the dissipated energies.
+fn columns_at_end<'a>((largest, state): (&'a LargestUtilisations, &'a State)) -> [Column<'a>; 4] {
+    const OF_ABSENT: LargestUtilisation = LargestUtilisation {
+        utilisation: f32::NAN,
+        step: 0,
+        criterion: 0,
+    };
+    let largest = move |bond: usize| largest.of_bonds.get(bond).unwrap_or(&OF_ABSENT);
+    let dissipated = move |bond: usize| state.dissipated.get(bond).copied().unwrap_or(f64::NAN);
+    [
+        Column::single("largest_utilisation", move |bond| largest(bond).utilisation),
+        Column::integer("step_of_largest".to_owned(), move |bond| {
+            i64::from(largest(bond).step)
+        }),
+        Column::integer("criterion_of_largest".to_owned(), move |bond| {
+            i64::from(largest(bond).criterion)
+        }),
+        Column::double(DISSIPATED_ENERGY.to_owned(), dissipated),
+    ]
 }
 
 /// Fields of the supported and loaded points: a name and 1 at its points for each group.
@@ -186,50 +230,4 @@ fn groups(problem: &Problem) -> Vec<(String, Vec<i64>)> {
         (format!("{GROUP}{}", group.name), at)
     };
     problem.loads.groups().iter().map(field).collect()
-}
-
-/// Limits or coefficients of a criterion: every so many values one of a bond.
-struct LimitColumn<'a> {
-    name: String,
-    values: &'a [f64],
-    first: usize,
-    stride: usize,
-}
-
-impl LimitColumn<'_> {
-    /// The name, and the value of a bond; NaN for absent bonds.
-    fn by_bond(&self) -> (&str, NumberOfBond<'_>) {
-        let value = |place: usize| self.values.get(self.first + self.stride * place);
-        let of_bond = move |place: usize| value(place).copied().unwrap_or(f64::NAN);
-        (&self.name, Box::new(of_bond))
-    }
-}
-
-/// Limits and coefficients of each criterion for each bond.
-fn limits<'a>(criteria: &'a CriteriaInState<'_>) -> Vec<LimitColumn<'a>> {
-    let list = &criteria.criteria().list;
-    let mut found = Vec::new();
-    let labels = criterion_labels(list.iter().map(|criterion| criterion.name));
-    for (number, (criterion, label)) in list.iter().zip(labels).enumerate() {
-        let mut push = |what: &str, values: &'a [f64], first: usize, stride: usize| {
-            let name = format!("{what}.{label}");
-            found.push(LimitColumn {
-                name,
-                values,
-                first,
-                stride,
-            });
-        };
-        push("limit", criteria.limits(number), 0, 1);
-        let coefficients = &criterion.coefficient;
-        let stride = coefficients.len() / criterion.limit.len().max(1);
-        for (first, what) in COEFFICIENTS.iter().take(stride).enumerate() {
-            push(what, coefficients, first, stride);
-        }
-        let parameter = criteria.after(number).parameter();
-        if !parameter.is_empty() {
-            push("after", parameter, 0, 1);
-        }
-    }
-    found
 }
