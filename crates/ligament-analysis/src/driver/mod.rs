@@ -6,6 +6,7 @@ pub mod elastic;
 mod energies;
 pub mod event;
 pub mod motion;
+mod passing;
 mod prediction;
 mod prepared;
 mod record;
