@@ -110,7 +110,7 @@ fn meshes_with_the_domain_correction() {
     }
 }
 
-/// Parts of the factor side by side along the exact path, and events between those of the whole body.
+/// Parts of the factor side by side along the exact path and in load steps, and events and rounds between those of the whole body.
 #[test]
 fn parts_left_behind() {
     let settings = [
@@ -121,6 +121,8 @@ fn parts_left_behind() {
     let summary = assert_same_path("exact-path/case.toml", 300, &settings);
     let solver = &summary["solver"];
     assert!(solver["changes"].as_u64().unwrap() >= 300 && solver["factorisations"] == 1);
+    let settings = [&settings[..2], &["fracture.bonds_per_iteration=3"]].concat();
+    assert_same_path("brazilian-disk/case.toml", 300, &settings);
 }
 
 /// Products without a matrix, sums of chunks and the coarse space, along both ways.

@@ -1,4 +1,5 @@
-//! The exact path with parts of the body left behind, against the same path with the whole body at each event.
+//! The exact path and load steps with parts of the body left behind, against the same ways with the whole body at each event and after each
+//! breakage.
 //!
 //! What is left behind catches up by other sums, so that numbers agree to rounding times the condition number of the stiffness, and not to
 //! the bit: 1e-10 of the largest of their kind. Bonds, and their order, are the same.
@@ -25,11 +26,18 @@ struct Glance {
     breaks: Vec<BreakRecord>,
     /// Events of which the whole body was seen, and others.
     seen: [usize; 2],
+    /// Solutions of the whole body.
+    iterations: usize,
 }
 
 impl Observer for Glance {
     fn broke(&mut self, records: &[BreakRecord]) -> Result<(), ObserverError> {
         self.breaks.extend_from_slice(records);
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: f64, _: f64) -> Result<(), ObserverError> {
+        self.iterations += 1;
         Ok(())
     }
 
@@ -77,51 +85,60 @@ fn numbers(record: &StepRecord) -> [Vec<f64>; 5] {
     ]
 }
 
+/// Compares the bonds, records and last states of two ways, of which the second is that of the whole body.
+fn assert_same(name: &str, passed: &(Outcome, Glance), whole: &(Outcome, Glance)) {
+    let ((passed, glance), (whole, all)) = (passed, whole);
+    assert_eq!(passed.termination, whole.termination, "{name}");
+    assert_eq!(glance.breaks.len(), all.breaks.len(), "{name}");
+    for (one, other) in glance.breaks.iter().zip(&all.breaks) {
+        let key = |it: &BreakRecord| (it.order, it.step, it.round, it.bond, it.criterion);
+        assert_eq!(key(one), key(other), "{name}");
+        assert!((one.ratio - other.ratio).abs() < 1e-10, "{name}");
+    }
+    assert_eq!(passed.history.len(), whole.history.len(), "{name}");
+    for kind in 0..5 {
+        let all = (whole.history.iter()).flat_map(|it| numbers(it)[kind].clone());
+        let scale = all.fold(1e-300, |largest: f64, it| largest.max(it.abs()));
+        for (one, other) in passed.history.iter().zip(&whole.history) {
+            let off = difference(&numbers(one)[kind], &numbers(other)[kind], scale);
+            let step = one.step;
+            assert!(off < 1e-10, "{name}: step {step}, kind {kind}: {off:.1e}");
+        }
+    }
+    let [one, other] = [passed, whole].map(|it| &it.state.displacement);
+    let off = difference(one, other, largest(other.iter().copied()));
+    assert!(off < 1e-10, "{name}: displacements {off:.1e}");
+    assert_eq!(passed.state.intact, whole.state.intact, "{name}");
+}
+
 /// Follows the path looking at each event, at some, and at none; gives the number of bonds that broke.
 fn assert_alike(name: &str, bench: &Bench) -> usize {
-    let (whole, all) = path(bench, 1);
-    assert_eq!(all.seen[1], 0, "{name}");
+    let whole = path(bench, 1);
+    let broken = whole.1.breaks.len();
+    assert_eq!(whole.1.seen[1], 0, "{name}");
     for every in [0, 13] {
-        let (passed, glance) = path(bench, every);
-        let [seen, passed_over] = glance.seen;
-        println!(
-            "{name}: {} bonds, {seen} events seen, {passed_over} passed over",
-            all.breaks.len()
-        );
+        let passed = path(bench, every);
+        let [seen, passed_over] = passed.1.seen;
+        println!("{name}: {broken} bonds, {seen} events seen, {passed_over} passed over");
         assert!(passed_over > 2 * seen, "{name}");
-        assert_eq!(passed.termination, whole.termination, "{name}");
-        assert_eq!(glance.breaks.len(), all.breaks.len(), "{name}");
-        for (one, other) in glance.breaks.iter().zip(&all.breaks) {
-            let key = |it: &BreakRecord| (it.order, it.step, it.round, it.bond, it.criterion);
-            assert_eq!(key(one), key(other), "{name}");
-            assert!((one.ratio - other.ratio).abs() < 1e-10, "{name}");
-        }
-        assert_eq!(passed.history.len(), whole.history.len(), "{name}");
-        for kind in 0..5 {
-            let all = whole
-                .history
-                .iter()
-                .flat_map(|it| numbers(it)[kind].clone());
-            let scale = all.fold(0.0, |largest: f64, it| largest.max(it.abs()));
-            for (one, other) in passed.history.iter().zip(&whole.history) {
-                let off = difference(
-                    &numbers(one)[kind],
-                    &numbers(other)[kind],
-                    scale.max(1e-300),
-                );
-                assert!(
-                    off < 1e-10,
-                    "{name}: event {}, kind {kind}: {off:.1e}",
-                    one.step
-                );
-            }
-        }
-        let [one, other] = [&passed, &whole].map(|it| &it.state.displacement);
-        let off = difference(one, other, largest(other.iter().copied()));
-        assert!(off < 1e-10, "{name}: displacements {off:.1e}");
-        assert_eq!(passed.state.intact, whole.state.intact, "{name}");
+        assert_same(name, &passed, &whole);
     }
-    all.breaks.len()
+    broken
+}
+
+/// Follows load steps with the parts of a dissection, and with minimum degree, which solves the whole body after each breakage; gives the number
+/// of bonds that broke.
+fn assert_steps_alike(name: &str, mesh: &str, settings: &[&str]) -> usize {
+    let [passed, whole] = [DISSECTION, "solver.ordering=minimum-degree"].map(|ordering| {
+        let settings = [&[ordering], settings].concat();
+        path(&Bench::new(mesh, &settings), 1)
+    });
+    let broken = whole.1.breaks.len();
+    let [few, all] = [&passed, &whole].map(|it| it.1.iterations);
+    println!("{name}: {broken} bonds, {few} solutions of the whole body instead of {all}");
+    assert!(2 * few < all, "{name}: {few}, {all}");
+    assert_same(name, &passed, &whole);
+    broken
 }
 
 const EVENT: &str = "fracture={ control = \"event\", stop = { bonds = 400 } }";
@@ -259,4 +276,46 @@ fn assert_solids_alike(criterion: &str, bonds: usize) {
     }
     // An event that is passed over has no iteration of the whole body.
     assert!(3 * passed[2].len() < whole[2].len());
+}
+
+/// Load steps that break bonds of several laws one by one and in groups, by several criteria, in both orders, and with a correction at the
+/// surface.
+#[test]
+fn load_steps_break_the_same_bonds() {
+    const ONE: &str = "fracture={ steps = 8, bonds_per_iteration = 1, stop = { bonds = 300 } }";
+    const FIVE: &str = "fracture={ steps = 8, order = \"ratio\", stop = { bonds = 800 } }";
+    const STRESS: &str = "fracture={ steps = 8, criterion = [{ kind = \"bond-rankine\" }], bonds_per_iteration = 2, stop = { bonds = 200 } }";
+    const ENERGY: &str = "fracture={ steps = 8, criterion = [{ kind = \"bond-energy\" }], bonds_per_iteration = 1, stop = { bonds = 100 } }";
+    const SCATTER: &str = "fracture={ steps = 8, bonds_per_iteration = 3, stop = { bonds = 300 }, scatter = { of = \"strength\", \
+         distribution = \"weibull\", modulus = 6.0, correlation_length = 0.01, seed = 3 } }";
+    let many: [(&str, &[&str]); 8] = [
+        ("one by one", &[ONE]),
+        ("by ratio", &[FIVE]),
+        ("by stress", &[STRESS]),
+        ("by energy", &[ENERGY, "material.fracture_energy=20.0"]),
+        ("cells", &[FIVE, "material.poisson=0.4"]),
+        ("patch", &[ONE, "correction.surface=patch"]),
+        ("scatter", &[SCATTER]),
+        (
+            "bbpd",
+            &[
+                FIVE,
+                "model.law=bbpd",
+                "material.poisson=0.333333333333333333",
+            ],
+        ),
+    ];
+    for (name, settings) in many {
+        let broken = assert_steps_alike(name, DISK, settings);
+        assert!(broken >= 100, "{name}: {broken}");
+    }
+}
+
+/// A square that is torn apart in load steps, and loses points on the way.
+#[test]
+fn load_steps_tear_a_square_apart_alike() {
+    let scatter = "fracture={ steps = [0.02, 0.1, 1.0], bonds_per_iteration = 1, scatter = { of = \"strength\", distribution = \"weibull\", modulus = 1.0, \
+         correlation_length = 0.0001, seed = 2 } }";
+    let broken = assert_steps_alike("square", SQUARE, &[scatter, "load.0.displacement.y=5e-3"]);
+    assert!(broken > 100, "{broken}");
 }

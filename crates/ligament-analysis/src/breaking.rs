@@ -14,6 +14,9 @@ use crate::bond_numbers::BondNumbers;
 /// Bonds closer than this (relative) to the worst one break together with it.
 pub const TIE_TOLERANCE: f64 = 1e-8;
 
+/// Rounding of a measure that is computed from its ratio to the limit, relative.
+const ROUNDING: f64 = 1e-12;
+
 /// Number of bonds of a parallel task.
 const TASK: usize = 4096;
 
@@ -26,6 +29,16 @@ ligament_model::case_type! {
         Excess,
         /// Bonds with the largest ratio of stretch to critical stretch.
         Ratio,
+    }
+}
+
+impl BreakingOrder {
+    /// Rank of a bond by its measure and limit, and the scale of its ties.
+    fn rank(self, measure: f64, limit: f64) -> (f64, f64) {
+        match self {
+            Self::Excess => (measure - limit, measure),
+            Self::Ratio => (measure / limit, measure / limit),
+        }
     }
 }
 
@@ -185,14 +198,14 @@ pub(crate) fn first_of_all(
 ) -> FirstToBreak {
     let owned = numbers.owned_of(intact);
     let here = leaders(tie_tolerance, deformations, criteria, &owned);
-    let here = here.tied().map(|(bond, ratio)| {
+    let here = here.bonds().map(|(bond, ratio)| {
         let [a, b] = in_file(bond).map(f64::from);
         [f64::from(numbers.number(bond)), ratio, a, b]
     });
-    let mut leaders = Leaders::new(tie_tolerance);
+    let mut leaders = Leaders::new(Leading::Tied(tie_tolerance));
     let mut ends = BTreeMap::new();
     for [number, ratio, a, b] in numbers.subdomain().all_gather_list(here.collect()) {
-        leaders.add(number as u32, ratio);
+        leaders.add(number as u32, ratio, || 0.0);
         ends.insert(number as u32, [a as u32, b as u32]);
     }
     leaders.first_to_break().sorted(|bond| ends[&bond])
@@ -204,14 +217,14 @@ fn leaders(
     criteria: &CriteriaInState<'_>,
     intact: &[bool],
 ) -> Leaders {
-    let start = || Leaders::new(tie_tolerance);
+    let start = || Leaders::new(Leading::Tied(tie_tolerance));
     let of_tasks = judge(
         deformations,
         criteria,
         intact,
         start,
         |leaders, bond, verdict| {
-            leaders.add(bond, verdict.ratio());
+            leaders.add(bond, verdict.ratio(), || verdict.limit);
         },
     );
     let mut leaders = start();
@@ -241,53 +254,111 @@ fn judge<T: Send>(
         .collect()
 }
 
-/// Bonds that were tied with the largest ratio so far when they were added; no others can be tied in the end.
-pub(crate) struct Leaders {
-    tie_tolerance: f64,
+/// Bonds that are sought before a breakage, by their ratios of measure to limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Leading {
+    /// Bonds with the largest ratio, or tied with it within this relative tolerance.
+    Tied(f64),
+    /// Bonds that break next by a rule.
+    Next(BreakingRule),
+}
+
+/// A bond that may lead.
+#[derive(Debug, Clone, Copy)]
+struct Met {
+    bond: u32,
     ratio: f64,
-    /// Smallest ratio tied with the largest one so far.
-    pub(crate) lowest_tied: f64,
-    /// Bonds and their ratios, in the order in which they were added.
-    met: Vec<(u32, f64)>,
+    limit: f64,
+}
+
+/// Bonds that may lead, of those added so far; no others can lead in the end.
+pub(crate) struct Leaders {
+    leading: Leading,
+    ratio: f64,
+    /// Smallest ratio of a leading bond so far.
+    pub(crate) lowest: f64,
+    /// The largest ranks of bonds beyond their limits so far, as many as break next, the largest first, and the largest scale of a tie of them.
+    ranks: (Vec<f64>, f64),
+    /// In the order in which they were added.
+    met: Vec<Met>,
 }
 
 impl Leaders {
-    pub(crate) fn new(tie_tolerance: f64) -> Self {
+    pub(crate) fn new(leading: Leading) -> Self {
         Self {
-            tie_tolerance,
+            leading,
             ratio: 0.0,
-            lowest_tied: 0.0,
+            lowest: match leading {
+                Leading::Tied(_) => 0.0,
+                Leading::Next(rule) => rule.near().recip(),
+            },
+            ranks: (Vec::new(), 0.0),
             met: Vec::new(),
         }
     }
 
     #[inline]
-    pub(crate) fn add(&mut self, bond: u32, ratio: f64) {
-        if ratio > 0.0 && ratio >= self.lowest_tied {
-            if ratio > self.ratio {
-                self.ratio = ratio;
-                self.lowest_tied = ratio - self.tie_tolerance * ratio;
+    pub(crate) fn add(&mut self, bond: u32, ratio: f64, limit: impl FnOnce() -> f64) {
+        if ratio > 0.0 && ratio >= self.lowest {
+            let limit = limit();
+            match self.leading {
+                Leading::Tied(tolerance) if ratio > self.ratio => {
+                    self.lowest = ratio - tolerance * ratio;
+                }
+                Leading::Next(rule) if ratio >= 1.0 => self.rank(&rule, ratio, limit),
+                _ => {}
             }
-            self.met.push((bond, ratio));
+            self.ratio = self.ratio.max(ratio);
+            self.met.push(Met { bond, ratio, limit });
         }
+    }
+
+    fn rank(&mut self, rule: &BreakingRule, ratio: f64, limit: f64) {
+        let (rank, scale) = rule.order.rank(ratio * limit, limit);
+        let (ranks, largest_scale) = &mut self.ranks;
+        let place = ranks.partition_point(|it| *it >= rank);
+        if place < rule.bonds_per_iteration {
+            ranks.truncate(rule.bonds_per_iteration - 1);
+            ranks.insert(place, rank);
+        }
+        *largest_scale = largest_scale.max(scale);
+    }
+
+    /// Whether a bond may lead whose ratio and limit are at most these.
+    pub(crate) fn may_include(&self, ratio: f64, limit: f64) -> bool {
+        if ratio < self.lowest {
+            return false;
+        }
+        let Leading::Next(rule) = self.leading else {
+            return true;
+        };
+        let (ranks, scale) = &self.ranks;
+        // The bonds that break next are tied with one of these ranks, or have a larger one.
+        let last = ranks
+            .last()
+            .filter(|_| ranks.len() == rule.bonds_per_iteration);
+        let lowest = last.map(|it| it - (rule.tie_tolerance + ROUNDING) * scale);
+        // Of bonds below their limits, those with the smallest limit have the largest rank, which is below zero.
+        let most = rule.order.rank(ratio.max(1.0) * limit, limit).0;
+        lowest.is_none_or(|lowest| most >= lowest)
     }
 
     /// Adds the bonds of another list.
     pub(crate) fn merge(&mut self, others: Self) {
-        for (bond, ratio) in others.met {
-            self.add(bond, ratio);
+        for Met { bond, ratio, limit } in others.met {
+            self.add(bond, ratio, || limit);
         }
     }
 
-    /// Bonds tied with the largest ratio, and their ratios, in the order in which they were added.
-    pub(crate) fn tied(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let met = self.met.iter().copied();
-        met.filter(|it| it.1 >= self.lowest_tied)
+    /// Leading bonds and their ratios, in the order in which they were added.
+    pub(crate) fn bonds(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
+        let leading = self.met.iter().filter(|it| it.ratio >= self.lowest);
+        leading.map(|it| (it.bond, it.ratio))
     }
 
-    /// Largest ratio and the bonds tied with it.
+    /// Largest ratio and the leading bonds.
     pub(crate) fn first_to_break(self) -> FirstToBreak {
-        let mut bonds: Vec<u32> = self.tied().map(|it| it.0).collect();
+        let mut bonds: Vec<u32> = self.bonds().map(|it| it.0).collect();
         bonds.sort_unstable();
         FirstToBreak {
             bonds,
@@ -326,10 +397,7 @@ impl Wire<6> for Candidate {
 
 impl Candidate {
     fn new(order: BreakingOrder, bond: u32, verdict: &Verdict) -> Self {
-        let (rank, tie_scale) = match order {
-            BreakingOrder::Excess => (verdict.measure - verdict.limit, verdict.measure),
-            BreakingOrder::Ratio => (verdict.ratio(), verdict.ratio()),
-        };
+        let (rank, tie_scale) = order.rank(verdict.measure, verdict.limit);
         Self {
             bond,
             in_file: [0; 2],

@@ -391,12 +391,12 @@ impl Equilibrium {
     }
 
     /// Updates the factor for a breakage and passes the half-solved correction to `finish`, which does the backward substitution;
-    /// None where the update failed.
+    /// None where the update or `finish` failed, and the factor must be computed anew.
     pub(crate) fn update_and_forward_solve<T>(
         &mut self,
         state: &State,
         breakage: &Breakage,
-        finish: impl FnOnce(&dyn Factorisation, &ForwardSubstituted) -> T,
+        finish: impl FnOnce(&dyn Factorisation, &ForwardSubstituted) -> Option<T>,
     ) -> Option<T> {
         let Equations {
             solver,
@@ -410,7 +410,15 @@ impl Equilibrium {
         let finished = finish(half.factor, &half.correction);
         costs.backward += start.elapsed();
         costs.solves += 1;
-        Some(finished)
+        if finished.is_none() {
+            solver.discard();
+        }
+        finished
+    }
+
+    /// The size of the body, or its largest prescribed displacement where that is larger, m.
+    pub(crate) fn size_or_prescribed(&self, state: &State) -> f64 {
+        self.equations.accuracy.size_or_prescribed(state)
     }
 
     /// Degree of freedom (of the body) that moves farthest, where a body with broken or softened bonds moves farther than its own

@@ -330,7 +330,8 @@ pub trait Observer {
 
     /// Whether the observer reads the body itself after a step, and not only its record.
     ///
-    /// Where it does not, the exact path may delay updates of parts of the body, and the view is not [whole](View::is_whole).
+    /// Where it does not, the exact path may delay updates of parts of the body, and the view is not [whole](View::is_whole). Load steps may
+    /// delay them between two records in any case; their views are whole.
     fn looks(&self, _step: usize) -> bool {
         true
     }

@@ -190,7 +190,7 @@ impl From<Factorisation> for FactorKind {
 case_type! {
     /// Elimination order.
     #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-    #[auto("`nested-dissection` from 10,000 points on, `minimum-degree` below.")]
+    #[auto("`nested-dissection` from 2,000 points on, `minimum-degree` below.")]
     pub enum Ordering {
         /// Nested dissection of the graph of the matrix.
         NestedDissection,
@@ -304,7 +304,7 @@ impl Default for SolverSettings {
 
 /// Number of points from which the order is nested dissection, and parts of the body may be postponed. It leaves less fill than minimum degree
 /// (measured on plates: as much at 1,000 points, 20 % fewer multiplications at 3,000, and a third fewer at 40,000).
-pub const POINTS_FOR_DISSECTION: usize = 10_000;
+pub const POINTS_FOR_DISSECTION: usize = 2_000;
 
 /// Least tie tolerance as a multiple of the tolerance of conjugate gradients: bonds whose measures are closer may come in any
 /// order.

@@ -10,16 +10,15 @@
 mod affine;
 mod equilibrium_line;
 mod in_contact;
-mod passing;
 mod proportional;
+mod skipping;
 
-use std::cell::OnceCell;
 use std::io::Read;
 use std::mem;
-use std::rc::Rc;
 
 use super::checkpoint::{Restored, RestoredRun, WayKind};
 use super::energies::Energies;
+use super::passing::PartsOfBody;
 use super::prediction::{self, Prediction};
 use super::prepared::Prepared;
 use super::record::{StepCounters, largest_ratio};
@@ -30,11 +29,10 @@ use crate::breakage::Breakage;
 use crate::contact::LastTouching;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
-use crate::lagging::Body;
 use crate::problem::Problem;
 use crate::state::State;
 use equilibrium_line::{EquilibriumLine, Event, Goal};
-use passing::Passed;
+use skipping::Passed;
 
 /// Settings of the exact path, with its stop rules. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]
@@ -175,8 +173,7 @@ pub struct ExactPath<'a> {
     /// What finds the end of the line.
     goals: Box<dyn EquilibriumLine>,
     tie_tolerance: f64,
-    /// Parts of the body whose displacements may be updated later; built when events may first be skipped.
-    body: OnceCell<Option<Rc<Body>>>,
+    parts: PartsOfBody,
     /// Reason why the run ended before its first event.
     ended: Option<Termination>,
 }
@@ -251,7 +248,7 @@ impl<'a> ExactPath<'a> {
             line,
             goals,
             tie_tolerance,
-            body: OnceCell::new(),
+            parts: PartsOfBody::default(),
             ended: None,
         }
     }
@@ -297,11 +294,14 @@ impl ExactPath<'_> {
     /// Skips events for which nobody needs the whole body; returns a breakage that cannot be applied to delayed parts, with the equilibrium
     /// before it.
     fn pass(&mut self) -> Result<Option<(Balanced, Breakage)>, Stop> {
-        let Some(body) = self.body() else {
+        if !skipping::may_skip(&self.run, self.step) {
+            return Ok(None);
+        }
+        let Some(body) = self.parts.body(&self.run) else {
             return Ok(None);
         };
         let (run, tie, step) = (&mut self.run, self.tie_tolerance, &mut self.step);
-        match passing::pass(run, &body, tie, step, &self.line)? {
+        match skipping::skip(run, &body, tie, step, &self.line)? {
             Passed::Broke(critical, breakage) => return Ok(Some((critical, breakage))),
             Passed::Line(Attempt::Balanced(line)) => self.line = line,
             Passed::Line(Attempt::Unbalanced(reason)) => {
@@ -314,19 +314,6 @@ impl ExactPath<'_> {
             true => Err(self.end(Termination::FellApart)),
             false => Ok(None),
         }
-    }
-
-    /// Parts of the body whose displacements may be updated later in the step; None where the step needs the whole body.
-    fn body(&self) -> Option<Rc<Body>> {
-        if !passing::may_pass(&self.run, self.step) {
-            return None;
-        }
-        let body = self.body.get_or_init(|| {
-            let stiffness = self.run.equations.stiffness()?;
-            Body::new(&self.run.problem, stiffness).map(Rc::new)
-        });
-        let body = body.clone();
-        body.filter(|body| passing::may_wait(&self.run, body))
     }
 
     /// Follows lines to the next event at which bonds break, and breaks them; returns the critical equilibrium and the breakage.

@@ -7,6 +7,7 @@ mod energies;
 mod equations;
 pub mod event;
 pub mod motion;
+mod passing;
 mod prediction;
 mod prepared;
 mod record;

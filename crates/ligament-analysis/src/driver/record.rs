@@ -36,6 +36,15 @@ pub struct StepCounters {
     pub largest_ratio: f64,
 }
 
+impl StepCounters {
+    /// Counts a round in which bonds break; returns the step and the round.
+    pub(super) fn next_round(&mut self, n_bonds: usize) -> [usize; 2] {
+        self.rounds += 1;
+        self.broken_in_step += n_bonds;
+        [self.step, self.rounds]
+    }
+}
+
 /// Record of an equilibrium.
 pub(super) fn step_record(
     problem: &Problem,

@@ -8,6 +8,7 @@ use std::time::Instant;
 
 use super::checkpoint::{Restored, RestoredRun, WayKind};
 use super::equations::next_to_break;
+use super::passing::{PartsOfBody, Passing, WHOLE_EVERY};
 use super::prediction::{self, Prediction};
 use super::prepared::Prepared;
 use super::record::{StepCounters, largest_ratio};
@@ -16,7 +17,7 @@ use super::start::ElasticAnswer;
 use super::way::{LoadPoint, Outcome, Rows, Stop, StopRules, Way};
 use crate::balanced::Balanced;
 use crate::breakage::Breakage;
-use crate::breaking::BreakingRule;
+use crate::breaking::{BreakingRule, Leading};
 use crate::checkpoint::CheckpointError;
 use crate::error::SetupError;
 use crate::history::{Observer, StepRecord, Termination};
@@ -151,6 +152,7 @@ pub fn restore(
             plan,
             next: counters.step,
             begun: Some((counters, balanced)),
+            parts: PartsOfBody::default(),
             ended: None,
         })
     }))
@@ -227,6 +229,7 @@ pub struct LoadSteps<'a> {
     next: usize,
     /// Equilibrium within the next load step from which a restored run goes on.
     begun: Option<(StepCounters, Balanced)>,
+    parts: PartsOfBody,
     /// Reason why the run ended before its first load step.
     ended: Option<Termination>,
 }
@@ -294,6 +297,7 @@ impl<'a> LoadSteps<'a> {
             plan,
             next: 0,
             begun: None,
+            parts: PartsOfBody::default(),
             ended,
         })
     }
@@ -308,7 +312,7 @@ impl<'a> LoadSteps<'a> {
     ) -> Result<(), Stop> {
         loop {
             let Run { problem, state, .. } = &mut self.run;
-            let mut breakage = Breakage::default();
+            let mut breakage = Some(Breakage::default());
             if !problem.begin_softening(state, &balanced) {
                 let next = self.next_to_break(&balanced);
                 counters.at_rest = next.is_empty();
@@ -318,19 +322,67 @@ impl<'a> LoadSteps<'a> {
                     return self.record(&balanced, counters, end);
                 }
                 self.show_between_breakages(&balanced, counters)?;
-                counters.rounds += 1;
-                counters.broken_in_step += next.len();
-                let at = [counters.step, counters.rounds];
-                breakage = self.run.break_bonds(&next, &balanced, at)?;
+                breakage = self.break_next(&mut counters, next, &mut balanced)?;
                 if self.run.collapsed {
                     return self.record(&balanced, counters, Some(Termination::Collapsed));
                 }
             }
             let at = [counters.step, counters.rounds];
+            let is_behind = breakage.is_none();
+            let breakage = breakage.unwrap_or_default();
             balanced = match self.run.next_equilibrium(at, &breakage) {
-                Err(Stop::End(end)) => return self.record(&balanced, counters, Some(end)),
+                Err(Stop::End(end)) => {
+                    if is_behind {
+                        balanced = self.run.equations.measured(&mut self.run.state);
+                    }
+                    return self.record(&balanced, counters, Some(end));
+                }
                 next => next?,
             };
+        }
+    }
+
+    /// Breaks the next bonds of an equilibrium; in a large body then also those of further rounds, while updates of its parts are delayed.
+    /// Returns the breakage after which an equilibrium of the whole body is due, with the equilibrium before it; None where all breakages are
+    /// solved, and `balanced` is behind the state.
+    fn break_next(
+        &mut self,
+        counters: &mut StepCounters,
+        next: Vec<u32>,
+        balanced: &mut Balanced,
+    ) -> Result<Option<Breakage>, SetupError> {
+        // Most load steps of a whole body have no round after the first.
+        let parts = (counters.rounds > 0).then(|| self.parts.body(&self.run));
+        let Some(body) = parts.flatten() else {
+            let at = counters.next_round(next.len());
+            return self.run.break_bonds(&next, balanced, at).map(Some);
+        };
+        let (problem, rule) = (self.run.problem.clone(), &self.settings.rule);
+        let leading = Leading::Next(*rule);
+        let run = &mut self.run;
+        let (mut passing, _) = Passing::begin(run, (&problem, &body), leading, balanced);
+        let mut bonds = passing.deformed(&next);
+        loop {
+            let at = counters.next_round(bonds.len());
+            let known = passing.known();
+            let breakage = passing.break_bonds(&bonds, &known, at)?;
+            let Some(leaders) = passing.follow(&breakage, at)? else {
+                *balanced = passing.before(&breakage);
+                return Ok(Some(breakage));
+            };
+            let start = Instant::now();
+            bonds = passing.next_to_break(rule, &leaders);
+            passing.run.equations.count_bond_work(start);
+            if bonds.is_empty()
+                || counters.rounds.is_multiple_of(WHOLE_EVERY)
+                || counters.rounds >= self.settings.round_limit
+                || passing.run.interruption().is_some()
+                || (passing.run)
+                    .is_seen_between_breakages(counters.step, counters.broken_in_step)?
+            {
+                passing.catch_up();
+                return Ok(None);
+            }
         }
     }
 

@@ -209,6 +209,11 @@ impl Accuracy {
         LARGEST_LEVERAGE * (given + self.stiffest * motion + self.largest_extents.force())
     }
 
+    /// The size of the body, or its largest prescribed displacement on this process where that is larger, m.
+    pub(super) fn size_or_prescribed(&self, state: &State) -> f64 {
+        self.size.max(self.largest_prescribed(state))
+    }
+
     /// Largest prescribed motion in a state, a displacement or a rotation times the size of the body, m.
     pub(super) fn largest_prescribed(&self, state: &State) -> f64 {
         let layout = self.local_stiffness.layout();

@@ -88,7 +88,7 @@ impl Measure<'_> {
     pub(super) fn beyond_size(self, state: &State) -> Option<usize> {
         let accuracy = self.accuracy;
         let largest = accuracy.largest_displacement(self.unknowns.layout(), state);
-        let limit = accuracy.size.max(accuracy.largest_prescribed(state));
+        let limit = accuracy.size_or_prescribed(state);
         // Where bonds have a negative stiffness, the signs of the pivots decide.
         if largest <= limit || self.some_negative {
             return None;

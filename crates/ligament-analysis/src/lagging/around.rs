@@ -314,6 +314,13 @@ impl<'a> Around<'a> {
         verdict.map_or(0.0, |it| it.ratio())
     }
 
+    /// Limit by which a bond breaks by the stored motions.
+    pub(super) fn limit(&self, bond: u32) -> f64 {
+        let deformation = &self.deformations[bond as usize];
+        let verdict = self.criteria.breaking(bond as usize, deformation);
+        verdict.map_or(0.0, |it| it.limit)
+    }
+
     /// Kappa of a bond with the remaining bonds; 0 where it is broken.
     fn kappa(&self, bond: u32, state: &State) -> f64 {
         if !state.intact[bond as usize] {

@@ -62,7 +62,7 @@ struct Above<'a> {
 }
 
 /// A part with the changes of its motions by its rows.
-type Changed = (usize, Vec<f64>);
+pub(super) type Changed = (usize, Vec<f64>);
 
 impl Descent<'_> {
     /// Changes of all required parts; the parent of a required part is required too.

@@ -26,7 +26,7 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::{CriteriaInState, Criterion};
 use rayon::prelude::*;
 
-use crate::breaking::{FirstToBreak, Leaders};
+use crate::breaking::{Leaders, Leading};
 use crate::problem::Problem;
 use crate::state::State;
 use crate::stiffness::Stiffness;
@@ -42,7 +42,7 @@ pub(crate) use descent::ForwardSubstituted;
 /// Relative margin by which a bound must be below the leading bonds; the rounding of a bound is smaller.
 const SURELY: f64 = 1e-6;
 
-/// Largest number of parts that are substituted together by criteria of stress.
+/// Largest number of parts that are substituted together.
 const TOGETHER: usize = 8;
 
 /// A body divided into parts that may be delayed, with their bounds.
@@ -52,6 +52,8 @@ pub(crate) struct Body {
     /// Largest ratio kappa of the bonds of each part and of its descendants, shape (n_parts), J^(-1/2); by criteria of stress also at its
     /// border, and in the bonds of each state.
     per_norm: Vec<f64>,
+    /// Largest limit of these bonds, shape (n_parts), but for bonds that never break.
+    largest_limit: Vec<f64>,
     /// Parts around the points; None without criteria of stress.
     reach: Option<Reach>,
 }
@@ -71,10 +73,27 @@ impl Body {
                 (per_norm::of_parts(&division, of_bond), None)
             }
         };
+        let limit = |bond: u32| {
+            let limits = problem.criteria.list.iter();
+            let limits = limits.map(|it| it.break_limit(bond as usize));
+            limits.filter(|it| it.is_finite()).fold(0.0, f64::max)
+        };
+        let largest_limit = match &reach {
+            Some(reach) => {
+                let bonds = 0..division.part_of_bond.len() as u32;
+                reach.largest(
+                    &division,
+                    &*problem.system,
+                    &bonds.map(limit).collect::<Vec<_>>(),
+                )
+            }
+            None => per_norm::of_parts(&division, limit),
+        };
         Some(Self {
             division,
             bounds,
             per_norm,
+            largest_limit,
             reach,
         })
     }
@@ -90,8 +109,9 @@ pub(crate) struct Lagging<'a> {
     division: &'a Division,
     bounds: &'a Bounds,
     per_norm: &'a [f64],
+    largest_limit: &'a [f64],
     problem: &'a Problem,
-    tie_tolerance: f64,
+    leading: Leading,
     /// The criteria without stresses.
     criteria: CriteriaInState<'a>,
     /// Ratios by criteria of stress; None without these.
@@ -108,15 +128,14 @@ pub(crate) struct Lagging<'a> {
 }
 
 impl<'a> Lagging<'a> {
-    /// Starts from an equilibrium state, the criteria in it and its deformations (n_bonds).
+    /// Starts from an equilibrium state, the criteria in it and its deformations (n_bonds); also returns its leading bonds.
     pub(crate) fn new(
         body: &'a Body,
-        problem: &'a Problem,
-        tie_tolerance: f64,
+        (problem, leading): (&'a Problem, Leading),
         state: &State,
         criteria: CriteriaInState<'a>,
         deformations: &[BondDeformation],
-    ) -> Self {
+    ) -> (Self, Leaders) {
         let Body {
             division, bounds, ..
         } = body;
@@ -129,8 +148,9 @@ impl<'a> Lagging<'a> {
             division,
             bounds,
             per_norm: &body.per_norm,
+            largest_limit: &body.largest_limit,
             problem,
-            tie_tolerance,
+            leading,
             criteria: problem.criteria.without_state(),
             around,
             displacement: state.displacement.clone(),
@@ -139,17 +159,31 @@ impl<'a> Lagging<'a> {
             now: vec![0.0; n_parts],
             rooms: WorkVectors::default(),
         };
-        for part in (0..n_parts).rev() {
+        let mut leaders = Leaders::new(leading);
+        let judged = |part: usize| {
+            let mut of_part = Leaders::new(leading);
+            let mut largest = 0.0_f64;
+            for &bond in division.bonds(part) {
+                let deformation = &deformations[bond as usize];
+                let (ratio, limit): (_, &dyn Fn() -> f64) = match &lagging.around {
+                    Some(around) => (around.ratio(bond), &|| around.limit(bond)),
+                    None => (lagging.ratio(bond, deformation, state), &|| {
+                        lagging.limit(bond, deformation)
+                    }),
+                };
+                largest = largest.max(ratio);
+                of_part.add(bond, ratio, limit);
+            }
+            (largest, of_part)
+        };
+        let judged: Vec<(f64, Leaders)> = (0..n_parts).into_par_iter().map(judged).collect();
+        for (part, (largest, of_part)) in judged.into_iter().enumerate().rev() {
             lagging.store_border_motions(part);
-            let bonds = division.bonds(part).iter();
-            let of_bond = |&bond: &u32| match &lagging.around {
-                Some(around) => around.ratio(bond),
-                None => lagging.ratio(bond, &deformations[bond as usize], state),
-            };
-            lagging.now[part] = bonds.map(of_bond).fold(0.0, f64::max);
+            lagging.now[part] = largest;
+            leaders.merge(of_part);
             lagging.combine_child_bounds(part);
         }
-        lagging
+        (lagging, leaders)
     }
 
     /// The criteria with the stresses of the bonds that break first.
@@ -160,13 +194,14 @@ impl<'a> Lagging<'a> {
         }
     }
 
-    /// Applies a correction after a breakage at some points; returns the bonds that break first now.
+    /// Applies a correction after a breakage at some points; returns the bonds that lead now. None, and no correction, where a point near the
+    /// breakage would move farther than `farthest`, m.
     pub(crate) fn follow(
         &mut self,
         correction: ForwardSubstituted<'_>,
         points: &[u32],
-        state: &State,
-    ) -> FirstToBreak {
+        (state, farthest): (&State, f64),
+    ) -> Option<Leaders> {
         let broken_in = self.division.parts_above(points.iter().copied());
         let mut is_asked_for: Vec<bool> = (broken_in.iter().zip(&self.division.is_wanted))
             .map(|(broken_in, wanted)| *broken_in || *wanted)
@@ -177,13 +212,18 @@ impl<'a> Lagging<'a> {
                 is_asked_for[part] = true;
             }
         }
-        let mut leaders = Leaders::new(self.tie_tolerance);
-        let mut substituted = self.substitute_all(correction, &broken_in, &is_asked_for, state);
+        let mut leaders = Leaders::new(self.leading);
+        let descent = self.descent(correction, &broken_in, &state.held);
+        let changed = descent.all(&is_asked_for);
+        if self.moves_beyond(&changed, farthest) {
+            return None;
+        }
+        let mut substituted = self.take_in_all(changed, state);
         let mut waiting = BinaryHeap::new();
         self.judge_all(&substituted, points, state, &mut leaders);
         self.wait(&substituted, &is_asked_for, &mut waiting);
         loop {
-            let mut next = self.next(&mut waiting, leaders.lowest_tied);
+            let mut next = self.next(&mut waiting, &leaders);
             if next.is_empty() {
                 next = self.behind(&leaders, &substituted);
             }
@@ -208,13 +248,30 @@ impl<'a> Lagging<'a> {
             }
             self.combine_child_bounds(part);
         }
-        leaders.first_to_break()
+        Some(leaders)
+    }
+
+    /// Whether changes move a point farther than a distance, m.
+    fn moves_beyond(&self, changed: &[descent::Changed], farthest: f64) -> bool {
+        let Division {
+            parts,
+            degree_of_freedom,
+            ..
+        } = self.division;
+        let layout = self.problem.system.layout;
+        changed.iter().any(|(part, changes)| {
+            let dofs = &degree_of_freedom[parts[*part].rows.clone()];
+            dofs.iter().zip(changes).any(|(&dof, change)| {
+                let motion = self.displacement[dof as usize] + change;
+                motion.abs() > farthest && !layout.component(dof as usize).is_rotation()
+            })
+        })
     }
 
     /// The highest parts that were not substituted of those with a point whose motion a breakage of the leading bonds depends on: cells reach
     /// beyond the part of a bond.
     fn behind(&self, leaders: &Leaders, substituted: &[usize]) -> Vec<usize> {
-        let bonds: Vec<u32> = leaders.tied().map(|it| it.0).collect();
+        let bonds: Vec<u32> = leaders.bonds().map(|it| it.0).collect();
         let points = self.problem.system.points_of_breakage(&bonds).into_iter();
         let is_behind = self.division.parts_above(points);
         let parts = (0..is_behind.len()).filter(|&part| is_behind[part]);
@@ -234,7 +291,10 @@ impl<'a> Lagging<'a> {
             scale: 0.0,
         };
         let n_parts = self.division.parts.len();
-        self.substitute_all(nothing, &vec![false; n_parts], &vec![true; n_parts], state);
+        let unbroken = vec![false; n_parts];
+        let descent = self.descent(nothing, &unbroken, &state.held);
+        let changed = descent.all(&vec![true; n_parts]);
+        self.take_in_all(changed, state);
     }
 
     fn descent<'b>(
@@ -254,16 +314,8 @@ impl<'a> Lagging<'a> {
         }
     }
 
-    /// Updates the displacements of required parts; returns these parts, each after its parent.
-    fn substitute_all(
-        &mut self,
-        correction: ForwardSubstituted<'_>,
-        broken_in: &[bool],
-        is_asked_for: &[bool],
-        state: &State,
-    ) -> Vec<usize> {
-        let descent = self.descent(correction, broken_in, &state.held);
-        let changed = descent.all(is_asked_for);
+    /// Adds the changes of parts, each after its parent; returns these parts.
+    fn take_in_all(&mut self, changed: Vec<descent::Changed>, state: &State) -> Vec<usize> {
         for (part, changes) in &changed {
             self.take_in(*part, changes, &state.held);
         }
@@ -286,19 +338,28 @@ impl<'a> Lagging<'a> {
         self.store_border_motions(part);
     }
 
-    /// The delayed parts that are substituted next: the parts with the largest bound, for criteria of stress several, because each one
-    /// changes ratios around it too. Empty where no bond that depends on one can be tied with the leading ones.
-    fn next(&self, waiting: &mut BinaryHeap<Waiting>, lowest_tied: f64) -> Vec<usize> {
+    /// The delayed parts that are substituted next: the part with the largest bound, which may leave fewer bonds that lead; several where many
+    /// bonds lead, and for criteria of stress, because each part changes ratios around it too. Empty where no bond that depends on one can lead.
+    fn next(&self, waiting: &mut BinaryHeap<Waiting>, leaders: &Leaders) -> Vec<usize> {
         let (mut next, mut later) = (Vec::new(), Vec::new());
-        while next.len() < TOGETHER
+        let at_once = match (&self.around, self.leading) {
+            (None, Leading::Tied(_)) => 1,
+            _ => TOGETHER,
+        };
+        while next.len() < at_once
             && let Some(Waiting { at_most, part }) = waiting.pop()
         {
-            if at_most * (1.0 + SURELY) < lowest_tied {
+            let surely = at_most * (1.0 + SURELY);
+            if !leaders.may_include(surely, self.largest_limit[part]) {
                 later.push(Waiting { at_most, part });
-                break;
+                if surely < leaders.lowest {
+                    break;
+                }
+                continue;
             }
             let Some(around) = &self.around else {
-                return vec![part];
+                next.push(part);
+                continue;
             };
             let Some((present, most)) = around.present(part, self.at_most[part]) else {
                 continue;
@@ -393,7 +454,7 @@ impl<'a> Lagging<'a> {
             beside,
         } = around.take_in(parts, points, &self.displacement, state);
         for (bond, ratio) in known {
-            leaders.add(bond, ratio);
+            leaders.add(bond, ratio, || around.limit(bond));
         }
         for (part, ratio) in raised {
             for part in self.division.with_ancestors(part) {
@@ -410,11 +471,11 @@ impl<'a> Lagging<'a> {
         let system = &self.problem.system;
         let deformations = system.measured(&state.intact, &self.displacement, bonds);
         let mut largest = 0.0_f64;
-        let mut leaders = Leaders::new(self.tie_tolerance);
+        let mut leaders = Leaders::new(self.leading);
         for (&bond, deformation) in bonds.iter().zip(&deformations) {
             let ratio = self.ratio(bond, deformation, state);
             largest = largest.max(ratio);
-            leaders.add(bond, ratio);
+            leaders.add(bond, ratio, || self.limit(bond, deformation));
         }
         (largest, leaders)
     }
@@ -426,6 +487,12 @@ impl<'a> Lagging<'a> {
         }
         let verdict = self.criteria.breaking(bond as usize, deformation);
         verdict.map_or(0.0, |it| it.ratio())
+    }
+
+    /// Limit by which a bond breaks.
+    fn limit(&self, bond: u32, deformation: &BondDeformation) -> f64 {
+        let verdict = self.criteria.breaking(bond as usize, deformation);
+        verdict.map_or(0.0, |it| it.limit)
     }
 
     /// Sets the bound of a part that was substituted to the largest bound of its own bonds and of its children.

@@ -1137,7 +1137,7 @@ are nearer to each other than a hundred times this, relatively, break together."
     ordering: Literal["auto", "nested-dissection", "minimum-degree"]
     """The order of elimination.
 
-- `auto`: `nested-dissection` from 10,000 points on, `minimum-degree` below.
+- `auto`: `nested-dissection` from 2,000 points on, `minimum-degree` below.
 - `nested-dissection`: Nested dissection of the graph of the matrix.
 - `minimum-degree`: Approximate minimum degree of the unknowns. Default "auto"."""
     update: Literal["auto", "incremental", "refactor"]
