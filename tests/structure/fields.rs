@@ -12,18 +12,11 @@ use crate::architecture::sources;
 const TABLE: &str = "ligament-analysis/src/result_fields.rs";
 
 /// Files below `crates` that have a name of the table for something else.
-const OTHERWISE: [(&str, &str, &str); 2] = [
-    (
-        "ligament-output/src/results/model_file.rs",
-        "horizon",
-        "the horizon of a bond",
-    ),
-    (
-        "ligament-output/src/results/stored.rs",
-        "horizon",
-        "the horizon of a bond",
-    ),
-];
+const OTHERWISE: [(&str, &str, &str); 1] = [(
+    "ligament-output/src/results/stored.rs",
+    "horizon",
+    "the horizon of a bond",
+)];
 
 /// Ends of what stands before a name where a field is written or read.
 const CALLS: [&str; 10] = [

@@ -208,7 +208,7 @@ fn bar_of_tetrahedra() -> String {
 fn a_solid_of_tetrahedra_is_split() {
     let place = Place::with(
         "title = \"Bar\"\n[mesh]\nfile = \"bar.msh\"\n[material]\nyoung = 1e9\npoisson = 0.25\n[model]\nlaw = \"bbpd\"\n\
-         [correction]\nsurface = \"patch\"\n[[support]]\ngroup = \"left\"\ndisplacement = { x = 0.0 }\n[[support]]\ngroup = \"side\"\n\
+         horizon_factor = 2.5\n[correction]\nsurface = \"patch\"\n[[support]]\ngroup = \"left\"\ndisplacement = { x = 0.0 }\n[[support]]\ngroup = \"side\"\n\
          displacement = { y = 0.0 }\n[[support]]\ngroup = \"bottom\"\ndisplacement = { z = 0.0 }\n[[load]]\ngroup = \"right\"\n\
          displacement = { x = 6e-6 }\n",
     );
