@@ -17,8 +17,8 @@ from view import SIZE, steps
 
 
 def main(folder, picture):
-    step = max(steps(folder))
-    grid = pyvista.read(steps(folder)[step])
+    step, file = list(steps(folder).items())[-1]
+    grid = pyvista.read(file)
     # A place away from any point by a part of a spacing, in a corner where nothing is symmetric.
     x0, x1, y0, y1, *_ = grid.bounds
     x, y = x0 + 0.31 * (x1 - x0), y0 + 0.23 * (y1 - y0)
@@ -38,7 +38,7 @@ def main(folder, picture):
     # The displacement of the loaded edge in the fields is that of the last row of the history.
     with open(folder / "history.csv", newline="", encoding="utf-8") as file:
         row = list(csv.DictReader(file))[-1]
-    assert int(row["step"]) == step and any(abs(it) == abs(float(row["displacement"])) for it in fields["displacement"].ravel())
+    assert row["step"] == step and any(abs(it) == abs(float(row["displacement"])) for it in fields["displacement"].ravel())
 
     image = matplotlib.image.imread(picture)[:, :, :3]
     assert image.shape[:2] == SIZE[::-1], image.shape

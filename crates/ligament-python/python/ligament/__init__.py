@@ -31,7 +31,7 @@ from ligament._errors import BodyError, CaseError, Interrupted, LigamentError, N
 from ligament._keys import Key, Keys, keys
 from ligament._modes import Modes
 from ligament._native import VERSION as __version__
-from ligament._result import CrackLine, CrackOpening, CrackSurface, Result, open, report
+from ligament._result import CrackLine, CrackOpening, CrackSurface, Result, State, open, report
 from ligament._studies import Calibration, Sweep, calibrate, modal, run, sweep
 
 if TYPE_CHECKING:
@@ -69,6 +69,7 @@ __all__ = [
     "Sections",
     "Setup",
     "SolutionError",
+    "State",
     "Sweep",
     "Weibull",
     "__version__",

@@ -10,7 +10,7 @@ import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, overload
+from typing import Any, Literal, NewType, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +23,12 @@ from ligament._modes import Modes
 from ligament._picture import Picture
 from ligament._stored import Floats, Stored, read_only, table
 
-# A step by its number, from the end (-1 is the last state) or by what happened in it, "first" (breakage or softening), "peak" or "last"; "45:120" is
-# step 45 after 120 breakages. In a motion a step is a row of the history, and a time in s means the nearest one.
-Step = int | str
+# A state with fields by its name, as `states` has them: "45" is the end of step 45, "45:120" the step after 120 breakages.
+State = NewType("State", str)
+
+# A step by its number, from the end (-1 is the last state), by what happened in it, the first breakage or softening or the largest load, or a state.
+# In a motion a step is a row of the history, and a time in s means the nearest one.
+Step = int | Literal["first", "peak", "last"] | State
 
 # Width of one of two pictures beside each other, mm.
 HALF = 100.0
@@ -207,10 +210,10 @@ class Result(Stored):
         return self._run.steps()
 
     @functools.cached_property
-    def states(self) -> list[str]:
+    def states(self) -> list[State]:
         """All states of which there are fields, in their order, as `step` takes them: ``"45"`` is the end of step 45, and ``"45:120"`` the step
         after 120 breakages (``output__during_breakage``)."""
-        return self._run.states()
+        return [State(name) for name in self._run.states()]
 
     @property
     def _rows(self) -> list[int]:
