@@ -231,31 +231,44 @@ fn a_square_is_torn_apart_alike() {
     }
 }
 
-/// The last numbers of the tables of two runs of a solid, of which one writes fields at each event.
+/// The last numbers of the tables of two runs of a solid: along the exact path one writes fields at each event, in load steps one has no parts.
 #[test]
 fn solids_break_the_same_bonds() {
-    assert_solids_alike("bond-energy", 300);
-    assert_solids_alike("bond-rankine", 100);
+    let events = [1, 0].map(|every| {
+        [
+            DISSECTION.to_owned(),
+            format!("output.fields_every={every}"),
+        ]
+    });
+    let path = |criterion: &str, bonds: usize| {
+        format!(
+            "fracture={{ control = \"event\", criterion = [{{ kind = \"{criterion}\" }}], stop = {{ bonds = {bonds} }} }}"
+        )
+    };
+    assert_solids_alike(&path("bond-energy", 300), 300, &events);
+    assert_solids_alike(&path("bond-rankine", 100), 100, &events);
+    let steps = ["solver.ordering=minimum-degree", DISSECTION]
+        .map(|ordering| [ordering.to_owned(), "output.fields_every=0".to_owned()]);
+    let rounds = "fracture={ steps = 8, bonds_per_iteration = 1, criterion = [{ kind = \"bond-energy\" }], stop = { bonds = 200 } }";
+    assert_solids_alike(rounds, 200, &steps);
 }
 
-fn assert_solids_alike(criterion: &str, bonds: usize) {
+fn assert_solids_alike(fracture: &str, bonds: usize, ways: &[[String; 2]; 2]) {
     let path = repository().join("cases/split-block/case.toml");
     let folder = TempDir::new().unwrap();
-    let [whole, passed] = [1, 0].map(|every| {
-        let settings = [
-            DISSECTION.to_owned(),
-            "solver.method=direct".to_owned(),
-            "model.horizon_factor=2.0".to_owned(),
-            "material.tensile_strength=3e6".to_owned(),
-            format!("fracture.criterion=[{{ kind = \"{criterion}\" }}]"),
-            format!("fracture.stop.bonds={bonds}"),
-            format!("output.fields_every={every}"),
+    let [whole, passed] = [0, 1].map(|way| {
+        let fixed = [
+            "solver.method=direct",
+            "model.horizon_factor=2.0",
+            "material.tensile_strength=3e6",
+            fracture,
         ];
-        let out = folder.path().join(every.to_string());
+        let settings = [&fixed.map(str::to_owned)[..], &ways[way]].concat();
+        let out = folder.path().join(way.to_string());
         run_program(&CaseFile::load(&path, &settings).unwrap(), &out);
         ["breaks.csv", "history.csv", "iterations.csv"].map(|name| Table::read(&out.join(name)))
     });
-    assert_eq!(whole[0].len(), bonds, "{criterion}");
+    assert_eq!(whole[0].len(), bonds, "{fracture}");
     for column in ["order", "step", "node_a", "node_b"] {
         assert_eq!(
             whole[0].column(column),

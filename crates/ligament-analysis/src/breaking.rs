@@ -265,7 +265,7 @@ pub(crate) enum Leading {
 
 /// A bond that may lead.
 #[derive(Debug, Clone, Copy)]
-struct Met {
+struct PossibleLeader {
     bond: u32,
     ratio: f64,
     limit: f64,
@@ -280,7 +280,7 @@ pub(crate) struct Leaders {
     /// The largest ranks of bonds beyond their limits so far, as many as break next, the largest first, and the largest scale of a tie of them.
     ranks: (Vec<f64>, f64),
     /// In the order in which they were added.
-    met: Vec<Met>,
+    candidates: Vec<PossibleLeader>,
 }
 
 impl Leaders {
@@ -293,7 +293,7 @@ impl Leaders {
                 Leading::Next(rule) => rule.near().recip(),
             },
             ranks: (Vec::new(), 0.0),
-            met: Vec::new(),
+            candidates: Vec::new(),
         }
     }
 
@@ -309,7 +309,7 @@ impl Leaders {
                 _ => {}
             }
             self.ratio = self.ratio.max(ratio);
-            self.met.push(Met { bond, ratio, limit });
+            self.candidates.push(PossibleLeader { bond, ratio, limit });
         }
     }
 
@@ -345,14 +345,14 @@ impl Leaders {
 
     /// Adds the bonds of another list.
     pub(crate) fn merge(&mut self, others: Self) {
-        for Met { bond, ratio, limit } in others.met {
+        for PossibleLeader { bond, ratio, limit } in others.candidates {
             self.add(bond, ratio, || limit);
         }
     }
 
     /// Leading bonds and their ratios, in the order in which they were added.
     pub(crate) fn bonds(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let leading = self.met.iter().filter(|it| it.ratio >= self.lowest);
+        let leading = self.candidates.iter().filter(|it| it.ratio >= self.lowest);
         leading.map(|it| (it.bond, it.ratio))
     }
 

@@ -46,7 +46,7 @@ pub(crate) fn are_disjoint(
     })
 }
 
-/// A raster of squares around a mesh, some of which are marked.
+/// Squares of a regular grid over a mesh, each marked or not.
 struct Raster {
     low: [f64; 2],
     /// Number of squares along an axis, and over a length of each axis.

@@ -11,7 +11,7 @@ use crate::serial::Sink;
 use crate::solver::SolverChoice;
 use crate::state::State;
 
-/// Equations of a run: those of its equilibria, or the bonds that explicit steps move without any.
+/// What a run solves or steps: the equations of equilibrium, or the bonds of explicit steps, which have no equations.
 pub trait Equations {
     /// Global numbers of the local bonds.
     fn numbers(&self) -> &BondNumbers;

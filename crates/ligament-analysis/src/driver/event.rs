@@ -17,8 +17,8 @@ use std::io::Read;
 use std::mem;
 
 use super::checkpoint::{Restored, RestoredRun, WayKind};
+use super::delayed_updates::PartsOfBody;
 use super::energies::Energies;
-use super::passing::PartsOfBody;
 use super::prediction::{self, Prediction};
 use super::prepared::Prepared;
 use super::record::{StepCounters, largest_ratio};
@@ -32,7 +32,7 @@ use crate::history::{Observer, StepRecord, Termination};
 use crate::problem::Problem;
 use crate::state::State;
 use equilibrium_line::{EquilibriumLine, Event, Goal};
-use skipping::Passed;
+use skipping::Skipped;
 
 /// Settings of the exact path, with its stop rules. The path ends at load factor one in any case, or with the last stage.
 #[derive(Debug, Clone, PartialEq)]
@@ -302,13 +302,13 @@ impl ExactPath<'_> {
         };
         let (run, tie, step) = (&mut self.run, self.tie_tolerance, &mut self.step);
         match skipping::skip(run, &body, tie, step, &self.line)? {
-            Passed::Broke(critical, breakage) => return Ok(Some((critical, breakage))),
-            Passed::Line(Attempt::Balanced(line)) => self.line = line,
-            Passed::Line(Attempt::Unbalanced(reason)) => {
+            Skipped::Broke(critical, breakage) => return Ok(Some((critical, breakage))),
+            Skipped::Line(Attempt::Balanced(line)) => self.line = line,
+            Skipped::Line(Attempt::Unbalanced(reason)) => {
                 let end = self.run.without_equilibrium(self.step, reason);
                 return Err(self.end(end));
             }
-            Passed::Nothing => return Ok(None),
+            Skipped::Nothing => return Ok(None),
         }
         match self.run.carries_nothing(&self.line) {
             true => Err(self.end(Termination::FellApart)),

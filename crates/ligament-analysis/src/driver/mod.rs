@@ -2,12 +2,12 @@
 
 mod breaks;
 mod checkpoint;
+mod delayed_updates;
 pub mod elastic;
 mod energies;
 mod equations;
 pub mod event;
 pub mod motion;
-mod passing;
 mod prediction;
 mod prepared;
 mod record;

@@ -591,7 +591,7 @@ impl<'a> Run<'a> {
     }
 
     /// Records an equilibrium that is known only at supported and loaded points.
-    pub(super) fn record_in_passing(
+    pub(super) fn record_observed_points(
         &mut self,
         balanced: &Balanced,
         counters: StepCounters,

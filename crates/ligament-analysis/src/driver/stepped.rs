@@ -7,8 +7,8 @@ use std::io::Read;
 use std::time::Instant;
 
 use super::checkpoint::{Restored, RestoredRun, WayKind};
+use super::delayed_updates::{DelayedUpdates, PartsOfBody, WHOLE_EVERY};
 use super::equations::next_to_break;
-use super::passing::{PartsOfBody, Passing, WHOLE_EVERY};
 use super::prediction::{self, Prediction};
 use super::prepared::Prepared;
 use super::record::{StepCounters, largest_ratio};
@@ -342,7 +342,7 @@ impl<'a> LoadSteps<'a> {
         }
     }
 
-    /// Breaks the next bonds of an equilibrium; in a large body then also those of further rounds, while updates of its parts are delayed.
+    /// Breaks the next bonds of an equilibrium, and in a large body also the bonds of further rounds, while updates of its parts are delayed.
     /// Returns the breakage after which an equilibrium of the whole body is due, with the equilibrium before it; None where all breakages are
     /// solved, and `balanced` is behind the state.
     fn break_next(
@@ -360,27 +360,27 @@ impl<'a> LoadSteps<'a> {
         let (problem, rule) = (self.run.problem.clone(), &self.settings.rule);
         let leading = Leading::Next(*rule);
         let run = &mut self.run;
-        let (mut passing, _) = Passing::begin(run, (&problem, &body), leading, balanced);
-        let mut bonds = passing.deformed(&next);
+        let (mut delayed, _) = DelayedUpdates::begin(run, (&problem, &body), leading, balanced);
+        let mut bonds = delayed.deformed(&next);
         loop {
             let at = counters.next_round(bonds.len());
-            let known = passing.known();
-            let breakage = passing.break_bonds(&bonds, &known, at)?;
-            let Some(leaders) = passing.follow(&breakage, at)? else {
-                *balanced = passing.before(&breakage);
+            let known = delayed.known();
+            let breakage = delayed.break_bonds(&bonds, &known, at)?;
+            let Some(leaders) = delayed.follow(&breakage, at)? else {
+                *balanced = delayed.before(&breakage);
                 return Ok(Some(breakage));
             };
             let start = Instant::now();
-            bonds = passing.next_to_break(rule, &leaders);
-            passing.run.equations.count_bond_work(start);
+            bonds = delayed.next_to_break(rule, &leaders);
+            delayed.run.equations.count_bond_work(start);
             if bonds.is_empty()
                 || counters.rounds.is_multiple_of(WHOLE_EVERY)
                 || counters.rounds >= self.settings.round_limit
-                || passing.run.interruption().is_some()
-                || (passing.run)
+                || delayed.run.interruption().is_some()
+                || (delayed.run)
                     .is_seen_between_breakages(counters.step, counters.broken_in_step)?
             {
-                passing.catch_up();
+                delayed.catch_up();
                 return Ok(None);
             }
         }

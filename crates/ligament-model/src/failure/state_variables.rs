@@ -383,8 +383,8 @@ impl<'a> CriteriaInState<'a> {
         worst
     }
 
-    /// The criteria at a fraction of the straight line to this motion, from another motion of the same bonds or from the unloaded body. The limits
-    /// are those of this state.
+    /// The criteria at a fraction of the straight line to this motion, from another motion of the same bonds or from the unloaded body, with the
+    /// limits of this state.
     pub fn on_line(&self, from: Option<&Self>, share: f64) -> Self {
         self.with_stresses(|place, there| {
             let there = there.scaled(share);

@@ -11,9 +11,9 @@
 //! thickness. Around a circle e turns, so that q_k,i has the part t_k t_i q/rho with the tangent t of the front at the distance rho from the axis. Faces
 //! without tractions have no part in J; tractions are among the forces on the points.
 //!
-//! The same integral of the sum of two fields has a part with both of them. With the field of a front whose only intensity is K_a = 1 as the
-//! second one ([`super::tip_field`]), its part is 2 K_a K/E' for the modes I and II and K_a K/mu for the mode III, by which each of them is found alone
-//! (Yau 1980). E' is E in plane stress and E/(1 - nu^2) in plane strain and in space.
+//! The integral of the sum of two fields contains an interaction integral, bilinear in both. With an auxiliary field whose only stress intensity factor
+//! is K_a = 1 ([`super::tip_field`]) it is 2 K_a K/E' for the modes I and II and K_a K/mu for the mode III, which gives each K separately (Yau 1980).
+//! E' is E in plane stress and E/(1 - nu^2) in plane strain and in space.
 
 use super::carried::StrainReading;
 use super::crack_front::CrackFront;
@@ -24,7 +24,7 @@ use crate::layout::Layout;
 use crate::system::BondSystem;
 use crate::tensor::dot;
 
-/// A point where the weight is not zero.
+/// A point with a nonzero weight.
 #[derive(Debug, Clone, PartialEq)]
 struct WeightedPoint {
     point: u32,
@@ -40,7 +40,7 @@ struct WeightedPoint {
     gradient: [f64; 3],
     /// Weight q over rho times the area, m; 0 for a straight front.
     widening: f64,
-    /// Second field; None for the energy release rate, whose second field is the first one.
+    /// Auxiliary field; None for the energy release rate, which takes the field of the body twice.
     auxiliary: Option<ElasticField>,
 }
 
@@ -103,7 +103,7 @@ impl DomainIntegral {
 }
 
 impl WeightedPoint {
-    /// Part of the point with two fields: (sigma^a_ij u^b_j,k + sigma^b_ij u^a_j,k - sigma^a : eps^b delta_ik) q_k,i, less the work of the
+    /// Contribution of the point with two fields: (sigma^a_ij u^b_j,k + sigma^b_ij u^a_j,k - sigma^a : eps^b delta_ik) q_k,i, less the work of the
     /// forces.
     fn mutual(&self, [a, b]: [&ElasticField; 2]) -> f64 {
         let carried =

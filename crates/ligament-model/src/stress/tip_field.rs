@@ -13,7 +13,7 @@ use super::crack_front::combined;
 use crate::material::Stiffness;
 use crate::tensor::{SymTensor, dot};
 
-/// Relative difference up to which the moduli of a material are the ones of an isotropic one.
+/// Relative difference of moduli up to which a material counts as isotropic.
 const ISOTROPIC: f64 = 1e-9;
 
 /// Quantity at the front of a crack.
@@ -41,7 +41,7 @@ impl TipQuantity {
         Self::Advance,
     ];
 
-    /// Symbol, which is its word in case files, and meaning.
+    /// Symbol, the keyword in case files, and meaning.
     pub const fn symbol(self) -> [&'static str; 2] {
         match self {
             Self::EnergyRelease => ["J", "Energy release rate, J/m^2."],

@@ -176,7 +176,7 @@ impl<'a> ResultWriter<'a> {
             largest,
             mut whole,
         } = so_far;
-        // What the run dropped after the checkpoint, it drops again.
+        // States that the run dropped after the checkpoint are dropped again; a resume with other files missing is refused before.
         let is_there = |name: &String| folder.file(name).is_file();
         fields.retain(|(_, name)| is_there(name));
         bonds.retain(|(_, name)| is_there(name));

@@ -36,17 +36,12 @@ pub(super) fn reading<const D: usize>(
     let radii = tip.radii.unwrap_or(RADII.map(|it| it * horizon));
     let spacing = cloud.spacing[cloud.nearest_point(position) as usize];
     let found = match D {
-        2 => tip_of_line(tip, radii, &setup.precracks, spacing),
+        2 => tip_of_line(tip, radii, &setup.precracks, [spacing, cloud.thickness]),
         _ => front_of_solid(tip, radii, &setup.precracks, spacing),
     };
     let (own, front) = found.map_err(refused)?;
     let front = CrackFront {
         place: in_space(cloud.local(narrowed(front.place))),
-        length: if D == 2 {
-            cloud.thickness
-        } else {
-            front.length
-        },
         ..front
     };
     let material = material_within(&front, system).map_err(refused)?;
@@ -103,12 +98,13 @@ fn horizon_at<const D: usize>(system: &BondSystem<D>, position: [f64; D]) -> f64
     largest[0]
 }
 
-/// Number of the pre-crack in the plane that ends at a tip, and its front with the place in the coordinates of the case.
+/// Number of the pre-crack in the plane that ends at a tip, and its front with the place in the coordinates of the case; from the spacing of
+/// the points there and the thickness, m.
 fn tip_of_line(
     given: &Tip,
     radii: [f64; 2],
     precracks: &[PreCrack],
-    spacing: f64,
+    [spacing, thickness]: [f64; 2],
 ) -> Result<(usize, CrackFront), String> {
     let position: [f64; 2] = narrowed(given.position);
     let lines = || precracks.iter().map(|it| it.line()).enumerate();
@@ -149,7 +145,7 @@ fn tip_of_line(
             side: if is_last { 1.0 } else { -1.0 },
             radii,
             reach: f64::INFINITY,
-            length: f64::NAN,
+            length: thickness,
         },
     ))
 }

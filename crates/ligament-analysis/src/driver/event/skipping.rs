@@ -1,8 +1,8 @@
-//! Skipped events, for which the observer does not need the whole body: [updates of its parts are delayed](super::super::passing).
+//! Skipped events, for which the observer does not need the whole body: [updates of its parts are delayed](super::super::delayed_updates).
 //!
 //! The line through the unloaded state is stored at one load factor, and quantities at critical load factors are proportional.
 
-use super::super::passing::{Passing, WHOLE_EVERY};
+use super::super::delayed_updates::{DelayedUpdates, WHOLE_EVERY};
 use crate::balanced::{Attempt, Balanced};
 use crate::breakage::Breakage;
 use crate::breaking::{FirstToBreak, Leading};
@@ -12,7 +12,7 @@ use crate::error::SetupError;
 use crate::lagging::Body;
 
 /// Result of skipping events.
-pub(super) enum Passed {
+pub(super) enum Skipped {
     /// No event was skipped, because the run may end with the next one.
     Nothing,
     /// An equilibrium of the whole body, or the reason why there is none.
@@ -33,42 +33,42 @@ pub(super) fn skip(
     tie_tolerance: f64,
     step: &mut usize,
     line: &Balanced,
-) -> Result<Passed, SetupError> {
+) -> Result<Skipped, SetupError> {
     let problem = run.problem.clone();
     let leading = Leading::Tied(tie_tolerance);
-    let (mut passing, leaders) = Passing::begin(run, (&problem, body), leading, line);
+    let (mut delayed, leaders) = DelayedUpdates::begin(run, (&problem, body), leading, line);
     let mut first = leaders.first_to_break();
     let first_step = *step;
-    while may_skip(passing.run, *step) {
-        let Some(critical) = go_to(&mut passing, &first) else {
+    while may_skip(delayed.run, *step) {
+        let Some(critical) = go_to(&mut delayed, &first) else {
             if *step == first_step {
-                passing.go_back();
-                return Ok(Passed::Nothing);
+                delayed.go_back();
+                return Ok(Skipped::Nothing);
             }
             break;
         };
-        let breakage = break_first(&mut passing, first, critical, *step)?;
-        let Some(next) = passing.follow(&breakage, [*step, 1])? else {
-            let before = passing.before(&breakage);
-            return Ok(Passed::Broke(before, breakage));
+        let breakage = break_first(&mut delayed, first, critical, *step)?;
+        let Some(next) = delayed.follow(&breakage, [*step, 1])? else {
+            let before = delayed.before(&breakage);
+            return Ok(Skipped::Broke(before, breakage));
         };
         *step += 1;
         first = next.first_to_break();
     }
-    passing.catch_up();
+    delayed.catch_up();
     let attempt = run.balance(*step, &Breakage::default())?;
-    Ok(Passed::Line(attempt))
+    Ok(Skipped::Line(attempt))
 }
 
 /// Moves to the load factor at which the first bonds break; None where the run may end before.
-fn go_to(passing: &mut Passing<'_, '_>, first: &FirstToBreak) -> Option<Balanced> {
-    let load_factor = passing.load_factor / first.ratio;
+fn go_to(delayed: &mut DelayedUpdates<'_, '_>, first: &FirstToBreak) -> Option<Balanced> {
+    let load_factor = delayed.load_factor / first.ratio;
     if !(load_factor > 0.0 && load_factor <= 1.0) {
         return None;
     }
-    passing.run.state.load_factor = load_factor;
-    passing.know(&[]);
-    let (critical, run) = (passing.known(), &passing.run);
+    delayed.run.state.load_factor = load_factor;
+    delayed.know(&[]);
+    let (critical, run) = (delayed.known(), &delayed.run);
     let (displacement, _) = run.control(&critical);
     let wanted = run.stop.displacement;
     let ends = wanted.is_some_and(|wanted| displacement >= wanted)
@@ -80,12 +80,12 @@ fn go_to(passing: &mut Passing<'_, '_>, first: &FirstToBreak) -> Option<Balanced
 
 /// Records a critical equilibrium and breaks its bonds.
 fn break_first(
-    passing: &mut Passing<'_, '_>,
+    delayed: &mut DelayedUpdates<'_, '_>,
     first: FirstToBreak,
     mut critical: Balanced,
     step: usize,
 ) -> Result<Breakage, SetupError> {
-    let run = &mut *passing.run;
+    let run = &mut *delayed.run;
     run.account(step, &Breakage::default(), &critical)?;
     critical.stored_energy = run.energies.stored_in_proportion();
     run.enter(step, 0)?;
@@ -99,9 +99,9 @@ fn break_first(
         largest_ratio: 1.0,
         ..Default::default()
     };
-    run.record_in_passing(&critical, counters)?;
-    let system = passing.run.problem.system.clone();
+    run.record_observed_points(&critical, counters)?;
+    let system = delayed.run.problem.system.clone();
     let first = first.sorted(|it| system.ends_in_file(it));
-    let bonds = passing.deformed(&first.bonds);
-    passing.break_bonds(&bonds, &critical, [step, 1])
+    let bonds = delayed.deformed(&first.bonds);
+    delayed.break_bonds(&bonds, &critical, [step, 1])
 }

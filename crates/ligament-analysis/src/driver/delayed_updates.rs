@@ -1,4 +1,4 @@
-//! Equilibria of which nobody needs the whole body: [updates of its parts are delayed](crate::lagging).
+//! Delayed updates of parts of a body, during equilibria for which nobody needs the whole body ([`crate::lagging`]).
 //!
 //! Each equilibrium needs the motions of parts whose bonds may break next, and of supported and loaded points, whose forces give
 //! reactions, work and the stored energy. After some equilibria all parts are updated, and the residual of the whole body is checked.
@@ -51,7 +51,7 @@ fn may_wait(run: &Run<'_>, body: &Body) -> bool {
 }
 
 /// A run while updates of parts of its body are delayed, on the line through the unloaded state to an equilibrium.
-pub(super) struct Passing<'a, 'p> {
+pub(super) struct DelayedUpdates<'a, 'p> {
     pub(super) run: &'a mut Run<'p>,
     problem: &'a Problem,
     body: &'a Body,
@@ -65,7 +65,7 @@ pub(super) struct Passing<'a, 'p> {
 /// A problem with the parts of its body.
 pub(super) type Divided<'a> = (&'a Problem, &'a Body);
 
-impl<'a, 'p> Passing<'a, 'p> {
+impl<'a, 'p> DelayedUpdates<'a, 'p> {
     /// Begins with an equilibrium of the whole body; also returns its leading bonds.
     pub(super) fn begin(
         run: &'a mut Run<'p>,
@@ -79,7 +79,7 @@ impl<'a, 'p> Passing<'a, 'p> {
         let (lagging, leaders) =
             Lagging::new(body, (problem, leading), state, criteria, deformations);
         run.equations.count_bond_work(start);
-        let passing = Self {
+        let delayed = Self {
             problem,
             body,
             lagging,
@@ -91,7 +91,7 @@ impl<'a, 'p> Passing<'a, 'p> {
             },
             run,
         };
-        (passing, leaders)
+        (delayed, leaders)
     }
 
     /// Moves back to the load factor of the beginning, where no bond broke since.
