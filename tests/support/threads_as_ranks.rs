@@ -8,7 +8,7 @@ use ligament_analysis::distributed_matrix::{
     Communicator, DistributedMatrix, MatrixCommunicator, Pivots, Rows, Solved, Tolerated,
 };
 use ligament_model::subdomain::Subdomain;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 /// What all threads see.
 struct Table {
@@ -35,6 +35,8 @@ struct Dense {
     own: Vec<f64>,
     couplings: Vec<[usize; 2]>,
     whole: DMatrix<f64>,
+    /// Factors of the matrix, on the first rank alone, from the first solution with it on.
+    factors: Option<LU<f64, Dyn, Dyn>>,
 }
 
 /// Work that several ranks do at the same time, each a thread; gives what each of them makes of it, in their order.
@@ -179,6 +181,7 @@ impl MatrixCommunicator for Thread {
             own: vec![0.0; own],
             couplings: rows.couplings.to_vec(),
             whole: DMatrix::zeros(0, 0),
+            factors: None,
         }))
     }
 }
@@ -218,13 +221,18 @@ impl DistributedMatrix for Dense {
         self.assert_room();
         let size = self.size();
         let rows = self.thread.exchange(&self.own).concat();
-        self.whole = DMatrix::from_row_slice(size, size, &rows);
-        let skew = (&self.whole - self.whole.transpose()).amax();
+        self.factors = None;
+        let mut off = Vec::new();
+        if self.thread.rank == 0 {
+            self.whole = DMatrix::from_row_slice(size, size, &rows);
+            let skew = (&self.whole - self.whole.transpose()).amax();
+            off.push(skew / self.whole.amax());
+        }
+        let off = self.thread.exchange(&off)[0][0];
         // Blocks beside the diagonal come from the same numbers; those on it are symmetric up to rounding.
-        let scale = self.whole.amax();
         assert!(
-            skew <= 1e-15 * scale,
-            "the rows of the ranks do not fit together: {skew:e} of {scale:e}"
+            off <= 1e-15,
+            "the rows of the ranks do not fit together: {off:e} of the largest entry"
         );
     }
 
@@ -235,8 +243,12 @@ impl DistributedMatrix for Dense {
     }
 
     fn factorise(&mut self) -> Pivots {
-        let eigenvalues = self.whole.symmetric_eigenvalues();
-        let small = 1e-12 * eigenvalues.amax();
+        let eigenvalues = match self.thread.rank {
+            0 => self.whole.symmetric_eigenvalues().as_slice().to_vec(),
+            _ => Vec::new(),
+        };
+        let eigenvalues = &self.thread.exchange(&eigenvalues)[0];
+        let small = 1e-12 * eigenvalues.iter().fold(0.0, |a: f64, it| a.max(it.abs()));
         let count = |of: &dyn Fn(f64) -> bool| eigenvalues.iter().filter(|it| of(**it)).count();
         Pivots {
             negative: count(&|it| it < -small),
@@ -247,11 +259,20 @@ impl DistributedMatrix for Dense {
 
     fn solve(&mut self, force: &[f64], _: Tolerated<'_>) -> Solved {
         let force = DVector::from_vec(self.thread.exchange(force).concat());
-        let motions = self.whole.clone().lu().solve(&force).unwrap();
+        let motions = match self.thread.rank {
+            0 => {
+                let factors = (self.factors).get_or_insert_with(|| self.whole.clone().lu());
+                let motions = factors.solve(&force);
+                motions.map_or(Vec::new(), |it| it.as_slice().to_vec())
+            }
+            _ => Vec::new(),
+        };
+        let motions = &self.thread.exchange(&motions)[0];
+        assert_eq!(motions.len(), self.size(), "the matrix is singular");
         let from = self.first * self.n_components;
         let own = from..from + self.couplings.len() * self.n_components;
         Solved {
-            motions: motions.as_slice()[own].to_vec(),
+            motions: motions[own].to_vec(),
             iterations: 1,
             decades: 12.0,
             is_definite: true,
