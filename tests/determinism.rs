@@ -17,7 +17,7 @@ use serde_json::Value;
 use verification::repository;
 
 /// Numbers of threads that are compared with one.
-const THREADS: [usize; 3] = [2, 3, 8];
+const THREADS: [usize; 2] = [2, 5];
 
 /// The disk of 4808 points.
 const DISK: &str = "mesh.file=../../meshes/disk-1.5mm.msh";
@@ -49,7 +49,7 @@ fn results(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// Runs a case of the repository on 1, 2, 3 and 8 threads. Gives the results, which are the same.
+/// Runs a case of the repository on 1, 2 and 5 threads. Gives the results, which are the same.
 fn assert_same(case: &str, settings: &[&str]) -> BTreeMap<String, Vec<u8>> {
     let place = tempfile::tempdir().unwrap();
     let start = Instant::now();
@@ -118,12 +118,12 @@ fn parts_left_behind() {
         "solver.ordering=nested-dissection",
         "output.fields_every=50",
     ];
-    let summary = assert_same_path("exact-path/case.toml", 300, &settings);
+    let summary = assert_same_path("exact-path/case.toml", 200, &settings);
     let solver = &summary["solver"];
-    assert!(solver["changes"].as_u64().unwrap() >= 300 && solver["factorisations"] == 1);
+    assert!(solver["changes"].as_u64().unwrap() >= 200 && solver["factorisations"] == 1);
     let rounds = ["fracture.bonds_per_iteration=3", "output.during_breakage=0"];
     let settings = [&settings[..2], &rounds].concat();
-    assert_same_path("brazilian-disk/case.toml", 120, &settings);
+    assert_same_path("brazilian-disk/case.toml", 80, &settings);
 }
 
 /// Products without a matrix, sums of chunks and the coarse space, along both ways.
