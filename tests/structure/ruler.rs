@@ -9,19 +9,19 @@ use super::trees;
 
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
-    ("ligament", 122_962),
-    ("ligament-analysis", 207_795),
+    ("ligament", 122_944),
+    ("ligament-analysis", 207_818),
     ("ligament-case", 80_426),
     ("ligament-cli", 60_901),
     ("ligament-linalg", 28_982),
-    ("ligament-mesh", 87_704),
-    ("ligament-model", 230_702),
-    ("ligament-output", 81_445),
+    ("ligament-mesh", 88_546),
+    ("ligament-model", 230_565),
+    ("ligament-output", 81_426),
     ("ligament-petsc", 2_978),
     ("ligament-plot", 60_372),
-    ("ligament-post", 27_808),
+    ("ligament-post", 27_761),
     ("ligament-python", 14_676),
-    ("ligament-report", 21_037),
+    ("ligament-report", 21_044),
     ("ligament-run", 31_989),
     ("ligament-study", 90_043),
     ("ligament-verify", 80_888),
@@ -30,7 +30,7 @@ const TOKENS: [(&str, usize); 16] = [
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
     ("ligament", 18),
-    ("ligament-analysis", 14),
+    ("ligament-analysis", 13),
     ("ligament-case", 2),
     ("ligament-cli", 9),
     ("ligament-linalg", 2),

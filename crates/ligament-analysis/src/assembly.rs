@@ -7,13 +7,16 @@
 use std::sync::Arc;
 
 use ligament_linalg::{Pattern, PatternError, SymmetricMatrix};
+use ligament_model::parallel;
 use ligament_model::{Bonds, UnbrokenBonds};
-use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
 
 /// Number of points whose columns are one parallel task.
 const TASK: usize = 1024;
+
+/// Number of points whose columns one parallel task fills.
+const FILLED: usize = 64;
 
 /// Sparsity pattern of the matrix (upper triangle) for some unknowns, with all bonds; breakages only remove couplings.
 pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, PatternError> {
@@ -24,11 +27,7 @@ pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, Patte
         lower.into_iter().flat_map(of_point)
     };
     let n_points = system.n_points();
-    let n_lower: Vec<usize> = (0..n_points)
-        .into_par_iter()
-        .with_min_len(TASK)
-        .map(|point| lower_rows(point).count())
-        .collect();
+    let n_lower = parallel::values(n_points, 0, |point| lower_rows(point).count());
     let mut column_starts = vec![0];
     let mut n_entries = 0;
     // Index of the first entry of each task.
@@ -48,7 +47,7 @@ pub fn pattern(system: &dyn Bonds, unknowns: &Unknowns) -> Result<Pattern, Patte
     let slots: Vec<&mut [usize]> = (tasks.iter().zip(ends))
         .map(|(start, end)| rest.split_off_mut(..end - start).unwrap_or_default())
         .collect();
-    slots.into_par_iter().enumerate().for_each(|(task, slots)| {
+    parallel::for_each(slots.into_iter().enumerate(), |(task, slots)| {
         let mut slots = slots.iter_mut();
         for point in TASK * task..(TASK * (task + 1)).min(n_points) {
             let lower: Vec<usize> = lower_rows(point).collect();
@@ -78,10 +77,11 @@ pub fn assemble(
     let coupled = &system.coupled_points;
     let n_components = unknowns.layout().components.len();
     let mut matrix = SymmetricMatrix::zero(pattern.clone());
-    columns_of_points(&mut matrix.values, pattern, unknowns, system.n_points())
-        .into_par_iter()
-        .enumerate()
-        .for_each(|(point, values)| {
+    let n_points = system.n_points();
+    let mut columns = columns_of_points(&mut matrix.values, pattern, unknowns, n_points);
+    let tasks = columns.chunks_mut(FILLED).enumerate();
+    parallel::for_each(tasks, |(task, columns)| {
+        for (point, values) in (task * FILLED..).zip(columns) {
             let (layout, restraints) = (unknowns.layout(), unknowns.restraints());
             let lower = restraints.lower_points(layout, coupled, point);
             let mut blocks = vec![0.0; (lower.len() + 1) * n_components * n_components];
@@ -96,7 +96,8 @@ pub fn assemble(
             columns.fill(&lower, |place, r, c| {
                 blocks[(place * n_components + r) * n_components + c]
             });
-        });
+        }
+    });
     matrix
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use ligament_model::communicator::Wire;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{CriteriaInState, Verdict};
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use crate::bond_numbers::BondNumbers;
 
@@ -240,18 +240,16 @@ fn judge<T: Send>(
     start: impl Fn() -> T + Sync,
     gather: impl Fn(&mut T, u32, Verdict) + Sync,
 ) -> Vec<T> {
-    (deformations.par_chunks(TASK).zip(intact.par_chunks(TASK)))
-        .enumerate()
-        .map(|(task, (deformations, intact))| {
-            let mut gathered = start();
-            for ((bond, deformation), intact) in (task * TASK..).zip(deformations).zip(intact) {
-                if *intact && let Some(verdict) = criteria.breaking(bond, deformation) {
-                    gather(&mut gathered, bond as u32, verdict);
-                }
+    let tasks = deformations.chunks(TASK).zip(intact.chunks(TASK));
+    parallel::map(tasks.enumerate(), |(task, (deformations, intact))| {
+        let mut gathered = start();
+        for ((bond, deformation), intact) in (task * TASK..).zip(deformations).zip(intact) {
+            if *intact && let Some(verdict) = criteria.breaking(bond, deformation) {
+                gather(&mut gathered, bond as u32, verdict);
             }
-            gathered
-        })
-        .collect()
+        }
+        gathered
+    })
 }
 
 /// Bonds that are sought before a breakage, by their ratios of measure to limit.

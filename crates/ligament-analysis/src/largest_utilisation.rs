@@ -1,6 +1,6 @@
 //! Largest utilisations of the bonds over a run.
 
-use rayon::prelude::*;
+use ligament_model::parallel;
 use serde::{Deserialize, Serialize};
 
 use crate::history::View;
@@ -47,8 +47,8 @@ impl LargestUtilisations {
     pub fn update(&mut self, step: usize, view: &View<'_>) {
         let (criteria, intact) = (view.criteria, &view.state.intact);
         let deformations = &view.balanced.deformations;
-        let parts = self.of_bonds.par_chunks_mut(TASK).enumerate();
-        parts.for_each(|(part, largest)| {
+        let parts = self.of_bonds.chunks_mut(TASK).enumerate();
+        parallel::for_each(parts, |(part, largest)| {
             let bonds = part * TASK..part * TASK + largest.len();
             let (intact, deformations) = (&intact[bonds.clone()], &deformations[bonds.clone()]);
             for place in 0..criteria.criteria().list.len() {

@@ -11,7 +11,7 @@ use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::failure::{
     AfterLimit, Criteria, CriteriaInState, Criterion, Softened, StateVariables, Weakened,
 };
-use rayon::prelude::*;
+use ligament_model::parallel::{self, CHUNK};
 
 use crate::bond_numbers::BondNumbers;
 use crate::checkpoint::CheckpointError;
@@ -143,20 +143,25 @@ impl Softening {
                 continue;
             }
             let after = criteria.after(place);
-            trial.par_iter_mut().enumerate().for_each(|(bond, trial)| {
-                let utilisation = criteria.utilisation_by(place, bond, &deformations[bond]);
-                let floor = if is_one_way { *trial } else { largest[bond] };
-                if intact[bond] {
-                    let extreme = after.extreme(bond, utilisation);
-                    *trial = extreme.map_or(floor, |it| floor.max(it));
+            parallel::for_each(trial.chunks_mut(CHUNK).enumerate(), |(chunk, trial)| {
+                for (bond, trial) in (chunk * CHUNK..).zip(trial) {
+                    let utilisation = criteria.utilisation_by(place, bond, &deformations[bond]);
+                    let floor = if is_one_way { *trial } else { largest[bond] };
+                    if intact[bond] {
+                        let extreme = after.extreme(bond, utilisation);
+                        *trial = extreme.map_or(floor, |it| floor.max(it));
+                    }
                 }
             });
         }
         let trial = &self.trial;
-        (self.remaining.par_iter_mut().enumerate()).for_each(|(bond, remaining)| {
-            if intact[bond] {
-                let is_open = deformations[bond].stretch() >= 0.0;
-                *remaining = remaining_of(criteria, trial, bond, is_open);
+        let chunks = self.remaining.chunks_mut(CHUNK).enumerate();
+        parallel::for_each(chunks, |(chunk, remaining)| {
+            for (bond, remaining) in (chunk * CHUNK..).zip(remaining) {
+                if intact[bond] {
+                    let is_open = deformations[bond].stretch() >= 0.0;
+                    *remaining = remaining_of(criteria, trial, bond, is_open);
+                }
             }
         });
     }

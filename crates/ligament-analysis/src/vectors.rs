@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use ligament_model::parallel;
 use ligament_model::subdomain::Subdomain;
-use rayon::prelude::*;
 
 /// Number of entries summed by one thread at a time.
 pub(crate) const CHUNK: usize = 4096;
@@ -29,27 +29,39 @@ pub(crate) fn dot_of_all(subdomain: &Subdomain, one: &[f64], other: &[f64]) -> f
 
 /// Scalar product of two arrays of the same shape, by chunks on all threads.
 pub(crate) fn dot_of_chunks(one: &[f64], other: &[f64]) -> f64 {
-    let chunks = one.par_chunks(CHUNK).zip(other.par_chunks(CHUNK));
-    let sums: Vec<f64> = chunks.map(|(one, other)| dot(one, other)).collect();
-    sums.iter().sum()
+    sum_of_chunks(one.len(), |it| dot(&one[it.clone()], &other[it]))
 }
 
 /// Sum of w_i a_i^2 over an array a with weights w of the same shape, by chunks on all threads.
 pub(crate) fn weighted_square(weights: &[f64], values: &[f64]) -> f64 {
-    let chunks = weights.par_chunks(CHUNK).zip(values.par_chunks(CHUNK));
-    let of_chunk = |(weights, values): (&[f64], &[f64])| -> f64 {
-        let pairs = weights.iter().zip(values);
+    sum_of_chunks(weights.len(), |it| {
+        let pairs = weights[it.clone()].iter().zip(&values[it]);
         pairs.map(|(weight, value)| weight * value * value).sum()
-    };
-    let sums: Vec<f64> = chunks.map(of_chunk).collect();
-    sums.iter().sum()
+    })
 }
 
 /// Sum of the values of a function for ranges of n indices, by chunks on all threads.
 pub(crate) fn sum_of_chunks(n: usize, of: impl Fn(Range<usize>) -> f64 + Sync) -> f64 {
-    let chunks = (0..n.div_ceil(CHUNK)).into_par_iter();
-    let sums: Vec<f64> = chunks
-        .map(|chunk| of(chunk * CHUNK..n.min((chunk + 1) * CHUNK)))
-        .collect();
+    let firsts = (0..n).step_by(CHUNK);
+    let sums: Vec<f64> = parallel::map(firsts, |first| of(first..n.min(first + CHUNK)));
     sums.iter().sum()
+}
+
+/// Turns a direction into `conditioned` plus its share times the direction.
+pub(crate) fn turn(way: &mut [f64], share: f64, conditioned: &[f64]) {
+    let chunks = way.chunks_mut(CHUNK).zip(conditioned.chunks(CHUNK));
+    parallel::for_each(chunks, |(way, conditioned)| {
+        for (way, value) in way.iter_mut().zip(conditioned) {
+            *way = value + share * *way;
+        }
+    });
+}
+
+/// Adds a multiple of an array to another.
+pub(crate) fn add(factor: f64, of: &[f64], to: &mut [f64]) {
+    parallel::for_each(to.chunks_mut(CHUNK).zip(of.chunks(CHUNK)), |(to, of)| {
+        for (sum, value) in to.iter_mut().zip(of) {
+            *sum += factor * value;
+        }
+    });
 }

@@ -3,6 +3,7 @@
 //! Mesh generators number nodes in an order in which neighbours are far apart in memory. Loops over points and their neighbours then wait
 //! for memory; along a Hilbert curve neighbours are still in the cache.
 
+use crate::parallel;
 use rayon::prelude::*;
 
 /// Number of bits of the position of a point on the curve.
@@ -25,16 +26,13 @@ pub fn along_hilbert_curve<const D: usize>(positions: &[[f64; D]]) -> Vec<u32> {
     let sides = lower.iter().zip(&upper).map(|(low, high)| high - low);
     let side = sides.fold(0.0, f64::max);
     let scale = ((1_u64 << steps::<D>()) - 1) as f64 / side.max(f64::MIN_POSITIVE);
-    let mut keys: Vec<(u64, u32)> = positions
-        .par_iter()
-        .enumerate()
-        .map(|(point, p)| {
-            let cell = std::array::from_fn(|axis| ((p[axis] - lower[axis]) * scale) as u64);
-            (hilbert_index::<D>(cell), point as u32)
-        })
-        .collect();
+    let mut keys = parallel::values(positions.len(), (0, 0), |point| {
+        let place = |axis| (positions[point][axis] - lower[axis]) * scale;
+        let cell = std::array::from_fn(|axis| place(axis) as u64);
+        (hilbert_index::<D>(cell), point as u32)
+    });
     keys.par_sort_unstable();
-    keys.into_par_iter().map(|(_, point)| point).collect()
+    keys.into_iter().map(|(_, point)| point).collect()
 }
 
 /// Index on the Hilbert curve of a cell of a grid of 2^steps cells along each axis.

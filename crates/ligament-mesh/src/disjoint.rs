@@ -4,13 +4,13 @@
 //! far from the mesh. The border of an overlap would have an outer edge with another cell on its inner side: there is no overlap if each
 //! outer edge is parted from the triangles of all other cells.
 
-use rayon::prelude::*;
 use robust::{Coord, orient2d};
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use crate::cell::Cell;
 use crate::overlap::box_around;
+use crate::parallel;
 
 /// Whether the outer edges, each with the cell on its left, prove that no cells overlap.
 pub(crate) fn are_disjoint(
@@ -31,7 +31,8 @@ pub(crate) fn are_disjoint(
     let mut raster = Raster::new(box_around(positions.iter().copied()), cells.len());
     raster.mark(boxes);
     let tree = RTree::bulk_load(edges);
-    cells.par_iter().enumerate().all(|(number, cell)| {
+    let is_disjoint = |number: usize| {
+        let cell = &cells[number];
         let triangles = || cell.triangles().map(|it| it.map(at));
         let is_counter_clockwise = triangles().all(|[a, b, c]| side([a, b], c) > 0.0);
         let [low, high] = box_around(cell.corners().iter().map(|&node| at(node)));
@@ -43,7 +44,9 @@ pub(crate) fn are_disjoint(
             })
         };
         is_counter_clockwise && (!raster.is_marked([low, high]) || is_alone())
-    })
+    };
+    let of_ranges = parallel::of_ranges(cells.len(), |mut it| it.all(is_disjoint));
+    !of_ranges.contains(&false)
 }
 
 /// Squares of a regular grid over a mesh, each marked or not.

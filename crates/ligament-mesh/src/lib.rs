@@ -34,6 +34,7 @@ mod interpolation;
 mod mesh;
 mod numbering;
 mod overlap;
+pub mod parallel;
 mod portion;
 mod remark;
 mod solid;

@@ -109,8 +109,8 @@ impl Numbering {
     /// Bonds in the order of their ends in the file, shape (n_bonds); `None` where that is the order of the bonds.
     pub fn bonds_in_file(&self, ends: &[[u32; 2]]) -> Option<Vec<u32>> {
         self.0.as_ref()?;
-        let in_file = ends.par_iter().map(|ends| self.ends_in_file(*ends));
-        let mut bonds: Vec<([u32; 2], u32)> = (in_file.zip(0..ends.len() as u32)).collect();
+        let in_file = ends.iter().map(|ends| self.ends_in_file(*ends));
+        let mut bonds: Vec<([u32; 2], u32)> = in_file.zip(0..).collect();
         bonds.par_sort_unstable();
         Some(bonds.into_iter().map(|(_, bond)| bond).collect())
     }

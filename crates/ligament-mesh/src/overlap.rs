@@ -1,12 +1,12 @@
 //! Cells that overlap without a common edge or face, such as a coarse mesh over a fine one.
 
-use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use crate::cell::MeshCell;
 use crate::curve::along_hilbert_curve;
 use crate::interpolation::barycentric;
+use crate::parallel;
 
 /// Depth of a position within a triangle or tetrahedron, relative to the height over each side, beyond which the position lies inside. In
 /// valid cells that only touch, rounded coordinates or bent faces give less.
@@ -36,7 +36,8 @@ where
         GeomWithData::new(Rectangle::from_corners(low, high), run)
     });
     let tree = RTree::bulk_load(runs.collect());
-    cells.par_iter().enumerate().find_map_first(|(cell, it)| {
+    let covered = parallel::flat_map(cells.len(), |cell| {
+        let it = &cells[cell];
         let corners = it.corners();
         let [low, high] = box_around(corners.iter().map(|&node| at(node)));
         let near = tree.locate_in_envelope_intersecting(AABB::from_corners(low, high));
@@ -49,7 +50,8 @@ where
         });
         let other = covered.map(|(_, other)| *other).min()?;
         Some([cell as u32, other])
-    })
+    });
+    covered.first().copied()
 }
 
 /// Lowest and highest corner of the box around positions.

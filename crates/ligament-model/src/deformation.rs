@@ -7,9 +7,8 @@ use std::fmt;
 use std::ops::Deref;
 use std::sync::{Arc, Mutex};
 
-use rayon::prelude::*;
-
 use crate::element::bond_deformation::BondDeformation;
+use crate::parallel::{self, CHUNK};
 use crate::tensor::{minus, norm};
 
 /// Deformation of a bond in space between the points A and B, with the unit vector n from A to B and the projection P = I - n n^T.
@@ -136,7 +135,7 @@ impl Deformation for SpaceDeformation {
         let mut in_space = room.with_arbitrary_values(n_bonds, |it| &mut it.in_space);
         write(&mut in_space);
         let mut measured = room.with_arbitrary_values(n_bonds, |it| &mut it.measured);
-        (measured.par_iter_mut().zip(&in_space)).for_each(|(to, from)| *to = from.measured());
+        fill(&mut measured, &in_space, |from| from.measured());
         Deformations {
             measured,
             in_space,
@@ -280,17 +279,28 @@ impl Deformations {
     }
 }
 
+/// Fills an array with the values of a function of another of the same shape.
+fn fill<T: Send, F: Sync>(all: &mut [T], of: &[F], value: impl Fn(&F) -> T + Sync) {
+    parallel::for_each(all.chunks_mut(CHUNK).zip(of.chunks(CHUNK)), |(to, from)| {
+        (to.iter_mut().zip(from)).for_each(|(to, from)| *to = value(from));
+    });
+}
+
 fn scaled<B: Deformation>(all: &Deformations, factor: f64) -> Deformations {
     B::written(&all.room, all.len(), |to| {
-        (to.par_iter_mut().zip(B::of_bonds(all))).for_each(|(to, from)| *to = from.scaled(factor));
+        fill(to, B::of_bonds(all), |from| from.scaled(factor));
     })
 }
 
 fn ahead<B: Deformation>(all: &Deformations, slopes: &Deformations, by: f64) -> Deformations {
-    let both = B::of_bonds(all).par_iter().zip(B::of_bonds(slopes));
+    let (values, slopes) = (B::of_bonds(all), B::of_bonds(slopes));
     B::written(&all.room, all.len(), |to| {
-        (to.par_iter_mut().zip(both))
-            .for_each(|(to, (value, slope))| *to = value.less(&slope.scaled(-by)));
+        let tasks = values.chunks(CHUNK).zip(slopes.chunks(CHUNK));
+        parallel::for_each(to.chunks_mut(CHUNK).zip(tasks), |(to, (values, slopes))| {
+            for (to, (value, slope)) in to.iter_mut().zip(values.iter().zip(slopes)) {
+                *to = value.less(&slope.scaled(-by));
+            }
+        });
     })
 }
 

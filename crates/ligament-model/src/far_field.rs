@@ -16,6 +16,7 @@ use crate::bonds::Incidence;
 use crate::cloud::PointCloud;
 use crate::correction::patch::gradients;
 use crate::material::{Stiffness, stress};
+use crate::parallel;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::topology::CoupledPoints;
 
@@ -58,7 +59,7 @@ impl<const D: usize> FarField<D> {
         coupled: &CoupledPoints,
     ) -> Self {
         let edges = |it: &Simplex<C>| it.cell.edges().collect::<Vec<_>>();
-        let mut ends: Vec<[u32; 2]> = simplices.par_iter().flat_map_iter(edges).collect();
+        let mut ends: Vec<[u32; 2]> = simplices.iter().flat_map(edges).collect();
         ends.par_sort_unstable();
         ends.dedup();
         let mut blocks = vec![[[0.0; D]; D]; ends.len()];
@@ -106,16 +107,18 @@ impl<const D: usize> FarField<D> {
         })
     }
 
-    /// Force K u of the elements at a point, N, for motions with M components a point, the displacements first.
+    /// Force K u of the elements at each point, N, for motions with M components a point, the displacements first.
     #[inline]
-    pub(crate) fn force<const M: usize>(&self, motions: &[f64], point: u32) -> [f64; D] {
-        let own = displacement::<D>(motions, M, point);
-        let mut force = [0.0; D];
-        for (other, block) in self.couplings_of(point) {
-            let moved = minus(displacement(motions, M, other), own);
-            (0..D).for_each(|axis| force[axis] += dot(block[axis], moved));
-        }
-        force
+    pub(crate) fn forces<const M: usize>(&self, n_points: usize, motions: &[f64]) -> Vec<[f64; D]> {
+        parallel::values(n_points, [0.0; D], |point| {
+            let own = displacement::<D>(motions, M, point as u32);
+            let mut force = [0.0; D];
+            for (other, block) in self.couplings_of(point as u32) {
+                let moved = minus(displacement(motions, M, other), own);
+                (0..D).for_each(|axis| force[axis] += dot(block[axis], moved));
+            }
+            force
+        })
     }
 
     /// Volume of the elements at a point, m^3: the corners of an element have equal parts.

@@ -4,8 +4,6 @@
 
 use std::ops::Deref;
 
-use rayon::prelude::*;
-
 use crate::bonds::BondSet;
 use crate::change::ChangedElements;
 use crate::contact::{ClosedPair, ContactPair, Overlap};
@@ -15,6 +13,7 @@ use crate::failure::hooke::{Moduli, StressAcross};
 use crate::failure::starting::Starting;
 use crate::ghosts::Ghosts;
 use crate::layout::Component;
+use crate::parallel;
 use crate::product::NearLimits;
 use crate::rigid_motions::FreeMotion;
 use crate::stress::carried::StrainReading;
@@ -331,8 +330,8 @@ impl PointStiffness {
             }
             [force, moment]
         };
-        let points = (0..bonds.incidence.n_points() as u32).into_par_iter();
-        let mut of_points: Vec<[f64; 2]> = points.map(of_point).collect();
+        let n_points = bonds.incidence.n_points();
+        let mut of_points = parallel::values(n_points, [0.0; 2], |point| of_point(point as u32));
         Ghosts::all(subdomain).update(of_points.as_flattened_mut(), 2);
         let of_points = of_points.into_iter();
         of_points

@@ -76,7 +76,7 @@ pub use grid::{BodyGrid, Canvas, PointTags, Tags, box_corners, in_space, raised}
 pub use horizon::Horizons;
 pub use interface::Bonds;
 pub use law::BondStiffness;
-pub use ligament_mesh::Numbering;
+pub use ligament_mesh::{Numbering, parallel};
 pub use mass::LumpedMass;
 pub use material::{Anisotropic, Elasticity, Expansion, Isotropic, Material, Orthotropic, Plane};
 pub use scatter::Scatter;

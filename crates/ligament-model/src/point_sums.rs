@@ -6,9 +6,8 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use crate::bonds::Incidence;
+use crate::parallel;
 use crate::subdomain::Share;
 use crate::vector_registers::clear_upper_halves;
 
@@ -102,7 +101,7 @@ impl Reach<'_> {
             clear_upper_halves();
             self.task(share, forces, points, sums)
         };
-        tasks.into_par_iter().map(run).collect()
+        parallel::map(tasks, run)
     }
 
     /// First points of the tasks, and the number of points: about as many bonds begin in each task.

@@ -3,13 +3,12 @@
 //! Iterative solvers need the product of the stiffness with a vector several times per bond breakage; explicit motion needs it in every time
 //! step, with the bonds that come near their limits.
 
-use rayon::prelude::*;
-
 use crate::deformation::Deformation;
 use crate::element::Element;
 use crate::failure::{Criteria, Measure};
 use crate::point_sums::BondForces;
 use crate::subdomain::Whole;
+use crate::sweep::add_forces;
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::thermal::ThermalStrain;
 
@@ -143,21 +142,13 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let (of_points, _) = forces.as_chunks_mut::<M>();
         let near = self.reach().sum(Whole, &linear, of_points).concat();
         if let Some(far) = &self.system.far {
-            let each = of_points.par_iter_mut().enumerate();
-            each.for_each(|(point, sum)| {
-                let force = far.force::<M>(motions, point as u32);
-                (0..D).for_each(|axis| sum[axis] += force[axis]);
-            });
+            add_forces(&far.forces::<M>(of_points.len(), motions), of_points);
         }
         if let Some(terms) = &self.system.volumetric {
             let shares = terms.shares(bonds);
             let changes = terms.volume_changes((motions, M), ThermalStrain::NONE);
             let pressures = terms.pressures(&shares, &terms.dilatations(&shares, &changes));
-            let each = of_points.par_iter_mut().enumerate();
-            each.for_each(|(point, sum)| {
-                let force = terms.force(point as u32, &pressures);
-                (0..D).for_each(|axis| sum[axis] += force[axis]);
-            });
+            add_forces(&terms.forces(of_points.len(), &pressures), of_points);
         }
         near
     }

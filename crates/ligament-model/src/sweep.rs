@@ -2,11 +2,10 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use crate::deformation::{Deformation, Deformations};
 use crate::element::Element;
 use crate::layout::Layout;
+use crate::parallel;
 use crate::point_sums::{BondForces, GROUPS, PointSum, group};
 use crate::subdomain::{Share, Subdomain, Whole};
 use crate::surface::Vector;
@@ -80,9 +79,8 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
                 }
             }
         };
-        // Written in place: a closure that returns a deformation to be collected would be called bond by bond, which costs more.
         let of_bonds = Deformation::written(&self.system.room, ends.len(), |all| {
-            all.par_chunks_mut(TASK).enumerate().for_each(of_task);
+            parallel::for_each(all.chunks_mut(TASK).enumerate(), of_task);
         });
         let of_bonds = match self.system.far {
             Some(_) => of_bonds.with_motions(displacement.to_vec()),
@@ -119,7 +117,7 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
             let stored = energies[group].iter().fold(0.0, |sum, energy| sum + energy);
             [thermal, stored, of_expansion]
         };
-        let of_groups: Vec<[f64; 3]> = (0..GROUPS).into_par_iter().map(of_group).collect();
+        let of_groups = parallel::map(0..GROUPS, of_group);
         let mut energies: [f64; 3] =
             std::array::from_fn(|place| of_groups.iter().map(|it| it[place]).sum());
         energies[1] += self.add_far_field(deformations.motions(), &mut at_points);
@@ -163,18 +161,13 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
         let Some(far) = &self.system.far else {
             return 0.0;
         };
-        let each = sums.par_iter_mut().zip(motions.par_chunks(M)).enumerate();
-        let energies: Vec<f64> = each
-            .map(|(point, (sum, moved))| {
-                let force = far.force::<M>(motions, point as u32);
-                let mut end_force = [0.0; M];
-                end_force[..D].copy_from_slice(&force);
-                sum.add(end_force);
-                let work = (0..D).map(|axis| force[axis] * (moved[axis] - motions[axis]));
-                0.5 * work.sum::<f64>()
-            })
-            .collect();
-        energies.iter().sum()
+        let forces = far.forces::<M>(sums.len(), motions);
+        add_forces(&forces, sums);
+        let energy = |(force, moved): (&[f64; D], &[f64])| {
+            let work = (0..D).map(|axis| force[axis] * (moved[axis] - motions[axis]));
+            0.5 * work.sum::<f64>()
+        };
+        forces.iter().zip(motions.chunks(M)).map(energy).sum()
     }
 
     /// Work -force . thermal deformation, J, and energy of the thermal deformation, J, of a group of bonds at load factor 1.
@@ -204,6 +197,18 @@ impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
     }
 }
 
+/// Adds forces, shape (n_points, D), to sums of as many points.
+pub(crate) fn add_forces<const D: usize, const M: usize>(
+    forces: &[[f64; D]],
+    sums: &mut [impl PointSum<M>],
+) {
+    for (sum, force) in sums.iter_mut().zip(forces) {
+        let mut of_point = [0.0; M];
+        of_point[..D].copy_from_slice(force);
+        sum.add(of_point);
+    }
+}
+
 /// Adds the forces of cells with a volumetric stiffness at all points, from the changes of their volumes (n_cells, m^3); returns their work
 /// -force . thermal dilatation, their energy and that of the thermal dilatation at load factor 1, J.
 fn add_volumetric<const D: usize, const M: usize>(
@@ -215,11 +220,7 @@ fn add_volumetric<const D: usize, const M: usize>(
     let shares = terms.shares(bonds);
     let dilatations = terms.dilatations(&shares, changes);
     let pressures = terms.pressures(&shares, &dilatations);
-    (sums.par_iter_mut().enumerate()).for_each(|(point, sum)| {
-        let mut force = [0.0; M];
-        force[..D].copy_from_slice(&terms.force(point as u32, &pressures));
-        sum.add(force);
-    });
+    add_forces(&terms.forces(sums.len(), &pressures), sums);
     let stored = 0.5 * terms.work(&dilatations, &dilatations);
     if expansion.is_none() {
         return [0.0, stored, 0.0];

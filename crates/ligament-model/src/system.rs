@@ -10,7 +10,6 @@ mod rigid;
 use std::sync::{Arc, OnceLock};
 
 use ligament_mesh::MeshCell;
-use rayon::prelude::*;
 
 use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
@@ -91,19 +90,17 @@ impl<const D: usize> BondSystem<D> {
             strain,
             ..
         } = stiffness;
-        (
-            (&*bonds.ends, &bonds.length, domain_factor).into_par_iter(),
-            (&mut weight, &mut axial, &mut shear, &mut rotational).into_par_iter(),
-        )
-            .into_par_iter()
-            .for_each(|((ends, l, omega), (weight, axial, shear, rotational))| {
-                let [a, b] = ends.map(|end| cloud.volumes[end as usize]);
-                *weight *= omega;
-                let factor = *weight * a * b;
-                *axial = factor * *axial * l;
-                *shear = factor * *shear * l;
-                *rotational *= factor;
-            });
+        let rigidities = (axial.iter_mut().zip(&mut shear)).zip(&mut rotational);
+        let of_bonds = bonds.ends.iter().zip(&bonds.length).zip(domain_factor);
+        let all = of_bonds.zip(weight.iter_mut().zip(rigidities));
+        for (((ends, l), omega), (weight, ((axial, shear), rotational))) in all {
+            let [a, b] = ends.map(|end| cloud.volumes[end as usize]);
+            *weight *= omega;
+            let factor = *weight * a * b;
+            *axial = factor * *axial * l;
+            *shear = factor * *shear * l;
+            *rotational *= factor;
+        }
         let of_bond = |(bond, density): (usize, StrainStiffness)| {
             let [a, b] = bonds.ends[bond].map(|end| cloud.volumes[end as usize]);
             density.scaled(weight[bond] * a * b * bonds.length[bond])

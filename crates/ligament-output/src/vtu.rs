@@ -12,7 +12,7 @@ use std::io::{self, Write};
 use std::path::Path;
 
 use ligament_mesh::SolidCell;
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use crate::single_file::replace_file_with;
 use crate::xml::escape_attribute;
@@ -244,7 +244,7 @@ impl UnstructuredGrid<'_> {
         ] {
             out.write_all(opening(element, fields).as_bytes())?;
             for fields in fields.chunks(together) {
-                let arrays: Vec<Array> = fields.par_iter().map(Field::array).collect();
+                let arrays: Vec<Array> = parallel::map(fields, Field::array);
                 arrays.iter().try_for_each(|it| it.write(out))?;
             }
             writeln!(out, "</{element}>")?;

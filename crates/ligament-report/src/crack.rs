@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 
+use ligament_model::parallel;
 use ligament_output::Error;
 use ligament_output::results::StoredState;
 use ligament_output::results::cracks::StoredCracks;
 use ligament_output::results::solid_cracks::SolidCracks;
-use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::body::{Body, places};
@@ -86,7 +86,7 @@ fn triangles(cracks: &StoredCracks, states: &[StoredState]) -> Vec<([u32; 3], Ve
         let sides = cracks.sides(*state).into_iter().enumerate();
         sides.filter(|it| it.1 != [0; 4]).collect()
     };
-    let of_steps: Vec<BTreeMap<usize, [u8; 4]>> = states.par_iter().map(of_state).collect();
+    let of_steps: Vec<BTreeMap<usize, [u8; 4]>> = parallel::map(states, of_state);
     let cut: BTreeSet<usize> = of_steps.iter().flat_map(BTreeMap::keys).copied().collect();
     let mut triangles = Vec::new();
     for number in cut {
@@ -120,9 +120,9 @@ fn solid_cracks(
     body: &Body,
     texts: &mut ColumnTexts,
 ) -> Value {
-    let of_steps: Vec<(Vec<[u8; 4]>, f64)> = (states.par_iter())
-        .map(|state| (cracks.sides(*state), cracks.surface(*state).area()))
-        .collect();
+    let of_steps: Vec<(Vec<[u8; 4]>, f64)> = parallel::map(states, |state| {
+        (cracks.sides(*state), cracks.surface(*state).area())
+    });
     let areas: Vec<f64> = of_steps.iter().map(|it| it.1).collect();
     let area = column("crack area", "m^2", &areas);
     let tetrahedra = cracks.tetrahedra();

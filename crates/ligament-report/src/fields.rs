@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
+use ligament_model::parallel;
 use ligament_output::Error;
 use ligament_output::results::StoredState;
 use ligament_output::results::fields::{Components, Interest, ResultField, unit_of};
 use ligament_output::vtu::read::{TAG_NOUNS, VtuFile};
-use rayon::prelude::*;
 
 use crate::body::{Body, ordered};
 use crate::columns::{Column, Digits, Encoder};
@@ -80,9 +80,8 @@ pub(crate) fn read(
         if growing.is_empty() {
             growing = begin(&file, body, digits);
         }
-        growing
-            .par_iter_mut()
-            .try_for_each(|it| it.append(&file, body))?;
+        let appended = parallel::map(&mut growing, |it| it.append(&file, body));
+        appended.into_iter().collect::<Result<(), _>>()?;
     }
     let mut fields: Vec<Field> = growing.into_iter().map(IncompleteField::finish).collect();
     fields.sort_by_key(|it| it.interest().rank());

@@ -1,7 +1,7 @@
 //! The body of a pass of refinement: a mesh whose cells are as fine as the distance from the places of a crack demands.
 
 use ligament_mesh::{AnyMesh, Bisectable, Bisection, Mesh, gmsh};
-use rayon::prelude::*;
+use ligament_model::parallel;
 use rstar::{Point, PointDistance, RTree};
 
 use crate::body::{AnyBody, Origin};
@@ -219,13 +219,12 @@ where
     /// horizon, shape (n_cells).
     fn too_coarse(&mut self, is_chosen: impl Fn((u32, u32)) -> bool) -> Vec<bool> {
         let known = self.distances.len();
-        let new = self.bisection.positions()[known..].par_iter();
-        let distance = |position: &[f64; D]| {
-            let nearest = self.places.nearest_neighbor(*position);
-            nearest.map_or(f64::INFINITY, |it| it.distance_2(position).sqrt())
-        };
-        let new: Vec<f64> = new.map(distance).collect();
-        self.distances.extend(new);
+        let new = &self.bisection.positions()[known..];
+        let distances = parallel::values(new.len(), 0.0, |node| {
+            let nearest = self.places.nearest_neighbor(new[node]);
+            nearest.map_or(f64::INFINITY, |it| it.distance_2(&new[node]).sqrt())
+        });
+        self.distances.extend(distances);
         let (spacings, is_coarse) = self.spacings();
         let reaches = |node: usize| self.factor * spacings[node] > self.distances[node];
         let is_marked = |(number, cell): (u32, C)| {

@@ -6,7 +6,7 @@
 use ligament_model::deformation::Deformations;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::CriteriaInState;
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use super::record::largest_ratio;
 use super::run::Run;
@@ -419,9 +419,9 @@ struct Nearest {
 
 impl Nearest {
     fn new(run: &Run<'_>, criteria: &CriteriaInState<'_>, deformations: &Deformations) -> Self {
-        let of_bonds: Vec<f64> = (deformations.par_iter().enumerate())
-            .map(|(bond, deformation)| criteria.utilisation(bond, deformation))
-            .collect();
+        let of_bonds = parallel::values(deformations.len(), 0.0, |bond| {
+            criteria.utilisation(bond, &deformations[bond])
+        });
         let utilisation = of_bonds.iter().copied().fold(0.0, f64::max);
         let is_tied = |bond: &u32| of_bonds[*bond as usize] >= (1.0 - TIED) * utilisation;
         let tied = (0..of_bonds.len() as u32).filter(is_tied);
@@ -446,14 +446,14 @@ impl Nearest {
 
 /// Largest utilisation of a bond at deformations (n_bonds).
 fn utilisation(criteria: &CriteriaInState<'_>, deformations: &Deformations) -> f64 {
-    (deformations.par_iter().enumerate())
-        .map(|(bond, deformation)| criteria.utilisation(bond, deformation))
-        .reduce(|| 0.0, f64::max)
+    parallel::largest(deformations.len(), |bond| {
+        criteria.utilisation(bond, &deformations[bond])
+    })
 }
 
 /// Number of bonds at or beyond their limits at deformations (n_bonds).
 fn beyond(criteria: &CriteriaInState<'_>, deformations: &Deformations) -> usize {
-    (deformations.par_iter().enumerate())
-        .filter(|(bond, deformation)| criteria.utilisation(*bond, deformation) >= AT_LIMIT)
-        .count()
+    let is_beyond = |bond: &usize| criteria.utilisation(*bond, &deformations[*bond]) >= AT_LIMIT;
+    let of_ranges = parallel::of_ranges(deformations.len(), |it| it.filter(is_beyond).count());
+    of_ranges.iter().sum()
 }

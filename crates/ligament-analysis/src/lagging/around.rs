@@ -11,17 +11,14 @@
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::CriteriaInState;
+use ligament_model::parallel;
 use ligament_model::stress::stored::StoredMotions;
-use rayon::prelude::*;
 
 use super::division::Division;
 use super::per_norm;
 use super::reach::Reach;
 use crate::problem::Problem;
 use crate::state::State;
-
-/// Least number of bonds for a parallel task.
-const TASK: usize = 256;
 
 /// Ratios of all bonds of a body, as far as the motions of its parts are known.
 pub(super) struct Around<'a> {
@@ -97,11 +94,12 @@ impl<'a> Around<'a> {
             lacking: vec![0.0; n_parts],
             is_current: vec![false; n_parts],
         };
-        let ratios = bonds.par_iter().map(|&bond| around.judged(bond, state));
-        around.ratios = ratios.collect();
+        let ratio = |place: usize| around.judged(bonds[place], state);
+        around.ratios = parallel::values(bonds.len(), 0.0, ratio);
         around.raise_points(&bonds);
-        let of_bonds = bonds.par_iter().map(|&bond| around.kappa(bond, state));
-        around.per_norm = reach.largest(division, system, &of_bonds.collect::<Vec<f64>>());
+        let kappa = |place: usize| around.kappa(bonds[place], state);
+        let of_bonds = parallel::values(bonds.len(), 0.0, kappa);
+        around.per_norm = reach.largest(division, system, &of_bonds);
         Some(around)
     }
 
@@ -158,8 +156,7 @@ impl<'a> Around<'a> {
         self.stored.update_strains(&state.intact, &points);
         let bonds = self.bonds_of(&points);
         self.update_stresses(&bonds);
-        let judged = bonds.par_iter().with_min_len(TASK);
-        let judged: Vec<f64> = judged.map(|&bond| self.judged(bond, state)).collect();
+        let judged = parallel::values(bonds.len(), 0.0, |place| self.judged(bonds[place], state));
         for (&bond, ratio) in bonds.iter().zip(judged) {
             self.ratios[bond as usize] = ratio;
         }

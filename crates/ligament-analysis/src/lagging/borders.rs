@@ -2,8 +2,8 @@
 
 use ligament_model::Bonds;
 use ligament_model::element::StiffnessFactors;
+use ligament_model::parallel;
 use ligament_model::thermal::ThermalStrain;
-use rayon::prelude::*;
 
 use super::bound::{Bound, Modes, NOT_THERE};
 use super::division::Division;
@@ -56,9 +56,11 @@ impl Bounds {
             let Border { dofs, blocks } = border;
             Some(Bound::new(&modes, (dofs, places), blocks, stiffness))
         };
-        let numbered = stiffness.into_par_iter().enumerate();
+        let numbered = stiffness.into_iter().enumerate();
         Some(Self {
-            of_parts: numbered.map(bound).collect::<Option<_>>()?,
+            of_parts: parallel::map(numbered, bound)
+                .into_iter()
+                .collect::<Option<_>>()?,
             modes,
         })
     }
@@ -186,10 +188,7 @@ fn strain_stiffness(system: &dyn Bonds, division: &Division, modes: &[Vec<f64>])
         }
         stiffness
     };
-    let mut of_parts: Vec<Vec<f64>> = (0..division.parts.len())
-        .into_par_iter()
-        .map(of_part)
-        .collect();
+    let mut of_parts = parallel::map(0..division.parts.len(), of_part);
     // The modes of one axis have the dilatation 1, those of two axes none.
     let n = n_axes(system);
     let pairs = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));

@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
 use ligament_linalg::Factorisation;
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use super::division::Division;
 
@@ -93,7 +93,7 @@ impl Descent<'_> {
         let is_large = |part: &&usize| parts[**part].n_values() > TASK;
         let further = |&part: &usize| self.downwards(part, is_asked_for, Some(&here));
         let further: Vec<Vec<Changed>> = if below.iter().filter(is_large).count() > 1 {
-            below.par_iter().with_max_len(1).map(further).collect()
+            parallel::map(&below, further)
         } else {
             below.iter().map(further).collect()
         };

@@ -24,7 +24,7 @@ use std::collections::BinaryHeap;
 use ligament_linalg::Factorisation;
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{CriteriaInState, Criterion};
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use crate::breaking::{Leaders, Leading};
 use crate::problem::Problem;
@@ -176,7 +176,7 @@ impl<'a> Lagging<'a> {
             }
             (largest, of_part)
         };
-        let judged: Vec<(f64, Leaders)> = (0..n_parts).into_par_iter().map(judged).collect();
+        let judged = parallel::map(0..n_parts, judged);
         for (part, (largest, of_part)) in judged.into_iter().enumerate().rev() {
             lagging.store_border_motions(part);
             lagging.now[part] = largest;
@@ -231,7 +231,7 @@ impl<'a> Lagging<'a> {
                 break;
             }
             let descent = self.descent(correction, &broken_in, &state.held);
-            let changes: Vec<Vec<f64>> = next.par_iter().map(|&part| descent.one(part)).collect();
+            let changes = parallel::map(&next, |&part| descent.one(part));
             for (&part, changes) in next.iter().zip(&changes) {
                 self.take_in(part, changes, &state.held);
             }
@@ -385,8 +385,7 @@ impl<'a> Lagging<'a> {
     fn wait(&mut self, above: &[usize], is_asked_for: &[bool], waiting: &mut BinaryHeap<Waiting>) {
         let below = above.iter().flat_map(|&part| &self.division.below[part]);
         let below: Vec<usize> = below.copied().filter(|&it| !is_asked_for[it]).collect();
-        let norms = below.par_iter().with_min_len(2);
-        let norms: Vec<f64> = norms.map(|&part| self.norm(part)).collect();
+        let norms = parallel::map(&below, |&part| self.norm(part));
         let Some(around) = &mut self.around else {
             for (part, norm) in below.into_iter().zip(norms) {
                 let at_most = self.at_most[part] + self.per_norm[part] * norm;
@@ -408,7 +407,7 @@ impl<'a> Lagging<'a> {
             let (at_most, _) = around.present(part, self.at_most[part])?;
             Some(Waiting { at_most, part })
         };
-        parts.into_par_iter().filter_map(bound).collect()
+        parallel::flat_map(parts.len(), |place| bound(parts[place]))
     }
 
     /// Bound of the norm of the motion of a part since its last substitution.
@@ -440,8 +439,7 @@ impl<'a> Lagging<'a> {
         leaders: &mut Leaders,
     ) -> Vec<usize> {
         let Some(around) = &mut self.around else {
-            let judged = parts.par_iter().map(|&part| self.judged(part, state));
-            let judged: Vec<(f64, Leaders)> = judged.collect();
+            let judged = parallel::map(parts, |&part| self.judged(part, state));
             for (&part, (largest, of_part)) in parts.iter().zip(judged) {
                 self.now[part] = largest;
                 leaders.merge(of_part);

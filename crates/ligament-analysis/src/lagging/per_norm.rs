@@ -2,8 +2,8 @@
 
 use ligament_model::element::{BondDeformation, StiffnessFactors};
 use ligament_model::failure::Criterion;
+use ligament_model::parallel;
 use ligament_model::stress::point_strain::StrainAround;
-use rayon::prelude::*;
 
 use super::division::Division;
 use crate::problem::Problem;
@@ -11,9 +11,8 @@ use crate::problem::Problem;
 /// Largest ratio kappa of the bonds of each part and of its descendants, shape (n_parts), J^(-1/2).
 pub(super) fn of_parts(division: &Division, of_bond: impl Fn(u32) -> f64 + Sync) -> Vec<f64> {
     let largest = |part: usize| {
-        let bonds = division.bonds(part).par_iter();
-        let ratios = bonds.map(|&bond| of_bond(bond));
-        ratios.reduce(|| 0.0, f64::max)
+        let bonds = division.bonds(part);
+        parallel::largest(bonds.len(), |place| of_bond(bonds[place]))
     };
     let mut per_norm: Vec<f64> = (0..division.parts.len()).map(largest).collect();
     for part in (1..division.parts.len()).rev() {

@@ -4,7 +4,6 @@
 //! A bond is traced through the cells of the body. Pieces along a face or an edge between two materials have both at their sides, and count
 //! only where no other piece exists: the ends determine the materials of a bond along an interface.
 
-use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
@@ -14,6 +13,7 @@ use super::retained::retained;
 use crate::cloud::PointCloud;
 use crate::geometry::{bounding_box, boxes_meet};
 use crate::horizon::INCLUSION_TOLERANCE;
+use crate::parallel;
 
 /// Number of points along the curve that are checked together for more than one material near them.
 const BLOCK: usize = 64;
@@ -43,11 +43,16 @@ impl Composition {
             return Self::default();
         }
         let ways = BondTracer::new(parts, ends, cloud);
-        let found: Vec<(u32, Vec<f64>)> = (cloud.curve.par_chunks(BLOCK))
-            .filter(|block| ways.may_differ(ways.box_around(block)))
-            .flat_map_iter(|block| block.iter().flat_map(|&point| ways.trace_bonds_from(point)))
-            .collect();
-        Self::from_found(found, cloud.n_materials)
+        let of_blocks = parallel::map(cloud.curve.chunks(BLOCK), |block| -> Vec<(u32, Vec<f64>)> {
+            match ways.may_differ(ways.box_around(block)) {
+                true => block
+                    .iter()
+                    .flat_map(|&point| ways.trace_bonds_from(point))
+                    .collect(),
+                false => Vec::new(),
+            }
+        });
+        Self::from_found(of_blocks.into_iter().flatten().collect(), cloud.n_materials)
     }
 
     fn from_found(mut found: Vec<(u32, Vec<f64>)>, n_materials: usize) -> Self {
@@ -137,7 +142,7 @@ struct BondTracer<'a, const D: usize, P> {
 
 impl<'a, const D: usize, P: Parts<D>> BondTracer<'a, D, P> {
     fn new(parts: &'a P, ends: &'a [[u32; 2]], cloud: &'a PointCloud<D>) -> Self {
-        let bounds = (0..parts.len()).into_par_iter().map(|part| {
+        let bounds = (0..parts.len()).map(|part| {
             let [lower, upper] = parts.bounds(part);
             GeomWithData::new(Rectangle::from_corners(lower, upper), part as u32)
         });

@@ -8,6 +8,7 @@ use super::{BondSet, Composition, Incidence};
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::geometry::bounding_box;
 use crate::horizon::Horizons;
+use crate::parallel;
 use crate::tensor::minus;
 
 /// Number of points whose pairs one thread finds at a time.
@@ -22,44 +23,41 @@ impl<const D: usize> BondSet<D> {
         let tree = search_tree(&cloud.positions);
         let subdomain = &cloud.subdomain;
         let is_held = |pair: &[u32; 2]| subdomain.is_whole() || subdomain.contains_bond(*pair);
-        let found: Vec<Vec<[u32; 2]>> = reaching(cloud, horizons)
-            .par_chunks(BLOCK)
-            .map(|points| {
-                let mut pairs = Vec::new();
-                for &point in points {
-                    let position = cloud.positions[point as usize];
-                    // The tree compares squared distances: its radius is slightly larger, and `contains` decides.
-                    let tolerance = cloud.tolerance(point);
-                    let reach = horizons.radius[point as usize] * (1.0 + 2.0 * tolerance);
-                    pairs.extend(
-                        tree.locate_within_distance(position, reach * reach)
-                            .map(|neighbour| neighbour.data)
-                            .filter(|&other| is_recorded_by(point, other, cloud, horizons))
-                            .map(|other| [point.min(other), point.max(other)])
-                            .filter(is_held),
-                    );
-                }
-                pairs
-            })
-            .collect();
+        let found = parallel::map(reaching(cloud, horizons).chunks(BLOCK), |points| {
+            let mut pairs = Vec::new();
+            for &point in points {
+                let position = cloud.positions[point as usize];
+                // The tree compares squared distances: its radius is slightly larger, and `contains` decides.
+                let tolerance = cloud.tolerance(point);
+                let reach = horizons.radius[point as usize] * (1.0 + 2.0 * tolerance);
+                pairs.extend(
+                    tree.locate_within_distance(position, reach * reach)
+                        .map(|neighbour| neighbour.data)
+                        .filter(|&other| is_recorded_by(point, other, cloud, horizons))
+                        .map(|other| [point.min(other), point.max(other)])
+                        .filter(is_held),
+                );
+            }
+            pairs
+        });
         drop(tree);
         Self::from_ends(in_order(found, cloud.len()), cloud, horizons)
     }
 
     /// Bonds between the given pairs of points (A < B, ascending, each once), whatever their distance.
     fn from_ends(ends: Vec<[u32; 2]>, cloud: &PointCloud<D>, horizons: &Horizons) -> Self {
-        let mut length = vec![0.0; ends.len()];
-        let mut direction = vec![[0.0; D]; ends.len()];
-        let mut horizon = vec![0.0; ends.len()];
-        (&ends, &mut length, &mut direction, &mut horizon)
-            .into_par_iter()
-            .for_each(|(&pair, length, direction, horizon)| {
-                let [a, b] = pair.map(|point| cloud.positions[point as usize]);
-                let l = distance(a, b);
-                *length = l;
-                *direction = minus(b, a).map(|it| it / l);
-                *horizon = bond_horizon(pair, l, cloud, horizons);
-            });
+        let positions = |bond: usize| ends[bond].map(|end| cloud.positions[end as usize]);
+        let length = parallel::values(ends.len(), 0.0, |bond| {
+            let [a, b] = positions(bond);
+            distance(a, b)
+        });
+        let direction = parallel::values(ends.len(), [0.0; D], |bond| {
+            let [a, b] = positions(bond);
+            minus(b, a).map(|it| it / length[bond])
+        });
+        let horizon = parallel::values(ends.len(), 0.0, |bond| {
+            bond_horizon(ends[bond], length[bond], cloud, horizons)
+        });
         let incidence = Incidence::new(&ends, cloud.len());
         Self {
             ends: ends.into(),

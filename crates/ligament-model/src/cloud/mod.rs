@@ -9,13 +9,13 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use ligament_mesh::Numbering;
-use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 
 use crate::communicator::Communicator;
 use crate::geometry::bounding_box;
 use crate::ghosts::Ghosts;
+use crate::parallel;
 use crate::subdomain::{Partition, Subdomain};
 use crate::tensor::{dot, minus, norm};
 
@@ -106,7 +106,7 @@ impl<const D: usize> PointCloud<D> {
         of_others: T,
         value: impl Fn(u32) -> T + Sync,
     ) -> Vec<T> {
-        let in_order: Vec<T> = points.par_iter().map(|&point| value(point)).collect();
+        let in_order = parallel::values(points.len(), of_others, |place| value(points[place]));
         let mut values = vec![of_others; self.len()];
         for (&point, &value) in points.iter().zip(&in_order) {
             values[point as usize] = value;

@@ -1,11 +1,10 @@
 //! The sweeps of the domain correction over the families of the points.
 
-use rayon::prelude::*;
-
 use super::members::{BLOCK, Members};
 use super::sweeps::SweptFamilies;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::parallel;
 
 /// Number of members of a family whose factors are computed together: the processor does square roots and divisions in pairs.
 const LANES: usize = 4;
@@ -49,10 +48,13 @@ impl<'a, const D: usize> Families<'a, D> {
         let own = coefficients.members.order.owned().iter();
         let target: Vec<[f64; D]> = own.map(|&point| at(point)).collect();
         let mut ratios = vec![[0.0; D]; coefficients.members.order.all().len()];
-        let own = ratios.par_iter_mut().zip(&target).enumerate();
-        own.for_each(|(index, (ratios, &target))| {
-            let factors = &domain_factor[coefficients.members.family(index)];
-            *ratios = coefficients.energy_ratios(index, factors, target);
+        let blocks = ratios.chunks_mut(BLOCK).zip(target.chunks(BLOCK));
+        parallel::for_each(blocks.enumerate(), |(number, (ratios, target))| {
+            for (index, (ratios, &target)) in (number * BLOCK..).zip(ratios.iter_mut().zip(target))
+            {
+                let factors = &domain_factor[coefficients.members.family(index)];
+                *ratios = coefficients.energy_ratios(index, factors, target);
+            }
         });
         coefficients.members.order.update_ghosts(&mut ratios);
         Self {
@@ -69,23 +71,19 @@ impl<const D: usize> SweptFamilies for Families<'_, D> {
     fn sweep(&mut self) -> f64 {
         std::mem::swap(&mut self.ratios, &mut self.before);
         let (coefficients, before, target) = (&self.coefficients, &self.before, &self.target);
-        let changes: Vec<f64> = (
-            coefficients.members.blocks(&mut self.domain_factor),
-            self.ratios[..target.len()].par_chunks_mut(BLOCK),
-        )
-            .into_par_iter()
-            .enumerate()
-            .map(|(number, (mut factors, ratios))| {
-                let mut change = [0.0; LANES];
-                for (index, ratio) in (number * BLOCK..).zip(ratios) {
-                    let own;
-                    (own, factors) = factors.split_at_mut(coefficients.members.family(index).len());
-                    coefficients.update(index, before, own, &mut change);
-                    *ratio = coefficients.energy_ratios(index, own, target[index]);
-                }
-                change.iter().sum()
-            })
-            .collect();
+        let factors = coefficients.members.blocks(&mut self.domain_factor);
+        let ratios = self.ratios[..target.len()].chunks_mut(BLOCK);
+        let blocks = factors.into_iter().zip(ratios).enumerate();
+        let changes: Vec<f64> = parallel::map(blocks, |(number, (mut factors, ratios))| {
+            let mut change = [0.0; LANES];
+            for (index, ratio) in (number * BLOCK..).zip(ratios) {
+                let own;
+                (own, factors) = factors.split_at_mut(coefficients.members.family(index).len());
+                coefficients.update(index, before, own, &mut change);
+                *ratio = coefficients.energy_ratios(index, own, target[index]);
+            }
+            change.iter().sum()
+        });
         let order = &coefficients.members.order;
         order.update_ghosts(&mut self.ratios);
         // Every bond occurs once at either end.

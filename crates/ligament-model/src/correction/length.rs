@@ -1,9 +1,8 @@
 //! Length factor alpha: short bonds count more than long ones.
 
-use rayon::prelude::*;
-
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::parallel;
 
 /// Length factors alpha (n_bonds), NHPD eq. 7:
 ///
@@ -26,10 +25,8 @@ pub fn length_factors<const D: usize>(bonds: &BondSet<D>, cloud: &PointCloud<D>)
             1.0
         }
     };
-    bonds
-        .ends
-        .par_iter()
-        .zip(&bonds.length)
-        .map(|(&[a, b], &length)| 0.5 * (contribution(a, length) + contribution(b, length)))
-        .collect()
+    parallel::values(bonds.len(), 0.0, |bond| {
+        let ([a, b], length) = (bonds.ends[bond], bonds.length[bond]);
+        0.5 * (contribution(a, length) + contribution(b, length))
+    })
 }

@@ -4,11 +4,10 @@
 //! but a sweep is then one sequential pass over memory, without a search for the bonds of a point, and one thread computes all sums of a
 //! point.
 
-use rayon::prelude::*;
-
 use super::sweep_order::SweepOrder;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::parallel;
 
 /// Number of points whose sums one thread computes; fixed, so that sums are the same for any number of threads.
 pub(crate) const BLOCK: usize = 1024;
@@ -92,17 +91,15 @@ impl<'a, const D: usize> Members<'a, D> {
         values: &mut [T],
         each: impl Fn(usize, &mut [T]) + Sync,
     ) {
-        (self.blocks(values))
-            .into_par_iter()
-            .enumerate()
-            .for_each(|(number, mut values)| {
-                let last = ((number + 1) * BLOCK).min(self.n_points());
-                for index in number * BLOCK..last {
-                    let own;
-                    (own, values) = values.split_at_mut(self.family(index).len());
-                    each(index, own);
-                }
-            });
+        let blocks = self.blocks(values).into_iter().enumerate();
+        parallel::for_each(blocks, |(number, mut values)| {
+            let last = ((number + 1) * BLOCK).min(self.n_points());
+            for index in number * BLOCK..last {
+                let own;
+                (own, values) = values.split_at_mut(self.family(index).len());
+                each(index, own);
+            }
+        });
     }
 
     /// An array over the members, divided by blocks of points.
@@ -136,14 +133,10 @@ impl<'a, const D: usize> Members<'a, D> {
                 rest.split_off_mut(..count).unwrap_or_default()
             })
             .collect();
-        let of_index = |(index, &point): (usize, &u32)| {
+        for (index, &point) in self.cloud.curve.iter().enumerate() {
             let others = of_others[point as usize];
-            let from = &values[self.family(index)][others..];
-            (std::mem::take(&mut own[point as usize]), from)
-        };
-        let along_curve: Vec<_> = self.cloud.curve.iter().enumerate().map(of_index).collect();
-        (along_curve.into_par_iter().with_min_len(BLOCK))
-            .for_each(|(own, from)| own.copy_from_slice(from));
+            own[point as usize].copy_from_slice(&values[self.family(index)][others..]);
+        }
         of_bonds
     }
 

@@ -1,9 +1,8 @@
 //! Partial-volume factor alpha: only part of a cell that the horizon cuts belongs to the family.
 
-use rayon::prelude::*;
-
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::parallel;
 
 /// Factors alpha (n_bonds), MPPD eq. 9 (printed with the opposite sign of the length):
 ///
@@ -22,11 +21,9 @@ pub fn partial_volume_factors<const D: usize>(
             if D == 2 { size.sqrt() } else { size.cbrt() }
         }
     };
-    (&*bonds.ends, &bonds.length, &*bonds.horizon)
-        .into_par_iter()
-        .map(|(&[a, b], length, horizon)| {
-            let dx = 0.5 * (side(a) + side(b));
-            ((horizon + 0.5 * dx - length) / dx).min(1.0)
-        })
-        .collect()
+    parallel::values(bonds.len(), 0.0, |bond| {
+        let [a, b] = bonds.ends[bond];
+        let dx = 0.5 * (side(a) + side(b));
+        ((bonds.horizon[bond] + 0.5 * dx - bonds.length[bond]) / dx).min(1.0)
+    })
 }

@@ -2,11 +2,10 @@
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
-
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::horizon::Horizons;
+use crate::parallel;
 
 /// Factors lambda (n_bonds), MPPD section 2:
 ///
@@ -31,12 +30,8 @@ pub fn surface_factors<const D: usize>(
         };
         [whole, present.sum()]
     });
-    bonds
-        .ends
-        .par_iter()
-        .map(|ends| {
-            let [a, b] = ends.map(|end| volumes[end as usize]);
-            (a[0] + b[0]) / (a[1] + b[1])
-        })
-        .collect()
+    parallel::values(bonds.len(), 0.0, |bond| {
+        let [a, b] = bonds.ends[bond].map(|end| volumes[end as usize]);
+        (a[0] + b[0]) / (a[1] + b[1])
+    })
 }

@@ -1,12 +1,11 @@
 //! Interval of a line of deformations in which no criterion breaks a bond.
 
-use rayon::prelude::*;
-
 use super::along_line::{AlongLine, EVERYWHERE, Interval};
 use super::criterion::{Criteria, Criterion};
 use super::state_variables::CriteriaInState;
 use crate::deformation::{Deformation, Deformations, SpaceDeformation};
 use crate::element::BondDeformation;
+use crate::parallel;
 
 /// Least number of bonds for a parallel task.
 const TASK: usize = 4096;
@@ -55,9 +54,8 @@ impl CriteriaInState<'_> {
                 intersection(interval, self.interval(rates, bond, [start, slope])?)
             })
         };
-        let tasks = start.par_chunks(TASK).zip(slopes.par_chunks(TASK));
-        let of_tasks: Vec<Option<Interval>> = tasks.enumerate().map(of_task).collect();
-        let mut of_tasks = of_tasks.into_iter();
+        let tasks = start.chunks(TASK).zip(slopes.chunks(TASK));
+        let mut of_tasks = parallel::map(tasks.enumerate(), of_task).into_iter();
         of_tasks.try_fold(reach, |interval, of_task| intersection(interval, of_task?))
     }
 

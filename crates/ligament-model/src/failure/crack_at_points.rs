@@ -2,13 +2,12 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::basis::Basis;
 use crate::bonds::Incidence;
 use crate::element::BondDeformation;
 use crate::element::imaginary::{SymmetricEntries, matrix};
 use crate::material::Material;
+use crate::parallel;
 use crate::scatter::Scattered;
 
 /// Mode of deformation of a crack.
@@ -99,19 +98,17 @@ impl CrackAtPoints {
         intact: &[bool],
         deformations: &[BondDeformation],
     ) -> Vec<f64> {
-        let points = (0..self.toughness.len() as u32).into_par_iter();
-        let stretches: Vec<f64> = points
-            .map(|point| self.critical_stretch(point, intact, deformations))
-            .collect();
-        let of_bond = |(sound, ends): (&f64, &[u32; 2])| {
-            let [a, b] = ends.map(|end| stretches[end as usize]);
-            if sound.is_infinite() {
-                *sound
+        let stretches = parallel::values(self.toughness.len(), 0.0, |point| {
+            self.critical_stretch(point as u32, intact, deformations)
+        });
+        parallel::values(sound.len(), 0.0, |bond| {
+            let [a, b] = self.ends[bond].map(|end| stretches[end as usize]);
+            if sound[bond].is_infinite() {
+                sound[bond]
             } else {
                 a.min(b)
             }
-        };
-        sound.par_iter().zip(&*self.ends).map(of_bond).collect()
+        })
     }
 
     /// Critical stretch s_c of a point: sqrt(G/e), with the fracture energy G of the mode and the energy e of the crack over the

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::criterion::Surroundings;
 use super::criterion::{Criteria, Criterion, Verdict};
 use super::hooke::{Moduli, StressAcross};
@@ -11,13 +9,11 @@ use super::measure::Measure;
 use super::softening::{AfterLimit, brittle};
 use crate::element::BondDeformation;
 use crate::interface::Bonds;
+use crate::parallel;
 use crate::stress::point_strain::Motion;
 
 /// Relative difference of two utilisations that count as equal: a bar under tension meets both conditions of Mohr and Coulomb.
 const SAME: f64 = 1e-9;
-
-/// Least number of bonds for a parallel task.
-const TASK: usize = 256;
 
 /// Stresses across the bonds of a body: the stresses at one load factor, times a number.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,12 +50,13 @@ impl Stresses {
 
     /// The sum of the stresses and `factor` times others.
     fn plus(&self, other: &Self, factor: f64) -> Self {
-        let both = self.of_bonds.par_iter().zip(&*other.of_bonds);
         let factor = factor * other.times;
-        let sum = |(one, other): (&StressAcross, &StressAcross)| {
-            one.scaled(self.times).plus(other, factor)
+        let sum = |bond: usize| {
+            let scaled = self.of_bonds[bond].scaled(self.times);
+            scaled.plus(&other.of_bonds[bond], factor)
         };
-        Self::new(both.map(sum).collect())
+        let n_bonds = self.of_bonds.len();
+        Self::new(parallel::values(n_bonds, StressAcross::default(), sum))
     }
 }
 
@@ -423,12 +420,10 @@ impl<'a> CriteriaInState<'a> {
     ) {
         let both = self.criteria.list.iter().zip(&mut self.variables);
         for (criterion, stresses) in both.filter_map(|(it, its)| Some((it, its.stress.as_mut()?))) {
-            let of_bond = |&bond: &u32| {
-                let moduli = Moduli::from_coefficients(criterion.coefficients(bond as usize));
-                stress(bond, &moduli)
-            };
-            let bonds_of_tasks = bonds.par_iter().with_min_len(TASK);
-            let found: Vec<StressAcross> = bonds_of_tasks.map(of_bond).collect();
+            let found = parallel::values(bonds.len(), StressAcross::default(), |place| {
+                let coefficients = criterion.coefficients(bonds[place] as usize);
+                stress(bonds[place], &Moduli::from_coefficients(coefficients))
+            });
             let times = stresses.times.recip();
             let of_bonds = Arc::make_mut(&mut stresses.of_bonds);
             for (&bond, stress) in bonds.iter().zip(&found) {

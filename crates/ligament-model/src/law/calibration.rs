@@ -6,8 +6,6 @@
 //! The lattice itself remains anisotropic: the beam form with m = 3 and nu = 0 has E, nu and G/G_0 of 0.964, 0.036 and 1.07 along the axes
 //! and 1.034, -0.034 and 0.93 between them (by integrals with the surface correction 0.925, 0.071 and 0.98, and 0.989, 0.006 and 0.86).
 
-use rayon::prelude::*;
-
 use super::BondStiffness;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
@@ -96,14 +94,13 @@ fn scaled_to<const D: usize>(
             }
         })
     });
-    (&mut axial, &mut shear, &mut rotational, &*bonds.ends)
-        .into_par_iter()
-        .for_each(|(axial, shear, rotational, ends)| {
-            let [a, b] = ends.map(|end| factors[end as usize]);
-            *axial *= 0.5 * (a[0] + b[0]);
-            *shear *= 0.5 * (a[1] + b[1]);
-            *rotational *= 0.5 * (a[1] + b[1]);
-        });
+    let of_bonds = axial.iter_mut().zip(&mut shear).zip(&mut rotational);
+    for (((axial, shear), rotational), ends) in of_bonds.zip(&*bonds.ends) {
+        let [a, b] = ends.map(|end| factors[end as usize]);
+        *axial *= 0.5 * (a[0] + b[0]);
+        *shear *= 0.5 * (a[1] + b[1]);
+        *rotational *= 0.5 * (a[1] + b[1]);
+    }
     BondStiffness {
         axial,
         shear,

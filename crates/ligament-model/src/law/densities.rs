@@ -1,7 +1,6 @@
 //! Stiffness densities of the bonds of a body, and their changes by corrections and interfaces.
 
 use nalgebra::Matrix3;
-use rayon::prelude::*;
 
 use super::materials;
 use super::restraint::{Exchange, Restraint};
@@ -10,6 +9,7 @@ use crate::bonds::retained::retained;
 use crate::cloud::PointCloud;
 use crate::element::StiffnessFactors;
 use crate::element::imaginary::StrainStiffness;
+use crate::parallel::{self, CHUNK};
 
 /// Value of |1 - 3 nu| (or |1 - 4 nu| in plane strain) below which the shear and rotational stiffnesses count as exactly zero: a stiffness
 /// left by rounding would only make the system nearly singular.
@@ -51,6 +51,20 @@ pub(crate) struct BondGeometry<const D: usize = 2> {
     pub(crate) direction: [f64; D],
 }
 
+/// Axial, shear and rotational densities of the bonds by a function of their numbers, each of shape (n_bonds).
+fn of_each_bond(n_bonds: usize, of_bond: impl Fn(usize) -> Densities + Sync) -> [Vec<f64>; 3] {
+    let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; n_bonds]);
+    let chunks = axial.chunks_mut(CHUNK).zip(shear.chunks_mut(CHUNK));
+    let chunks = chunks.zip(rotational.chunks_mut(CHUNK)).enumerate();
+    parallel::for_each(chunks, |(chunk, ((axial, shear), rotational))| {
+        for place in 0..axial.len() {
+            let it = of_bond(CHUNK * chunk + place);
+            (axial[place], shear[place], rotational[place]) = (it.axial, it.shear, it.rotational);
+        }
+    });
+    [axial, shear, rotational]
+}
+
 impl BondStiffness {
     /// Densities from `constants` of the materials (n_materials), the first of which is a measure of stiffness: a bond has the densities of
     /// its materials ([`materials::fractions_of_bond`]).
@@ -81,14 +95,9 @@ impl BondStiffness {
             direction: bonds.direction[bond],
         };
         let mut series = materials::series_factors(bonds, cloud, &axial_constants);
-        let [mut axial, mut shear, mut rotational] = [(); 3].map(|()| vec![0.0; bonds.len()]);
-        (&*bonds.ends, &mut axial, &mut shear, &mut rotational)
-            .into_par_iter()
-            .enumerate()
-            .for_each(|(bond, (&ends, axial, shear, rotational))| {
-                let of_bond = densities(&of_ends(ends), &geometry(bond));
-                (*axial, *shear, *rotational) = (of_bond.axial, of_bond.shear, of_bond.rotational);
-            });
+        let [mut axial, mut shear, mut rotational] = of_each_bond(bonds.len(), |bond| {
+            densities(&of_ends(bonds.ends[bond]), &geometry(bond))
+        });
         for (bond, shares) in bonds.composition.numbered() {
             let of_material = |constants: &[f64; N]| densities(constants, &geometry(bond));
             let axial_of = constants

@@ -19,7 +19,6 @@
 //! ends of these, by least squares. The equations are this project's own.
 
 use nalgebra::{SMatrix, SVector};
-use rayon::prelude::*;
 
 use super::BondStiffness;
 use super::restraint::{Exchange, Restraint};
@@ -120,10 +119,7 @@ impl BondStiffness {
             });
             Exchange { lost, gained }
         };
-        self.exchange = (&self.held, &*bonds.ends)
-            .into_par_iter()
-            .map(of_bond)
-            .collect();
+        self.exchange = self.held.iter().zip(&*bonds.ends).map(of_bond).collect();
         self
     }
 }

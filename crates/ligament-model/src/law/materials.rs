@@ -4,11 +4,10 @@
 //! in series test the rule: with the mean of both ends' materials, as homogeneous laws suggest, a soft half beside a stiff one would be
 //! restrained by bonds half as stiff as the stiff ones, whatever its own stiffness.
 
-use rayon::prelude::*;
-
 use super::restraint::Restraint;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
+use crate::parallel;
 
 /// Materials of a bond, by number, with fractions that sum to one.
 ///
@@ -130,7 +129,7 @@ pub(super) fn restraints<const D: usize>(
             softness: own / stiffest,
         }
     };
-    (0..bonds.len()).into_par_iter().map(of_bond).collect()
+    parallel::values(bonds.len(), Restraint::NONE, of_bond)
 }
 
 #[cfg(test)]

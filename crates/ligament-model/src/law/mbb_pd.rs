@@ -15,7 +15,6 @@ pub mod pairwise;
 mod rows;
 
 use nalgebra::Matrix3;
-use rayon::prelude::*;
 
 use super::{
     BondLaw, BondStiffness, Form, Law, LawInput, Materials, Options, PaperCorrection, Strains,
@@ -24,6 +23,7 @@ use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::element::ElementKind;
 use crate::failure::mixed_mode;
+use crate::parallel;
 use matrices::{bond_stiffness, plane_stiffnesses};
 
 /// Law of MBB-PD.
@@ -64,14 +64,11 @@ impl Law {
 
 /// Factors psi of the points, from the families in `bonds`, shape (n_points), 1/m^4.
 pub fn factors(bonds: &BondSet, cloud: &PointCloud) -> Vec<f64> {
-    (0..cloud.len())
-        .into_par_iter()
-        .map(|point| {
-            let family = bonds.incidence.at(point as u32).iter();
-            let lengths: f64 = family.map(|&bond| bonds.length[bond as usize]).sum();
-            2.0 / (cloud.volumes[point] * lengths)
-        })
-        .collect()
+    parallel::values(cloud.len(), 0.0, |point| {
+        let family = bonds.incidence.at(point as u32).iter();
+        let lengths: f64 = family.map(|&bond| bonds.length[bond as usize]).sum();
+        2.0 / (cloud.volumes[point] * lengths)
+    })
 }
 
 /// Micro-modulus matrices K = psi c (eq. 16) with the mean psi of the ends of each bond and the c of its materials; `axial` and `shear` have
@@ -83,6 +80,6 @@ fn densities(input: &LawInput<'_, 2>) -> BondStiffness {
         let [a, b] = ends.map(|end| psi[end as usize]);
         (0.5 * (a + b) * stiffness, a / (a + b))
     };
-    let matrices = bonds.ends.par_iter().zip(stiffnesses).map(of_bond);
+    let matrices = bonds.ends.iter().zip(stiffnesses).map(of_bond);
     bond_stiffness(bonds, &matrices.collect::<Vec<_>>())
 }

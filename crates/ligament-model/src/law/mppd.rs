@@ -1,11 +1,10 @@
 //! The micropolar law with a constant shear stiffness (MPPD section 2); in space its rotational stiffness is that of bending and torsion.
 
-use rayon::prelude::*;
-
 use super::rotational::RotationalStiffness;
 use super::{BondLaw, BondStiffness, Calibration, Law, LawInput, Options, ShearForm, pds};
 use crate::element::ElementKind;
 use crate::material::PoissonForm;
+use crate::parallel;
 
 /// Micropolar law with a constant shear stiffness.
 pub static LAW: BondLaw = BondLaw {
@@ -34,10 +33,10 @@ impl Law {
 /// Stiffness densities of every bond: k_n and k_t of [`pds`], and a chosen k_theta.
 fn densities<const D: usize>(input: &LawInput<'_, D>) -> BondStiffness {
     let (non_polar, bonds) = (pds::densities(input), input.bonds);
-    let rotational = (&non_polar.shear, &bonds.length, &*bonds.horizon)
-        .into_par_iter()
-        .map(|(&shear, &length, &horizon)| input.rotational().density(shear, length, horizon))
-        .collect();
+    let rotational = parallel::values(bonds.len(), 0.0, |bond| {
+        let (shear, length) = (non_polar.shear[bond], bonds.length[bond]);
+        (input.rotational()).density(shear, length, bonds.horizon[bond])
+    });
     BondStiffness {
         rotational,
         ..non_polar

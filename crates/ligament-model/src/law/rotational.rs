@@ -6,8 +6,6 @@
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
-
 use super::{BondStiffness, Densities, bulk_stiffness};
 use crate::bonds::BondSet;
 use crate::case_type::Range;
@@ -151,7 +149,7 @@ pub fn with_cosserat_length<const D: usize>(
             rotational: unit * modulus * profile.value(bond.length, bond.horizon)
                 / bond.horizon.powi(5),
         });
-    let rotational = (stiffness.shear.par_iter()).zip(of_curvature.rotational);
+    let rotational = stiffness.shear.iter().zip(of_curvature.rotational);
     let rotational = rotational.map(|(&shear, it)| if shear == 0.0 { 0.0 } else { it });
     BondStiffness {
         rotational: rotational.collect(),

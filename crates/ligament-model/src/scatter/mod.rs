@@ -10,12 +10,12 @@ mod random;
 mod waves;
 
 use ligament_mesh::Numbering;
-use rayon::prelude::*;
 
 pub use distribution::Distribution;
 pub use random::uniform;
 
 use crate::case_type::Range;
+use crate::parallel;
 use waves::RandomWaves;
 
 /// Random variation of a property of the material.
@@ -119,10 +119,9 @@ impl Scatter {
         let seed = self.seed.unwrap_or_default();
         let at_points = if self.correlation_length > 0.0 {
             let waves = RandomWaves::new(seed, self.correlation_length);
-            let positions = positions.par_iter();
-            positions
-                .map(|&it| self.distribution.factor(waves.at(it)))
-                .collect()
+            parallel::values(positions.len(), 1.0, |point| {
+                self.distribution.factor(waves.at(positions[point]))
+            })
         } else {
             let in_file = (0..positions.len() as u32).map(|it| numbering.in_file(it).into());
             let normal = in_file.map(|it: u64| random::normal(seed, it));

@@ -1,11 +1,10 @@
 //! Stresses on the planes across the bonds.
 
-use rayon::prelude::*;
-
 use super::point_strain::{Motion, StrainAround, mean_strain};
 use crate::element::BondDeformation;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::layout::Layout;
+use crate::parallel;
 use crate::system::{BondSystem, UnbrokenBonds};
 use crate::volumetric::VolumetricStress;
 
@@ -21,16 +20,15 @@ impl<const D: usize> BondSystem<D> {
         let of_points = self.point_strains(layout, motion);
         let of_cells = self.cell_stresses(layout, motion);
         let bonds = &self.bonds;
-        let of_bond = |(bond, deformation): (usize, &BondDeformation)| {
+        parallel::values(deformations.len(), StressAcross::default(), |bond| {
             let [a, b] = bonds.ends[bond].map(|end| end as usize);
             let mean = mean_strain([of_points[a], of_points[b]]);
             let around = mean.map(|it| StrainAround::new(&it, bonds.direction[bond]));
             let moduli = moduli(bond);
-            let mut stress = moduli.stress_across(deformation.stretch(), around);
+            let mut stress = moduli.stress_across(deformations[bond].stretch(), around);
             stress.normal += of_cells.mean_at_ends(bonds.ends[bond]) / moduli.along;
             stress
-        };
-        deformations.par_iter().enumerate().map(of_bond).collect()
+        })
     }
 
     /// Volumetric stresses of the cells at the points in a motion.

@@ -12,11 +12,10 @@
 //! bonds; the virial stress ([`super::virial`]) is so inside an uncorrected body alone. A point on the border of materials has the mean
 //! of their stiffnesses by volume.
 
-use rayon::prelude::*;
-
 use crate::interface::Stresses;
 use crate::layout::Layout;
 use crate::material::stress_component;
+use crate::parallel;
 use crate::system::{BondSystem, StressAcrossPlane, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
@@ -30,12 +29,11 @@ impl<const D: usize> BondSystem<D> {
         reading: StrainReading<'_>,
     ) -> Stresses {
         let strains = self.strains_of_all(|point| self.strain_by(layout, reading, point));
-        let numbered = strains.into_par_iter().enumerate();
         let of_point =
-            |(point, strain)| self.stress_components(layout, reading, point as u32, strain);
+            |point| self.stress_components(layout, reading, point as u32, strains[point]);
         Stresses {
             names: SymTensor::<D>::NAMES_WITH_NORMAL,
-            values: numbered.flat_map_iter(of_point).collect(),
+            values: parallel::flat_map(strains.len(), of_point),
         }
     }
 

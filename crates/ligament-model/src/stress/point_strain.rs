@@ -10,10 +10,10 @@
 //! single points.
 
 use nalgebra::{Cholesky, Const, SMatrix, SVector};
-use rayon::prelude::*;
 
 use crate::ghosts::Ghosts;
 use crate::layout::Layout;
+use crate::parallel;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, cross, dot, minus, norm};
 use crate::thermal::ThermalStrain;
@@ -165,13 +165,12 @@ impl<const D: usize> BondSystem<D> {
     /// Strains of all local points, each computed by its owner.
     pub(super) fn strains_of_all(
         &self,
-        of_point: impl Fn(u32) -> Option<SymTensor<D>> + Sync + Send,
+        of_point: impl Fn(u32) -> Option<SymTensor<D>> + Sync,
     ) -> Vec<Option<SymTensor<D>>> {
         let cloud = &self.cloud;
         let subdomain = &cloud.subdomain;
         if subdomain.is_whole() {
-            let points = (0..cloud.len() as u32).into_par_iter();
-            return points.map(of_point).collect();
+            return parallel::values(cloud.len(), None, |point| of_point(point as u32));
         }
         let n_components = SymTensor::<D>::COMPONENTS.len();
         let mut all = vec![f64::NAN; n_components * cloud.len()];
@@ -291,9 +290,10 @@ impl<const D: usize> BondSystem<D> {
     /// Factor exp(-l/H)/l of each bond, which weights the volumes of its ends, shape (n_bonds).
     pub(super) fn closeness(&self) -> &[f64] {
         self.closeness.get_or_init(|| {
-            let both = self.bonds.length.par_iter().zip(&*self.bonds.horizon);
-            both.map(|(length, horizon)| closeness(*length, *horizon))
-                .collect()
+            let (length, horizon) = (&self.bonds.length, &self.bonds.horizon);
+            parallel::values(length.len(), 0.0, |bond| {
+                closeness(length[bond], horizon[bond])
+            })
         })
     }
 }

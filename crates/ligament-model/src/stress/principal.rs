@@ -1,12 +1,11 @@
 //! Principal and equivalent stresses of a point, and the stresses around a bond at which it begins to soften.
 
-use rayon::prelude::*;
-
 use super::point_strain::{Motion, StrainAround, mean_strain};
 use crate::element::BondDeformation;
 use crate::failure::hooke::Moduli;
 use crate::failure::starting::{SHARE, Starting, Surface};
 use crate::layout::Layout;
+use crate::parallel;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, dot, minus};
 
@@ -31,7 +30,8 @@ impl<const D: usize> BondSystem<D> {
     ) -> Vec<f64> {
         let of_points = self.point_strains(layout, motion);
         let of_cells = self.cell_stresses(layout, motion);
-        let of_bond = |(bond, deformation): (usize, &BondDeformation)| {
+        let of_bond = |bond: usize| {
+            let deformation = &deformations[bond];
             let (strength, moduli) = starting.strength(bond);
             let stretch = deformation.stretch();
             let [a, b] = self.bonds.ends[bond].map(|end| end as usize);
@@ -70,7 +70,7 @@ impl<const D: usize> BondSystem<D> {
                 }
             }
         };
-        deformations.par_iter().enumerate().map(of_bond).collect()
+        parallel::values(deformations.len(), 0.0, of_bond)
     }
 
     /// Slope of a bond: the mean slope at its ends, or without rotations the slope by the strain of its ends.

@@ -15,18 +15,14 @@
 //!
 //! by Cauchy and Schwarz over the bonds with the energies (A s^2 + S gamma^2 + R dphi^2)/2.
 
-use rayon::prelude::*;
-
 use crate::element::Rigidities;
 use crate::failure::hooke::{Moduli, StressAcross};
 use crate::layout::Layout;
+use crate::parallel;
 use crate::system::BondSystem;
 use crate::tensor::{SymTensor, dot};
 
 use super::point_strain::{Fit, StrainAround, mean_strain};
-
-/// Least number of points or bonds for a parallel task.
-const TASK: usize = 256;
 
 /// Motions of the bonds of a body at the times at which they were last known, and the stresses that follow from them.
 pub trait StoredMotions: Send + Sync {
@@ -117,19 +113,19 @@ impl<const D: usize> StoredSlopes<'_, D> {
 
 impl<const D: usize> StoredMotions for StoredSlopes<'_, D> {
     fn store(&mut self, displacement: &[f64], bonds: &[u32]) {
-        let of_bond = |&bond: &u32| {
+        let found = parallel::values(bonds.len(), [[0.0; D]; 2], |place| {
             self.system
-                .slopes_of(self.layout, displacement, bond as usize)
-        };
-        let found: Vec<_> = bonds.par_iter().with_min_len(TASK).map(of_bond).collect();
+                .slopes_of(self.layout, displacement, bonds[place] as usize)
+        });
         for (&bond, slopes) in bonds.iter().zip(found) {
             self.slopes[bond as usize] = slopes;
         }
     }
 
     fn update_strains(&mut self, intact: &[bool], points: &[u32]) {
-        let of_point = |&point: &u32| self.fit(intact, point, |_, _| {}).strain();
-        let found: Vec<_> = points.par_iter().with_min_len(TASK).map(of_point).collect();
+        let found = parallel::values(points.len(), None, |place| {
+            self.fit(intact, points[place], |_, _| {}).strain()
+        });
         for (&point, strain) in points.iter().zip(found) {
             self.strains[point as usize] = strain;
         }
@@ -144,8 +140,9 @@ impl<const D: usize> StoredMotions for StoredSlopes<'_, D> {
     }
 
     fn update_bounds(&mut self, intact: &[bool], points: &[u32]) {
-        let of_point = |&point: &u32| self.bound(intact, point);
-        let found: Vec<_> = points.par_iter().with_min_len(TASK).map(of_point).collect();
+        let found = parallel::values(points.len(), None, |place| {
+            self.bound(intact, points[place])
+        });
         for (&point, bound) in points.iter().zip(found) {
             self.bounds[point as usize] = bound;
         }

@@ -10,6 +10,7 @@ use crate::cloud::PointCloud;
 use crate::contact::ClosedPair;
 use crate::deformation::{Deformation, Deformations};
 use crate::element::Element;
+use crate::parallel;
 use crate::system::{BondSystem, ElementSystem, UnbrokenBonds};
 use crate::tensor::minus;
 
@@ -91,16 +92,10 @@ fn through_planes<const D: usize, I: Iterator<Item = ([u32; 2], [f64; D])>>(
     pulls: impl Fn() -> I + Sync,
 ) -> Vec<f64> {
     let squares = Squares::from_cloud(cloud);
-    let mut of_normals = vec![Vec::new(); D];
-    rayon::scope(|scope| {
-        for (normal, tractions) in of_normals.iter_mut().enumerate() {
-            let (pulls, squares) = (&pulls, &squares);
-            scope.spawn(move |_| {
-                let mut planes = Planes::new(cloud, squares, normal);
-                pulls().for_each(|(ends, force)| planes.share_out(ends, force));
-                *tractions = planes.tractions();
-            });
-        }
+    let of_normals = parallel::map(0..D, |normal| {
+        let mut planes = Planes::new(cloud, &squares, normal);
+        pulls().for_each(|(ends, force)| planes.share_out(ends, force));
+        planes.tractions()
     });
     let of_point = |point: usize| {
         let of_normals = of_normals.iter().enumerate();

@@ -1,23 +1,23 @@
 //! The virial stress: the mean of the force dyads of a point's bonds.
 
-use rayon::prelude::*;
-
 use crate::deformation::{Deformation, Deformations};
 use crate::element::Element;
+use crate::parallel;
 use crate::system::{ElementSystem, UnbrokenBonds};
 use crate::tensor::SymTensor;
 
 impl<const D: usize, const M: usize, E: Element<D, M>> ElementSystem<D, M, E> {
-    /// Virial stress of every point, shape (n_points).
+    /// Virial stress of every point, shape (n_points), Pa.
+    ///
+    /// One thread sums over the bonds of a point in their order: the bits do not depend on the number of threads.
     pub(crate) fn virial_stresses(
         &self,
         bonds: UnbrokenBonds<'_>,
         deformations: &Deformations,
     ) -> Vec<SymTensor<D>> {
-        (0..self.system.cloud.len() as u32)
-            .into_par_iter()
-            .map(|point| self.virial_stress(bonds, deformations, point))
-            .collect()
+        parallel::values(self.system.cloud.len(), SymTensor::ZERO, |point| {
+            self.virial_stress(bonds, deformations, point as u32)
+        })
     }
 
     /// Virial stress of one point, Pa: sigma_i = 1/(2 V_i) sum_j f_ij (x) xi_ij over its intact bonds, with the force f_ij that

@@ -11,6 +11,7 @@ use super::search::{Search, Sought};
 use super::touch::{Touch, Vector, held_slip};
 use super::{Corners, extent, normal, tangential, weighted};
 use crate::geometry::bounding_box;
+use crate::parallel;
 use crate::tensor::{cross, dot, minus, norm};
 
 /// Cosine between the outward normals of two surfaces above which they do not face each other.
@@ -150,15 +151,17 @@ impl<const D: usize> FacetPair<D> {
     fn present<'a>(&self, numbers: &'a [u32], step: Step<'_>, within: f64) -> Present<'a, D> {
         let surface = &self.surface;
         let moved = |motions: &[f64]| -> Vec<Corners<D>> {
-            let facets = numbers.par_iter().map(|&it| surface.facet(it as usize));
-            facets.map(|it| it.moved(surface.layout, motions)).collect()
+            parallel::values(numbers.len(), [[0.0; D]; D], |place| {
+                let facet = surface.facet(numbers[place] as usize);
+                facet.moved(surface.layout, motions)
+            })
         };
         let now = moved(step.now);
         Present {
             numbers,
             before: moved(step.before),
-            normals: now.par_iter().map(normal).collect(),
-            extents: now.par_iter().map(extent).collect(),
+            normals: now.iter().map(normal).collect(),
+            extents: now.iter().map(extent).collect(),
             now,
             within,
         }
@@ -347,13 +350,14 @@ impl<const D: usize> FacetPair<D> {
             let first = D as u32 * facets[at];
             (0..D as u32).map(move |corner| (at, Self::place(first + corner)))
         };
-        let of_facets = (0..facets.len()).into_par_iter();
         let mut touches: Vec<Touch> = if let Opposite::Rigid(shape, _) = &self.opposite {
-            let met = of_facets.flat_map_iter(places).filter_map(|place| {
-                let partner = Self::shape_met(shape, place, &present, step.rigid)?;
-                Some(self.touch(place, &partner, &present, known(place.1)))
-            });
-            met.collect()
+            parallel::flat_map(facets.len(), |at| {
+                let present = &present;
+                places(at).filter_map(move |place| {
+                    let partner = Self::shape_met(shape, place, present, step.rigid)?;
+                    Some(self.touch(place, &partner, present, known(place.1)))
+                })
+            })
         } else {
             let skin = SKIN * self.reach;
             let sought = Sought {
@@ -363,15 +367,14 @@ impl<const D: usize> FacetPair<D> {
             };
             search.update(&sought, skin);
             let search = &*search;
-            let met = of_facets.flat_map_iter(|at| {
+            parallel::flat_map(facets.len(), |at| {
                 let facing = Self::facing(at, &present, search.neighbours(at));
                 let present = &present;
                 places(at).filter_map(move |place| {
                     let partner = self.facet_met(place, present, &facing, step.bonds)?;
                     Some(self.touch(place, &partner, present, known(place.1)))
                 })
-            });
-            met.collect()
+            })
         };
         touches.sort_unstable_by_key(|it| it.place);
         touches

@@ -2,10 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
 use super::Corners;
 use crate::geometry::bounding_box;
+use crate::parallel;
 use crate::tensor::{dot, minus};
 
 /// Number of a box of space along each axis.
@@ -72,10 +71,9 @@ impl Search {
                 self.boxes.entry(at).or_default().push(place);
             }
         }
-        let found: Vec<Vec<u32>> = (first..self.facets.len())
-            .into_par_iter()
-            .map(|place| self.find_neighbours(place, sought))
-            .collect();
+        let found = parallel::values(self.facets.len() - first, Vec::new(), |number| {
+            self.find_neighbours(first + number, sought)
+        });
         for (place, others) in (first as u32..).zip(&found) {
             for &other in others.iter().filter(|it| (**it as usize) < first) {
                 let facets = &self.facets;
@@ -100,7 +98,7 @@ impl Search {
             square.is_nan() || square > 0.25 * skin * skin
         };
         let now = &corners.as_flattened()[..before.len()];
-        now.par_iter().zip(before).any(moved)
+        now.iter().zip(before).any(moved)
     }
 
     /// Facets whose box is near the box of the facet at a place, by their numbers.

@@ -1,19 +1,15 @@
 //! Mean dilatations of the cells around the points, with their pressures and forces.
 
-use rayon::prelude::*;
-
 use super::cells::VolumetricCells;
 use crate::bonds::{BondSet, Incidence};
 use crate::correction::patch::{CellForces, uniform_strains};
 use crate::far_field::union_of_couplings;
 use crate::material::add_volumetric;
+use crate::parallel;
 use crate::tensor::{SymTensor, dot, minus};
 use crate::thermal::ThermalStrain;
 use crate::topology::CoupledPoints;
 use crate::topology::UnbrokenBonds;
-
-/// Least number of cells or patches for a parallel task.
-const TASK: usize = 1024;
 
 /// Volumetric stiffnesses of the patches of a body: the cells of one material around a point.
 #[derive(Debug, Clone)]
@@ -221,7 +217,7 @@ impl<const D: usize> VolumetricTerms<D> {
             others.dedup();
             others
         };
-        let lists: Vec<Vec<u32>> = (0..n_points as u32).into_par_iter().map(of_point).collect();
+        let lists = parallel::values(n_points, Vec::new(), |point| of_point(point as u32));
         let pairs = (0..).zip(&lists).flat_map(|(point, others)| {
             let others = others.iter();
             others.map(move |&other| (point, other))
@@ -392,9 +388,8 @@ impl<const D: usize> VolumetricTerms<D> {
         self.of_cells(|cell| self.share(bonds, cell))
     }
 
-    fn of_cells(&self, value: impl Fn(u32) -> f64 + Sync + Send) -> Vec<f64> {
-        let cells = (0..self.cells.len() as u32).into_par_iter();
-        cells.with_min_len(TASK).map(value).collect()
+    fn of_cells(&self, value: impl Fn(u32) -> f64 + Sync) -> Vec<f64> {
+        parallel::values(self.cells.len(), 0.0, |cell| value(cell as u32))
     }
 
     /// Dilatation of a patch from the shares of cells and the changes of their volumes.
@@ -421,16 +416,14 @@ impl<const D: usize> VolumetricTerms<D> {
 
     /// Dilatations of all patches from the shares and the volume changes of the cells (n_cells).
     pub(crate) fn dilatations(&self, shares: &[f64], changes: &[f64]) -> Vec<PatchDilatation> {
-        let of_patch = |patch: u32| {
+        parallel::values(self.patches.len(), PatchDilatation::default(), |patch| {
             let value = |values: &[f64], cell: u32| values[cell as usize];
             self.dilatation(
-                patch,
+                patch as u32,
                 |cell| value(shares, cell),
                 |cell| value(changes, cell),
             )
-        };
-        let patches = (0..self.patches.len() as u32).into_par_iter();
-        patches.with_min_len(TASK).map(of_patch).collect()
+        })
     }
 
     /// Work of the dilatations of all patches on others, sum kappa w theta theta', J.
@@ -456,16 +449,18 @@ impl<const D: usize> VolumetricTerms<D> {
         })
     }
 
-    /// Force on a point, N, by the pressures of the cells (n_cells).
+    /// Force on each point, N, by the pressures of the cells (n_cells).
     #[inline]
-    pub(crate) fn force(&self, point: u32, pressures: &[f64]) -> [f64; D] {
-        let mut force = [0.0; D];
-        for &place in self.corners_at_points.at(point) {
-            let place = place as usize;
-            let pressure = pressures[self.cell_of_corner[place] as usize];
-            (0..D).for_each(|axis| force[axis] += pressure * self.cells.gradients[place][axis]);
-        }
-        force
+    pub(crate) fn forces(&self, n_points: usize, pressures: &[f64]) -> Vec<[f64; D]> {
+        parallel::values(n_points, [0.0; D], |point| {
+            let mut force = [0.0; D];
+            for &place in self.corners_at_points.at(point as u32) {
+                let place = place as usize;
+                let pressure = pressures[self.cell_of_corner[place] as usize];
+                (0..D).for_each(|axis| force[axis] += pressure * self.cells.gradients[place][axis]);
+            }
+            force
+        })
     }
 
     /// Energy of the patches of a point, J, from the volume changes of the cells (n_cells).
@@ -525,11 +520,10 @@ impl<const D: usize> VolumetricTerms<D> {
     ) -> Vec<VolumetricStress> {
         let changes = self.volume_changes(motions, expansion);
         let found = self.dilatations(&self.shares(bonds), &changes);
-        let points = 0..self.first_patches.len() as u32 - 1;
-        let points = points.into_par_iter().with_min_len(TASK);
-        points
-            .map(|point| self.stress(point, |patch| found[patch as usize]))
-            .collect()
+        let n_points = self.first_patches.len() - 1;
+        parallel::values(n_points, VolumetricStress::default(), |point| {
+            self.stress(point as u32, |patch| found[patch as usize])
+        })
     }
 
     /// Row t of the dilatation theta_P = t . u of a patch, by point ascending, with the volume w of its living cells; none without one.
@@ -566,8 +560,7 @@ impl<const D: usize> VolumetricTerms<D> {
     /// By Jensen's inequality w theta^2 is at most the sum of (V_c/m_c) theta_c^2 over the cells, living or not, and theta_c^2 at most m_c times
     /// the sum of (G_ca . u_a)^2/V_c^2 over the corners: g = sqrt(kappa/V_c) G_ca.
     pub(crate) fn whole_patches(&self) -> Vec<CellPatch> {
-        let patch = |number: u32| {
-            let patch = &self.patches[number as usize];
+        let of_patch = |(number, patch): (u32, &Patch)| {
             let cells = self.cells_of_patches.at(number).iter();
             let corners = cells.flat_map(|&cell| {
                 let size = (patch.modulus / self.cells.volumes[cell as usize]).sqrt();
@@ -583,8 +576,7 @@ impl<const D: usize> VolumetricTerms<D> {
                 corners: corners.collect(),
             }
         };
-        let numbers = (0..self.patches.len() as u32).into_par_iter();
-        numbers.map(patch).collect()
+        (0..).zip(&self.patches).map(of_patch).collect()
     }
 
     /// Points of the patches with a cell along some bonds.

@@ -2,13 +2,13 @@
 //!
 //! Blocks are compressed as a whole and by all threads. The writer of vtkio compresses number by number, which takes ten times as long.
 
+use ligament_model::parallel;
 use std::io::{self, Write};
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use base64::write::EncoderWriter;
 use miniz_oxide::deflate::compress_to_vec_zlib;
-use rayon::prelude::*;
 
 use crate::xml::escape_attribute;
 
@@ -315,20 +315,17 @@ impl<'a> Field<'a> {
             Some(order) => n * order[place / n] as usize + place % n,
         };
         let of_block = BLOCK_SIZE / SIZE;
-        let blocks = (0..n_values.div_ceil(of_block))
-            .into_par_iter()
-            .map(|block| {
-                let mut bytes = Vec::with_capacity(BLOCK_SIZE);
-                let first = block * of_block;
-                for it in first..n_values.min(first + of_block) {
-                    bytes.extend_from_slice(&to_le_bytes(values.at(place(it))));
-                }
-                compress_to_vec_zlib(&bytes, COMPRESSION_LEVEL)
-            });
+        let blocks = parallel::map((0..n_values).step_by(of_block), |first| {
+            let mut bytes = Vec::with_capacity(BLOCK_SIZE);
+            for it in first..n_values.min(first + of_block) {
+                bytes.extend_from_slice(&to_le_bytes(values.at(place(it))));
+            }
+            compress_to_vec_zlib(&bytes, COMPRESSION_LEVEL)
+        });
         Array {
             attributes: self.attributes(),
             n_bytes: n_values * SIZE,
-            blocks: blocks.collect(),
+            blocks,
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Anisotropy of every family of a body.
 
 use ligament_model::failure::Criteria;
+use ligament_model::parallel;
 use ligament_model::system::BondSystem;
-use rayon::prelude::*;
 
 use super::{Family, PrincipalStretches, WorstOrientation};
 
@@ -28,8 +28,7 @@ pub fn families(
             least_load: 1.0 / family.theoretical_utilisation(strains),
         })
     };
-    let points = 0..system.cloud.len() as u32;
-    points.into_par_iter().map(of_point).collect()
+    parallel::values(system.cloud.len(), None, |point| of_point(point as u32))
 }
 
 /// Mean over some points of the error at one orientation of the strain (rad), for a body whose strain has that orientation everywhere.
@@ -41,11 +40,11 @@ pub fn mean_error(
     points: &[u32],
     orientation: f64,
 ) -> Option<f64> {
-    let error =
-        |&point: &u32| Family::at_point(system, criteria, point).error(strains, orientation);
-    let errors: Vec<Option<f64>> = points.par_iter().map(error).collect();
-    let count = errors.iter().flatten().count();
-    (count > 0).then(|| errors.iter().flatten().sum::<f64>() / count as f64)
+    let errors = parallel::flat_map(points.len(), |place| {
+        Family::at_point(system, criteria, points[place]).error(strains, orientation)
+    });
+    let count = errors.len();
+    (count > 0).then(|| errors.iter().sum::<f64>() / count as f64)
 }
 
 /// Mean, percentiles and the largest of some values.

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use ligament_model::element::BondDeformation;
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use super::{Family, PrincipalStretches};
 
@@ -55,9 +55,9 @@ pub fn principal_locus(family: &Family<'_>, count: u32) -> Vec<LocusPoint> {
             error,
         })
     };
-    let points: Vec<Option<LocusPoint>> = (0..count).into_par_iter().map(point).collect();
+    let points = parallel::flat_map(count as usize, |k| point(k as u32));
     let size = |it: &LocusPoint| it.theoretical.first.hypot(it.theoretical.second);
-    closed_points(points.into_iter().flatten().collect(), size)
+    closed_points(points, size)
 }
 
 /// Points at which the locus is not open.

@@ -1,7 +1,6 @@
 //! The thinnest section of a body: the shortest path through it, in horizons, between opposite sides.
 
-use ligament_model::PointCloud;
-use rayon::prelude::*;
+use ligament_model::{PointCloud, parallel};
 
 use super::facets::{self, Facet, dot, mean, minus, size};
 use crate::model::Model;
@@ -86,7 +85,7 @@ fn thinnest<const D: usize>(
             horizon: around(&model.fixed.horizon, [from, to]),
         })
     };
-    let mut sections: Vec<Section> = facets.par_iter().filter_map(section).collect();
+    let mut sections = parallel::flat_map(facets.len(), |place| section(&facets[place]));
     let shortest = sections
         .iter()
         .map(Section::horizons)

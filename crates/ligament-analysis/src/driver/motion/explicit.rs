@@ -13,10 +13,10 @@ use std::time::Instant;
 
 use ligament_model::element::BondDeformation;
 use ligament_model::failure::{CriteriaInState, Criterion};
+use ligament_model::parallel;
 use ligament_model::product::NearLimits;
 use ligament_model::surface::Vector;
 use ligament_model::thermal::ThermalStrain;
-use rayon::prelude::*;
 
 use super::clock::Clock;
 use super::inertia::{Inertia, Velocities};
@@ -487,16 +487,13 @@ impl ExplicitSteps<'_> {
     fn displace(&mut self) {
         let step = self.inertia.step();
         let displacement = &mut self.run.state.displacement;
-        (
-            displacement.par_chunks_mut(CHUNK),
-            self.velocities.half.par_chunks(CHUNK),
-        )
-            .into_par_iter()
-            .for_each(|(displacement, half)| {
-                for (displacement, velocity) in displacement.iter_mut().zip(half) {
-                    *displacement += step * velocity;
-                }
-            });
+        let chunks = displacement.chunks_mut(CHUNK);
+        let chunks = chunks.zip(self.velocities.half.chunks(CHUNK));
+        parallel::for_each(chunks, |(displacement, half)| {
+            for (displacement, velocity) in displacement.iter_mut().zip(half) {
+                *displacement += step * velocity;
+            }
+        });
         for &dof in self.inertia.prescribed() {
             displacement[dof as usize] = self.ahead[dof as usize];
         }

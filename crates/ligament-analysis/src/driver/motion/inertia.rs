@@ -3,10 +3,10 @@
 //! With the velocities v- and v+ in the middles of the steps before and after a time, a = (v+ - v-)/dt and v = (v+ + v-)/2, so that damping alpha M
 //! and dashpots are implicit in the velocity: v+ = (M/dt + C/2)^-1 ((M/dt - C/2) v- + F - f).
 
+use ligament_model::parallel;
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Vector3};
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::contact::RigidRates;
@@ -200,26 +200,22 @@ impl Inertia {
             (1.0 - 0.5 * alpha * step) / (1.0 + 0.5 * alpha * step),
             step / (1.0 + 0.5 * alpha * step),
         );
-        (
-            half.par_chunks_mut(CHUNK),
-            acceleration.par_chunks_mut(CHUNK),
-            internal.par_chunks_mut(CHUNK),
-            external.par_chunks(CHUNK),
-            self.mass.par_chunks(CHUNK),
-            self.inverse.par_chunks(CHUNK),
-        )
-            .into_par_iter()
-            .for_each(|(half, acceleration, internal, external, mass, inverse)| {
-                for place in 0..half.len() {
-                    let before = half[place];
-                    let force = external[place] - internal[place];
-                    let after = kept * before + gained * (inverse[place] * force);
-                    half[place] = after;
-                    acceleration[place] = (after - before) / step;
-                    internal[place] +=
-                        mass[place] * (acceleration[place] + 0.5 * alpha * (after + before));
-                }
-            });
+        let motions = half.chunks_mut(CHUNK).zip(acceleration.chunks_mut(CHUNK));
+        let forces = internal.chunks_mut(CHUNK).zip(external.chunks(CHUNK));
+        let masses = self.mass.chunks(CHUNK).zip(self.inverse.chunks(CHUNK));
+        let chunks = motions.zip(forces).zip(masses);
+        parallel::for_each(chunks, |((motions, forces), (mass, inverse))| {
+            let ((half, acceleration), (internal, external)) = (motions, forces);
+            for place in 0..half.len() {
+                let before = half[place];
+                let force = external[place] - internal[place];
+                let after = kept * before + gained * (inverse[place] * force);
+                half[place] = after;
+                acceleration[place] = (after - before) / step;
+                internal[place] +=
+                    mass[place] * (acceleration[place] + 0.5 * alpha * (after + before));
+            }
+        });
         for (it, [before, unbalanced]) in self.dashpots.iter().zip(dashed_before) {
             let after = it.after(self, before, unbalanced);
             for (place, &dof) in it.degrees_of_freedom.iter().enumerate() {

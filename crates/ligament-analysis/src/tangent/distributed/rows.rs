@@ -4,9 +4,9 @@
 //! symmetry. A rank computes the columns of its owned points and of points of larger number coupled with them, and stores its own
 //! rows.
 
+use ligament_model::parallel;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::{Bonds, UnbrokenBonds};
-use rayon::prelude::*;
 
 use crate::distributed_matrix::{DistributedMatrix, Rows};
 use crate::tangent::iterative::vanishing_of_block;
@@ -55,8 +55,8 @@ impl OwnRows<'_> {
         let is_seen = |&point: &u32| {
             self.is_own(point) || self.lower(point).into_iter().any(|it| self.is_own(it))
         };
-        let points = 0..self.system.n_points() as u32;
-        points.into_par_iter().filter(is_seen).collect()
+        let seen = |point| Some(point as u32).filter(is_seen);
+        parallel::flat_map(self.system.n_points(), seen)
     }
 
     /// Numbers of blocks in the rows of each owned point, in owned columns and in others, shape (n_own).
@@ -110,11 +110,7 @@ impl OwnRows<'_> {
     ) -> Vec<usize> {
         let mut loose = Vec::new();
         for points in columns.chunks(TASK) {
-            let columns: Vec<Column> = points
-                .par_iter()
-                .map(|&point| self.column(point, taken))
-                .collect();
-            for column in columns {
+            for column in parallel::map(points, |&point| self.column(point, taken)) {
                 self.set_column(&column, matrix);
                 if self.is_own(column.point) {
                     loose.extend(self.loose(&column, taken));

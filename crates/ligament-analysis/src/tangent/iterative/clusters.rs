@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use ligament_linalg::RankOne;
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use super::aggregates::Aggregates;
 use super::coarse_basis::CoarseBasis;
@@ -41,10 +41,9 @@ impl Clusters {
         for (aggregate, &cluster) in of_aggregate.iter().enumerate() {
             aggregates[cluster as usize].push(aggregate as u32);
         }
-        let of_clusters = clusters.points.par_iter();
-        let of_clusters: Vec<BTreeMap<u32, Vec<f64>>> = of_clusters
-            .map(|points| shapes(operator, space, diagonal, points))
-            .collect();
+        let of_clusters: Vec<BTreeMap<u32, Vec<f64>>> = parallel::map(&clusters.points, |points| {
+            shapes(operator, space, diagonal, points)
+        });
         let size = space.n_motions * space.n_motions;
         let mut shapes = vec![0.0; size * space.aggregates.len()];
         for (aggregate, shape) in of_clusters.into_iter().flatten() {
@@ -122,9 +121,9 @@ impl Clusters {
     pub(super) fn works(&self, of_aggregates: &[f64]) -> Vec<f64> {
         let n = self.n_motions;
         let mut works = vec![0.0; n * self.aggregates.len()];
-        (works.par_chunks_mut(n).zip(&self.aggregates))
-            .with_min_len(TASK)
-            .for_each(|(works, aggregates)| {
+        let tasks = works.chunks_mut(TASK * n).zip(self.aggregates.chunks(TASK));
+        parallel::for_each(tasks, |(works, clusters)| {
+            for (works, aggregates) in works.chunks_mut(n).zip(clusters) {
                 for &aggregate in aggregates {
                     let first = n * aggregate as usize;
                     let rows = self.shape(aggregate as usize).chunks_exact(n);
@@ -134,7 +133,8 @@ impl Clusters {
                         }
                     }
                 }
-            });
+            }
+        });
         works
     }
 

@@ -1,8 +1,7 @@
 //! The coarse space spanned by the rigid motions of aggregates.
 
+use ligament_model::parallel;
 use std::collections::BTreeMap;
-
-use rayon::prelude::*;
 
 use super::aggregates::Aggregates;
 use super::operator::Operator;
@@ -31,9 +30,9 @@ impl CoarseBasis {
     /// Coarse space of aggregates of at most `largest` points, from the diagonal of K (n_degrees_of_freedom).
     pub(super) fn new(operator: &Operator<'_>, diagonal: &[f64], largest: usize) -> Self {
         let aggregates = Aggregates::new(operator.system, operator.bonds.intact, largest);
-        let shapes: Vec<Vec<Vec<f64>>> = (aggregates.points.par_iter())
-            .map(|points| shapes(operator, diagonal, points))
-            .collect();
+        let shapes: Vec<Vec<Vec<f64>>> = parallel::map(&aggregates.points, |points| {
+            shapes(operator, diagonal, points)
+        });
         let n_motions = shapes.first().map_or(0, Vec::len);
         let n_components = operator.n_components();
         let mut rows = vec![0.0; operator.free.len() * n_motions];
@@ -80,11 +79,10 @@ impl CoarseBasis {
         let n = self.n_motions;
         let n_components = forces.len() / self.aggregates.of_point.len();
         let mut works = vec![0.0; self.aggregates.len() * n];
-        works
-            .par_chunks_mut(n)
-            .zip(&self.aggregates.points)
-            .with_min_len(TASK)
-            .for_each(|(works, points)| {
+        let tasks = works.chunks_mut(TASK * n);
+        let tasks = tasks.zip(self.aggregates.points.chunks(TASK));
+        parallel::for_each(tasks, |(works, aggregates)| {
+            for (works, points) in works.chunks_mut(n).zip(aggregates) {
                 for &point in points {
                     let first = n_components * point as usize;
                     let rows = self.rows_of(point, n_components).chunks_exact(n);
@@ -94,7 +92,8 @@ impl CoarseBasis {
                         }
                     }
                 }
-            });
+            }
+        });
         works
     }
 

@@ -5,13 +5,13 @@
 //! and the rigid motions S of clusters (a coarse space, Nicolaides 1987), which are so few that their factor costs nothing.
 
 use ligament_linalg::{FactorError, RankOne};
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use super::clusters::Clusters;
 use super::coarse_factor::CoarseFactor;
 use super::coarse_stiffness::{CoarseEquations, CoarseStiffness};
 use super::point_blocks::invert_without_vanishing;
-use crate::vectors::{CHUNK, dot_of_chunks};
+use crate::vectors::{add, dot_of_chunks, turn};
 
 /// Residual of the coarse equations in the norm of the preconditioner, relative to the works: the first level takes as many iterations as
 /// with a factor, and a tenth more with 1e-1.
@@ -135,9 +135,9 @@ impl CoarseIteration {
         let blocks = self.blocks.as_chunks::<N>().0.as_chunks::<N>().0;
         let amounts = amounts.as_chunks::<N>().0;
         let mut product = vec![0.0; N * amounts.len()];
-        (product.as_chunks_mut::<N>().0.par_iter_mut().enumerate())
-            .with_min_len(TASK)
-            .for_each(|(aggregate, works)| {
+        let tasks = product.as_chunks_mut::<N>().0.chunks_mut(TASK).enumerate();
+        parallel::for_each(tasks, |(task, of_task)| {
+            for (aggregate, works) in (task * TASK..).zip(of_task) {
                 let range = self.starts[aggregate]..self.starts[aggregate + 1];
                 for (&column, block) in self.columns[range.clone()].iter().zip(&blocks[range]) {
                     let amounts = &amounts[column as usize];
@@ -147,7 +147,8 @@ impl CoarseIteration {
                         }
                     }
                 }
-            });
+            }
+        });
         product
     }
 
@@ -157,16 +158,19 @@ impl CoarseIteration {
         let mut of_clusters = self.clusters.works(works);
         self.coarsest.solve(&mut of_clusters);
         let mut amounts = vec![0.0; works.len()];
-        (amounts.par_chunks_mut(n).zip(works.par_chunks(n)))
-            .zip(self.inverses.par_chunks(n * n))
-            .enumerate()
-            .with_min_len(TASK)
-            .for_each(|(aggregate, ((amounts, works), inverse))| {
-                for (amount, row) in amounts.iter_mut().zip(inverse.chunks_exact(n)) {
-                    *amount = row.iter().zip(works).map(|(a, b)| a * b).sum();
+        parallel::for_each(
+            amounts.chunks_mut(TASK * n).enumerate(),
+            |(task, of_task)| {
+                for (aggregate, amounts) in (task * TASK..).zip(of_task.chunks_mut(n)) {
+                    let works = &works[n * aggregate..][..n];
+                    let inverse = &self.inverses[n * n * aggregate..][..n * n];
+                    for (amount, row) in amounts.iter_mut().zip(inverse.chunks_exact(n)) {
+                        *amount = row.iter().zip(works).map(|(a, b)| a * b).sum();
+                    }
+                    self.clusters.add_amounts(aggregate, &of_clusters, amounts);
                 }
-                self.clusters.add_amounts(aggregate, &of_clusters, amounts);
-            });
+            },
+        );
         amounts
     }
 }
@@ -194,13 +198,7 @@ impl CoarseEquations for CoarseIteration {
             }
             let share = next / left;
             left = next;
-            (way.par_chunks_mut(CHUNK).zip(conditioned.par_chunks(CHUNK))).for_each(
-                |(way, conditioned)| {
-                    for (way, value) in way.iter_mut().zip(conditioned) {
-                        *way = value + share * *way;
-                    }
-                },
-            );
+            turn(&mut way, share, &conditioned);
         }
         *works = amounts;
     }
@@ -233,15 +231,6 @@ impl CoarseEquations for CoarseIteration {
         let of_clusters: Vec<RankOne> = terms.iter().map(|it| self.clusters.term(it)).collect();
         self.coarsest.change(&of_clusters)
     }
-}
-
-/// Adds a multiple of an array to another.
-fn add(factor: f64, of: &[f64], to: &mut [f64]) {
-    (to.par_chunks_mut(CHUNK).zip(of.par_chunks(CHUNK))).for_each(|(to, of)| {
-        for (sum, value) in to.iter_mut().zip(of) {
-            *sum += factor * value;
-        }
-    });
 }
 
 #[cfg(test)]

@@ -4,13 +4,12 @@
 //! The iteration must start at Q f, else it stalls. The coefficient of the search direction is the one of Polak and Ribiere, which
 //! remains valid where bonds broke since the coarse stiffness was built.
 
-use rayon::prelude::*;
-
 use super::coarse::Coarse;
 use super::operator::Operator;
 use super::point_blocks::PointBlocks;
 use crate::tangent::UNRESISTED;
-use crate::vectors::{CHUNK, dot_of_chunks, weighted_square};
+use crate::vectors::{CHUNK, add, dot_of_chunks, turn, weighted_square};
+use ligament_model::parallel;
 
 /// Largest number of iterations; the caller judges the result by its residual.
 pub(super) const ITERATION_LIMIT: usize = 2000;
@@ -97,13 +96,7 @@ pub(super) fn solve(
         let share = last.map_or(0.0, |last| {
             -last.step * dot_of_chunks(&conditioned, &pushed) / last.work
         });
-        (way.par_chunks_mut(CHUNK))
-            .zip(conditioned.par_chunks(CHUNK))
-            .for_each(|(way, conditioned)| {
-                for (way, value) in way.iter_mut().zip(conditioned) {
-                    *way = value + share * *way;
-                }
-            });
+        turn(&mut way, share, &conditioned);
         operator.multiply(&way, &mut pushed);
         let curvature = dot_of_chunks(&way, &pushed);
         let of_points = weighted_square(iteration.levels.blocks.diagonal(), &way);
@@ -157,11 +150,8 @@ impl<'a> Iteration<'a> {
         match limit {
             Limit::Norm(norm) => dot_of_chunks(&self.force, &self.force) <= norm * norm,
             Limit::Sizes(sizes) => {
-                let chunks = self.force.par_chunks(CHUNK).zip(sizes.par_chunks(CHUNK));
-                chunks.all(|(force, sizes)| {
-                    let mut both = force.iter().zip(sizes);
-                    both.all(|(force, size)| force.abs() <= *size)
-                })
+                let mut both = self.force.iter().zip(sizes);
+                both.all(|(force, size)| force.abs() <= *size)
             }
         }
     }
@@ -178,34 +168,22 @@ impl<'a> Iteration<'a> {
     fn add_coarse(&self, amounts: &[f64], motions: &mut [f64]) {
         let n_components = self.operator.n_components();
         let (space, chunk) = (self.levels.coarse.space(), self.chunk);
-        motions
-            .par_chunks_mut(chunk)
-            .zip(self.operator.free.par_chunks(chunk))
-            .enumerate()
-            .for_each(|(place, (motions, free))| {
-                space.add_motions(place * chunk / n_components, n_components, amounts, motions);
-                // Degrees of freedom fixed since the coarse space was built.
-                for (motion, free) in motions.iter_mut().zip(free) {
-                    if !free {
-                        *motion = 0.0;
-                    }
+        let chunks = motions.chunks_mut(chunk);
+        let chunks = chunks.zip(self.operator.free.chunks(chunk)).enumerate();
+        parallel::for_each(chunks, |(place, (motions, free))| {
+            space.add_motions(place * chunk / n_components, n_components, amounts, motions);
+            // Degrees of freedom fixed since the coarse space was built.
+            for (motion, free) in motions.iter_mut().zip(free) {
+                if !free {
+                    *motion = 0.0;
                 }
-            });
+            }
+        });
     }
 
     /// Takes a step along a direction `way`, on which the stiffness exerts the forces `pushed`.
     fn go(&mut self, step: f64, way: &[f64], pushed: &[f64]) {
-        (self.motions.par_chunks_mut(CHUNK))
-            .zip(way.par_chunks(CHUNK))
-            .zip(self.force.par_chunks_mut(CHUNK))
-            .zip(pushed.par_chunks(CHUNK))
-            .for_each(|(((motions, way), force), pushed)| {
-                for (motion, value) in motions.iter_mut().zip(way) {
-                    *motion += step * value;
-                }
-                for (force, value) in force.iter_mut().zip(pushed) {
-                    *force -= step * value;
-                }
-            });
+        add(step, way, &mut self.motions);
+        add(-step, pushed, &mut self.force);
     }
 }

@@ -1,8 +1,8 @@
 //! Product with the tangent stiffness of a state, of bonds, restraints and closed pairs, without a matrix.
 
 use ligament_model::element::Term;
+use ligament_model::parallel;
 use ligament_model::{Bonds, UnbrokenBonds};
-use rayon::prelude::*;
 
 use crate::unknowns::Unknowns;
 use crate::vectors::CHUNK;
@@ -30,15 +30,14 @@ impl Operator<'_> {
                 forces[*dof] += weight * moved * value;
             }
         }
-        (forces.par_chunks_mut(CHUNK))
-            .zip(self.free.par_chunks(CHUNK))
-            .for_each(|(forces, free)| {
-                for (force, free) in forces.iter_mut().zip(free) {
-                    if !free {
-                        *force = 0.0;
-                    }
+        let chunks = forces.chunks_mut(CHUNK).zip(self.free.chunks(CHUNK));
+        parallel::for_each(chunks, |(forces, free)| {
+            for (force, free) in forces.iter_mut().zip(free) {
+                if !free {
+                    *force = 0.0;
                 }
-            });
+            }
+        });
     }
 
     /// Points of smaller number that are coupled with a point, ascending.

@@ -1,7 +1,7 @@
 //! Block Jacobi: the inverses of the diagonal blocks of the points.
 
 use ligament_linalg::{FactorError, VANISHING_PIVOT};
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use super::operator::Operator;
 use crate::vectors::CHUNK;
@@ -34,15 +34,20 @@ impl PointBlocks {
         };
         let beside = of_points_beside(operator);
         let size = n_components * n_components;
-        let loose: Result<Vec<Vec<usize>>, FactorError> = (blocks.inverses.par_chunks_mut(size))
-            .zip(blocks.diagonal.par_chunks_mut(n_components))
-            .enumerate()
-            .with_min_len(TASK)
-            .map(|(point, (inverse, diagonal))| {
-                invert(operator, point as u32, &beside, inverse, diagonal)
-            })
-            .collect();
-        Ok((blocks, loose?.concat()))
+        let tasks = blocks.inverses.chunks_mut(TASK * size);
+        let tasks = tasks.zip(blocks.diagonal.chunks_mut(TASK * n_components));
+        let loose = parallel::map(tasks.enumerate(), |(task, (inverses, diagonals))| {
+            let points = inverses.chunks_mut(size);
+            let points = points.zip(diagonals.chunks_mut(n_components));
+            (task * TASK..)
+                .zip(points)
+                .map(|(point, (inverse, diagonal))| {
+                    invert(operator, point as u32, &beside, inverse, diagonal)
+                })
+                .collect::<Result<Vec<Vec<usize>>, FactorError>>()
+        });
+        let loose: Result<Vec<Vec<Vec<usize>>>, FactorError> = loose.into_iter().collect();
+        Ok((blocks, loose?.concat().concat()))
     }
 
     /// Recomputes the blocks of some points; returns their degrees of freedom without stiffness.
@@ -82,12 +87,10 @@ impl PointBlocks {
     pub(super) fn condition(&self, force: &[f64], motions: &mut [f64]) {
         // Number of degrees of freedom of the points of a chunk.
         let chunk = CHUNK / self.n_components * self.n_components;
-        (motions.par_chunks_mut(chunk))
-            .zip(force.par_chunks(chunk))
-            .enumerate()
-            .for_each(|(place, (motions, force))| {
-                self.apply(place * chunk / self.n_components, force, motions);
-            });
+        let chunks = motions.chunks_mut(chunk).zip(force.chunks(chunk));
+        parallel::for_each(chunks.enumerate(), |(place, (motions, force))| {
+            self.apply(place * chunk / self.n_components, force, motions);
+        });
     }
 
     /// Product of the inverses with the forces of consecutive points from `first` on, both of shape (n, n_components).

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use ligament_linalg::RankOne;
-use rayon::prelude::*;
+use ligament_model::parallel;
 
 use super::coarse_basis::CoarseBasis;
 use super::operator::Operator;
@@ -62,11 +62,8 @@ impl Resistance {
             space,
             diagonal,
         };
-        let n_aggregates = space.aggregates.len() as u32;
-        let shares: Vec<Share> = (0..n_aggregates)
-            .into_par_iter()
-            .map(|aggregate| making.share(aggregate))
-            .collect();
+        let aggregates = 0..space.aggregates.len() as u32;
+        let shares: Vec<Share> = parallel::map(aggregates, |it| making.share(it));
         let mut of_others: Vec<Vec<(u32, &[f64])>> = vec![Vec::new(); shares.len()];
         for share in &shares {
             let blocks = share.blocks_of_others.chunks_exact(making.size());
@@ -74,9 +71,11 @@ impl Resistance {
                 of_others[*aggregate as usize].push((*point, block));
             }
         }
-        let (columns, blocks) = (of_others.into_par_iter().enumerate())
-            .map(|(aggregate, others)| making.joined(aggregate as u32, &shares[aggregate], others))
-            .unzip();
+        let of_others = of_others.into_iter().enumerate();
+        let joined = parallel::map(of_others, |(aggregate, others)| {
+            making.joined(aggregate as u32, &shares[aggregate], others)
+        });
+        let (columns, blocks) = joined.into_iter().unzip();
         let free = operator.free.to_vec();
         (Self { columns, free }, blocks)
     }
@@ -103,10 +102,9 @@ impl Resistance {
         works: &mut [f64],
     ) {
         let motions = motions.as_chunks::<M>().0;
-        (works.as_chunks_mut::<N>().0.par_iter_mut())
-            .zip(&self.columns)
-            .with_min_len(TASK)
-            .for_each(|(works, columns)| {
+        let tasks = works.as_chunks_mut::<N>().0.chunks_mut(TASK);
+        parallel::for_each(tasks.zip(self.columns.chunks(TASK)), |(works, columns)| {
+            for (works, columns) in works.iter_mut().zip(columns) {
                 let blocks = columns.blocks.as_chunks::<N>().0.as_chunks::<M>().0;
                 let mut sums = [0.0; N];
                 for (&point, block) in columns.points.iter().zip(blocks) {
@@ -119,7 +117,8 @@ impl Resistance {
                 for (work, sum) in works.iter_mut().zip(sums) {
                     *work -= sum;
                 }
-            });
+            }
+        });
     }
 
     /// Adds c w (Z^T w)^T for a term c w w^T, with the works Z^T w by coarse unknown, ascending.

@@ -13,7 +13,6 @@ mod plane;
 mod solid;
 
 use ligament_mesh::MeshCell;
-use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
@@ -23,6 +22,7 @@ use crate::cloud::lumping::shortest_edges;
 use crate::cloud::{PointCloud, distance, search_tree};
 use crate::geometry::bounding_box;
 use crate::horizon::INCLUSION_TOLERANCE;
+use crate::parallel;
 use crate::tensor::{directions_across, minus, norm};
 
 /// Number of points along the curve that are checked together for a near outline: most of a body is far from it.
@@ -226,12 +226,14 @@ pub fn bonds_outside<const D: usize, O: Outline<D>>(
         let near: Vec<_> = outline.facets_within(around).collect();
         own(point).filter(move |&bond| !near.is_empty() && leaves(bond, &near))
     };
-    let of_points: Vec<usize> = (cloud.curve.par_chunks(BLOCK))
-        .filter(|block| outline.facets_within(around(block)).next().is_some())
-        .flat_map_iter(|block| block.iter().flat_map(|&point| leaving(point)))
-        .collect();
+    let of_blocks = parallel::map(cloud.curve.chunks(BLOCK), |block| {
+        match outline.facets_within(around(block)).next() {
+            Some(_) => block.iter().flat_map(|&point| leaving(point)).collect(),
+            None => Vec::new(),
+        }
+    });
     let mut outside = vec![false; bonds.len()];
-    for bond in of_points {
+    for bond in of_blocks.into_iter().flatten() {
         outside[bond] = true;
     }
     outside
@@ -258,7 +260,8 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
         return spacing;
     }
     let tree = search_tree(&cloud.positions);
-    let nearest = |&point: &u32| {
+    let nearest = |place: usize| {
+        let point = may_be_parted[place];
         let (position, shortest) = (cloud.positions[point as usize], shortest[point as usize]);
         let near: Vec<_> = outline
             .facets_within(box_around(position, shortest))
@@ -272,7 +275,7 @@ pub fn spacing_inside<const D: usize, C: MeshCell<D>>(
             .filter(|&(other, length)| is_seen(other, length))
             .fold(shortest, |nearest, (_, length)| nearest.min(length))
     };
-    let inside: Vec<f64> = may_be_parted.par_iter().map(nearest).collect();
+    let inside = parallel::values(may_be_parted.len(), 0.0, nearest);
     for (&point, nearest) in may_be_parted.iter().zip(inside) {
         spacing[point as usize] = nearest;
     }

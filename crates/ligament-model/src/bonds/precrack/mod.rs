@@ -14,13 +14,13 @@ mod crack;
 mod plane;
 mod solid;
 
-use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::BondSet;
 use crate::cloud::PointCloud;
 use crate::geometry::bounding_box;
+use crate::parallel;
 
 pub use crack::Crack;
 pub use plane::{PreCrack, crossing_bonds};
@@ -126,8 +126,9 @@ pub fn cut_bonds<const D: usize, C: Cut<D>>(
         return vec![false; ends.len()];
     }
     let pieces = Pieces::new(cracks, cloud);
-    let ends = ends.par_iter();
-    ends.map(|&ends| pieces.any(cloud, ends, C::cuts)).collect()
+    parallel::values(ends.len(), false, |bond| {
+        pieces.any(cloud, ends[bond], C::cuts)
+    })
 }
 
 /// Number of bonds between points on the outline of the body (`is_on_outline`, n_points) that the pre-cracks do not cut although the rim of one
@@ -143,7 +144,7 @@ pub fn count_touched_bonds<const D: usize, C: Cut<D>>(
         return 0;
     }
     let pieces = Pieces::new(cracks, cloud);
-    let whole = bonds.ends.par_iter().zip(is_cut).filter(|(_, cut)| !**cut);
+    let whole = bonds.ends.iter().zip(is_cut).filter(|(_, cut)| !**cut);
     let along_outline = whole.filter(|(ends, _)| ends.iter().all(|it| is_on_outline[*it as usize]));
     let at_rim = along_outline.filter(|(ends, _)| {
         cloud.subdomain.owns_bond(**ends) && pieces.any(cloud, **ends, C::touches)
@@ -168,5 +169,5 @@ pub fn normals<const D: usize, C: Cut<D>>(
         let along_x = || std::array::from_fn(|axis| if axis == 0 { 1.0 } else { 0.0 });
         best.map_or_else(along_x, |it| it.normal)
     };
-    cut.par_iter().map(of_bond).collect()
+    cut.iter().map(of_bond).collect()
 }

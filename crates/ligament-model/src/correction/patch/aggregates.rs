@@ -8,12 +8,12 @@
 //! 1987).
 
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-use rayon::prelude::*;
 
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
 use crate::cloud::{PointCloud, distance};
 use crate::correction::sweep_order::SweepOrder;
+use crate::parallel;
 
 /// Largest number of multipliers of all aggregates: their dense matrix is to cost less than the products.
 const MOST_MULTIPLIERS: usize = 720;
@@ -158,9 +158,8 @@ impl<'a> Aggregates<'a> {
             }
             sums
         };
-        let blocks = (0..n_own.div_ceil(BLOCK)).into_par_iter().map(of_block);
         let mut all = zeros();
-        for sums in blocks.collect::<Vec<_>>() {
+        for sums in parallel::map(0..n_own.div_ceil(BLOCK), of_block) {
             for (all, sum) in all.iter_mut().zip(sums) {
                 *all += sum;
             }

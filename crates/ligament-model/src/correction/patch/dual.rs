@@ -17,14 +17,13 @@
 //! Then either z or q of a bond follows the tangent, whichever changes the bond less. With z alone, factors that have to grow several times,
 //! at corners, would grow exponentially; with this choice no step needs to be shortened.
 
-use rayon::prelude::*;
-
 use super::aggregates::{Aggregates, CoarseHessian, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::newton::Hessian;
 use super::pairs::{BLOCK, Pairs};
 use super::settings::Settings;
 use crate::cloud::PointCloud;
+use crate::parallel;
 
 /// Regularisation of the first outer step.
 const FIRST_REGULARISATION: f64 = 1e-2;
@@ -287,13 +286,10 @@ impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
         let mu = &place.mu;
         let (start, stiffness) = (self.equations.start(), self.equations.stiffness());
         let mut sums = self.minus_right();
-        let blocks = (
-            sums.par_chunks_mut(BLOCK),
-            pairs.blocks(&mut place.z),
-            pairs.blocks(&mut place.slopes),
-        );
-        let blocks = blocks.into_par_iter().enumerate();
-        blocks.for_each(|(block, (sums, z, slopes))| {
+        let of_pairs = pairs.blocks(&mut place.z).into_iter();
+        let of_pairs = of_pairs.zip(pairs.blocks(&mut place.slopes));
+        let blocks = sums.chunks_mut(BLOCK).zip(of_pairs).enumerate();
+        parallel::for_each(blocks, |(block, (sums, (z, slopes)))| {
             let first = pairs.first(block);
             (self.equations).add(block, mu, sums, |pair, strains| {
                 let (z, slopes) = (&mut z[pair - first], &mut slopes[pair - first]);
@@ -320,12 +316,12 @@ impl<E: Equations<N>, const N: usize> Dual<'_, E, N> {
     /// Factors of an iterate, with the residual G q - f of the equations.
     fn factors(&self, place: Place<N>, steps: usize, products: usize) -> Factors {
         let (pairs, stiffness) = (self.equations.pairs(), self.equations.stiffness());
-        let factors: Vec<[f64; 2]> = (place.z.par_iter().zip(self.equations.start()))
-            .map(|(z, start)| z.map(|z| start * (self.lowest + self.span * logistic(z))))
-            .collect();
+        let start = self.equations.start();
+        let factors = parallel::values(start.len(), [0.0; 2], |pair| {
+            place.z[pair].map(|z| start[pair] * (self.lowest + self.span * logistic(z)))
+        });
         let mut left = self.minus_right();
-        let blocks = left.par_chunks_mut(BLOCK).enumerate();
-        blocks.for_each(|(block, left)| {
+        parallel::for_each(left.chunks_mut(BLOCK).enumerate(), |(block, left)| {
             (self.equations).add(block, &place.mu, left, |pair, _| {
                 std::array::from_fn(|k| stiffness[pair][k] * factors[pair][k])
             });

@@ -1,7 +1,5 @@
 //! Shares of the points in the bonds that pass by them, and energies of the points by these shares.
 
-use rayon::prelude::*;
-
 use crate::bonds::{BondSet, Incidence};
 use crate::cloud::PointCloud;
 use crate::correction::Correction;
@@ -12,6 +10,7 @@ use crate::fixed::EnergyRatio;
 use crate::horizon::Horizons;
 use crate::law::BondStiffness;
 use crate::material::Stiffness;
+use crate::parallel;
 use crate::tensor::{dot, minus};
 
 /// The part of a bond that lies nearer to a point than to any other, over the length of the bond.
@@ -60,7 +59,7 @@ impl Lines {
             };
             shares.map(of_point).collect()
         };
-        let of_bonds: Vec<_> = (0..bonds.len()).into_par_iter().map(of_bond).collect();
+        let of_bonds = parallel::values(bonds.len(), Vec::new(), of_bond);
         let mut starts = vec![0];
         for shares in &of_bonds {
             starts.push(starts[starts.len() - 1] + shares.len());
@@ -96,8 +95,7 @@ impl Lines {
             }
             sum
         };
-        let indices = 0..order.all().len();
-        let mut sums: Vec<_> = indices.into_par_iter().map(of_index).collect();
+        let mut sums = parallel::values(order.all().len(), [[0.0; M]; N], of_index);
         let values = sums.as_flattened_mut().as_flattened_mut();
         order.ghosts.add_to_owners(values, M * N);
         sums.truncate(order.owned().len());

@@ -1,10 +1,9 @@
 //! Direction of a Newton step, by conjugate gradients preconditioned with the blocks of the points and the matrix of the aggregates.
 
-use rayon::prelude::*;
-
 use super::aggregates::{CoarseHessian, Regularisation};
 use super::equations::{Equations, Multipliers};
 use super::pairs::BLOCK;
+use crate::parallel;
 
 /// Hessian G D G^T with the regularisation.
 pub(super) struct Hessian<'a, E, const N: usize> {
@@ -42,8 +41,8 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             coarse,
         };
         let mut inverses = vec![[[0.0; N]; N]; regularisation.weights.len()];
-        let blocks = inverses.par_chunks_mut(BLOCK).enumerate();
-        blocks.for_each(|(block, inverses)| {
+        let blocks = inverses.chunks_mut(BLOCK).enumerate();
+        parallel::for_each(blocks, |(block, inverses)| {
             hessian.add_blocks(block, inverses);
             inverses.iter_mut().for_each(invert);
         });
@@ -120,19 +119,17 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
 
     /// Next direction: the preconditioned residual plus `share` times the last direction.
     fn update_direction(&self, direction: &mut Multipliers<N>, share: f64, solved: &Solved<N>) {
-        let points = direction.par_iter_mut().zip(&solved.points).enumerate();
-        points
-            .with_min_len(BLOCK)
-            .for_each(|(index, (direction, solved_here))| {
-                for (direction, solved) in direction.iter_mut().zip(solved_here) {
-                    *direction = solved + share * *direction;
-                }
+        let blocks = direction.chunks_mut(BLOCK).zip(solved.points.chunks(BLOCK));
+        parallel::for_each(blocks.enumerate(), |(block, (directions, of_points))| {
+            let points = directions.iter_mut().zip(of_points);
+            for (index, (direction, solved_here)) in (block * BLOCK..).zip(points) {
                 let aggregates = self.regularisation.aggregates;
                 let common: [f64; N] = aggregates.at(&solved.aggregates, index);
-                for (direction, common) in direction.iter_mut().zip(common) {
-                    *direction += common;
+                for k in 0..N {
+                    direction[k] = solved_here[k] + share * direction[k] + common[k];
                 }
-            });
+            }
+        });
         self.equations.pairs().order.update_ghosts(direction);
     }
 
@@ -150,8 +147,7 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             });
             dot(values[indices].as_flattened(), product.as_flattened())
         };
-        let blocks = product.par_chunks_mut(BLOCK).enumerate();
-        let of_blocks: Vec<f64> = blocks.map(of_block).collect();
+        let of_blocks = parallel::map(product.chunks_mut(BLOCK).enumerate(), of_block);
         self.equations
             .pairs()
             .order
@@ -181,18 +177,15 @@ impl<'a, E: Equations<N>, const N: usize> Hessian<'a, E, N> {
             }
             solved
         };
-        let blocks = (
-            step.par_chunks_mut(BLOCK),
-            left.par_chunks_mut(BLOCK),
-            solved.points.par_chunks_mut(BLOCK),
-        );
-        let sums = (blocks.into_par_iter().enumerate()).map(|(block, (step, left, solved))| {
+        let blocks = (step.chunks_mut(BLOCK).zip(left.chunks_mut(BLOCK)))
+            .zip(solved.points.chunks_mut(BLOCK));
+        let sums = parallel::map(blocks.enumerate(), |(block, ((step, left), solved))| {
             for (k, index) in self.equations.pairs().indices(block).enumerate() {
                 solved[k] = of_point(index, &mut step[k], &mut left[k]);
             }
             dot(left.as_flattened(), solved.as_flattened())
         });
-        let of_points: f64 = sums.collect::<Vec<f64>>().iter().sum();
+        let of_points: f64 = sums.iter().sum();
         let of_points = self.equations.pairs().order.subdomain.sum(of_points);
         let of_aggregates = self.regularisation.aggregates.sums(|index| left[index]);
         solved.aggregates = self.coarse.solve(&of_aggregates);

@@ -2,12 +2,11 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 pub(crate) use crate::correction::members::BLOCK;
 use crate::correction::sweep_order::SweepOrder;
+use crate::parallel;
 
 /// Pairs of an owned point and the other end of a bond: one pair, from the end of the smaller index, where both ends are in a block, else
 /// one from either end that is an owned point. `index` is the position of a point in the order of the sweeps.
@@ -104,8 +103,7 @@ impl<'a> Pairs<'a> {
             let pairs = self.starts[index][0]..self.starts[index + 1][0];
             self.bond[pairs].iter().map(move |&bond| value(point, bond))
         };
-        let indices = (0..self.n_points()).into_par_iter();
-        indices.flat_map_iter(of_index).collect()
+        parallel::flat_map(self.n_points(), of_index)
     }
 
     /// An array over the pairs, divided by blocks of points.

@@ -1,13 +1,12 @@
 //! Reference factors of the correction.
 
-use rayon::prelude::*;
-
 use super::lines::Lines;
 use super::settings::Reference;
 use crate::bonds::BondSet;
 use crate::cloud::PointCloud;
 use crate::correction::sweep_order::SweepOrder;
 use crate::horizon::Horizons;
+use crate::parallel;
 
 /// Number of sweeps over the points. On a block of tetrahedra graded four to one they leave 8 % of T_P/T - I as a root mean square, of 180 %
 /// before, most of it at edges and corners; with four times as many the energy released by a crack in the block changes by less than 1 %.
@@ -129,7 +128,7 @@ impl<const D: usize> Families<'_, D> {
             let terms = shares.map(|it| it.share * along(direction, &tensors[it.index as usize]));
             terms.sum::<f64>().exp().clamp(1.0 / LARGEST, LARGEST)
         };
-        (0..self.bonds.len()).into_par_iter().map(of_bond).collect()
+        parallel::values(self.bonds.len(), 0.0, of_bond)
     }
 
     /// The factors (n_bonds) with those that other processes compute; collective.

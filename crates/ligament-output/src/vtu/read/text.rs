@@ -1,12 +1,12 @@
 //! The text of a VTU file, and its arrays.
 
+use ligament_model::parallel;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
-use rayon::prelude::*;
 use roxmltree::{Document, Node};
 
 use crate::atomic::read_bytes;
@@ -274,11 +274,10 @@ fn decode(text: &str, most: usize) -> Option<Vec<u8>> {
         from = to;
         left = left.checked_sub(size)?;
     }
-    let inflated: Option<Vec<Vec<u8>>> = (blocks.par_iter())
-        .map(|(block, size)| {
-            let bytes = decompress_to_vec_zlib_with_limit(block, *size).ok()?;
-            (bytes.len() == *size).then_some(bytes)
-        })
-        .collect();
+    let inflated = parallel::map(&blocks, |(block, size)| {
+        let bytes = decompress_to_vec_zlib_with_limit(block, *size).ok()?;
+        (bytes.len() == *size).then_some(bytes)
+    });
+    let inflated: Option<Vec<Vec<u8>>> = inflated.into_iter().collect();
     Some(inflated?.concat())
 }
