@@ -10,7 +10,7 @@ use super::trees;
 /// Tokens of the crates. A rise fails until the number is changed in the same commit, whose message gives the reason.
 const TOKENS: [(&str, usize); 16] = [
     ("ligament", 122_944),
-    ("ligament-analysis", 207_818),
+    ("ligament-analysis", 207_166),
     ("ligament-case", 80_426),
     ("ligament-cli", 60_901),
     ("ligament-linalg", 28_982),
@@ -30,7 +30,7 @@ const TOKENS: [(&str, usize); 16] = [
 /// Short files of the crates. The numbers may fall.
 const SHORT_FILES: [(&str, usize); 16] = [
     ("ligament", 18),
-    ("ligament-analysis", 13),
+    ("ligament-analysis", 12),
     ("ligament-case", 2),
     ("ligament-cli", 9),
     ("ligament-linalg", 2),

@@ -183,8 +183,8 @@ impl BondNumbers {
         let mut local = vec![usual; n_bonds];
         for _ in 0..rows {
             let (number, value) = (u32::read(from)?, T::read(from)?);
-            let here = self.local(number).and_then(|it| local.get_mut(it));
-            here.into_iter().for_each(|it| *it = value.clone());
+            let own = self.local(number).and_then(|it| local.get_mut(it));
+            own.into_iter().for_each(|it| *it = value.clone());
         }
         Ok(local)
     }

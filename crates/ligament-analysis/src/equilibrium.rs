@@ -4,22 +4,13 @@ mod accuracy;
 mod active_set;
 mod contact_line;
 mod curvature;
-mod dissipating;
-mod earlier_equilibria;
 mod equations;
-mod external;
-mod falling;
-mod intact;
-mod iteration;
-mod line;
 mod line_search;
-mod mechanism;
 mod newton;
-mod on_rigid;
+mod path_following;
 mod residual;
 mod rigid;
 mod secant;
-mod target;
 
 use std::io::Read;
 use std::sync::Arc;
@@ -34,7 +25,7 @@ use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::connectivity::Fragments;
 use crate::connectivity::decremental::Connectivity;
-use crate::contact::faces::FacePairs;
+use crate::contact::faces::{self, FacePairs};
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::history::{Observer, ObserverError};
@@ -48,25 +39,23 @@ use crate::tangent::IntactSolver;
 use crate::unbalanced::Unbalanced;
 use crate::unknowns::Unknowns;
 use active_set::ActiveSet;
-use earlier_equilibria::EarlierEquilibria;
-use equations::Equations;
-use iteration::Method;
+use equations::{Equations, Method};
 use newton::Newton;
-use secant::Secant;
+use secant::{EarlierEquilibria, Secant};
 
 pub(crate) use contact_line::Heading;
-pub(crate) use dissipating::Dissipation;
+pub(crate) use path_following::{ControlledQuantity, Dissipation, Target};
 pub(crate) use residual::ROUNDING;
-pub(crate) use target::Target;
 
-/// Quantity prescribed in place of the load factor, which is then an unknown.
-#[derive(Debug, Clone)]
-pub(crate) enum ControlledQuantity {
-    /// A motion (a weighted sum of displacements).
-    Motion(Target),
-    /// The energy dissipated by bonds.
-    Energy(Dissipation),
-}
+/// Resultant, relative to the sum of the sizes of the external forces on a part and the largest force at a point of the body, above
+/// which the forces do not balance: self-balanced loads are accepted to the same tolerance, and solutions are far more accurate.
+const BALANCED: f64 = 1e-6;
+
+/// Number of sums along one axis.
+const SUMS: usize = 3;
+
+/// Resultant along one axis, sum of the sizes of the forces, and sum of their rounding errors, N.
+type Sum = [f64; SUMS];
 
 /// Equilibrium equations of a problem, updated while its bonds break.
 pub struct Equilibrium {
@@ -76,6 +65,8 @@ pub struct Equilibrium {
     numbers: Arc<BondNumbers>,
     /// Whether bonds may soften, and are not only intact or broken.
     softens: bool,
+    /// Earlier equilibria of softening bonds.
+    earlier: EarlierEquilibria,
     held: Option<ControlledQuantity>,
 }
 
@@ -99,6 +90,7 @@ impl IntactEquilibrium {
             connectivity: self.connectivity.clone(),
             numbers: self.numbers.clone(),
             softens: self.softens,
+            earlier: EarlierEquilibria::default(),
             held: None,
         }
     }
@@ -140,12 +132,19 @@ impl Equilibrium {
             numbers,
             connectivity: Connectivity::new(&*problem.system),
             softens: false,
+            earlier: EarlierEquilibria::default(),
         })
     }
 
     /// Appends the bytes from which the equilibrium is restored bit for bit.
     pub(crate) fn write(&self, out: &mut dyn Sink) {
-        self.equations.write(&self.numbers, out);
+        let Equations {
+            problem, unknowns, ..
+        } = &self.equations;
+        self.equations.write(out);
+        if problem.criteria.soften() {
+            self.earlier.write_all(&self.numbers, unknowns, out);
+        }
     }
 
     /// Restores the equilibrium, its state and its measured quantities from bytes of [`Equilibrium::write`]; `numbers` are the
@@ -169,9 +168,16 @@ impl Equilibrium {
         let mut equilibrium = Self::numbered(problem, numbers, energy_tolerance)?;
         state = equilibrium.known(state);
         equilibrium.connectivity = Connectivity::held(&*problem.system, &state.intact);
-        let balanced = equilibrium
-            .equations
-            .restore(&state, &equilibrium.numbers, from)?;
+        let Self {
+            equations,
+            numbers,
+            earlier,
+            ..
+        } = &mut equilibrium;
+        let balanced = equations.restore(&state, numbers, from)?;
+        if problem.criteria.soften() {
+            *earlier = EarlierEquilibria::restored(from, (numbers, &equations.unknowns))?;
+        }
         if !state.softening.remaining.is_empty() {
             equilibrium.soften();
         }
@@ -319,13 +325,12 @@ impl Equilibrium {
             problem,
             contact,
             solver,
-            earlier,
             ..
         } = &mut self.equations;
         let system = &*problem.system;
         self.connectivity = Connectivity::held(system, &state.intact);
         contact.faces = FacePairs::new(system, &state.intact);
-        *earlier = EarlierEquilibria::default();
+        self.earlier = EarlierEquilibria::default();
         solver.discard();
     }
 
@@ -345,11 +350,16 @@ impl Equilibrium {
         state: &mut State,
         loads: &dyn LoadProgram,
     ) -> Result<Vec<f64>, Unbalanced> {
-        let growth = line::growth(&mut self.equations, state, loads)?;
-        match line::load_on_added_support(&self.equations, state, &growth, loads) {
-            Some(reason) => Err(reason),
-            None => Ok(growth),
+        let equations = &mut self.equations;
+        let growth = equations.displacement_rate(state, loads)?;
+        if equations.subdomain().any(state.held.contains(&true)) {
+            let line = equations::at_one(state, growth.clone());
+            let forces = equations.line_forces(&line, loads, &[]);
+            equations
+                .load_on_added_support(&forces)
+                .map_or(Ok(()), Err)?;
         }
+        Ok(growth)
     }
 
     /// Rate of the displacements with the load factor in a direction, shape (n_degrees_of_freedom), where contacts open and close, for the
@@ -434,8 +444,8 @@ impl Equilibrium {
         } = &mut self.equations;
         let (subdomain, layout) = (&problem.system.subdomain, problem.system.layout);
         for &dof in dofs {
-            if let Some(here) = subdomain.local_index(dof, layout.components.len()) {
-                state.held[here] = true;
+            if let Some(local) = subdomain.local_index(dof, layout.components.len()) {
+                state.held[local] = true;
             }
         }
         solver.discard();
@@ -466,23 +476,35 @@ impl Equilibrium {
         observer: &mut dyn Observer,
     ) -> Result<Attempt, ObserverError> {
         let equations = &mut self.equations;
-        let target = match &self.held {
+        let is_softening = self.softens || matches!(self.held, Some(ControlledQuantity::Energy(_)));
+        let (mut target, mut search) = match &self.held {
+            None => (None, None),
+            Some(ControlledQuantity::Motion(target)) => (Some(target.clone()), None),
             Some(ControlledQuantity::Energy(goal)) => {
-                let attempt = dissipating::balance(equations, state, breakage, goal, observer)?;
+                match path_following::begin(equations, state, breakage, goal) {
+                    Ok(first) => first,
+                    Err(reason) => return Ok(Attempt::Unbalanced(reason)),
+                }
+            }
+        };
+        loop {
+            let target_now = target.as_ref();
+            let method: &mut dyn Method = if is_softening {
+                &mut Secant::new(target_now, &mut self.earlier)
+            } else if target.is_none() && equations.problem.may_press() {
+                &mut ActiveSet::new(equations)
+            } else {
+                &mut Newton { target: target_now }
+            };
+            let attempt = equations::balance(equations, state, breakage, method, observer)?;
+            target = match (&mut search, &attempt) {
+                (Some(search), Attempt::Balanced(it)) => search.next(&equations.problem, state, it),
+                _ => None,
+            };
+            if target.is_none() {
                 return Ok(self.accepted(attempt, state));
             }
-            Some(ControlledQuantity::Motion(target)) => Some(target),
-            None => None,
-        };
-        let method: &mut dyn Method = if self.softens {
-            &mut Secant::new(target)
-        } else if target.is_none() && equations.problem.may_press() {
-            &mut ActiveSet::new(equations)
-        } else {
-            &mut Newton { target }
-        };
-        let attempt = iteration::balance(equations, state, breakage, method, observer)?;
-        Ok(self.accepted(attempt, state))
+        }
     }
 
     /// Accepts an equilibrium, from which surfaces and friction continue, unless forces on a part do not balance or surfaces missed each
@@ -492,11 +514,87 @@ impl Equilibrium {
             return attempt;
         };
         let fragments = self.connectivity.fragments();
-        let imbalance = external::imbalance(&self.equations, state, balanced, fragments);
+        let imbalance = imbalance(&self.equations, state, balanced, fragments);
         let reason = imbalance.or_else(|| self.missed(state, balanced));
         if reason.is_none() {
             self.equations.contact.settle(state, balanced);
         }
         reason.map_or(attempt, Attempt::Unbalanced)
     }
+}
+
+/// First part of the body on which the external forces of a state do not balance along some axis.
+///
+/// Moments are not checked, except by the residual: bonds that resist shear between points without rotations exert couples.
+fn imbalance(
+    equations: &Equations,
+    state: &State,
+    balanced: &Balanced,
+    fragments: &Fragments,
+) -> Option<Unbalanced> {
+    let layout = equations.layout();
+    let n_components = layout.components.len();
+    let external = external_forces(equations, state, balanced);
+    let surfaces = &equations.contact.surfaces;
+    let rounding = (equations.accuracy).rounding(layout, state, (surfaces, &balanced.touching));
+    let mut sums = vec![Sum::default(); n_components * fragments.len()];
+    let of_points = external
+        .chunks(n_components)
+        .zip(rounding.chunks(n_components));
+    let subdomain = equations.subdomain();
+    let of_each = (0..).zip(of_points.zip(&fragments.of_point));
+    let owned = of_each.filter(|(point, _)| subdomain.owns(*point));
+    for (_, ((forces, rounding), &fragment)) in owned {
+        let of_part = &mut sums[n_components * fragment as usize..];
+        for ((sum, force), rounding) in of_part.iter_mut().zip(forces).zip(rounding) {
+            let of_point = [*force, force.abs(), *rounding];
+            sum.iter_mut()
+                .zip(of_point)
+                .for_each(|(it, part)| *it += part);
+        }
+    }
+    subdomain.all_reduce_sum(sums.as_flattened_mut());
+    let of_body = equations.largest_force(balanced.internal.force_scale);
+    let bound = equations.accuracy.bound(equations.loaded(state));
+    let is_off = |(place, [resultant, size, rounding]): &(usize, &Sum)| {
+        let is_force = !layout.components[place % n_components].is_rotation();
+        // A resultant that is not a number is out of balance.
+        let is_balanced = resultant.abs() <= BALANCED * (size + of_body).min(bound) + rounding;
+        is_force && !is_balanced
+    };
+    let (place, &[resultant, size, _]) = sums.iter().enumerate().find(is_off)?;
+    let extent = fragments.extents[place / n_components];
+    Some(Unbalanced::NoForceBalance {
+        component: layout.components[place % n_components],
+        resultant,
+        size,
+        points: extent.n_points,
+        first: extent.first,
+    })
+}
+
+/// Forces on the points of each part by loads, supports and other parts, shape (n_degrees_of_freedom).
+fn external_forces(equations: &Equations, state: &State, balanced: &Balanced) -> Vec<f64> {
+    let (problem, layout) = (&equations.problem, equations.layout());
+    // External forces at free points are the given loads, at other points the internal forces.
+    let mut external = balanced.internal.values.clone();
+    let dofs = equations.degrees_of_freedom();
+    let given = problem.loads.forces(state.load_factor, dofs);
+    for (&dof, given) in dofs.iter().zip(given) {
+        if !state.held[dof as usize] && !problem.loads.reacts_at(dof as usize) {
+            external[dof as usize] = given;
+        }
+    }
+    let closed = balanced.closed.iter();
+    let closed_forces = closed.flat_map(|it| faces::end_forces(it, layout));
+    // Forces that other parts exert through closed faces are external to a part.
+    for (dof, force) in closed_forces {
+        external[dof] -= force;
+    }
+    let surfaces = equations.contact.surfaces.problem();
+    let by_surfaces = balanced.touching.forces(surfaces, external.len());
+    for (sum, force) in external.iter_mut().zip(by_surfaces) {
+        *sum += force;
+    }
+    external
 }

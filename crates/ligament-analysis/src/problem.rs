@@ -5,6 +5,7 @@ use std::sync::Arc;
 use ligament_model::Bonds;
 use ligament_model::failure::{Criteria, CriteriaInState};
 use ligament_model::stress::point_strain::Motion;
+use rayon::prelude::*;
 
 use crate::balanced::Balanced;
 use crate::contact::ContactProblem;
@@ -107,6 +108,36 @@ impl Problem {
         let (system, deformations) = (&*self.system, &balanced.deformations);
         let criteria = self.criteria_in(state, balanced);
         criteria.before_softening(system, motion, deformations)
+    }
+
+    /// Largest utilisation of the intact bonds in an equilibrium; 0 without criteria.
+    pub(crate) fn largest_ratio(&self, state: &State, balanced: &Balanced) -> f64 {
+        self.largest_ratio_by(&self.criteria_in(state, balanced), state, balanced)
+    }
+
+    /// Largest utilisation of the intact bonds by some criteria.
+    pub(crate) fn largest_ratio_by(
+        &self,
+        criteria: &CriteriaInState<'_>,
+        state: &State,
+        balanced: &Balanced,
+    ) -> f64 {
+        let ratio = (&state.intact, balanced.deformations.measured())
+            .into_par_iter()
+            .enumerate()
+            .filter(|(_, (intact, _))| **intact)
+            .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
+            .reduce(|| 0.0, f64::max);
+        self.system.subdomain.max(ratio)
+    }
+
+    /// Displacement and force of the control load in an equilibrium, m and N.
+    pub(crate) fn control(&self, state: &State, balanced: &Balanced) -> (f64, f64) {
+        let (loads, load_factor) = (&self.loads, state.load_factor);
+        (
+            loads.control_displacement(load_factor, &state.displacement),
+            loads.control_force(load_factor, &balanced.internal),
+        )
     }
 
     fn motion<'a>(&'a self, state: &'a State, intact: &'a [bool]) -> Motion<'a> {

@@ -205,8 +205,8 @@ impl Softening {
             let after = criteria.after(place);
             let now = after.extreme(bond, criteria.utilisation_by(place, bond, deformation));
             let kappa = now.map_or(largest, |it| largest.max(it));
-            let taken = after.at(bond, kappa).dissipated;
-            (taken != 0.0).then(|| taken * energy_at_limit(system, criteria, place, bond))
+            let dissipated = after.at(bond, kappa).dissipated;
+            (dissipated != 0.0).then(|| dissipated * energy_at_limit(system, criteria, place, bond))
         };
         self.largest.iter().enumerate().filter_map(of).sum()
     }

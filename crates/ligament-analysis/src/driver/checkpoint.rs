@@ -7,7 +7,7 @@ use std::io::Read;
 use serde::{Deserialize, Serialize};
 
 use super::energies::Energies;
-use super::start::ElasticAnswer;
+use super::record::ElasticAnswer;
 use super::way::{Outcome, Way};
 use crate::balanced::Balanced;
 use crate::bond_numbers::BondNumbers;

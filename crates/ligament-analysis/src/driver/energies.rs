@@ -297,14 +297,14 @@ impl Energies {
     ) {
         let loss = self.follow_contact(problem, (state, balanced), &breakage.bonds);
         let surfaces = self.follow_surfaces(problem, state);
-        let mut taken = loss.friction + surfaces.dissipated;
+        let mut dissipated = loss.friction + surfaces.dissipated;
         if breakage.bonds.is_empty() {
-            taken -= surfaces.excess;
+            dissipated -= surfaces.excess;
             self.external_work -= loss.closure + surfaces.excess;
         } else {
             self.released += loss.closure;
         }
-        self.friction += taken;
+        self.friction += dissipated;
         self.in_contact = surfaces.stored;
     }
 

@@ -21,7 +21,7 @@ use super::delayed_updates::PartsOfBody;
 use super::energies::Energies;
 use super::prediction::{self, Prediction};
 use super::prepared::Prepared;
-use super::record::{StepCounters, largest_ratio};
+use super::record::StepCounters;
 use super::run::Run;
 use super::way::{Outcome, Rows, Stop, StopRules, Way};
 use crate::balanced::{Attempt, Balanced};
@@ -430,7 +430,7 @@ fn end_of(run: &mut Run<'_>, step: usize, last: &Balanced, end: Termination) -> 
     let counters = StepCounters {
         step,
         at_rest: end == Termination::FellApart,
-        largest_ratio: largest_ratio(&run.problem, &run.state, last),
+        largest_ratio: run.problem.largest_ratio(&run.state, last),
         ..Default::default()
     };
     match run.record(last, counters, true) {

@@ -8,7 +8,6 @@ use ligament_model::element::BondDeformation;
 use ligament_model::failure::CriteriaInState;
 use ligament_model::parallel;
 
-use super::record::largest_ratio;
 use super::run::Run;
 use super::start::NoObserver;
 use super::way::LoadPoint;
@@ -127,7 +126,7 @@ impl Run<'_> {
             None => match self.first_step_of_stages(load_factor)? {
                 // A programme begins with the unloaded body.
                 Some(balanced) => {
-                    let utilisation = largest_ratio(&self.problem, &self.state, &balanced);
+                    let utilisation = self.problem.largest_ratio(&self.state, &balanced);
                     (1.0 / utilisation, balanced, 1.0)
                 }
                 None => return Ok(()),
@@ -226,7 +225,7 @@ fn in_proportion(
     };
     let factors = steps.unwrap_or(&[1.0]);
     let criteria = run.problem.criteria_before_softening(&run.state, &balanced);
-    let (displacement, reaction) = run.control(&balanced);
+    let (displacement, reaction) = run.problem.control(&run.state, &balanced);
     let along = balanced.deformations;
     // Faces that close under a load are open under the opposite one.
     let reversed = factors.iter().position(|factor| *factor < 0.0);
@@ -297,7 +296,7 @@ fn in_stages(
     // The stresses of an equilibrium stay those with the loads of the part in which they are asked for first.
     run.criteria(&here);
     for (index, part) in programme.parts.iter().enumerate() {
-        let start = run.control(&here);
+        let start = run.problem.control(&run.state, &here);
         run.begin_part(index);
         let goes_on = aim_at_end(&mut run, part);
         let there = match run.balance(0, &nothing)? {
@@ -315,7 +314,7 @@ fn in_stages(
             continue;
         };
         let first = Nearest::new(&run, &line.criteria(share), &line.at(share));
-        let end = run.control(&there);
+        let end = run.problem.control(&run.state, &there);
         let on_way = |start: f64, end: f64| start + share * (end - start);
         let (begins, ends) = part.span;
         let steps_before: usize = programme.parts[..index].iter().map(|it| it.steps).sum();

@@ -62,7 +62,7 @@ impl Prepared {
         };
         let equilibrium = intact.judged_by(&problem.criteria);
         let mut start = start.clone();
-        start.read_off(problem, equilibrium.fragments());
+        start.read_off(problem);
         Ok(Run::begun(problem, (equilibrium, start), stop, observer))
     }
 }

@@ -1,19 +1,17 @@
 //! Records of the times of a run, as all drivers make them.
 
-use ligament_model::failure::CriteriaInState;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::energies::Energies;
-use crate::balanced::Balanced;
+use super::way::LoadPoint;
+use crate::balanced::Stability;
 use crate::bond_numbers::sum_over_bonds;
 use crate::connectivity::Fragments;
-use crate::history::{ContactAtRest, StepRecord};
+use crate::history::{ContactAtRest, StepRecord, Termination};
 use crate::load_program::groups_of_reactions;
 use crate::probe;
 use crate::problem::Problem;
 use crate::result_fields::Solution;
-use crate::state::State;
 
 /// Counters of a load step.
 #[derive(Debug, Clone, Copy, Default, Serialize, Deserialize)]
@@ -45,6 +43,32 @@ impl StepCounters {
     }
 }
 
+/// Results of the elastic solution.
+#[derive(Clone, Serialize, Deserialize)]
+pub(super) struct ElasticAnswer {
+    /// Force over displacement of the control load, N/m; NaN where there is no equilibrium or nothing resists the load.
+    pub(super) stiffness: f64,
+    pub(super) first_break: Option<LoadPoint>,
+    pub(super) stability: Option<Stability>,
+}
+
+impl ElasticAnswer {
+    /// Without a solution.
+    pub(super) const UNKNOWN: Self = Self {
+        stiffness: f64::NAN,
+        first_break: None,
+        stability: None,
+    };
+
+    /// End of a run where the intact model is unstable, unless the problem allows that.
+    pub(super) fn refused(&self, problem: &Problem) -> Option<Termination> {
+        let stability = self.stability.filter(Stability::is_unstable)?;
+        let Stability { negative, expected } = stability;
+        let end = Termination::Unstable { negative, expected };
+        (!problem.solver.allows_unstable).then_some(end)
+    }
+}
+
 /// Record of an equilibrium.
 pub(super) fn step_record(
     problem: &Problem,
@@ -61,6 +85,7 @@ pub(super) fn step_record(
         ..
     } = solution;
     let is_static = motion.is_none() && problem.has_contact_at_rest();
+    let (displacement, reaction) = problem.control(state, balanced);
     let reactions = loads.reactions(state.load_factor, &balanced.internal.values);
     StepRecord {
         step: counters.step,
@@ -69,8 +94,8 @@ pub(super) fn step_record(
         factors: loads
             .course()
             .map_or_else(Vec::new, |it| it.factors(state.load_factor)),
-        displacement: loads.control_displacement(state.load_factor, &state.displacement),
-        reaction: loads.control_force(state.load_factor, &balanced.internal),
+        displacement,
+        reaction,
         stored_energy: balanced.stored_energy,
         released_energy: energies.released,
         contact: is_static.then_some(ContactAtRest {
@@ -116,30 +141,4 @@ fn group_forces(problem: &Problem, load_factor: f64, reactions: &[f64]) -> Vec<V
             sum
         })
         .collect()
-}
-
-/// Largest utilisation of the intact bonds; 0 without criteria.
-pub(super) fn largest_ratio(problem: &Problem, state: &State, balanced: &Balanced) -> f64 {
-    largest_ratio_by(
-        &problem.criteria_in(state, balanced),
-        problem,
-        state,
-        balanced,
-    )
-}
-
-/// Largest utilisation of the intact bonds by some criteria.
-pub(super) fn largest_ratio_by(
-    criteria: &CriteriaInState<'_>,
-    problem: &Problem,
-    state: &State,
-    balanced: &Balanced,
-) -> f64 {
-    let ratio = (&state.intact, balanced.deformations.measured())
-        .into_par_iter()
-        .enumerate()
-        .filter(|(_, (intact, _))| **intact)
-        .map(|(bond, (_, deformation))| criteria.utilisation(bond, deformation))
-        .reduce(|| 0.0, f64::max);
-    problem.system.subdomain.max(ratio)
 }

@@ -14,9 +14,9 @@ use super::breaks::{self, Breaking, Judged};
 use super::checkpoint::{CheckValues, Progress, RestoredRun, WayKind};
 use super::energies::Energies;
 use super::equations::Equations;
-use super::record::{StepCounters, step_record};
+use super::record::{ElasticAnswer, StepCounters, step_record};
 use super::run_messages;
-use super::start::{ElasticAnswer, Start, begin, report_detached_parts, report_mechanisms};
+use super::start::{Start, begin};
 use super::way::{Outcome, Rows, Stop, StopRules};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::sum_over_bonds;
@@ -490,7 +490,9 @@ impl<'a> Run<'a> {
         self.energies.account(&self.problem, at, breakage);
         (self.energies).add_contact(&self.problem, &self.state, breakage, balanced);
         breaks::soften(&self.problem, &mut self.state);
-        report_mechanisms(step, balanced, self.observer)?;
+        if let Some(message) = run_messages::mechanisms(balanced) {
+            self.observer.message(message.in_step(step))?;
+        }
         Ok(())
     }
 
@@ -547,7 +549,9 @@ impl<'a> Run<'a> {
         let may_press = self.problem.may_press();
         self.collapsed |= !may_press && self.loaded_part_is_detached(&breakage.holds);
         let fragments = self.equations.fragments();
-        report_detached_parts(step, fragments, &breakage.holds, self.observer)?;
+        if let Some(message) = run_messages::detached_parts(fragments, &breakage.holds) {
+            self.observer.message(message.in_step(step))?;
+        }
         Ok(breakage)
     }
 
@@ -565,15 +569,6 @@ impl<'a> Run<'a> {
                     .iter()
                     .any(|hold| hold.fragment == of_point[point as usize])
             })
-    }
-
-    /// Displacement and force of the control load in an equilibrium, m and N.
-    pub(super) fn control(&self, balanced: &Balanced) -> (f64, f64) {
-        let (loads, load_factor) = (&self.problem.loads, self.state.load_factor);
-        (
-            loads.control_displacement(load_factor, &self.state.displacement),
-            loads.control_force(load_factor, &balanced.internal),
-        )
     }
 
     /// Records an equilibrium; the run itself counts broken bonds, solves and negative eigenvalues.
@@ -660,11 +655,11 @@ impl<'a> Run<'a> {
 impl Run<'_> {
     /// Begins the part of this index of a programme at the end of the present part.
     pub(super) fn begin_part(&mut self, part: usize) {
-        let Some(here) = self.problem.loads.course().filter(|it| it.part != part) else {
+        let Some(present) = self.problem.loads.course().filter(|it| it.part != part) else {
             return;
         };
-        let start = here.factors(self.state.load_factor);
-        let next = LoadCourse::new(here.programme.clone(), part, &start);
+        let start = present.factors(self.state.load_factor);
+        let next = LoadCourse::new(present.programme.clone(), part, &start);
         let (begins, _) = next.programme.parts[part].span;
         let Some(loads) = self.problem.loads.in_course(next) else {
             return;
@@ -690,9 +685,9 @@ impl Run<'_> {
         let (subdomain, layout) = (&self.problem.system.subdomain, self.problem.system.layout);
         let held = control.and_then(|(course, control)| {
             let start = self.progress.control_start;
-            let way = control.end() - start;
+            let change = control.end() - start;
             let rate = loads.in_course(course.rate())?;
-            let value = start + share * way;
+            let value = start + share * change;
             Some(match control {
                 PartControl::Motion(motion) => ControlledQuantity::Motion(Target {
                     subdomain: subdomain.clone(),
@@ -703,10 +698,10 @@ impl Run<'_> {
                     ),
                     rate,
                     value,
-                    way,
+                    change,
                 }),
                 PartControl::DissipatedEnergy { .. } => ControlledQuantity::Energy(Dissipation {
-                    step: way / course.n_steps() as f64,
+                    step: change / course.n_steps() as f64,
                     energy: value,
                     rate,
                 }),
@@ -755,7 +750,7 @@ impl Run<'_> {
         if let Some(loads) = self.problem.loads.course() {
             return self.carries_no_programme_load(loads, balanced);
         }
-        let (_, reaction) = self.control(balanced);
+        let (_, reaction) = self.problem.control(&self.state, balanced);
         reaction <= NO_LOAD * self.largest_load()
     }
 
@@ -800,7 +795,7 @@ impl Run<'_> {
 
     /// Termination by an equilibrium without further breakage, at any load: displacement reached, or body fell apart.
     pub(super) fn end_at_rest(&self, balanced: &Balanced) -> Option<Termination> {
-        let (displacement, _) = self.control(balanced);
+        let (displacement, _) = self.problem.control(&self.state, balanced);
         if let Some(displacement) = self
             .stop
             .displacement
@@ -850,7 +845,7 @@ impl Run<'_> {
             return None;
         }
         // A negative load has a negative reaction.
-        let (_, reaction) = self.control(balanced);
+        let (_, reaction) = self.problem.control(&self.state, balanced);
         let factor = self.problem.loads.control_factor(self.state.load_factor);
         Some(if factor < 0.0 { -reaction } else { reaction })
     }

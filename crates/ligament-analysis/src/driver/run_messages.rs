@@ -4,7 +4,8 @@ use ligament_model::contact::Overlap;
 use ligament_model::layout::Layout;
 use nalgebra::{Matrix3, Vector3};
 
-use crate::connectivity::Fragments;
+use crate::balanced::Balanced;
+use crate::connectivity::{AddedSupport, Fragments};
 use crate::history::{LargestOverlap, StepRecord};
 use crate::problem::Problem;
 use crate::state::State;
@@ -27,32 +28,32 @@ const LARGEST: f64 = 0.1;
 /// Overlap over the point spacing that is rounding, in a body that is unloaded again.
 const ROUNDING: f64 = 1e-12;
 
-/// Opening of a notch, relative to the motion of its faces against each other, below which they slide and neither open nor close.
-const SLIDING: f64 = 0.1;
-
 /// Angle from which on a fragment counts as turned, rad: linear motions make it longer by half of its square, .5 %.
 const TURNED: f64 = 0.1;
 
-/// Message about the notch that closes most in an equilibrium, of a body whose bonds may fail and whose faces carry no pressure; notches whose faces
-/// slide, or come nearer by no more than the material beside them is shortened, do not close.
-pub(super) fn closed_notch(problem: &Problem, state: &State) -> Option<Message> {
-    if problem.criteria.list.is_empty() || problem.may_press() {
-        return None;
-    }
-    let layout = problem.system.layout;
-    let openings = problem.notches.iter().map(|notch| {
-        let it = notch.opening(layout, &state.displacement);
-        let is_more = -it.opening > it.strained.abs().max(SLIDING * it.motion);
-        (it.opening, is_more, notch)
-    });
-    let closed = openings.filter(|(_, closes, _)| *closes);
-    let (opening, _, notch) = closed.min_by(|one, other| one.0.total_cmp(&other.0))?;
+/// Message about the parts that a breakage detached, of which these supports hold the rigid motions.
+pub(super) fn detached_parts(fragments: &Fragments, holds: &[AddedSupport]) -> Option<Message> {
+    let mut loose: Vec<u32> = holds.iter().map(|hold| hold.fragment).collect();
+    loose.dedup();
+    let extent = |fragment: &u32| fragments.extents[*fragment as usize];
+    let first = extent(loose.first()?).first;
+    let points: usize = loose.iter().map(|fragment| extent(fragment).n_points).sum();
     let text = format!(
-        "the notch between {{at}} and {{at}} closes under the load, by {:.2e} m in the mean at load factor {}, and its faces carry no pressure",
-        -opening, state.load_factor
+        "a part of {points} points (around {{}}) broke off; its rigid motion is fixed so that the equations stay solvable"
     );
-    let message = Message::new("notch-closes", text).of_points(notch.ends[0]);
-    Some(message.with_advice("if the load is to open it, turn its sign round"))
+    Some(Message::new("parts-detached", text).of_points([first]))
+}
+
+/// Message about the mechanisms that the factorisation found on the way to an equilibrium.
+pub(super) fn mechanisms(balanced: &Balanced) -> Option<Message> {
+    let points = &balanced.mechanisms;
+    (!points.is_empty()).then(|| {
+        let text = format!(
+            "fixed {} mechanism(s), motions that no bond resists, at {{all}}",
+            points.len()
+        );
+        Message::new("mechanisms", text).of_points(points.as_slice())
+    })
 }
 
 /// Message about the first fragment of a motion that has turned so far that forces linear in the motions are in error.

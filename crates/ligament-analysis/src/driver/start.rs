@@ -1,20 +1,19 @@
 //! First step of every driver: fixes detached parts and solves the elastic problem.
 
-use serde::{Deserialize, Serialize};
-
-use super::energies::Energies;
-use super::record::{StepCounters, largest_ratio_by, step_record};
+use super::record::ElasticAnswer;
 use super::run_messages;
 use super::way::LoadPoint;
 use crate::balanced::{Attempt, Balanced, Stability};
-use crate::connectivity::{AddedSupport, Fragments};
 use crate::equilibrium::Equilibrium;
 use crate::error::SetupError;
 use crate::gauges;
-use crate::history::{Ahead, Observer, ObserverError, StepRecord, Termination, View};
+use crate::history::{Ahead, Observer, ObserverError, StepRecord, View};
 use crate::problem::Problem;
 use crate::state::State;
 use crate::user_message::Message;
+
+/// Opening of a notch, relative to the motion of its faces against each other, below which they slide and neither open nor close.
+const SLIDING: f64 = 0.1;
 
 /// State and elastic solution before the first load step.
 #[derive(Clone)]
@@ -28,15 +27,6 @@ pub(super) struct Start {
     deformed: Option<Balanced>,
 }
 
-/// Results of the elastic solution.
-#[derive(Clone, Serialize, Deserialize)]
-pub(super) struct ElasticAnswer {
-    /// Force over displacement of the control load, N/m; NaN where there is no equilibrium or nothing resists the load.
-    pub(super) stiffness: f64,
-    pub(super) first_break: Option<LoadPoint>,
-    pub(super) stability: Option<Stability>,
-}
-
 /// Fixes detached parts, and solves once at load factor one for the stiffness, the first breakage and the inertia.
 ///
 /// In a programme of stages the solution is that of the control load alone, which predicts no breakage.
@@ -47,22 +37,21 @@ pub(super) fn begin(
 ) -> Result<Start, SetupError> {
     let course = problem.loads.course();
     let alone = course.and_then(|it| problem.loads.in_course(it.control_alone()));
-    let Some(loads) = alone else {
-        return begin_proportional(problem, equilibrium, observer);
-    };
-    let alone = Problem {
-        loads,
-        ..problem.clone()
-    };
-    equilibrium.load_with(alone.loads.clone());
-    let mut start = begin_proportional(&alone, equilibrium, observer)?;
+    let is_proportional = alone.is_none();
+    let loads = alone.unwrap_or_else(|| problem.loads.clone());
+    equilibrium.load_with(loads.clone());
+    let mut elastic = problem.clone();
+    elastic.loads = loads;
+    let mut start = solve_elastic(&elastic, equilibrium, observer)?;
     equilibrium.load_with(problem.loads.clone());
-    start.elastic.first_break = None;
-    start.deformed = None;
+    if !is_proportional {
+        start.elastic.first_break = None;
+        start.deformed = None;
+    }
     Ok(start)
 }
 
-fn begin_proportional(
+fn solve_elastic(
     problem: &Problem,
     equilibrium: &mut Equilibrium,
     observer: &mut dyn Observer,
@@ -97,13 +86,15 @@ fn begin_proportional(
     if let Attempt::Balanced(balanced) =
         equilibrium.balance(&mut at_one, &breakage, &mut NoObserver)?
     {
-        report_mechanisms(0, &balanced, observer)?;
+        if let Some(message) = run_messages::mechanisms(&balanced) {
+            observer.message(message.in_step(0))?;
+        }
         start.unloaded.held.clone_from(&at_one.held);
         start.elastic.stability = stability(problem, equilibrium, &at_one, observer)?;
         if start.elastic.refused(problem).is_some() {
             return Ok(start);
         }
-        if let Some(message) = run_messages::closed_notch(problem, &at_one) {
+        if let Some(message) = closed_notch(problem, &at_one) {
             observer.message(message)?;
         }
         match is_deformed(problem, &at_one, &balanced) {
@@ -117,9 +108,31 @@ fn begin_proportional(
             )?,
         }
         start.at_one = Some(at_one);
-        start.read_off(problem, equilibrium.fragments());
+        start.read_off(problem);
     }
     Ok(start)
+}
+
+/// Message about the notch that closes most in an equilibrium, of a body whose bonds may fail and whose faces carry no pressure; notches whose faces
+/// slide, or come nearer by no more than the material beside them is shortened, do not close.
+fn closed_notch(problem: &Problem, state: &State) -> Option<Message> {
+    if problem.criteria.list.is_empty() || problem.may_press() {
+        return None;
+    }
+    let layout = problem.system.layout;
+    let openings = problem.notches.iter().map(|notch| {
+        let it = notch.opening(layout, &state.displacement);
+        let is_more = -it.opening > it.strained.abs().max(SLIDING * it.motion);
+        (it.opening, is_more, notch)
+    });
+    let closed = openings.filter(|(_, closes, _)| *closes);
+    let (opening, _, notch) = closed.min_by(|one, other| one.0.total_cmp(&other.0))?;
+    let text = format!(
+        "the notch between {{at}} and {{at}} closes under the load, by {:.2e} m in the mean at load factor {}, and its faces carry no pressure",
+        -opening, state.load_factor
+    );
+    let message = Message::new("notch-closes", text).of_points(notch.ends[0]);
+    Some(message.with_advice("if the load is to open it, turn its sign round"))
 }
 
 /// Whether the energy at load factor one exceeds the rounding of its displacements; temperatures may change a free body without
@@ -129,23 +142,6 @@ fn is_deformed(problem: &Problem, at_one: &State, balanced: &Balanced) -> bool {
     let is_heated = temperatures.iter().any(|change| *change != 0.0);
     let rounding = balanced.energy_floor / at_one.displacement.len() as f64;
     is_heated || rounding == 0.0 || balanced.stored_energy.abs() > rounding
-}
-
-impl ElasticAnswer {
-    /// Without a solution.
-    pub(super) const UNKNOWN: Self = Self {
-        stiffness: f64::NAN,
-        first_break: None,
-        stability: None,
-    };
-
-    /// End of a run where the intact model is unstable, unless the problem allows that.
-    pub(super) fn refused(&self, problem: &Problem) -> Option<Termination> {
-        let stability = self.stability.filter(Stability::is_unstable)?;
-        let Stability { negative, expected } = stability;
-        let end = Termination::Unstable { negative, expected };
-        (!problem.solver.allows_unstable).then_some(end)
-    }
 }
 
 /// Inertia of the intact stiffness of a problem, from one factorisation and one solution; None where it cannot be indefinite, or where there
@@ -163,26 +159,20 @@ pub fn stability_of(problem: &Problem) -> Result<Option<Stability>, SetupError> 
 impl Start {
     /// Sets the stiffness and first breakage from the elastic solution: everything is proportional to the load factor, except with
     /// true strains and with contacts along the exact path, which predict no breakage.
-    pub(super) fn read_off(&mut self, problem: &Problem, fragments: &Fragments) {
+    pub(super) fn read_off(&mut self, problem: &Problem) {
         let Some((at_one, balanced)) = self.at_one.as_ref().zip(self.deformed.as_ref()) else {
             return;
         };
-        let record = step_record(
-            problem,
-            problem.solution(at_one, balanced),
-            &Energies::unloaded(problem),
-            fragments,
-            StepCounters::default(),
-        );
-        self.elastic.stiffness = record.reaction / record.displacement;
+        let (displacement, reaction) = problem.control(at_one, balanced);
+        self.elastic.stiffness = reaction / displacement;
         let criteria = problem.criteria_before_softening(at_one, balanced);
-        let ratio = largest_ratio_by(&criteria, problem, at_one, balanced);
+        let ratio = problem.largest_ratio_by(&criteria, at_one, balanced);
         let is_bent = problem.contact.is_linear();
         let is_predicted = ratio > 0.0 && problem.system.element.is_linear() && !is_bent;
         self.elastic.first_break = is_predicted.then(|| LoadPoint {
             load_factor: 1.0 / ratio,
-            displacement: record.displacement / ratio,
-            reaction: record.reaction / ratio,
+            displacement: displacement / ratio,
+            reaction: reaction / ratio,
         });
     }
 }
@@ -211,45 +201,6 @@ fn stability(
         observer.message(Message::new("unstable", text))?;
     }
     Ok(stability)
-}
-
-/// Notifies the observer of detached parts.
-pub(super) fn report_detached_parts(
-    step: usize,
-    fragments: &Fragments,
-    holds: &[AddedSupport],
-    observer: &mut dyn Observer,
-) -> Result<(), ObserverError> {
-    let mut loose: Vec<u32> = holds.iter().map(|hold| hold.fragment).collect();
-    loose.dedup();
-    let extent = |fragment: &u32| fragments.extents[*fragment as usize];
-    let Some(first) = loose.first() else {
-        return Ok(());
-    };
-    let points: usize = loose.iter().map(|fragment| extent(fragment).n_points).sum();
-    let text = format!(
-        "a part of {points} points (around {{}}) broke off; its rigid motion is fixed so that the equations stay solvable"
-    );
-    let message = Message::new("parts-detached", text).of_points([extent(first).first]);
-    observer.message(message.in_step(step))
-}
-
-/// Notifies the observer of mechanisms that the factorisation found.
-pub(super) fn report_mechanisms(
-    step: usize,
-    balanced: &Balanced,
-    observer: &mut dyn Observer,
-) -> Result<(), ObserverError> {
-    let points = &balanced.mechanisms;
-    if points.is_empty() {
-        return Ok(());
-    }
-    let text = format!(
-        "fixed {} mechanism(s), motions that no bond resists, at {{all}}",
-        points.len()
-    );
-    let message = Message::new("mechanisms", text).of_points(points.as_slice());
-    observer.message(message.in_step(step))
 }
 
 /// Observer without effect.

@@ -11,9 +11,8 @@ use super::delayed_updates::{DelayedUpdates, PartsOfBody, WHOLE_EVERY};
 use super::equations::next_to_break;
 use super::prediction::{self, Prediction};
 use super::prepared::Prepared;
-use super::record::{StepCounters, largest_ratio};
+use super::record::{ElasticAnswer, StepCounters};
 use super::run::Run;
-use super::start::ElasticAnswer;
 use super::way::{LoadPoint, Outcome, Rows, Stop, StopRules, Way};
 use crate::balanced::Balanced;
 use crate::breakage::Breakage;
@@ -462,7 +461,8 @@ impl<'a> LoadSteps<'a> {
             ..
         } = counters;
         if broken_in_step > 0 && self.run.is_seen_between_breakages(step, broken_in_step)? {
-            counters.largest_ratio = largest_ratio(&self.run.problem, &self.run.state, balanced);
+            let Run { problem, state, .. } = &self.run;
+            counters.largest_ratio = problem.largest_ratio(state, balanced);
             self.run.show_between_breakages(balanced, counters)?;
         }
         Ok(())
@@ -475,7 +475,8 @@ impl<'a> LoadSteps<'a> {
         mut counters: StepCounters,
         end: Option<Termination>,
     ) -> Result<(), Stop> {
-        counters.largest_ratio = largest_ratio(&self.run.problem, &self.run.state, balanced);
+        let Run { problem, state, .. } = &self.run;
+        counters.largest_ratio = problem.largest_ratio(state, balanced);
         self.run.record(balanced, counters, end.is_some())?;
         end.map_or(Ok(()), |end| Err(Stop::End(end)))
     }

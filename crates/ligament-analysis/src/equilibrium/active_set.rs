@@ -10,8 +10,7 @@
 //! There
 //! is no energy then; a step ends where the residual forces do no work along it.
 
-use super::equations::{Equations, Iterate};
-use super::iteration::{Iteration, Method};
+use super::equations::{Equations, Iterate, Iteration, Method};
 use super::line_search;
 use super::rigid::{self, Correction};
 use crate::contact::faces;
@@ -139,7 +138,7 @@ impl Method for ActiveSet {
         }
         if is_over && let Some(Nearest { motions, rigid, .. }) = self.nearest.take() {
             (at.state.displacement, at.state.rigid) = (motions, rigid);
-            *iterate = at.measure();
+            *iterate = at.equations.measure(at.state);
             return true;
         }
         false

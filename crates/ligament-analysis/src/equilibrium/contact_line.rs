@@ -7,8 +7,7 @@
 //! ([`active_set`]).
 
 use super::active_set::{ACCEPTED_SLOPE, FALLS, ITERATION_LIMIT, Moved, REFINED, lowest};
-use super::equations::Equations;
-use super::line::{self, Forces};
+use super::equations::{Equations, LineForces, at_one};
 use super::residual::RESIDUAL_TOLERANCE;
 use crate::contact::resisting::{self, Resisting};
 use crate::load_program::LoadProgram;
@@ -67,8 +66,8 @@ pub(super) fn growth(
     heading: Heading,
 ) -> Result<Vec<f64>, Unbalanced> {
     let contacts = on_line(equations, state, loads, heading);
-    let (prescribed, _) = line::rate(equations, state, loads);
-    let mut line = line::at_one(state, prescribed);
+    let (prescribed, _) = equations.rate(state, loads);
+    let mut line = at_one(state, prescribed);
     let mut rates = rates_of(&contacts, &line);
     let mut forces = measured(equations, &line, loads, (&contacts, &rates, heading));
     let (mut before, mut is_carried) = (f64::INFINITY, false);
@@ -83,7 +82,7 @@ pub(super) fn growth(
         let was_carried = std::mem::replace(&mut is_carried, residual.carried.is_some());
         let is_free = !was_carried && !is_carried;
         if residual.relative <= tolerance && (is_free || is_over) {
-            return carried(equations, &forces).map_or(Ok(line.displacement), Err);
+            return (equations.load_on_added_support(&forces)).map_or(Ok(line.displacement), Err);
         }
         if is_over || !residual.relative.is_finite() {
             break;
@@ -93,13 +92,13 @@ pub(super) fn growth(
         let closed = closed.map(|(it, _)| it.term.clone()).collect();
         equations.solver.close(closed, &mut equations.costs);
         equations.prepare_solver(state)?;
-        let at = line::loaded(equations, &line, loads);
+        let at = equations.loaded_by(loads, &line);
         let left = (equations.accuracy).left(at, forces.extents, RESIDUAL_TOLERANCE);
         let correction = equations.solve(state, forces.out_of_balance.clone(), left)?;
         equations.add_correction(&mut line, 1.0, &correction);
         let mut next_rates = rates_of(&contacts, &line);
         let mut next = measured(equations, &line, loads, (&contacts, &next_rates, heading));
-        let slope = |at: &Forces| -equations.dot(&at.out_of_balance, &correction);
+        let slope = |at: &LineForces| -equations.dot(&at.out_of_balance, &correction);
         let (start, end) = (slope(&forces), slope(&next));
         if start < 0.0 && end > -ACCEPTED_SLOPE * start {
             let moved = moved(&contacts, [&rates, &next_rates], heading);
@@ -187,7 +186,7 @@ fn measured(
     line: &State,
     loads: &dyn LoadProgram,
     (contacts, rates, heading): (&[OnLine], &[f64], Heading),
-) -> Forces {
+) -> LineForces {
     let closed = contacts.iter().zip(rates);
     let closed = closed.filter(|(it, rate)| it.is_closed(**rate, heading));
     let forces = closed.flat_map(|(OnLine { term, .. }, rate)| {
@@ -197,7 +196,7 @@ fn measured(
             .map(move |&(dof, factor)| (dof, force * factor))
     });
     let forces: Vec<(usize, f64)> = forces.collect();
-    line::measured(equations, line, loads, &forces)
+    equations.line_forces(line, loads, &forces)
 }
 
 /// Contacts that may open or close along a correction of the rates, from the rates of their gaps before and after it.
@@ -214,11 +213,4 @@ fn moved(contacts: &[OnLine], [before, after]: [&[f64]; 2], heading: Heading) ->
             change: heading.sign * (after - before),
         })
         .collect()
-}
-
-/// Reason why loads cannot grow along a line: an added support would carry one.
-fn carried(equations: &Equations, forces: &Forces) -> Option<Unbalanced> {
-    let (dof, force) = forces.residual.carried?;
-    let place = equations.place(dof as usize);
-    Some(Unbalanced::LoadOnAddedSupport { place, force })
 }

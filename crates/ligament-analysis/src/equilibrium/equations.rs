@@ -1,4 +1,4 @@
-//! Equations of a problem, as all iterations to equilibrium use them.
+//! Equations of a problem, and the iteration to their solution: one loop for all ways to correct a state.
 
 use std::io::Read;
 use std::sync::{Arc, OnceLock};
@@ -8,23 +8,21 @@ use ligament_linalg::FactorKind;
 use ligament_model::deformation::Deformations;
 use ligament_model::subdomain::Subdomain;
 use ligament_model::surface::Vector;
+use ligament_model::tensor::norm;
 use ligament_model::thermal::ThermalStrain;
 
-use super::accuracy::{Accuracy, Loaded};
-use super::earlier_equilibria::EarlierEquilibria;
-use super::mechanism::Measure;
-use super::on_rigid;
-use super::residual::{Extents, OF_GAPS, ROUNDING, Residual, Rounded};
-use super::target::Target;
+use super::accuracy::{Accuracy, Loaded, Motions};
+use super::residual::{Extents, OF_GAPS, RESIDUAL_TOLERANCE, ROUNDING, Residual, Rounded};
 use crate::balanced::{Attempt, Balanced};
 use crate::bond_numbers::BondNumbers;
 use crate::breakage::Breakage;
 use crate::checkpoint::CheckpointError;
 use crate::contact::faces::FacePairs;
-use crate::contact::{ContactSearch, Contacts};
+use crate::contact::{ContactSearch, Contacts, Touching};
 use crate::costs::Costs;
 use crate::error::SetupError;
 use crate::halo::HaloExchange;
+use crate::history::{Observer, ObserverError};
 use crate::internal::{BondSweep, InternalForces};
 use crate::load_program::LoadProgram;
 use crate::problem::Problem;
@@ -45,6 +43,12 @@ const CANCELLED: f64 = 1e-10;
 /// Share of their scale to which energies balance.
 const ENERGY: f64 = 1e-6;
 
+/// Error of a rate, as a share of the tolerance of an iterative solver; all states on the line have that error.
+const LINE: f64 = 0.1;
+
+/// Number of solutions after which an iterative solver is given up: each reaches its tolerance, unless it reaches rounding.
+const MOST_SOLUTIONS: usize = 8;
+
 /// Equations of a problem and their solver.
 pub(super) struct Equations<S: ?Sized = dyn TangentSolver> {
     pub(super) problem: Problem,
@@ -58,8 +62,6 @@ pub(super) struct Equations<S: ?Sized = dyn TangentSolver> {
     pub(super) energy_tolerance: f64,
     pub(super) accuracy: Accuracy,
     pub(super) contact: ContactSearch,
-    /// Earlier equilibria of softening bonds.
-    pub(super) earlier: EarlierEquilibria,
     pub(super) costs: Costs,
 }
 
@@ -97,7 +99,6 @@ impl Equations {
             },
             accuracy,
             contact: ContactSearch::new(problem),
-            earlier: EarlierEquilibria::default(),
             costs: Costs {
                 analysis: analysis.unwrap_or_default(),
                 ..Costs::default()
@@ -118,26 +119,22 @@ impl Equations {
     }
 
     /// Appends the data that do not follow from the problem.
-    pub(super) fn write(&self, numbers: &BondNumbers, out: &mut dyn Sink) {
+    pub(super) fn write(&self, out: &mut dyn Sink) {
         let Self {
             accuracy,
             costs,
             solver,
-            problem,
-            unknowns,
+            problem: _,
+            unknowns: _,
             halo: _,
             stiffness: _,
             choice: _,
             energy_tolerance: _,
             contact: _,
-            earlier,
         } = self;
         accuracy.largest_extents.write(out);
         costs.write(out);
         solver.write(out);
-        if problem.criteria.soften() {
-            earlier.write_all(numbers, unknowns, out);
-        }
     }
 
     /// Restores newly built equations from the bytes of [`Equations::write`], and measures the state, which was in equilibrium.
@@ -152,9 +149,6 @@ impl Equations {
         let is_shared = matches!(self.choice, SolverChoice::Distributed(_));
         let layout = self.unknowns.layout();
         distributed::restore((&mut *self.solver, is_shared), (numbers, layout), from)?;
-        if self.problem.criteria.soften() {
-            self.earlier = EarlierEquilibria::restored(from, (numbers, &self.unknowns))?;
-        }
         self.contact.faces = FacePairs::new(&*self.problem.system, &state.intact);
         let measured = self.measure(state).balanced(0, Vec::new());
         self.costs = costs;
@@ -224,8 +218,8 @@ impl Equations {
     }
 
     /// Data by which motions are judged.
-    pub(super) fn motions(&self) -> Measure<'_> {
-        Measure {
+    pub(super) fn motions(&self) -> Motions<'_> {
+        Motions {
             accuracy: &self.accuracy,
             unknowns: &self.unknowns,
             subdomain: self.subdomain(),
@@ -275,27 +269,6 @@ impl Equations {
             .accuracy
             .left(self.loaded(state), iterate.extents, sought);
         self.solve(state, force, left)
-    }
-
-    /// Adds the rate of the displacements with the load factor (n_degrees_of_freedom) to a correction (n_unknowns) so that it brings a motion
-    /// to its value. Returns the change of the load factor.
-    ///
-    /// # Errors
-    ///
-    /// If the load does not move the motion.
-    pub(super) fn constrain(
-        &self,
-        correction: &mut [f64],
-        state: &State,
-        growth: &[f64],
-        target: &Target,
-    ) -> Result<f64, Unbalanced> {
-        let moved = self.at_degrees_of_freedom(correction);
-        let change = target.load_change(&state.displacement, &moved, growth)?;
-        for (&dof, value) in self.degrees_of_freedom().iter().zip(correction) {
-            *value += change * growth[dof as usize];
-        }
-        Ok(change)
     }
 
     /// Residual forces F - K u of an iterate at the unknowns (NHPD eq. 20), shape (n_unknowns), N and N m.
@@ -395,10 +368,7 @@ impl Equations {
         let out_of_balance = self.external_less(state, &internal);
         let loaded = self.loaded(state);
         let mut residual = (self.accuracy).residual(loaded, extents, rounded, out_of_balance);
-        let loads = self.problem.loads.on_rigid_bodies();
-        let contact = &self.problem.contact;
-        let on_rigid = on_rigid::out_of_balance(loads, contact, state, &met.touching);
-        let of_rigid = on_rigid::relative((loads, contact), state, &on_rigid, coordinate);
+        let (on_rigid, of_rigid) = self.on_rigid_bodies(state, &met.touching, coordinate);
         residual.relative = residual.relative.max(of_rigid);
         self.costs.bonds += start.elapsed();
         let of_expansions = factor.powi(2) * expansion_energy.abs();
@@ -418,6 +388,39 @@ impl Equations {
             met,
             on_rigid,
         }
+    }
+
+    /// Residual force on each rigid body with a mass in a state, N, and the largest one over the forces in its sum and the force that
+    /// the rounding of gaps between coordinates of a size (m) causes.
+    fn on_rigid_bodies(
+        &self,
+        state: &State,
+        touching: &Touching,
+        coordinate: f64,
+    ) -> (Vec<Vector>, f64) {
+        let (mut forces, mut largest) = (Vec::new(), 0.0_f64);
+        let loads = self.problem.loads.on_rigid_bodies();
+        if loads.is_empty() {
+            return (forces, largest);
+        }
+        let contact = &self.problem.contact;
+        let of_contacts = touching.forces_on_rigid_bodies(contact);
+        let gap = OF_GAPS / RESIDUAL_TOLERANCE * coordinate;
+        for load in loads {
+            let pose = state.rigid.get(load.body).copied().unwrap_or_default();
+            let displacement = pose.displacement;
+            let force: Vector = std::array::from_fn(|axis| {
+                load.force[axis] - load.stiffness * displacement[axis]
+                    + of_contacts[load.body][axis]
+            });
+            let own = (contact.contacts.iter()).filter(|it| it.rigid_body == Some(load.body));
+            let stiffness: f64 = own.map(|it| it.surfaces.on_rigid_body()[0]).sum();
+            let sizes = load.stiffness * norm(displacement) + norm(load.force);
+            // Without forces the quotient is no number, and counts as zero.
+            largest = largest.max(norm(force) / sizes.max(gap * stiffness));
+            forces.push(force);
+        }
+        (forces, largest)
     }
 
     /// Forces of the bonds of a state at a thermal strain, without the forces of its closed faces.
@@ -461,8 +464,17 @@ impl Equations {
 
     /// The state together with the loads and unknowns.
     pub(super) fn loaded<'a>(&'a self, state: &'a State) -> Loaded<'a> {
+        self.loaded_by(&*self.problem.loads, state)
+    }
+
+    /// A state together with loads and the unknowns.
+    pub(super) fn loaded_by<'a>(
+        &'a self,
+        loads: &'a dyn LoadProgram,
+        state: &'a State,
+    ) -> Loaded<'a> {
         Loaded {
-            loads: &*self.problem.loads,
+            loads,
             unknowns: &self.unknowns,
             state,
         }
@@ -509,8 +521,8 @@ impl Equations {
             }
             let (subdomain, layout) = (self.subdomain(), self.layout());
             for dof in vanishing {
-                let here = subdomain.local_index(dof, layout.components.len());
-                if here.is_some_and(|here| std::mem::replace(&mut state.held[here], true)) {
+                let local = subdomain.local_index(dof, layout.components.len());
+                if local.is_some_and(|dof| std::mem::replace(&mut state.held[dof], true)) {
                     return Err(self.vanishing_pivot(dof));
                 }
                 held_now.push(layout.point(dof));
@@ -526,6 +538,137 @@ impl Equations {
             Unbalanced::NotPositiveDefinite { place }
         } else {
             Unbalanced::VanishingPivot { place }
+        }
+    }
+}
+
+/// Equilibrium lines: rates of the displacements with the load factor, for the present bonds.
+impl Equations {
+    /// Rate of the displacements with the load factor, shape (n_degrees_of_freedom), for the bonds of a state under loads at load
+    /// factor 1.
+    ///
+    /// The solution of an iterative solver is judged like the solution of a state, by the forces at each point. The norm of the force is
+    /// no measure where a stiff platen moves the body: the force of the platen on a fixed body is many times the force that deforms it.
+    ///
+    /// # Errors
+    ///
+    /// If the stiffness has no factor, or an iterative solver does not converge.
+    pub(super) fn displacement_rate(
+        &mut self,
+        state: &mut State,
+        loads: &dyn LoadProgram,
+    ) -> Result<Vec<f64>, Unbalanced> {
+        self.solver.fall(Vec::new());
+        self.prepare_solver(state)?;
+        let (prescribed, force) = self.rate(state, loads);
+        let mut line = at_one(state, prescribed);
+        let left = self.accuracy.left_of_line(LINE);
+        let solution = self.solve(state, force, left)?;
+        self.add_correction(&mut line, 1.0, &solution);
+        // Forces of closed faces are in the stiffness only, not among the forces that judge the solution.
+        let faces_close = self.problem.may_press();
+        let tolerance = self.solver.tolerance().filter(|_| !faces_close);
+        let Some(tolerance) = tolerance else {
+            return Ok(line.displacement);
+        };
+        let sought = (LINE * tolerance).max(RESIDUAL_TOLERANCE);
+        for solutions in 1.. {
+            let forces = self.line_forces(&line, loads, &[]);
+            if forces.residual.relative <= sought {
+                break;
+            }
+            if solutions == MOST_SOLUTIONS {
+                return Err(self.unsettled(&forces.residual, solutions));
+            }
+            let at = self.loaded_by(loads, &line);
+            let left = self.accuracy.left(at, forces.extents, sought);
+            let correction = self.solve(state, forces.out_of_balance, left)?;
+            self.add_correction(&mut line, 1.0, &correction);
+        }
+        Ok(line.displacement)
+    }
+
+    /// Prescribed motions at load factor 1 (n_degrees_of_freedom), and the residual forces (n_unknowns) that they and the loads cause
+    /// with the bonds of a state.
+    pub(super) fn rate(&self, state: &State, loads: &dyn LoadProgram) -> (Vec<f64>, Vec<f64>) {
+        let mut prescribed = vec![0.0; state.displacement.len()];
+        loads.prescribe(1.0, &mut prescribed);
+        let system = &self.problem.system;
+        let expansion = loads.thermal_strain(1.0);
+        let deformations = system.deformations(&state.intact, &prescribed, expansion);
+        let swept = system.forces(state.bonds(), deformations, expansion);
+        let dofs = self.degrees_of_freedom();
+        let force = loads.external_less(1.0, &prescribed, &swept.internal, dofs);
+        (prescribed, force)
+    }
+
+    /// Forces of a line under its loads, with some internal forces of contacts by degree of freedom, N and N m.
+    pub(super) fn line_forces(
+        &self,
+        line: &State,
+        loads: &dyn LoadProgram,
+        of_contacts: &[(usize, f64)],
+    ) -> LineForces {
+        let mut swept = self.swept(line, loads.thermal_strain(1.0));
+        for &(dof, force) in of_contacts {
+            swept.internal.values[dof] += force;
+            swept.sizes[dof] += force.abs();
+        }
+        let extents = self.accuracy.extents(&swept.sizes);
+        // Rates of gaps are no differences of positions.
+        let rounded = Rounded {
+            displacement: self.accuracy.largest_displacement(self.layout(), line),
+            ..Rounded::default()
+        };
+        let dofs = self.degrees_of_freedom();
+        let out_of_balance = loads.external_less(1.0, &line.displacement, &swept.internal, dofs);
+        let at = self.loaded_by(loads, line);
+        LineForces {
+            residual: (self.accuracy).residual(at, extents, rounded, out_of_balance.clone()),
+            extents,
+            out_of_balance,
+        }
+    }
+
+    /// Reason why loads cannot grow along a line: an added support would carry one.
+    pub(super) fn load_on_added_support(&self, forces: &LineForces) -> Option<Unbalanced> {
+        let (dof, force) = forces.residual.carried?;
+        let place = self.place(dof as usize);
+        Some(Unbalanced::LoadOnAddedSupport { place, force })
+    }
+}
+
+/// Forces of a line under its loads at load factor 1.
+pub(super) struct LineForces {
+    pub(super) extents: Extents,
+    /// External minus internal forces at the unknowns, shape (n_unknowns), N and N m.
+    pub(super) out_of_balance: Vec<f64>,
+    pub(super) residual: Residual,
+}
+
+/// State with displacements (n_degrees_of_freedom) at load factor 1, with the bonds and added supports of another state.
+pub(super) fn at_one(state: &State, displacement: Vec<f64>) -> State {
+    State {
+        displacement,
+        load_factor: 1.0,
+        ..state.clone()
+    }
+}
+
+impl<S: ?Sized> Equations<S> {
+    /// A copy of the equations with another solver of the same stiffness.
+    pub(super) fn with_solver<T: ?Sized>(&self, solver: Box<T>) -> Equations<T> {
+        Equations {
+            solver,
+            problem: self.problem.clone(),
+            unknowns: self.unknowns.clone(),
+            halo: self.halo.clone(),
+            stiffness: self.stiffness.clone(),
+            choice: self.choice,
+            energy_tolerance: self.energy_tolerance,
+            accuracy: self.accuracy.clone(),
+            contact: self.contact.clone(),
+            costs: self.costs,
         }
     }
 }
@@ -560,5 +703,117 @@ impl Iterate {
             touching: self.met.touching.into(),
             stresses: OnceLock::new(),
         }
+    }
+}
+
+/// Method to correct a state until it is in equilibrium.
+pub(super) trait Method {
+    /// First iterate of a state; a correction that the solver makes with its update for the breakage is the first one.
+    fn begin(&mut self, at: &mut Iteration<'_>) -> Iterate {
+        at.begin()
+    }
+
+    /// Whether an iterate is an equilibrium; an earlier iterate, to which the state returns, may take its place.
+    fn is_met(&mut self, at: &mut Iteration<'_>, iterate: &mut Iterate) -> bool;
+
+    /// Records an equilibrium.
+    fn settle(&mut self, _at: &mut Iteration<'_>) {}
+
+    /// Whether no further correction is tried.
+    fn gives_up(&self, at: &Iteration<'_>) -> bool;
+
+    /// Corrects the state and measures it.
+    ///
+    /// # Errors
+    ///
+    /// If there is no correction.
+    fn correct(&mut self, at: &mut Iteration<'_>, iterate: &Iterate)
+    -> Result<Iterate, Unbalanced>;
+}
+
+/// A state on its way to equilibrium after a breakage.
+pub(super) struct Iteration<'a> {
+    pub(super) equations: &'a mut Equations,
+    pub(super) state: &'a mut State,
+    pub(super) breakage: &'a Breakage,
+    /// Number of corrections so far.
+    pub(super) number: usize,
+    /// Points of mechanisms that the solver found, which are fixed from now on.
+    pub(super) mechanisms: Vec<u32>,
+    /// Energy of the iterate before, J; NaN at the first one.
+    previous_energy: f64,
+}
+
+impl Iteration<'_> {
+    /// Sets the prescribed motions, updates the solver for the breakage, and measures the state.
+    pub(super) fn begin(&mut self) -> Iterate {
+        let (equations, state) = (&mut *self.equations, &mut *self.state);
+        equations.prescribe(state);
+        self.number = usize::from(equations.follow(state, self.breakage));
+        equations.measure(state)
+    }
+
+    /// Relative residual to be reached.
+    pub(super) fn sought(&self) -> f64 {
+        self.equations.accuracy.sought(self.breakage)
+    }
+
+    /// Whether the residual of an iterate is within the tolerance; before the first solution it must be zero, as without loads.
+    pub(super) fn is_small(&self, iterate: &Iterate, tolerance: f64) -> bool {
+        let costs = &self.equations.costs;
+        let is_guess = costs.solves == 0 && costs.changes == 0;
+        iterate.residual.relative <= if is_guess { 0.0 } else { tolerance }
+    }
+
+    /// Whether the energy of an iterate equals the energy of the previous one to the tolerance (NHPD eq. 21), and its residual is at most
+    /// `largest_residual`.
+    pub(super) fn energy_settled(&self, iterate: &Iterate, largest_residual: f64) -> bool {
+        let energy = iterate.stored_energy;
+        let change = ((energy - self.previous_energy) / energy).abs();
+        change < self.equations.energy_tolerance && iterate.residual.relative <= largest_residual
+    }
+}
+
+/// Brings a state into equilibrium after a breakage by a method.
+///
+/// # Errors
+///
+/// If the observer fails. A missing equilibrium is not an error.
+pub(super) fn balance(
+    equations: &mut Equations,
+    state: &mut State,
+    breakage: &Breakage,
+    method: &mut dyn Method,
+    observer: &mut dyn Observer,
+) -> Result<Attempt, ObserverError> {
+    let mut at = Iteration {
+        equations,
+        state,
+        breakage,
+        number: 0,
+        mechanisms: Vec::new(),
+        previous_energy: f64::NAN,
+    };
+    let mut iterate = method.begin(&mut at);
+    loop {
+        let (residual, energy) = (iterate.residual, iterate.stored_energy);
+        if at.number > 0 {
+            observer.iteration(at.number, residual.relative, energy)?;
+        }
+        if method.is_met(&mut at, &mut iterate) {
+            method.settle(&mut at);
+            at.equations.remember(iterate.extents);
+            return Ok(at.equations.settled(iterate, at.number, at.mechanisms));
+        }
+        if method.gives_up(&at) || !residual.relative.is_finite() {
+            let reason = at.equations.unsettled(&residual, at.number);
+            return Ok(Attempt::Unbalanced(reason));
+        }
+        at.previous_energy = energy;
+        iterate = match method.correct(&mut at, &iterate) {
+            Ok(next) => next,
+            Err(reason) => return Ok(Attempt::Unbalanced(reason)),
+        };
+        at.number += 1;
     }
 }

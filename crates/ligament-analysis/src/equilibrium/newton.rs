@@ -1,9 +1,7 @@
 //! Equilibrium of bonds that are intact or broken, by Newton-Raphson (NHPD eqs 19 to 21).
 
-use super::equations::Iterate;
-use super::iteration::{Iteration, Method};
-use super::line;
-use super::target::Target;
+use super::equations::{Iterate, Iteration, Method};
+use super::path_following::Target;
 use crate::unbalanced::Unbalanced;
 
 /// Residual above which a solution with an updated factor is refined once; it is usually some 1e-14, but weakly connected and
@@ -63,8 +61,8 @@ impl Method for Newton<'_> {
         }
         let mut correction = equations.correction(state, iterate, sought, &mut at.mechanisms)?;
         if let Some(target) = self.target {
-            let growth = line::growth(equations, state, &*target.rate)?;
-            state.load_factor += equations.constrain(&mut correction, state, &growth, target)?;
+            let growth = equations.displacement_rate(state, &*target.rate)?;
+            state.load_factor += target.constrain(equations, &mut correction, state, &growth)?;
             equations.prescribe(state);
         }
         equations.add_correction(state, 1.0, &correction);

@@ -258,17 +258,17 @@ impl<'a> Scales<'a> {
     }
 
     /// Largest residual over all processes, by degree of freedom of the body, from the residual at owned points; the first of equal ones.
-    pub(super) fn residual_of_all(self, here: Residual, subdomain: &Subdomain) -> Residual {
+    pub(super) fn residual_of_all(self, own: Residual, subdomain: &Subdomain) -> Residual {
         if subdomain.is_whole() {
-            return here;
+            return own;
         }
-        let (dof, force) = here.carried.unwrap_or_default();
-        let carried = here
+        let (dof, force) = own.carried.unwrap_or_default();
+        let carried = own
             .carried
             .map_or(0.0, |_| force.abs() / self.at(dof as usize));
         let n_components = self.stiffness.layout.components.len();
         let in_body = |dof: u32| subdomain.index_in_body(dof as usize, n_components) as f64;
-        let largest = [-here.relative, in_body(here.degree_of_freedom)];
+        let largest = [-own.relative, in_body(own.degree_of_freedom)];
         let held = [-carried, in_body(dof), force];
         let [relative, at] = subdomain.all_reduce_min(Some(largest)).unwrap_or(largest);
         let [most, dof, force] = subdomain.all_reduce_min(Some(held)).unwrap_or(held);

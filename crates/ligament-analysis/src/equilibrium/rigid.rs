@@ -1,7 +1,7 @@
 //! Rigid bodies with a mass in the step of a motion: their displacements are unknowns in addition to the displacements of the points.
 //!
 //! A contact with the stiffness k resists the motion c . u - d . q along d of a place of the body against a rigid body with the displacement q.
-//! With the springs kappa and the forces of a step ([`on_rigid`](super::on_rigid)), and the residual forces r on the points and s on the
+//! With the springs kappa and the forces of a step ([`Equations`]), and the residual forces r on the points and s on the
 //! rigid bodies, a correction of Newton's method solves
 //!
 //! K du - B dq = r,  D dq - B^T du = s,  B = sum k c d^T,  D = kappa I + sum k d d^T,
@@ -32,12 +32,12 @@ impl Correction {
     pub(super) fn add_to(&self, equations: &Equations, state: &mut State, part: f64) {
         equations.add_correction(state, part, &self.motions);
         let loads = equations.problem.loads.on_rigid_bodies();
-        for (load, way) in loads.iter().zip(&self.rigid) {
+        for (load, change) in loads.iter().zip(&self.rigid) {
             if state.rigid.len() <= load.body {
                 state.rigid.resize(load.body + 1, Pose::default());
             }
-            for (place, way) in state.rigid[load.body].displacement.iter_mut().zip(way) {
-                *place += part * way;
+            for (place, change) in state.rigid[load.body].displacement.iter_mut().zip(change) {
+                *place += part * change;
             }
         }
     }
@@ -45,7 +45,7 @@ impl Correction {
     /// Slope of the energy of an iterate of a state along the correction, J.
     pub(super) fn slope(&self, equations: &Equations, state: &State, iterate: &Iterate) -> f64 {
         let of_rigid = iterate.on_rigid.iter().zip(&self.rigid);
-        let of_rigid = of_rigid.fold(0.0, |sum, (force, way)| sum - dot(*force, *way));
+        let of_rigid = of_rigid.fold(0.0, |sum, (force, change)| sum - dot(*force, *change));
         equations.slope(state, iterate, &self.motions) + of_rigid
     }
 
@@ -97,16 +97,16 @@ pub(super) fn correction(
         iterate.on_rigid[row / axes][row % axes] + by_points
     });
     let solution = complement.lu().solve(&forces);
-    let ways = solution.ok_or(Unbalanced::NegativeCurvature)?;
-    for (column, way) in moved.iter().zip(ways.iter()) {
+    let changes = solution.ok_or(Unbalanced::NegativeCurvature)?;
+    for (column, change) in moved.iter().zip(changes.iter()) {
         for (motion, column) in motions.iter_mut().zip(column) {
-            *motion += way * column;
+            *motion += change * column;
         }
     }
     let of_body = |body: usize| -> Vector {
         std::array::from_fn(|axis| {
             if axis < axes {
-                ways[body * axes + axis]
+                changes[body * axes + axis]
             } else {
                 0.0
             }

@@ -1,17 +1,31 @@
 //! Equilibrium of bonds that soften, by a quasi-Newton iteration from their secant stiffness.
 
-use super::earlier_equilibria::EarlierEquilibria;
-use super::equations::{Equations, Iterate};
-use super::falling;
-use super::iteration::{Iteration, Method};
-use super::line;
+use std::io::Read;
+
+use ligament_model::element::{BondDeformation, StiffnessFactors, Term};
+use ligament_model::failure::{CriteriaInState, Weakened};
+use ligament_model::prefix_sums::sums_before;
+use ligament_model::subdomain::Subdomain;
+use rayon::prelude::*;
+
+use super::curvature::Curvature;
+use super::equations::{Equations, Iterate, Iteration, Method};
 use super::line_search;
+use super::path_following::Target;
 use super::residual::RESIDUAL_TOLERANCE;
-use super::target::Target;
+use crate::bond_numbers::BondNumbers;
+use crate::checkpoint::CheckpointError;
+use crate::lists_of_all::{read_by_index, write_by_index};
+use crate::problem::Problem;
+use crate::serial::{Serial, Sink};
 use crate::state::State;
 use crate::tangent::AllowedResidual;
 use crate::unbalanced::Unbalanced;
+use crate::unknowns::Unknowns;
 use crate::vectors::dot_of_all;
+
+/// Largest ratio of a load step to the one before for which the last step is extrapolated.
+const GROWTH: f64 = 2.0;
 
 /// Largest residual of an equilibrium accepted by the energy rule: residuals of thousands of points add up in the balance of the
 /// external forces, and the falling stiffness of softening bonds magnifies them.
@@ -61,7 +75,7 @@ const DIVERGING: (usize, f64) = (20, 1e6);
 /// Every iterate determines the remaining stiffness of the bonds. The secants are positive, so that the secant stiffness K_s is
 /// positive definite where the elastic one is; and since the energy of a bond is concave in the square of its deformation, the
 /// energy with the secants lies above the true one. A correction by K_s therefore lowers the potential energy, but is too short.
-/// Three measures lengthen it: the [falling stiffness](super::falling) of bonds that are loaded further, where the stiffness is still
+/// Three measures lengthen it: the [falling stiffness](falling_terms) of bonds that are loaded further, where the stiffness is still
 /// positive definite with it; the curvature along the last steps ([`Curvature`](super::curvature::Curvature)), including steps of
 /// earlier equilibria; and a line search ([`line_search`]). All lower the energy and end in a stable equilibrium. The factor may
 /// differ from the stiffness, because the last two need only an approximate one.
@@ -74,6 +88,8 @@ const DIVERGING: (usize, f64) = (20, 1e6);
 pub(super) struct Secant<'a> {
     target: Option<&'a Target>,
     earlier: EarlierEquilibria,
+    /// Place of the earlier equilibria between iterations that reach one.
+    kept: &'a mut EarlierEquilibria,
     /// Whether the load differs from that of the last equilibrium.
     is_new: bool,
     /// Growth of the state by which an earlier correction brought the motion to its value.
@@ -105,7 +121,7 @@ struct Direction {
 
 impl Method for Secant<'_> {
     fn begin(&mut self, at: &mut Iteration<'_>) -> Iterate {
-        self.earlier = std::mem::take(&mut at.equations.earlier);
+        self.earlier = std::mem::take(self.kept);
         // Bonds that break or begin to soften do so at the load of the last equilibrium.
         self.is_new = at.breakage.bonds.is_empty() && !self.earlier.has_load(at.state, self.target);
         // Pairs that close and open change the stiffness at once; and where one breakage causes another, curvature from before it would
@@ -130,11 +146,11 @@ impl Method for Secant<'_> {
             return iterate;
         };
         at.equations.prescribe(&mut ahead);
-        let there = softened(at.equations, &mut ahead, false);
+        let extrapolated = softened(at.equations, &mut ahead, false);
         let most = (self.target).map_or(iterate.residual.relative, |_| LARGEST_AHEAD);
-        if there.residual.relative < most {
+        if extrapolated.residual.relative < most {
             *at.state = ahead;
-            return there;
+            return extrapolated;
         }
         iterate
     }
@@ -155,9 +171,8 @@ impl Method for Secant<'_> {
 
     fn settle(&mut self, at: &mut Iteration<'_>) {
         at.state.softening.settle();
-        let mut earlier = std::mem::take(&mut self.earlier);
-        earlier.learn(at.state, self.is_new);
-        at.equations.earlier = earlier;
+        self.earlier.learn(at.state, self.is_new);
+        *self.kept = std::mem::take(&mut self.earlier);
     }
 
     fn gives_up(&self, at: &Iteration<'_>) -> bool {
@@ -199,9 +214,10 @@ impl Method for Secant<'_> {
 }
 
 impl<'a> Secant<'a> {
-    pub(super) fn new(target: Option<&'a Target>) -> Self {
+    pub(super) fn new(target: Option<&'a Target>, kept: &'a mut EarlierEquilibria) -> Self {
         Self {
             target,
+            kept,
             earlier: EarlierEquilibria::default(),
             is_new: true,
             growth: None,
@@ -222,7 +238,7 @@ impl<'a> Secant<'a> {
             return;
         }
         (self.begins, self.used) = (false, 1);
-        let falling = falling::terms(&equations.problem, state, &iterate.deformations);
+        let falling = falling_terms(&equations.problem, state, &iterate.deformations);
         if equations.solver.fall(falling) {
             self.forget();
         }
@@ -252,7 +268,7 @@ impl<'a> Secant<'a> {
         let mut load_change = 0.0;
         if let (Some(target), None) = (self.target, &recent) {
             // Growth of the state with the load factor, for the bonds of the state.
-            let (mut motion, rate) = line::rate(equations, state, &*target.rate);
+            let (mut motion, rate) = equations.rate(state, &*target.rate);
             let both = [force.clone(), rate.clone()];
             let solve = |both| equations.solve_both(state, both, left);
             let grown;
@@ -271,7 +287,7 @@ impl<'a> Secant<'a> {
         }
         if let (Some(target), Some(mut growth)) = (self.target, recent) {
             growth.used += 1;
-            load_change = equations.constrain(&mut step, state, &growth.motion, target)?;
+            load_change = target.constrain(equations, &mut step, state, &growth.motion)?;
             for (value, rate) in force.iter_mut().zip(&growth.force) {
                 *value += load_change * rate;
             }
@@ -348,4 +364,228 @@ fn softened(equations: &mut Equations, state: &mut State, is_one_way: bool) -> I
     let criteria = &equations.problem.criteria;
     softening.follow(criteria, intact, &deformations, is_one_way);
     equations.measure_deformed(state, deformations)
+}
+
+/// The bonds of a state that are loaded further at deformations (n_bonds), ascending, each with a term c g g^T, c < 0, that its tangent
+/// has beside its secant: what the tangent has less than the secant.
+///
+/// A bond with the stiffness K and the deformation d has the force omega K d, with the share omega that its law leaves at the largest
+/// kappa = e/e_0 so far. The measure e is homogeneous in d; where e^2 is proportional to d . K d (the energy of the bond, or its stretch
+/// with the axial stiffness alone), the tangent in further loading is
+///
+/// omega K + omega' kappa (K d) (K d)^T / (d . K d), omega' < 0.
+///
+/// Other measures, strains that take no part in the measure and cells of a volumetric stiffness keep their secants, so that the stiffness
+/// stays symmetric.
+fn falling_terms(
+    problem: &Problem,
+    state: &State,
+    deformations: &[BondDeformation],
+) -> Vec<(u32, Term)> {
+    let criteria = state.softening.criteria(&problem.criteria);
+    let of_bond = |bond: usize| {
+        let deformation = &deformations[bond];
+        let (place, slope) = (state.softening).fall(&criteria, bond, deformation)?;
+        let strains = strains_of_measure(&criteria, place, deformation)?;
+        let terms = problem.system.terms(&state.intact, bond, &strains);
+        let (mut energy, mut force) = (0.0, Vec::new());
+        for (rigidity, entries) in terms {
+            let strain: f64 = (entries.iter())
+                .map(|&(dof, value)| value * state.displacement[dof])
+                .sum();
+            energy += rigidity * strain * strain;
+            let entries = entries.into_iter();
+            force.extend(entries.map(|(dof, value)| (dof, rigidity * strain * value)));
+        }
+        (energy > 0.0 && slope < 0.0).then(|| (bond as u32, (slope / energy, force)))
+    };
+    let bonds = (0..deformations.len()).into_par_iter();
+    bonds
+        .filter(|bond| state.intact[*bond])
+        .filter_map(of_bond)
+        .collect()
+}
+
+/// Factors one for the strains that the measure of a criterion has, zero for others; None where the square of the measure is no energy.
+fn strains_of_measure(
+    criteria: &CriteriaInState<'_>,
+    place: usize,
+    deformation: &BondDeformation,
+) -> Option<StiffnessFactors> {
+    let whole = |is: bool| if is { 1.0 } else { 0.0 };
+    let is_open = deformation.stretch() > 0.0;
+    let measure = criteria.criteria().list[place].measure;
+    let is_energy = measure.needs_shear_stiffness();
+    let is_stretch = measure.opens() && !measure.takes_rotations();
+    if !(is_energy || is_stretch) {
+        return None;
+    }
+    let axial = is_open || measure.weakens() == Weakened::Whole;
+    Some(StiffnessFactors {
+        axial: whole(axial),
+        shear: whole(is_energy),
+        rotational: 0.0,
+    })
+}
+
+/// Curvature and equilibria from earlier iterations.
+#[derive(Clone, Default)]
+pub(super) struct EarlierEquilibria {
+    /// Stiffness along the last corrections.
+    pub(super) curvature: Curvature,
+    /// Equilibria of the last two load steps, the older one first.
+    equilibria: Vec<Precedent>,
+}
+
+/// Load factor and displacements of an earlier equilibrium.
+#[derive(Clone)]
+struct Precedent {
+    load_factor: f64,
+    /// Shape (n_degrees_of_freedom).
+    displacement: Vec<f64>,
+}
+
+/// Places of the owned unknowns among the unknowns of the body, in the order of the degrees of freedom.
+struct OwnUnknowns {
+    places: Vec<usize>,
+    n_all: usize,
+}
+
+impl OwnUnknowns {
+    /// The places on this process; collective.
+    fn new(subdomain: &Subdomain, unknowns: &Unknowns) -> Self {
+        let layout = unknowns.layout();
+        let of_points = |point: u32| unknowns.of_point(point as usize).count() as f64;
+        let counts: Vec<f64> = subdomain.owned().map(of_points).collect();
+        let starts = sums_before(subdomain, &counts);
+        let mut next: Vec<usize> = starts.into_iter().map(|it| it as usize).collect();
+        let place = |dof: &u32| {
+            let next = &mut next[subdomain.row(layout.point(*dof as usize))?];
+            *next += 1;
+            Some(*next - 1)
+        };
+        Self {
+            places: unknowns
+                .degrees_of_freedom()
+                .iter()
+                .filter_map(place)
+                .collect(),
+            n_all: subdomain.count(unknowns.len()),
+        }
+    }
+}
+
+impl EarlierEquilibria {
+    /// Restores the earlier equilibria from bytes of [`EarlierEquilibria::write_all`].
+    ///
+    /// # Errors
+    ///
+    /// If the bytes are damaged or belong to another model.
+    pub(super) fn restored(
+        from: &mut dyn Read,
+        (numbers, unknowns): (&BondNumbers, &Unknowns),
+    ) -> Result<Self, CheckpointError> {
+        let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
+        let values = |from: &mut dyn Read| match usize::read(from)? {
+            count if count == own.n_all => Ok(read_by_index(
+                count,
+                &0.0,
+                own.places.iter().copied(),
+                from,
+            )?),
+            _ => Err(CheckpointError::OtherModel),
+        };
+        let curvature = Curvature::read(values, from)?;
+        let count = usize::read(from)?;
+        let n_components = unknowns.layout().components.len();
+        let mut precedent = || {
+            Ok(Precedent {
+                load_factor: Serial::read(from)?,
+                displacement: numbers.read_points(n_components, 0.0, from)?,
+            })
+        };
+        let equilibria: Result<Vec<Precedent>, CheckpointError> =
+            (0..count).map(|_| precedent()).collect();
+        let earlier = Self {
+            curvature,
+            equilibria: equilibria?,
+        };
+        let n = unknowns.layout().n_degrees_of_freedom();
+        let is_whole = |it: &Precedent| it.displacement.len() == n;
+        match earlier.equilibria.iter().all(is_whole) {
+            true => Ok(earlier),
+            false => Err(CheckpointError::OtherModel),
+        }
+    }
+
+    /// Appends the earlier equilibria at the unknowns and points of all processes, valid only on rank 0; collective.
+    pub(super) fn write_all(&self, numbers: &BondNumbers, unknowns: &Unknowns, out: &mut dyn Sink) {
+        let own = OwnUnknowns::new(numbers.subdomain(), unknowns);
+        let values = |values: &[f64], out: &mut dyn Sink| {
+            let numbered = own.places.iter().copied().zip(values.iter().copied());
+            write_by_index(numbers.subdomain(), own.n_all, numbered, 0.0, out);
+        };
+        self.curvature.write(values, out);
+        self.equilibria.len().write(out);
+        let n_components = unknowns.layout().components.len();
+        for Precedent {
+            load_factor,
+            displacement,
+        } in &self.equilibria
+        {
+            load_factor.write(out);
+            numbers.write_points((displacement, n_components), 0.0, out);
+        }
+    }
+
+    /// Whether the last equilibrium has the load of a state, or the target value of a motion: then only bonds have changed since.
+    pub(super) fn has_load(&self, state: &State, target: Option<&Target>) -> bool {
+        let last = self.equilibria.last();
+        last.is_some_and(|last| match target {
+            None => last.load_factor == state.load_factor,
+            Some(target) => target.is_met(&last.displacement),
+        })
+    }
+
+    /// Records an equilibrium; one whose load is not new replaces the one before it.
+    pub(super) fn learn(&mut self, state: &State, is_new: bool) {
+        if !is_new {
+            self.equilibria.pop();
+        } else if self.equilibria.len() == 2 {
+            self.equilibria.remove(0);
+        }
+        self.equilibria.push(Precedent {
+            load_factor: state.load_factor,
+            displacement: state.displacement.clone(),
+        });
+    }
+
+    /// Extrapolates the last load step to the load factor of the state or to the target value of a motion; None where the direction
+    /// reverses or the step grows too much.
+    pub(super) fn ahead(&self, state: &State, target: Option<&Target>) -> Option<State> {
+        let [before, last] = self.equilibria.as_slice() else {
+            return None;
+        };
+        let part = match target {
+            None => {
+                (state.load_factor - last.load_factor) / (last.load_factor - before.load_factor)
+            }
+            Some(target) => {
+                let [first, second] = [before, last].map(|it| target.motion(&it.displacement));
+                (target.value - second) / (second - first)
+            }
+        };
+        if !(part > 0.0 && part <= GROWTH) {
+            return None;
+        }
+        let mut ahead = state.clone();
+        if target.is_some() {
+            ahead.load_factor += part * (last.load_factor - before.load_factor);
+        }
+        let changes = last.displacement.iter().zip(&before.displacement);
+        for (value, (last, before)) in ahead.displacement.iter_mut().zip(changes) {
+            *value += part * (last - before);
+        }
+        Some(ahead)
+    }
 }

@@ -14,7 +14,6 @@ use std::time::Instant;
 
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
-use crate::driver::record::largest_ratio;
 use crate::driver::run::Run;
 use crate::history::Termination;
 use crate::load_program::{LoadProgram, PartControl};
@@ -84,7 +83,7 @@ impl EquilibriumLine for Affine {
             None => held(self.tie_tolerance, line, &criteria, run),
             Some([_, upper]) if upper.is_infinite() => Goal {
                 load_factor: now,
-                ratio: largest_ratio(&run.problem, &run.state, line),
+                ratio: run.problem.largest_ratio(&run.state, line),
                 bonds: Vec::new(),
                 is_held: false,
                 event: Event::Breakage,

@@ -11,7 +11,6 @@ use std::time::Instant;
 use super::affine::{held, slopes, up_to_displacement};
 use super::equilibrium_line::{EquilibriumLine, Event, Goal};
 use crate::balanced::Balanced;
-use crate::driver::record::largest_ratio;
 use crate::driver::run::Run;
 use crate::equilibrium::Heading;
 use crate::history::Termination;
@@ -48,7 +47,7 @@ impl InContact {
 
 impl EquilibriumLine for InContact {
     fn goal(&mut self, run: &mut Run<'_>, line: &Balanced) -> Result<Goal, Unbalanced> {
-        let ratio = largest_ratio(&run.problem, &run.state, line);
+        let ratio = run.problem.largest_ratio(&run.state, line);
         let rises = ratio <= 1.0 + self.tie_tolerance;
         let heading = Heading {
             sign: if rises { 1.0 } else { -1.0 },

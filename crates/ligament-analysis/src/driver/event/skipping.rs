@@ -69,7 +69,7 @@ fn go_to(delayed: &mut DelayedUpdates<'_, '_>, first: &FirstToBreak) -> Option<B
     delayed.run.state.load_factor = load_factor;
     delayed.know(&[]);
     let (critical, run) = (delayed.known(), &delayed.run);
-    let (displacement, _) = run.control(&critical);
+    let (displacement, _) = run.problem.control(&run.state, &critical);
     let wanted = run.stop.displacement;
     let ends = wanted.is_some_and(|wanted| displacement >= wanted)
         || run.interruption().is_some()

@@ -7,7 +7,7 @@ use crate::balanced::Balanced;
 use crate::contact::RigidMotion;
 use crate::driver::checkpoint::WayKind;
 use crate::driver::equations::Equations;
-use crate::driver::record::{StepCounters, largest_ratio};
+use crate::driver::record::StepCounters;
 use crate::driver::run::Run;
 use crate::driver::way::Stop;
 use crate::history::{Rates, StepRecord, Termination};
@@ -64,7 +64,7 @@ impl<E: Equations> Run<'_, E> {
             broken,
             broken_in_step: broken - before.map_or(0, |it| it.broken_bonds),
             at_rest: true,
-            largest_ratio: largest_ratio(problem, state, now.balanced),
+            largest_ratio: problem.largest_ratio(state, now.balanced),
             ..Default::default()
         };
         let mut record = self.row((now.balanced, Some(now.rates)), counters);
