@@ -9,12 +9,15 @@ use ligament_model::Absence;
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
 
-use super::model_file::{COEFFICIENTS, GROUP, INTERFACE, model_file};
+use super::cracks::softened_pairs;
+use super::model_file::{COEFFICIENTS, GROUP, INTERFACE, STIFF_CELLS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
+use super::softening_table::BEGINS;
 use super::stored_state::StoredState;
 use super::tables::stored_names;
 use crate::csv::read::{CsvTable, Row};
 use crate::remedy::Remedy;
+use crate::vtu::PIECES_EXTENSION;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -29,6 +32,8 @@ pub struct StoredRun {
     pub history: Vec<StoredStep>,
     /// Broken bonds, in the order of breaking.
     pub breaks: Vec<StoredBreak>,
+    /// Tags of the ends of the bonds whose force began to fall beyond a limit, with the step; empty where several processes ran the case.
+    pub softened: Vec<([i64; 2], usize)>,
     /// Names of the stored components of a bond's deformation: two, or three for bonds with strains of their own.
     pub deformation_names: &'static [&'static str],
     /// Files of fields by their states.
@@ -58,7 +63,11 @@ pub struct StoredModel {
     pub bonds: StoredBonds,
     /// The failure criteria, in the order of the case.
     pub criteria: Vec<StoredCriterion>,
-    /// Largest utilisations of the bonds over the run; none where the run did not end.
+    /// Whether cells resist strains beside bonds.
+    pub has_stiff_cells: bool,
+    /// Whether several processes wrote the model.
+    pub is_in_pieces: bool,
+    /// Largest utilisations of the bonds over the run; none where the run did not end, or several processes ran it.
     pub largest: Option<StoredLargest>,
 }
 
@@ -88,8 +97,10 @@ pub struct StoredCriterion {
     pub measure: String,
     /// Name of the law after the limit.
     pub after: String,
-    /// Limits, shape (n_bonds).
+    /// Limits, shape (n_bonds); at the end of the run those of bonds that began to soften by the stress around them.
     pub limit: Vec<f64>,
+    /// Limits before bonds began to soften by the stress around them, shape (n_bonds); empty where that changed no limit.
+    pub limit_at_start: Vec<f64>,
     /// Coefficients of the measure, each with shape (n_bonds); may be empty.
     pub coefficients: Vec<Vec<f64>>,
     /// Parameter of the law after the limit, shape (n_bonds) or empty.
@@ -105,6 +116,9 @@ pub struct StoredLargest {
     pub step: Vec<i64>,
     /// Number of its criterion, shape (n_bonds).
     pub criterion: Vec<i64>,
+    /// Step in which each bond began to soften by the stress around it, -1 for bonds that did not, shape (n_bonds); empty where no criterion
+    /// lets bonds begin.
+    pub began_in: Vec<i64>,
 }
 
 /// A row of the history.
@@ -175,6 +189,7 @@ impl StoredRun {
             deformation_names,
             history: CsvTable::read(folder.join("history.csv"))?.rows(StoredStep::from_history)?,
             breaks: broken.rows(|row| StoredBreak::read(row, model.tagged, deformation_names))?,
+            softened: softened_pairs(folder, BEGINS)?,
             fields: numbered_files(folder, "fields")?,
             folder: folder.to_path_buf(),
             model,
@@ -223,13 +238,14 @@ impl StoredRun {
             true => Vec::new(),
             false => file.finite_numbers(location, THERMAL_STRAIN.name)?,
         };
-        if rotation.len() != n_points {
+        let displacement: Vec<[f64; 3]> = displacement.as_chunks().0.to_vec();
+        if [rotation.len(), displacement.len()] != [n_points; 2] {
             return Err(file.malformed(format!(
                 "it does not have the {n_points} points of the model"
             )));
         }
         Ok(Some(Motions {
-            displacement: displacement.as_chunks().0.to_vec(),
+            displacement,
             rotation,
             thermal_strain: free_strains(&components, &thermal),
         }))
@@ -295,6 +311,11 @@ impl StoredModel {
             criteria: criteria(folder, &file, &bonds.absence)?,
             largest: StoredLargest::read(&file, &bonds.absence)?,
             bonds,
+            has_stiff_cells: file.field_data()?.iter().any(|it| it.0 == STIFF_CELLS),
+            is_in_pieces: file
+                .path()
+                .extension()
+                .is_some_and(|it| it == PIECES_EXTENSION),
         })
     }
 }
@@ -373,6 +394,7 @@ fn criteria(
             after: row.value("after")?,
             limit: bond_values(file, &format!("limit.{name}"), absence)?,
             coefficients,
+            limit_at_start: field("limit_at_start")?.unwrap_or_default(),
             parameter: field("after")?.unwrap_or_default(),
             name,
         })
@@ -389,6 +411,7 @@ impl StoredLargest {
             utilisation: bond_values(file, name, absence)?,
             step: file.required_integers(location, "step_of_largest")?,
             criterion: file.required_integers(location, "criterion_of_largest")?,
+            began_in: (file.integers(location, "step_of_softening")?).unwrap_or_default(),
         }))
     }
 }
