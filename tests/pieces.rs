@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
 use ligament_case::case::CaseFile;
+use ligament_cli::explain::{Position, Request, Subject, explain};
 use ligament_model::PointCloud;
 use ligament_model::subdomain::Subdomain;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
@@ -297,6 +298,20 @@ fn limits_of_begun_bonds_are_stored_in_pieces() {
     let alone = limits(&run("alone", Arc::new(Solo)));
     let together = on_ranks(2, |ranks| run("together", ranks));
     assert!(together[0].join("model.pvtu").is_file());
+    let request = Request {
+        folder: together[0].clone(),
+        subject: Subject::At(Position::InPlane([0.05, 0.05])),
+        csv: None,
+        json: None,
+        force: false,
+    };
+    let mut said = Vec::new();
+    explain(&request, &mut said).unwrap();
+    let said = String::from_utf8(said).unwrap();
+    assert!(
+        said.contains("note: several processes ran the case"),
+        "{said}"
+    );
     let together = limits(&together[0]);
     assert_eq!(alone.len(), together.len());
     let begun = alone.values().filter(|it| it[0].is_finite());

@@ -1,6 +1,5 @@
 //! Deformation and breakage of bonds over a run.
 
-use ligament::units::Units;
 use ligament_analysis::fields::point_damage;
 use ligament_model::ElementKind;
 use ligament_model::element::BondDeformation;
@@ -87,32 +86,14 @@ pub(super) struct LargestUtilisation {
 }
 
 impl BondHistories {
-    /// The history of the bond between two points (in ascending order).
-    pub(super) fn of_bond(
-        run: &StoredRun,
-        ends: [u32; 2],
-        loading: StoredLoading,
-    ) -> Result<Self, Error> {
-        Self::read(run, |pair| *pair == ends, None, loading)
-    }
-
-    /// The histories of all bonds of a point.
-    pub(super) fn of_point(
-        run: &StoredRun,
-        point: u32,
-        loading: StoredLoading,
-    ) -> Result<Self, Error> {
-        Self::read(run, |pair| pair.contains(&point), Some(point), loading)
-    }
-
-    /// Reads the histories of some bonds, and the damage of a point; each file of fields is read once.
-    fn read(
+    /// Reads the histories of some bonds, chosen by their ends (ascending), and the damage of a point; each file of fields is read once.
+    pub(super) fn read(
         run: &StoredRun,
         is_asked: impl Fn(&[u32; 2]) -> bool,
         point: Option<u32>,
         loading: StoredLoading,
     ) -> Result<Self, Error> {
-        let element = match run.has_own_strains() {
+        let element = match run.has_own_strains() && !run.model.in_space {
             false => ElementKind::Beam,
             true if loading.has_true_strains => ElementKind::TrueStrain,
             true => ElementKind::Imaginary,
@@ -153,21 +134,12 @@ impl BondHistories {
             lives.damage.extend(damage);
         }
         for life in &mut lives.of_bonds {
-            life.nearest = life
-                .nearest
-                .or_else(|| life.nearest_of(&lives.stored_steps));
+            let steps = lives.stored_steps.iter().enumerate();
+            let largest = steps.filter_map(|(place, it)| life.largest_in(place, it.step));
+            let largest = largest.reduce(LargestUtilisation::or_larger);
+            life.nearest = life.nearest.or(largest);
         }
         Ok(lives)
-    }
-
-    /// Whether the stored steps are times of a motion.
-    pub(super) fn in_time(&self) -> bool {
-        self.loading.in_time
-    }
-
-    /// Units of the displacement and the reaction of the stored steps.
-    pub(super) fn units(&self) -> Units {
-        self.loading.units
     }
 }
 
@@ -248,26 +220,26 @@ impl BondHistory {
         });
     }
 
-    /// Largest utilisation over the steps with fields.
-    fn nearest_of(&self, stored_steps: &[StoredStep]) -> Option<LargestUtilisation> {
-        let mut nearest: Option<LargestUtilisation> = None;
-        let intact = stored_steps
-            .iter()
-            .zip(&self.states)
-            .filter(|it| it.1.is_intact);
-        for (stored_step, state) in intact {
-            for (criterion, of_criterion) in state.of_criteria.iter().enumerate() {
-                let utilisation = of_criterion.utilisation;
-                if nearest.is_none_or(|it| utilisation > it.utilisation) {
-                    nearest = Some(LargestUtilisation {
-                        utilisation,
-                        step: stored_step.step,
-                        criterion,
-                    });
-                }
-            }
+    /// Largest utilisation in a stored step, the first of several; `None` once the bond is broken.
+    pub(super) fn largest_in(&self, place: usize, step: usize) -> Option<LargestUtilisation> {
+        let state = self.states.get(place).filter(|it| it.is_intact)?;
+        let of_criteria = state.of_criteria.iter().enumerate();
+        let utilisations = of_criteria.map(|(criterion, it)| LargestUtilisation {
+            utilisation: it.utilisation,
+            step,
+            criterion,
+        });
+        utilisations.reduce(LargestUtilisation::or_larger)
+    }
+}
+
+impl LargestUtilisation {
+    /// The larger of two utilisations, the first of equals.
+    fn or_larger(self, other: Self) -> Self {
+        match other.utilisation > self.utilisation {
+            true => other,
+            false => self,
         }
-        nearest
     }
 }
 

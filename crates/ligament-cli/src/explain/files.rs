@@ -8,7 +8,7 @@ use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 
 use super::bond_history::{BondHistories, BondHistory};
-use super::report::angle;
+use super::words::angle;
 
 /// A table with one row per bond and step with fields.
 pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {

@@ -106,7 +106,12 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
     let loading = stored_loading(&request.folder)?;
     let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 3]>| {
-        let lives = BondHistories::of_point(&run, point, loading.clone())?;
+        let lives = BondHistories::read(
+            &run,
+            |ends| ends.contains(&point),
+            Some(point),
+            loading.clone(),
+        )?;
         report::family(out, &run, point, sought, &lives)?;
         anyhow::Ok(lives)
     };
@@ -132,7 +137,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
                 .into());
             }
             let ends = [a.min(b), a.max(b)];
-            let lives = BondHistories::of_bond(&run, ends, loading)?;
+            let lives = BondHistories::read(&run, |it| *it == ends, None, loading)?;
             report::bond(out, &run, ends, &lives)?;
             lives
         }

@@ -8,7 +8,7 @@ use ligament_output::quantity::{quantity, zero_if_rounding};
 use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
 use super::bond_history::{BondHistories, BondHistory};
-use super::words::{self, label, metres, number, place};
+use super::words::{self, angle, direction, label, metres, number, place};
 use crate::lines::{self, Columns};
 
 /// Writes the history of the bond between two points, or the reason why there is no bond.
@@ -97,33 +97,14 @@ fn sentences(out: &mut dyn Write, sentences: Vec<String>) -> io::Result<()> {
     (sentences.iter()).try_for_each(|sentence| writeln!(out, "  {sentence}"))
 }
 
-/// Direction of a bond in space, as cosines from its first to its second end.
-fn direction(life: &BondHistory) -> String {
-    let [x, y, z] = life.direction.map(|it| format!("{it:.3}"));
-    format!("({x}, {y}, {z})")
-}
-
-/// Direction of a bond in the plane, degrees above -90 up to 90.
-pub(super) fn angle(life: &BondHistory) -> f64 {
-    let [a, b, _] = life.direction;
-    let angle = b.atan2(a).to_degrees();
-    if angle > 90.0 {
-        angle - 180.0
-    } else if angle <= -90.0 {
-        angle + 180.0
-    } else {
-        angle
-    }
-}
-
 /// Text of the numbers of broken bonds and of absent bonds.
 fn counts(run: &StoredRun, lives: &BondHistories) -> String {
     let n_bonds = lives.of_bonds.len();
-    let broken = lives.of_bonds.iter().filter_map(|it| it.breakage.as_ref());
-    let broken = broken.map(|it| &it.0);
+    let broken = lives.of_bonds.iter();
+    let broken = broken.filter_map(|it| Some(&it.breakage.as_ref()?.0));
     let mut broken: Vec<&StoredBreak> = broken.collect();
     broken.sort_by_key(|it| it.order);
-    let number = |it: &StoredBreak| match lives.in_time() {
+    let number = |it: &StoredBreak| match lives.loading.in_time {
         true => format!("{} ({})", it.order, quantity(it.at.load_factor, "s")),
         false => format!("{} (step {})", it.order, it.at.step),
     };
@@ -160,7 +141,7 @@ fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::R
 
 /// Writes a table with a row for each stored step.
 fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io::Result<()> {
-    let when = match (lives.in_time(), lives.loading.follows_path) {
+    let when = match (lives.loading.in_time, lives.loading.follows_path) {
         (true, _) => "times with fields",
         (false, true) => "events with fields, just before their bonds break",
         (false, false) => "steps with fields, at their end",
@@ -171,7 +152,7 @@ fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io:
 
 /// Names of the columns of [`load`].
 fn load_header(lives: &BondHistories) -> Vec<String> {
-    let names = match lives.in_time() {
+    let names = match lives.loading.in_time {
         true => ["row", "time", "displacement", "reaction"],
         false => ["step", "load factor", "displacement", "reaction"],
     };
@@ -193,12 +174,12 @@ fn load(stored_step: &StoredStep, lives: &BondHistories) -> Vec<String> {
         } else {
             format!("{} (not converged)", stored_step.step)
         },
-        match lives.in_time() {
+        match lives.loading.in_time {
             true => shown(|it| it.load_factor, "s"),
             false => format!("{:.6}", stored_step.load_factor),
         },
-        shown(|it| it.displacement, lives.units().displacement),
-        shown(|it| it.reaction, lives.units().force),
+        shown(|it| it.displacement, lives.loading.units.displacement),
+        shown(|it| it.reaction, lives.loading.units.force),
     ]
 }
 
@@ -244,7 +225,11 @@ fn family_table(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let along = if in_space { "direction" } else { "angle" };
     header.extend(["length", along, "H", "alpha", "Omega"].map(str::to_owned));
     header.extend(lives.criteria.iter().map(|it| format!("limit {}", it.0)));
-    let in_step = if lives.in_time() { "in row" } else { "in step" };
+    let in_step = if lives.loading.in_time {
+        "in row"
+    } else {
+        "in step"
+    };
     header.extend(["largest", in_step, "by", "fate"].map(str::to_owned));
     let mut table = Columns::new(header);
     let mut order: Vec<&BondHistory> = lives.of_bonds.iter().collect();
@@ -298,23 +283,22 @@ fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let steps = lives.stored_steps.iter().zip(&lives.damage).enumerate();
     for (place, (stored_step, damage)) in steps {
         let intact = || (lives.of_bonds.iter()).filter(|life| life.states[place].is_intact);
-        let mut worst: Option<(f64, &BondHistory, usize)> = None;
-        for life in intact() {
-            for (criterion, it) in life.states[place].of_criteria.iter().enumerate() {
-                let is_worse = worst.is_none_or(|(so_far, ..)| it.utilisation > so_far);
-                if it.utilisation > 0.0 && is_worse {
-                    worst = Some((it.utilisation, life, criterion));
-                }
-            }
-        }
+        let step = stored_step.step;
+        let largest = intact().filter_map(|life| Some((life.largest_in(place, step)?, life)));
+        let worst = largest
+            .filter(|it| it.0.utilisation > 0.0)
+            .reduce(|one, other| match other.0.utilisation > one.0.utilisation {
+                true => other,
+                false => one,
+            });
         let mut row = load(stored_step, lives);
         row.push(intact().count().to_string());
         row.push(format!("{damage:.4}"));
         row.extend(match worst {
-            Some((utilisation, life, criterion)) => [
-                format!("{utilisation:.4}"),
+            Some((it, life)) => [
+                format!("{:.4}", it.utilisation),
                 run.model.tags[other_end(life.ends, point)].to_string(),
-                lives.criteria[criterion].0.clone(),
+                lives.criteria[it.criterion].0.clone(),
             ],
             None => ["0", "-", "-"].map(str::to_owned),
         });

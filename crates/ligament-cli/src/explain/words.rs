@@ -18,6 +18,25 @@ pub(super) fn metres(value: f64) -> String {
     quantity(value, "m")
 }
 
+/// Direction of a bond in space, as cosines from its first to its second end.
+pub(super) fn direction(life: &BondHistory) -> String {
+    let [x, y, z] = life.direction.map(|it| format!("{it:.3}"));
+    format!("({x}, {y}, {z})")
+}
+
+/// Direction of a bond in the plane, degrees above -90 up to 90.
+pub(super) fn angle(life: &BondHistory) -> f64 {
+    let [a, b, _] = life.direction;
+    let angle = b.atan2(a).to_degrees();
+    if angle > 90.0 {
+        angle - 180.0
+    } else if angle <= -90.0 {
+        angle + 180.0
+    } else {
+        angle
+    }
+}
+
 /// Description of a point: "node 12".
 pub(super) fn label(run: &StoredRun, point: u32) -> String {
     format!("{} {}", run.model.tagged, run.model.tags[point as usize])
@@ -111,7 +130,7 @@ pub(super) fn limits(criteria: &[(String, Criterion)], bond: usize) -> Vec<(Stri
 
 /// When a bond broke.
 fn when(lives: &BondHistories, broke: &StoredBreak) -> String {
-    match lives.in_time() {
+    match lives.loading.in_time {
         true => {
             let time = quantity(broke.at.load_factor, "s");
             format!("after {time}, in time step {}", broke.round)
@@ -122,12 +141,12 @@ fn when(lives: &BondHistories, broke: &StoredBreak) -> String {
 
 /// The load of a state, in a motion without its factor, which is the time.
 fn load_words(lives: &BondHistories, at: &StoredStep) -> String {
-    let load = match lives.in_time() {
+    let load = match lives.loading.in_time {
         true => "Load:".to_owned(),
         false => format!("Load factor {:.6},", at.load_factor),
     };
-    let displacement = quantity(at.displacement, lives.units().displacement);
-    let reaction = quantity(at.reaction, lives.units().force);
+    let displacement = quantity(at.displacement, lives.loading.units.displacement);
+    let reaction = quantity(at.reaction, lives.loading.units.force);
     format!("{load} displacement {displacement}, reaction {reaction}.")
 }
 
@@ -200,7 +219,10 @@ fn is_free(lives: &BondHistories, life: &BondHistory) -> bool {
 fn plane_words(life: &BondHistory, criterion: &Criterion, utilisation: f64) -> Option<String> {
     let limit = criterion.limit[life.bond];
     let of_limit = |share: f64, modulus: f64| quantity(share * limit * modulus, "Pa");
-    let normal = words_of_normal(life);
+    let normal = match life.direction[2] == 0.0 {
+        true => format!("at {:.2} degrees", angle(life)),
+        false => direction(life),
+    };
     let sees = |measure: Measure| criterion.measure == measure;
     if sees(Measure::NormalStress)
         && let &[.., modulus] = criterion.coefficients(life.bond)
@@ -222,15 +244,6 @@ fn plane_words(life: &BondHistory, criterion: &Criterion, utilisation: f64) -> O
         ));
     }
     None
-}
-
-/// The direction of a bond in words.
-fn words_of_normal(life: &BondHistory) -> String {
-    let [x, y, z] = life.direction;
-    match z == 0.0 {
-        true => format!("at {:.2} degrees", y.atan2(x).to_degrees()),
-        false => format!("({x:.4}, {y:.4}, {z:.4})"),
-    }
 }
 
 fn never_fails(run: &StoredRun, life: &BondHistory) -> String {
@@ -255,7 +268,7 @@ fn nearest_words(
     let mut states = lives.stored_steps.iter().zip(&life.states);
     let state = states.find(|it| it.0.step == nearest.step);
     let seen = state.map(|(_, it)| format!(" ({})", deformed(lives, &it.deformation)));
-    let row = run.step(nearest.step).filter(|_| lives.in_time());
+    let row = run.step(nearest.step).filter(|_| lives.loading.in_time);
     let when = row.map(|it| format!("after {}", quantity(it.load_factor, "s")));
     format!(
         "It is intact: its largest utilisation was {:.4}, {}, by `{}`{}.",
@@ -280,7 +293,7 @@ fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
     } else {
         ""
     };
-    let end = match lives.in_time() {
+    let end = match lives.loading.in_time {
         true => quantity(stored_step.load_factor, "s"),
         false => format!("step {}", stored_step.step),
     };

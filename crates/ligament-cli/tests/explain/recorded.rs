@@ -196,3 +196,36 @@ fracture = { steps = 6 }
 "#;
     assert!(compare(CRACKED, &[64, 65, 77]) > 10);
 }
+
+/// Results do not have the stiffness of cells, nor how limits followed the bonds that were left: notes say so.
+#[test]
+fn what_results_do_not_have_is_noted() {
+    const PRINTED: &str = r#"
+lattice = { cells = [8, 8], spacing = 0.002, thickness = 0.001, set = { base = { bottom = 1 }, end = { top = 1 } } }
+material = { young = 65.8e9, poisson = 0.3, fracture_energy = 6137.0 }
+model = { law = "mbb-pd", horizon_factor = 3.0 }
+support = [{ group = "base", displacement = { x = 0.0, y = 0.0 } }]
+load = [{ group = "end", displacement = { y = 1e-5 } }]
+fracture = { steps = 1, criterion = [{ kind = "printed-opening" }] }
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    let body = "lattice = { cells = [6, 6], spacing = 0.01, set = { held = { bottom = 1 }, pulled = { top = 1 } } }";
+    let sound = pulled(body, "{ y = 1e-6 }", "rankine", "linear");
+    let with_cells = sound.replace("poisson = 0.2", "poisson = 0.4");
+    for (case, expected) in [
+        (sound.as_str(), None),
+        (
+            &with_cells,
+            Some("stresses around bonds are without what cells resist"),
+        ),
+        (
+            PRINTED,
+            Some("in the run limits followed the bonds that were left"),
+        ),
+    ] {
+        let results = run(folder.path(), case, &["output.fields_every=1"]);
+        let said = explain(&results, &["--point", "20"]);
+        assert_eq!(said.contains("note:"), expected.is_some(), "{said}");
+        assert!(said.contains(expected.unwrap_or_default()), "{said}");
+    }
+}

@@ -1,6 +1,5 @@
 //! Stored steps of a run, restored into bonds, criteria and states, from which the functions of the analysis read what they read in the run.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
 use ligament_analysis::ElementKind;
@@ -8,9 +7,10 @@ use ligament_model::failure::{
     AfterLimit, Criteria, CriteriaInState, Criterion, Measure, Surroundings,
 };
 use ligament_model::stress::point_strain::Motion;
-use ligament_model::system::stored::StoredBonds;
-use ligament_model::{BondSystem, Bonds, Deformations};
+use ligament_model::system::stored::without_stiffness;
+use ligament_model::{Bonds, Deformations};
 
+use super::bond_arrays::steps_of;
 use super::stored::{Motions, StoredCriterion, StoredModel, StoredRun};
 use super::tables::CRITERIA_FILE;
 use crate::Error;
@@ -65,7 +65,9 @@ impl RestoredBody {
             list: restored.collect::<Result<_, _>>()?,
         };
         let at_start = (model.criteria.iter()).map(|it| of_bonds(&it.limit_at_start, &pairs));
-        let breaks = run.breaks.iter().map(|it| (it.tags, it.at.step));
+        let breaks = run.breaks.iter().map(|it| (it.tags, it.at.step)).collect();
+        let ends = of_bonds(&model.bonds.ends, &pairs);
+        let steps_of = |events: Vec<_>| steps_of(&model.tags, &ends, events);
         let began_in = model
             .largest
             .iter()
@@ -73,9 +75,9 @@ impl RestoredBody {
         Ok(Self {
             system: system(model, &pairs, element),
             at_start: at_start.collect(),
-            broke_in: steps_of(model, &pairs, breaks),
+            broke_in: steps_of(breaks),
             began_in: began_in.map(|step| usize::try_from(step).ok()).collect(),
-            softened_in: steps_of(model, &pairs, run.softened.iter().copied()),
+            softened_in: steps_of(run.softened.clone()),
             criteria,
             pairs,
             follows_path,
@@ -102,10 +104,8 @@ impl RestoredBody {
         motions: &Motions,
         criteria: &'a Criteria,
     ) -> RestoredStep<'a> {
-        let is_over = |of_bond: &Option<usize>| match self.follows_path {
-            true => of_bond.is_some_and(|it| it < step),
-            false => of_bond.is_some_and(|it| it <= step),
-        };
+        let end = step.saturating_add(usize::from(!self.follows_path));
+        let is_over = |of_bond: &Option<usize>| of_bond.is_some_and(|it| it < end);
         let intact: Vec<bool> = self.broke_in.iter().map(|it| !is_over(it)).collect();
         // As in the run, bonds that soften do not show the strain of the body.
         let mut sound = intact.clone();
@@ -145,23 +145,20 @@ impl RestoredBody {
 
 /// Bonds without stiffness between the points of a model.
 fn system(model: &StoredModel, pairs: &[usize], element: ElementKind) -> Arc<dyn Bonds> {
-    let stored = &model.bonds;
-    let bonds = StoredBonds {
-        ends: pairs.iter().map(|pair| stored.ends[*pair]).collect(),
-        horizon: pairs.iter().map(|pair| horizon(model, *pair)).collect(),
-        weight: (pairs
-            .iter()
-            .map(|pair| stored.length_factor[*pair] * stored.domain_factor[*pair]))
-        .collect(),
-    };
-    let (positions, volumes) = (model.positions.iter(), &model.volumes);
-    if model.in_space {
-        BondSystem::<3>::without_stiffness(&model.positions, volumes, bonds, element)
-            .with_elements()
-    } else {
-        let positions: Vec<[f64; 2]> = positions.map(|[x, y, _]| [*x, *y]).collect();
-        BondSystem::<2>::without_stiffness(&positions, volumes, bonds, element).with_elements()
-    }
+    let StoredModel {
+        positions,
+        in_space,
+        volumes,
+        bonds,
+        ..
+    } = model;
+    let of_pairs = |value: &dyn Fn(usize) -> f64| pairs.iter().map(|pair| value(*pair)).collect();
+    let arrays = (
+        of_bonds(&bonds.ends, pairs),
+        of_pairs(&|pair| horizon(model, pair)),
+        of_pairs(&|pair| bonds.length_factor[pair] * bonds.domain_factor[pair]),
+    );
+    without_stiffness(positions, *in_space, volumes, element, arrays)
 }
 
 /// Horizon of a bond with all digits, of which the model has seven: the mean of the horizons of its ends or the larger one.
@@ -209,20 +206,4 @@ fn unknown(run: &StoredRun, criterion: &StoredCriterion) -> Error {
             criterion.name, criterion.measure, criterion.after
         ),
     }
-}
-
-/// The step of an event of each bond, from the tags of the ends of bonds with the event.
-fn steps_of(
-    model: &StoredModel,
-    pairs: &[usize],
-    events: impl Iterator<Item = ([i64; 2], usize)>,
-) -> Vec<Option<usize>> {
-    let ascending = |[a, b]: [i64; 2]| [a.min(b), a.max(b)];
-    let events = events.map(|(tags, step)| (ascending(tags), step));
-    let step_of: HashMap<[i64; 2], usize> = events.collect();
-    let tags = |pair: &usize| model.bonds.ends[*pair].map(|end| model.tags[end as usize]);
-    let bonds = pairs
-        .iter()
-        .map(|pair| step_of.get(&ascending(tags(pair))).copied());
-    bonds.collect()
 }

@@ -10,6 +10,7 @@ use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
 
 use super::cracks::softened_pairs;
+use super::location;
 use super::model_file::{COEFFICIENTS, GROUP, INTERFACE, STIFF_CELLS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
 use super::softening_table::BEGINS;
@@ -218,11 +219,7 @@ impl StoredRun {
             return Ok(None);
         };
         let file = VtuFile::open(path)?;
-        // The fields of a lattice, and of points, are on their cells.
-        let location = match self.model.tagged {
-            "node" => FieldLocation::Point,
-            _ => FieldLocation::Cell,
-        };
+        let location = location(&file);
         let displacement = file.finite_numbers(location, DISPLACEMENT.name)?;
         let rotation = file.finite_numbers(location, ROTATION.name)?;
         let rotation: Vec<[f64; 3]> = match self.model.in_space {
@@ -322,14 +319,12 @@ impl StoredModel {
 
 /// Supported and loaded points by the name of their group.
 fn groups(file: &VtuFile) -> Result<BTreeMap<String, Vec<u32>>, Error> {
-    let names = file.fields(FieldLocation::Point);
-    let named = names.filter_map(|field| Some((field, field.strip_prefix(GROUP)?)));
-    let points = |(field, name): (&str, &str)| {
-        let at = file.required_integers(FieldLocation::Point, field)?;
-        let points = (0..).zip(at).filter(|(_, is_in)| *is_in != 0);
-        Ok((name.to_owned(), points.map(|it| it.0).collect()))
+    let marked = marks(file, FieldLocation::Point, GROUP)?.into_iter();
+    let points = |(name, is_in): (String, Vec<bool>)| {
+        let points = (0..).zip(is_in).filter(|(_, is_in)| *is_in);
+        (name, points.map(|it| it.0).collect())
     };
-    named.map(points).collect()
+    Ok(marked.map(points).collect())
 }
 
 impl StoredBonds {
@@ -341,21 +336,25 @@ impl StoredBonds {
             horizon: file.finite_numbers(FieldLocation::Cell, "horizon")?,
             length_factor: bond_values(file, "length_factor", &absence)?,
             domain_factor: bond_values(file, "domain_factor", &absence)?,
-            interfaces: interfaces(file)?,
+            interfaces: marks(file, FieldLocation::Cell, INTERFACE)?,
             absence,
         })
     }
 }
 
-/// Name of each interface, and whether each bond crosses it, shape (n_bonds).
-fn interfaces(file: &VtuFile) -> Result<Vec<(String, Vec<bool>)>, Error> {
-    let names = file.fields(FieldLocation::Cell);
-    let named = names.filter_map(|field| Some((field, field.strip_prefix(INTERFACE)?)));
-    let crossed = |(field, name): (&str, &str)| {
-        let crosses = file.required_integers(FieldLocation::Cell, field)?;
-        Ok((name.to_owned(), crosses.iter().map(|it| *it != 0).collect()))
+/// Names of the fields of marks with a prefix, without it, and whether each point or cell is marked.
+fn marks(
+    file: &VtuFile,
+    location: FieldLocation,
+    prefix: &str,
+) -> Result<Vec<(String, Vec<bool>)>, Error> {
+    let fields = file.fields(location);
+    let named = fields.filter_map(|field| Some((field, field.strip_prefix(prefix)?)));
+    let marked = |(field, name): (&str, &str)| {
+        let marks = file.required_integers(location, field)?;
+        Ok((name.to_owned(), marks.iter().map(|it| *it != 0).collect()))
     };
-    named.map(crossed).collect()
+    named.map(marked).collect()
 }
 
 /// Values of a field that all bonds must have; absent bonds have none.
