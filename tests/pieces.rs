@@ -1,17 +1,27 @@
 //! Grids that several processes write in pieces read as one process would have written them. The processes are threads here.
 #![allow(clippy::unwrap_used)]
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_case::case::CaseFile;
+use ligament_cli::explain::{Position, Request, Subject, explain};
 use ligament_model::PointCloud;
 use ligament_model::subdomain::Subdomain;
 use ligament_output::FieldLocation::{self, Cell as OnCells, Point as OnPoints};
+use ligament_output::results::stored::StoredRun;
+use ligament_output::summary::Build;
 use ligament_output::vtu::read::VtuFile;
 use ligament_output::vtu::{
     Cell, Cells, Field, GlobalIndices, SharedCells, TIME_VALUE, UnstructuredGrid, write_shared,
     write_vtu,
 };
+use ligament_run::progress::ProgressMode;
+use ligament_run::run;
+use verification::problems::SQUARE;
 use verification::threads_as_ranks::on_ranks;
 
 const COLUMNS: usize = 7;
@@ -243,4 +253,76 @@ fn what_is_missing_of_a_grid_in_pieces_is_told() {
             .ends_with("process 1 could not write it")
     );
     assert!(ended[1].is_err());
+}
+
+/// Limits of the last criterion, by which bonds soften, at the end of a run and at its start, by the tags of the ends of the bonds.
+fn limits(folder: &Path) -> BTreeMap<[i64; 2], [f64; 2]> {
+    let model = StoredRun::open(folder).unwrap().model;
+    let criterion = model.criteria.last().unwrap();
+    let tags = model
+        .bonds
+        .ends
+        .iter()
+        .map(|ends| ends.map(|end| model.tags[end as usize]));
+    let limits = criterion.limit.iter().zip(&criterion.limit_at_start);
+    tags.zip(limits.map(|(end, start)| [*end, *start]))
+        .collect()
+}
+
+/// Several processes store the limits of bonds that began to soften as one process does, each those of its bonds; 1e-6: the solutions of both differ
+/// by rounding.
+#[test]
+fn limits_of_begun_bonds_are_stored_in_pieces() {
+    let folder = tempfile::tempdir().unwrap();
+    let softens =
+        "fracture = { steps = 12, criterion = [{ kind = \"rankine\", after = \"linear\" }] }";
+    let (body, _) = SQUARE.split_once("fracture = ").unwrap();
+    let body = body.replace(
+        "tensile_strength",
+        "fracture_energy = 60.0, tensile_strength",
+    );
+    let mesh = verification::repository().join("tests/reference/square.msh");
+    let body = body.replace("reference/square.msh", mesh.to_str().unwrap());
+    let path = folder.path().join("case.toml");
+    fs::write(&path, format!("{body}{softens}\n")).unwrap();
+    let run = |name: &str, communicator: Arc<dyn MatrixCommunicator>| {
+        let case = CaseFile::load(&path, &[]).unwrap();
+        let out = folder.path().join(name);
+        let request = run::Request {
+            communicator,
+            ..run::Request::new(&case, &out, Build::default())
+        };
+        request.run(ProgressMode::Quiet).unwrap();
+        out
+    };
+    let alone = limits(&run("alone", Arc::new(Solo)));
+    let together = on_ranks(2, |ranks| run("together", ranks));
+    assert!(together[0].join("model.pvtu").is_file());
+    let request = Request {
+        folder: together[0].clone(),
+        subject: Subject::At(Position::InPlane([0.05, 0.05])),
+        csv: None,
+        json: None,
+        force: false,
+    };
+    let mut said = Vec::new();
+    explain(&request, &mut said).unwrap();
+    let said = String::from_utf8(said).unwrap();
+    assert!(
+        said.contains("note: several processes ran the case"),
+        "{said}"
+    );
+    let together = limits(&together[0]);
+    assert_eq!(alone.len(), together.len());
+    let begun = alone.values().filter(|it| it[0].is_finite());
+    assert!(begun.count() > 20);
+    for (ends, [end, start]) in alone {
+        assert_eq!(start, f64::INFINITY);
+        let [found, start] = together[&ends];
+        assert_eq!(start, f64::INFINITY);
+        assert!(
+            found == end || (found / end - 1.0).abs() < 1e-6,
+            "{ends:?}: {found} {end}"
+        );
+    }
 }

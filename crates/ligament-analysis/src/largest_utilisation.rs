@@ -16,6 +16,9 @@ const SAME: f64 = 1.0 + 2e-7;
 pub struct LargestUtilisations {
     /// Largest utilisations, shape (n_bonds).
     pub of_bonds: Vec<LargestUtilisation>,
+    /// Step in which each bond began to soften by the stress around it, -1 for bonds that did not, shape (n_bonds); empty where no criterion
+    /// lets bonds begin.
+    pub began_in: Vec<i32>,
 }
 
 /// The largest utilisation of a bond so far.
@@ -33,18 +36,31 @@ impl LargestUtilisations {
     /// Whether the utilisations match a number of bonds and of criteria.
     pub fn fits(&self, n_bonds: usize, n_criteria: usize) -> bool {
         let mut largest = self.of_bonds.iter();
-        self.of_bonds.len() == n_bonds && largest.all(|it| (it.criterion as usize) < n_criteria)
+        let has_starts = [0, n_bonds].contains(&self.began_in.len());
+        has_starts
+            && self.of_bonds.len() == n_bonds
+            && largest.all(|it| (it.criterion as usize) < n_criteria)
     }
 
     /// Utilisations of zero.
     pub fn new(n_bonds: usize) -> Self {
         Self {
             of_bonds: vec![LargestUtilisation::default(); n_bonds],
+            began_in: Vec::new(),
         }
     }
 
-    /// Updates the utilisations of the bonds that are intact at the end of a step.
+    /// Updates the utilisations of the bonds that are intact at the end of a step, and the steps in which bonds began to soften.
     pub fn update(&mut self, step: usize, view: &View<'_>) {
+        for begun in view.state.softening.begun() {
+            self.began_in
+                .resize(self.began_in.len().max(begun.len()), -1);
+            for (began_in, begun) in self.began_in.iter_mut().zip(begun) {
+                if *began_in < 0 && begun.is_finite() {
+                    *began_in = step as i32;
+                }
+            }
+        }
         let (criteria, intact) = (view.criteria, &view.state.intact);
         let deformations = &view.balanced.deformations;
         let parts = self.of_bonds.chunks_mut(TASK).enumerate();

@@ -6,6 +6,7 @@ mod crack_axis;
 pub mod elements;
 mod parts;
 mod rigid;
+pub mod stored;
 
 use std::sync::{Arc, OnceLock};
 

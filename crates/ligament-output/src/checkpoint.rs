@@ -29,7 +29,7 @@ use crate::atomic::{open_regular, remove_file, rotate_file};
 pub const NAMES: [&str; 2] = ["checkpoint.bin", "checkpoint.older.bin"];
 
 /// Number of the format, which changes with every change of the content.
-pub const FORMAT: u32 = 13;
+pub const FORMAT: u32 = 14;
 
 const BEGINNING: &[u8; 19] = b"ligament checkpoint";
 

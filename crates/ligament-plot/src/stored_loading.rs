@@ -16,6 +16,8 @@ pub struct StoredLoading {
     pub follows_path: bool,
     /// Whether the run is a motion in time, whose load factor is the time in s.
     pub in_time: bool,
+    /// Whether the strains of bonds are taken over the distances after the deformation.
+    pub has_true_strains: bool,
     /// Units of the first load.
     pub units: Units,
     /// Units of the probes by their names.
@@ -50,6 +52,7 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
     let turns = motion.is_some_and(|motion| !moves(motion));
     let in_time = case.contains_key("motion");
     let is_heated = case.contains_key("temperature");
+    let strains = case.get("model").and_then(|it| it.get("strains"));
     let units = if first.is_none() && (in_time || !is_heated) {
         Units::FORCE
     } else if first.is_none() {
@@ -64,6 +67,7 @@ pub fn stored_loading(folder: &Path) -> Result<StoredLoading, Error> {
     Ok(StoredLoading {
         in_time,
         follows_path: control.and_then(toml::Value::as_str) == Some("event"),
+        has_true_strains: strains.and_then(toml::Value::as_str) == Some("true"),
         units,
         probes: probes(&case),
     })

@@ -8,7 +8,7 @@ use ligament_output::results::stored::StoredRun;
 use serde_json::json;
 
 use super::bond_history::{BondHistories, BondHistory};
-use super::report::angle;
+use super::words::angle;
 
 /// A table with one row per bond and step with fields.
 pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
@@ -28,10 +28,7 @@ pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
     let mut table = line(&columns);
     for life in &lives.of_bonds {
         let tags = life.ends.map(|end| run.model.tags[end as usize]);
-        for (place, (stored_step, deformation)) in
-            lives.stored_steps.iter().zip(&life.deformation).enumerate()
-        {
-            let is_intact = place < life.n_intact;
+        for (stored_step, state) in lives.stored_steps.iter().zip(&life.states) {
             let mut row: Vec<Value<'_>> = vec![
                 tags[0].into(),
                 tags[1].into(),
@@ -39,22 +36,19 @@ pub(super) fn csv(run: &StoredRun, lives: &BondHistories) -> String {
                 stored_step.load_factor.into(),
                 stored_step.displacement.into(),
                 stored_step.reaction.into(),
-                usize::from(is_intact).into(),
+                usize::from(state.is_intact).into(),
             ];
-            let values = deformation.strains().into_iter();
+            let values = state.deformation.strains().into_iter();
             row.extend(values.take(lives.components.len()).map(Value::from));
-            for criterion in 0..life.limits.len() {
-                let limit = &life.limits[criterion];
-                let utilisation = if is_intact {
-                    life.utilisation(criterion, place)
+            for ((_, criterion), it) in lives.criteria.iter().zip(&state.of_criteria) {
+                let utilisation = if state.is_intact {
+                    it.utilisation
                 } else {
                     f64::NAN
                 };
-                let measure = life.measure(criterion, place);
-                row.extend([limit.limit, measure, utilisation].map(Value::from));
-                if !limit.after.is_brittle() {
-                    let left = life.remaining_softened_state(criterion, &lives.stored_steps, place);
-                    row.extend([left.force, left.secant].map(Value::from));
+                row.extend([it.limit, it.measure, utilisation].map(Value::from));
+                if !criterion.after.is_brittle() {
+                    row.extend([it.softened.force, it.softened.secant].map(Value::from));
                 }
             }
             table += &line(&row);
@@ -104,21 +98,21 @@ fn bond(run: &StoredRun, lives: &BondHistories, life: &BondHistory) -> serde_jso
         json!({
             "utilisation": it.utilisation,
             "step": it.step,
-            "criterion": life.limits[it.criterion].name,
+            "criterion": lives.criteria[it.criterion].0,
         })
     });
-    let path = lives.stored_steps.iter().zip(&life.deformation).enumerate();
-    let path = path.map(|(place, (stored_step, deformation))| {
-        let utilisation = (0..life.limits.len()).map(|it| life.utilisation(it, place));
+    let path = lives.stored_steps.iter().zip(&life.states);
+    let path = path.map(|(stored_step, state)| {
+        let utilisation = state.of_criteria.iter().map(|it| it.utilisation);
         let stored_step = json!({
             "step": stored_step.step,
             "load_factor": stored_step.load_factor,
             "displacement": stored_step.displacement,
             "reaction": stored_step.reaction,
-            "intact": place < life.n_intact,
+            "intact": state.is_intact,
             "utilisation": utilisation.collect::<Vec<f64>>(),
         });
-        with_components(stored_step, lives, deformation)
+        with_components(stored_step, lives, &state.deformation)
     });
     let mut document = json!({
         "ends": life.ends.map(|end| run.model.tags[end as usize]),
@@ -126,7 +120,7 @@ fn bond(run: &StoredRun, lives: &BondHistories, life: &BondHistory) -> serde_jso
         "horizon": bonds.horizon[life.pair],
         "alpha": bonds.length_factor[life.pair],
         "omega": bonds.domain_factor[life.pair],
-        "limits": limits(life),
+        "limits": limits(lives, life.bond),
         "breakage": breakage,
         "largest": nearest,
         "path": path.collect::<Vec<_>>(),
@@ -139,15 +133,15 @@ fn bond(run: &StoredRun, lives: &BondHistories, life: &BondHistory) -> serde_jso
 }
 
 /// The limits of a bond.
-fn limits(life: &BondHistory) -> Vec<serde_json::Value> {
-    let limits = life.limits.iter().map(|limit| {
+fn limits(lives: &BondHistories, bond: usize) -> Vec<serde_json::Value> {
+    let limits = lives.criteria.iter().map(|(name, criterion)| {
         json!({
-            "criterion": limit.name,
-            "measure": limit.measure.word(),
-            "limit": limit.limit,
-            "coefficients": limit.coefficients,
-            "after": limit.after.word(),
-            "break_limit": limit.limit * limit.after.end(0),
+            "criterion": name,
+            "measure": criterion.measure.word(),
+            "limit": criterion.limit[bond],
+            "coefficients": criterion.coefficients(bond),
+            "after": criterion.after.word(),
+            "break_limit": criterion.break_limit(bond),
         })
     });
     limits.collect()

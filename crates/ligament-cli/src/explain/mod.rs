@@ -1,13 +1,11 @@
 //! `ligament explain`: the history of a bond, or of all bonds of a point, from the results of a run.
 //!
-//! Limits, factors and horizons come from `model.vtu`, breakages from `breaks.csv`, loads from `history.csv`, and the deformation of a bond
-//! from the displacements and rotations of the fields, by the kinematics of the bonds.
+//! The steps with fields are restored from `model.vtu`, `breaks.csv`, `softening.csv` and the fields; deformations, stresses, limits and
+//! utilisations are what the functions of the analysis read from them, as in the run.
 
 mod bond_history;
-mod end_families;
 mod files;
 mod report;
-mod strains;
 mod words;
 
 use std::io::Write;
@@ -18,7 +16,7 @@ use ligament_output::results::stored::StoredRun;
 use ligament_output::{check_file, write_file};
 use thiserror::Error;
 
-use self::bond_history::{BondHistories, bonds_of, pair_of};
+use self::bond_history::BondHistories;
 use ligament_plot::stored_loading::stored_loading;
 
 /// Bond or family to be explained.
@@ -108,7 +106,12 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
     let run = StoredRun::open(&request.folder)?;
     let loading = stored_loading(&request.folder)?;
     let family = |out: &mut dyn Write, point: u32, sought: Option<[f64; 3]>| {
-        let lives = BondHistories::read(&run, bonds_of(&run, point), &loading)?;
+        let lives = BondHistories::read(
+            &run,
+            |ends| ends.contains(&point),
+            Some(point),
+            loading.clone(),
+        )?;
         report::family(out, &run, point, sought, &lives)?;
         anyhow::Ok(lives)
     };
@@ -134,8 +137,7 @@ pub fn explain(request: &Request, out: &mut dyn Write) -> anyhow::Result<()> {
                 .into());
             }
             let ends = [a.min(b), a.max(b)];
-            let pair = pair_of(&run, ends);
-            let lives = BondHistories::read(&run, pair.into_iter().collect(), &loading)?;
+            let lives = BondHistories::read(&run, |it| *it == ends, None, loading)?;
             report::bond(out, &run, ends, &lives)?;
             lives
         }

@@ -2,14 +2,13 @@
 
 use std::fmt::Display;
 use std::io::{self, Write};
-use std::ops::Add;
 
 use ligament_model::Absence;
 use ligament_output::quantity::{quantity, zero_if_rounding};
 use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
 use super::bond_history::{BondHistories, BondHistory};
-use super::words::{self, label, metres, number, place};
+use super::words::{self, angle, direction, label, metres, number, place};
 use crate::lines::{self, Columns};
 
 /// Writes the history of the bond between two points, or the reason why there is no bond.
@@ -47,7 +46,7 @@ pub(super) fn bond(
             format!("crosses {name}, whose strengths its limits have"),
         )?;
     }
-    for (name, words) in words::limits(life) {
+    for (name, words) in words::limits(&lives.criteria, life.bond) {
         entry(out, &name, words)?;
     }
     writeln!(out, "what happened")?;
@@ -98,33 +97,14 @@ fn sentences(out: &mut dyn Write, sentences: Vec<String>) -> io::Result<()> {
     (sentences.iter()).try_for_each(|sentence| writeln!(out, "  {sentence}"))
 }
 
-/// Direction of a bond in space, as cosines from its first to its second end.
-fn direction(life: &BondHistory) -> String {
-    let [x, y, z] = life.direction.map(|it| format!("{it:.3}"));
-    format!("({x}, {y}, {z})")
-}
-
-/// Direction of a bond in the plane, degrees above -90 up to 90.
-pub(super) fn angle(life: &BondHistory) -> f64 {
-    let [a, b, _] = life.direction;
-    let angle = b.atan2(a).to_degrees();
-    if angle > 90.0 {
-        angle - 180.0
-    } else if angle <= -90.0 {
-        angle + 180.0
-    } else {
-        angle
-    }
-}
-
 /// Text of the numbers of broken bonds and of absent bonds.
 fn counts(run: &StoredRun, lives: &BondHistories) -> String {
     let n_bonds = lives.of_bonds.len();
-    let broken = lives.of_bonds.iter().filter_map(|it| it.breakage.as_ref());
-    let broken = broken.map(|it| &it.0);
+    let broken = lives.of_bonds.iter();
+    let broken = broken.filter_map(|it| Some(&it.breakage.as_ref()?.0));
     let mut broken: Vec<&StoredBreak> = broken.collect();
     broken.sort_by_key(|it| it.order);
-    let number = |it: &StoredBreak| match lives.in_time {
+    let number = |it: &StoredBreak| match lives.loading.in_time {
         true => format!("{} ({})", it.order, quantity(it.at.load_factor, "s")),
         false => format!("{} (step {})", it.order, it.at.step),
     };
@@ -151,28 +131,17 @@ fn counts(run: &StoredRun, lives: &BondHistories) -> String {
     words
 }
 
-/// Writes a note about missing results, and settings that provide them.
+/// Writes notes about results that the run does not have, and settings that provide them.
 fn missing(out: &mut dyn Write, run: &StoredRun, lives: &BondHistories) -> io::Result<()> {
-    let may_fail = !run.model.criteria.is_empty();
-    if may_fail && run.model.largest.is_none() {
-        writeln!(
-            out,
-            "note: the run is incomplete; the largest utilisations are those of the steps with fields only"
-        )?;
-    }
-    let (shown, all) = (lives.stored_steps.len(), run.history.len());
-    if shown < all {
-        writeln!(
-            out,
-            "note: {shown} of {all} steps have fields; with `output.fields_every = 1` all have them"
-        )?;
+    for note in words::missing(run, lives) {
+        writeln!(out, "note: {note}")?;
     }
     Ok(())
 }
 
 /// Writes a table with a row for each stored step.
 fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io::Result<()> {
-    let when = match (lives.in_time, lives.before_breakages) {
+    let when = match (lives.loading.in_time, lives.loading.follows_path) {
         (true, _) => "times with fields",
         (false, true) => "events with fields, just before their bonds break",
         (false, false) => "steps with fields, at their end",
@@ -183,7 +152,7 @@ fn write_path(out: &mut dyn Write, lives: &BondHistories, rows: &Columns) -> io:
 
 /// Names of the columns of [`load`].
 fn load_header(lives: &BondHistories) -> Vec<String> {
-    let names = match lives.in_time {
+    let names = match lives.loading.in_time {
         true => ["row", "time", "displacement", "reaction"],
         false => ["step", "load factor", "displacement", "reaction"],
     };
@@ -205,12 +174,12 @@ fn load(stored_step: &StoredStep, lives: &BondHistories) -> Vec<String> {
         } else {
             format!("{} (not converged)", stored_step.step)
         },
-        match lives.in_time {
+        match lives.loading.in_time {
             true => shown(|it| it.load_factor, "s"),
             false => format!("{:.6}", stored_step.load_factor),
         },
-        shown(|it| it.displacement, lives.units.displacement),
-        shown(|it| it.reaction, lives.units.force),
+        shown(|it| it.displacement, lives.loading.units.displacement),
+        shown(|it| it.reaction, lives.loading.units.force),
     ]
 }
 
@@ -222,29 +191,25 @@ fn bond_path(lives: &BondHistories, life: &BondHistory) -> Columns {
         _ => &["stretch", "sliding"],
     };
     header.extend(names.iter().map(|it| (*it).to_owned()));
-    for limit in &life.limits {
-        header.push(limit.name.clone());
-        if !limit.after.is_brittle() {
-            header.extend(["mu", "omega"].map(|it| format!("{it} {}", limit.name)));
+    for (name, criterion) in &lives.criteria {
+        header.push(name.clone());
+        if !criterion.after.is_brittle() {
+            header.extend(["mu", "omega"].map(|it| format!("{it} {name}")));
         }
     }
     let mut table = Columns::new(header);
-    for (place, (stored_step, deformation)) in
-        lives.stored_steps.iter().zip(&life.deformation).enumerate()
-    {
+    for (stored_step, state) in lives.stored_steps.iter().zip(&life.states) {
         let mut row = load(stored_step, lives);
-        let values = deformation.strains().into_iter();
+        let values = state.deformation.strains().into_iter();
         row.extend(values.take(names.len()).map(number));
-        for (criterion, limit) in life.limits.iter().enumerate() {
-            let is_intact = place < life.n_intact;
-            row.push(if is_intact {
-                format!("{:.4}", life.utilisation(criterion, place))
-            } else {
-                "broken".to_owned()
+        for ((_, criterion), it) in lives.criteria.iter().zip(&state.of_criteria) {
+            row.push(match state.is_intact {
+                true => format!("{:.4}", it.utilisation),
+                false => "broken".to_owned(),
             });
-            if !limit.after.is_brittle() {
-                let left = life.remaining_softened_state(criterion, &lives.stored_steps, place);
-                row.extend([left.force, left.secant].map(|it| format!("{it:.4}")));
+            if !criterion.after.is_brittle() {
+                let left = [it.softened.force, it.softened.secant];
+                row.extend(left.map(|it| format!("{it:.4}")));
             }
         }
         table.push(row);
@@ -259,9 +224,12 @@ fn family_table(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     let in_space = run.model.in_space;
     let along = if in_space { "direction" } else { "angle" };
     header.extend(["length", along, "H", "alpha", "Omega"].map(str::to_owned));
-    let criteria = run.model.criteria.iter();
-    header.extend(criteria.map(|it| format!("limit {}", it.name)));
-    let in_step = if lives.in_time { "in row" } else { "in step" };
+    header.extend(lives.criteria.iter().map(|it| format!("limit {}", it.0)));
+    let in_step = if lives.loading.in_time {
+        "in row"
+    } else {
+        "in step"
+    };
     header.extend(["largest", in_step, "by", "fate"].map(str::to_owned));
     let mut table = Columns::new(header);
     let mut order: Vec<&BondHistory> = lives.of_bonds.iter().collect();
@@ -286,12 +254,12 @@ fn family_table(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
             format!("{:.5}", bonds.length_factor[life.pair]),
             format!("{:.5}", bonds.domain_factor[life.pair]),
         ];
-        row.extend(life.limits.iter().map(|it| number(it.limit)));
+        row.extend((lives.criteria.iter()).map(|it| number(it.1.limit[life.bond])));
         row.extend(match life.nearest.filter(|it| it.utilisation > 0.0) {
             Some(nearest) => [
                 format!("{:.4}", nearest.utilisation),
                 nearest.step.to_string(),
-                life.limits[nearest.criterion].name.clone(),
+                lives.criteria[nearest.criterion].0.clone(),
             ],
             None => ["0", "-", "-"].map(str::to_owned),
         });
@@ -312,43 +280,29 @@ fn family_path(run: &StoredRun, point: u32, lives: &BondHistories) -> Columns {
     header.extend(["intact", "damage", "largest"].map(str::to_owned));
     header.extend([format!("to {tagged}"), "by".to_owned()]);
     let mut table = Columns::new(header);
-    for (place, stored_step) in lives.stored_steps.iter().enumerate() {
-        let intact = || lives.of_bonds.iter().filter(|life| place < life.n_intact);
-        let mut worst: Option<(f64, &BondHistory, usize)> = None;
-        for life in intact() {
-            for criterion in 0..life.limits.len() {
-                let utilisation = life.utilisation(criterion, place);
-                let is_worse = worst.is_none_or(|(so_far, ..)| utilisation > so_far);
-                if utilisation > 0.0 && is_worse {
-                    worst = Some((utilisation, life, criterion));
-                }
-            }
-        }
+    let steps = lives.stored_steps.iter().zip(&lives.damage).enumerate();
+    for (place, (stored_step, damage)) in steps {
+        let intact = || (lives.of_bonds.iter()).filter(|life| life.states[place].is_intact);
+        let step = stored_step.step;
+        let largest = intact().filter_map(|life| Some((life.largest_in(place, step)?, life)));
+        let worst = largest
+            .filter(|it| it.0.utilisation > 0.0)
+            .reduce(|one, other| match other.0.utilisation > one.0.utilisation {
+                true => other,
+                false => one,
+            });
         let mut row = load(stored_step, lives);
         row.push(intact().count().to_string());
-        row.push(format!("{:.4}", damage(run, lives, place)));
+        row.push(format!("{damage:.4}"));
         row.extend(match worst {
-            Some((utilisation, life, criterion)) => [
-                format!("{utilisation:.4}"),
+            Some((it, life)) => [
+                format!("{:.4}", it.utilisation),
                 run.model.tags[other_end(life.ends, point)].to_string(),
-                life.limits[criterion].name.clone(),
+                lives.criteria[it.criterion].0.clone(),
             ],
             None => ["0", "-", "-"].map(str::to_owned),
         });
         table.push(row);
     }
     table
-}
-
-/// Share of the broken bonds in the sum of alpha Omega over all bonds (NHPD eq. 17).
-fn damage(run: &StoredRun, lives: &BondHistories, place: usize) -> f64 {
-    let bonds = &run.model.bonds;
-    let weight =
-        |life: &BondHistory| bonds.length_factor[life.pair] * bonds.domain_factor[life.pair];
-    // The sum of an empty iterator would be -0.0.
-    let sum = |lives: &mut dyn Iterator<Item = &BondHistory>| lives.map(weight).fold(0.0, f64::add);
-    let all = sum(&mut lives.of_bonds.iter());
-    let is_broken = |life: &&BondHistory| place >= life.n_intact;
-    let broken = sum(&mut lives.of_bonds.iter().filter(is_broken));
-    if all > 0.0 { broken / all } else { 0.0 }
 }

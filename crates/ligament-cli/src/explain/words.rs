@@ -2,11 +2,11 @@
 
 use ligament_model::Absence;
 use ligament_model::element::BondDeformation;
-use ligament_model::failure::{Measure, Softened};
+use ligament_model::failure::{Criterion, Measure, Softened};
 use ligament_output::quantity::quantity;
 use ligament_output::results::stored::{StoredBreak, StoredRun, StoredStep};
 
-use super::bond_history::{BondHistories, BondHistory, LargestUtilisation, Limit};
+use super::bond_history::{BondHistories, BondHistory, LargestUtilisation};
 
 /// Text of a number without a unit.
 pub(super) fn number(value: f64) -> String {
@@ -16,6 +16,25 @@ pub(super) fn number(value: f64) -> String {
 /// Text of a length (m).
 pub(super) fn metres(value: f64) -> String {
     quantity(value, "m")
+}
+
+/// Direction of a bond in space, as cosines from its first to its second end.
+pub(super) fn direction(life: &BondHistory) -> String {
+    let [x, y, z] = life.direction.map(|it| format!("{it:.3}"));
+    format!("({x}, {y}, {z})")
+}
+
+/// Direction of a bond in the plane, degrees above -90 up to 90.
+pub(super) fn angle(life: &BondHistory) -> f64 {
+    let [a, b, _] = life.direction;
+    let angle = b.atan2(a).to_degrees();
+    if angle > 90.0 {
+        angle - 180.0
+    } else if angle <= -90.0 {
+        angle + 180.0
+    } else {
+        angle
+    }
 }
 
 /// Description of a point: "node 12".
@@ -64,49 +83,54 @@ fn is_pressed(lives: &BondHistories, deformation: &BondDeformation) -> bool {
 
 /// Whether a bond began to soften by the stress around it, for a criterion by which bonds begin or by which the others break at once; None for
 /// other criteria, and for a bond that never fails.
-fn began_by_stress(life: &BondHistory, limit: &Limit) -> Option<bool> {
+fn began_by_stress(criteria: &[(String, Criterion)], name: &str, bond: usize) -> Option<bool> {
     const AT_ONCE: &str = "-at-once";
-    let name = limit.name.strip_suffix(AT_ONCE).unwrap_or(&limit.name);
-    let mut names = life.limits.iter().map(|it| it.name.strip_suffix(AT_ONCE));
-    let mut finite = life.limits.iter().filter(|it| it.limit.is_finite());
+    let name = name.strip_suffix(AT_ONCE).unwrap_or(name);
+    let mut names = criteria.iter().map(|it| it.0.strip_suffix(AT_ONCE));
+    let mut finite = criteria.iter().filter(|it| it.1.limit[bond].is_finite());
     let can_fail = finite.clone().next().is_some();
-    (can_fail && names.any(|it| it == Some(name))).then(|| finite.any(|it| !it.after.is_brittle()))
+    (can_fail && names.any(|it| it == Some(name)))
+        .then(|| finite.any(|it| !it.1.after.is_brittle()))
 }
 
 /// The limits of a bond, each with the criterion's name and a description.
-pub(super) fn limits(life: &BondHistory) -> Vec<(String, String)> {
-    let in_words = |limit: &Limit| {
-        let what = limit.measure.words();
-        let names = limit.measure.coefficient_names().iter();
-        let coefficient: String = (names.zip(&limit.coefficients))
+pub(super) fn limits(criteria: &[(String, Criterion)], bond: usize) -> Vec<(String, String)> {
+    let in_words = |name: &str, criterion: &Criterion| {
+        let what = criterion.measure.words();
+        let names = criterion.measure.coefficient_names().iter();
+        let coefficient: String = (names.zip(criterion.coefficients(bond)))
             .map(|(name, &value)| format!(", {name} = {}", number(value)))
             .collect();
-        if limit.limit.is_infinite() {
-            return match began_by_stress(life, limit) {
+        let limit = criterion.limit[bond];
+        if limit.is_infinite() {
+            return match began_by_stress(criteria, name, bond) {
                 Some(true) => "no longer counts: the bond began to soften".to_owned(),
                 Some(false) => format!("has not begun to soften by its {what}{coefficient}"),
                 None => format!("never fails by its {what}{coefficient}"),
             };
         }
-        let at = format!("{what} = {}{coefficient}", number(limit.limit));
-        let end = limit.limit * limit.after.end(0);
-        if limit.after.is_brittle() {
+        let at = format!("{what} = {}{coefficient}", number(limit));
+        let (after, end) = (&criterion.after, criterion.break_limit(bond));
+        if after.is_brittle() {
             format!("breaks at {at}")
         } else if end.is_infinite() {
-            format!("softens ({}) from {at}, never breaks", limit.after.word())
+            format!("softens ({}) from {at}, never breaks", after.word())
         } else {
-            let law = limit.after.word();
-            format!("softens ({law}) from {at}, breaks at {}", number(end))
+            format!(
+                "softens ({}) from {at}, breaks at {}",
+                after.word(),
+                number(end)
+            )
         }
     };
-    let each = life.limits.iter();
-    each.map(|limit| (limit.name.clone(), in_words(limit)))
+    let each = criteria.iter();
+    each.map(|(name, criterion)| (name.clone(), in_words(name, criterion)))
         .collect()
 }
 
 /// When a bond broke.
 fn when(lives: &BondHistories, broke: &StoredBreak) -> String {
-    match lives.in_time {
+    match lives.loading.in_time {
         true => {
             let time = quantity(broke.at.load_factor, "s");
             format!("after {time}, in time step {}", broke.round)
@@ -117,12 +141,12 @@ fn when(lives: &BondHistories, broke: &StoredBreak) -> String {
 
 /// The load of a state, in a motion without its factor, which is the time.
 fn load_words(lives: &BondHistories, at: &StoredStep) -> String {
-    let load = match lives.in_time {
+    let load = match lives.loading.in_time {
         true => "Load:".to_owned(),
         false => format!("Load factor {:.6},", at.load_factor),
     };
-    let displacement = quantity(at.displacement, lives.units.displacement);
-    let reaction = quantity(at.reaction, lives.units.force);
+    let displacement = quantity(at.displacement, lives.loading.units.displacement);
+    let reaction = quantity(at.reaction, lives.loading.units.force);
     format!("{load} displacement {displacement}, reaction {reaction}.")
 }
 
@@ -140,34 +164,28 @@ pub(super) fn bond_description(
             run.breaks.len(),
             broke.criterion
         )];
-        let deformation = broke.deformation;
-        if let Some(limit) = criterion.map(|criterion| &life.limits[criterion]) {
-            let end = limit.limit * limit.after.end(0);
-            let seen = match limit.measure.takes_stress() {
-                true => broke.utilisation * end,
-                false => limit.measure(&deformation, None),
-            };
+        if let Some((name, criterion)) = criterion.map(|criterion| &lives.criteria[criterion]) {
+            let [measure, limit] = at_breakage(criterion, life.bond, broke);
             lines.push(format!(
-                "`{}` measured {} = {}, {:.4} times the limit {}.",
-                limit.name,
-                limit.measure.words(),
-                number(seen),
+                "`{name}` measured {} = {}, {:.4} times the limit {}.",
+                criterion.measure.words(),
+                number(measure),
                 broke.utilisation,
-                number(end),
+                number(limit),
             ));
-            lines.extend(plane_words(life, limit, broke.utilisation));
+            lines.extend(plane_words(life, criterion, broke.utilisation));
         }
         lines.push(format!(
             "Deformation at breakage: {}.",
-            deformed(lives, &deformation)
+            deformed(lives, &broke.deformation)
         ));
         lines.push(load_words(lives, &broke.at));
         return lines;
     }
-    if life.limits.is_empty() {
+    if lives.criteria.is_empty() {
         return vec!["It is intact: nothing fails in an elastic analysis.".to_owned()];
     }
-    if life.limits.iter().all(|limit| limit.limit.is_infinite()) {
+    if is_free(lives, life) {
         return vec![format!("It is intact: {}.", never_fails(run, life))];
     }
     let mut lines = Vec::new();
@@ -180,13 +198,34 @@ pub(super) fn bond_description(
     lines
 }
 
+/// The measure of a bond that broke by a criterion, and the limit that it had then.
+fn at_breakage(criterion: &Criterion, bond: usize, broke: &StoredBreak) -> [f64; 2] {
+    let measure = criterion.measure;
+    // The table of broken bonds has neither stresses around bonds nor rotations of their ends.
+    let measured = match measure.takes_stress() || measure.takes_rotations() {
+        true => broke.utilisation * criterion.break_limit(bond),
+        false => criterion.measure(bond, &broke.deformation),
+    };
+    [measured, measured / broke.utilisation]
+}
+
+/// Whether a bond has no limit.
+fn is_free(lives: &BondHistories, life: &BondHistory) -> bool {
+    let mut criteria = lives.criteria.iter();
+    criteria.all(|(_, criterion)| criterion.limit[life.bond].is_infinite())
+}
+
 /// The stress on the plane across a bond that a criterion of stress broke, and the failure surface that it reached.
-fn plane_words(life: &BondHistory, limit: &Limit, utilisation: f64) -> Option<String> {
-    let of_limit = |share: f64, modulus: f64| quantity(share * limit.limit * modulus, "Pa");
-    let normal = words_of_normal(life);
-    let sees = |measure: Measure| limit.measure == measure;
+fn plane_words(life: &BondHistory, criterion: &Criterion, utilisation: f64) -> Option<String> {
+    let limit = criterion.limit[life.bond];
+    let of_limit = |share: f64, modulus: f64| quantity(share * limit * modulus, "Pa");
+    let normal = match life.direction[2] == 0.0 {
+        true => format!("at {:.2} degrees", angle(life)),
+        false => direction(life),
+    };
+    let sees = |measure: Measure| criterion.measure == measure;
     if sees(Measure::NormalStress)
-        && let &[.., modulus] = limit.coefficients.as_slice()
+        && let &[.., modulus] = criterion.coefficients(life.bond)
     {
         let [stress, strength] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
         return Some(format!(
@@ -195,7 +234,7 @@ fn plane_words(life: &BondHistory, limit: &Limit, utilisation: f64) -> Option<St
         ));
     }
     if sees(Measure::CoulombStress)
-        && let &[.., modulus, slope] = limit.coefficients.as_slice()
+        && let &[.., modulus, slope] = criterion.coefficients(life.bond)
     {
         let [stress, cohesion] = [utilisation, 1.0].map(|it| of_limit(it, modulus));
         return Some(format!(
@@ -205,15 +244,6 @@ fn plane_words(life: &BondHistory, limit: &Limit, utilisation: f64) -> Option<St
         ));
     }
     None
-}
-
-/// The direction of a bond in words.
-fn words_of_normal(life: &BondHistory) -> String {
-    let [x, y, z] = life.direction;
-    match z == 0.0 {
-        true => format!("at {:.2} degrees", y.atan2(x).to_degrees()),
-        false => format!("({x:.4}, {y:.4}, {z:.4})"),
-    }
 }
 
 fn never_fails(run: &StoredRun, life: &BondHistory) -> String {
@@ -235,63 +265,53 @@ fn nearest_words(
     life: &BondHistory,
     nearest: LargestUtilisation,
 ) -> String {
-    let limit = &life.limits[nearest.criterion];
-    let stored_step = lives
-        .stored_steps
-        .iter()
-        .position(|it| it.step == nearest.step);
-    let seen = stored_step.map(|stored_step| {
-        let deformation = &life.deformation[stored_step];
-        format!(" ({})", deformed(lives, deformation))
-    });
-    let row = run.step(nearest.step).filter(|_| lives.in_time);
+    let mut states = lives.stored_steps.iter().zip(&life.states);
+    let state = states.find(|it| it.0.step == nearest.step);
+    let seen = state.map(|(_, it)| format!(" ({})", deformed(lives, &it.deformation)));
+    let row = run.step(nearest.step).filter(|_| lives.loading.in_time);
     let when = row.map(|it| format!("after {}", quantity(it.load_factor, "s")));
     format!(
         "It is intact: its largest utilisation was {:.4}, {}, by `{}`{}.",
         nearest.utilisation,
         when.unwrap_or_else(|| format!("in step {}", nearest.step)),
-        limit.name,
+        lives.criteria[nearest.criterion].0,
         seen.unwrap_or_default()
     )
 }
 
 /// Description of an intact bond at the last stored step, if that is not the stored step nearest to its limit.
 fn end_words(lives: &BondHistories, life: &BondHistory) -> Option<String> {
-    let (stored_step, deformation) = (lives.stored_steps.last()?, life.deformation.last()?);
+    let (stored_step, state) = (lives.stored_steps.last()?, life.states.last()?);
     let is_told = |it: LargestUtilisation| it.step == stored_step.step && it.utilisation > 0.0;
     if life.nearest.is_some_and(is_told) {
         return None;
     }
-    let last = lives.stored_steps.len() - 1;
-    let largest = (0..life.limits.len()).map(|it| life.utilisation(it, last));
-    let largest = largest.fold(0.0, f64::max);
-    let why = if largest == 0.0 && is_pressed(lives, deformation) {
+    let utilisations = state.of_criteria.iter().map(|it| it.utilisation);
+    let largest = utilisations.fold(0.0, f64::max);
+    let why = if largest == 0.0 && is_pressed(lives, &state.deformation) {
         ": it is compressed, which none of its criteria counts"
     } else {
         ""
     };
-    let end = match lives.in_time {
+    let end = match lives.loading.in_time {
         true => quantity(stored_step.load_factor, "s"),
         false => format!("step {}", stored_step.step),
     };
-    let deformed = deformed(lives, deformation);
+    let deformed = deformed(lives, &state.deformation);
     Some(format!(
         "At the end ({end}) its utilisation is {largest:.4}{why} ({deformed})."
     ))
 }
 
-/// Softened state of a bond beyond limits, at the last stored step, with the names of the criteria.
-fn softened<'a>(lives: &BondHistories, life: &'a BondHistory) -> Vec<(&'a str, Softened)> {
-    let Some(last) = lives.stored_steps.len().checked_sub(1) else {
-        return Vec::new();
-    };
-    let each = life.limits.iter().enumerate();
-    each.map(|(criterion, limit)| {
-        let softened = life.softened(criterion, &lives.stored_steps, last);
-        (limit.name.as_str(), softened)
-    })
-    .filter(|(_, softened)| *softened != Softened::SOUND)
-    .collect()
+/// What is left of an unbroken bond beyond limits, at the last stored step, with the names of the criteria.
+fn softened<'a>(
+    lives: &'a BondHistories,
+    life: &'a BondHistory,
+) -> impl Iterator<Item = (&'a str, Softened)> {
+    let last = life.states.last().into_iter();
+    let of_criteria = last.flat_map(|state| lives.criteria.iter().zip(&state.of_criteria));
+    let named = of_criteria.map(|((name, _), it)| (name.as_str(), it.softened));
+    named.filter(|(_, softened)| *softened != Softened::SOUND)
 }
 
 /// Description of a softened bond, one sentence per criterion.
@@ -302,7 +322,7 @@ fn softened_words(lives: &BondHistories, life: &BondHistory) -> Vec<String> {
             softened.force, softened.secant
         )
     };
-    softened(lives, life).into_iter().map(words).collect()
+    softened(lives, life).map(words).collect()
 }
 
 /// Short description of the breakage or the state of a bond.
@@ -311,22 +331,69 @@ pub(super) fn short_bond_description(
     lives: &BondHistories,
     life: &BondHistory,
 ) -> String {
-    let is_free = life.limits.iter().all(|limit| limit.limit.is_infinite());
+    let is_free = is_free(lives, life);
     let is_held = life.ends.iter().any(|end| run.model.no_fail[*end as usize]);
     let was_seen = life.nearest.is_some_and(|it| it.utilisation > 0.0);
-    let is_pressed = (life.deformation.last()).is_some_and(|it| is_pressed(lives, it));
+    let is_pressed = (life.states.last()).is_some_and(|it| is_pressed(lives, &it.deformation));
     match &life.breakage {
         Some((broke, _)) => format!("broke, number {}", broke.order),
-        None if life.limits.is_empty() => "intact".to_owned(),
+        None if lives.criteria.is_empty() => "intact".to_owned(),
         None if is_free && is_held => "intact: no_fail".to_owned(),
         None if is_free => "intact: no limit".to_owned(),
         None if !was_seen && is_pressed => "intact: compression".to_owned(),
         None => {
-            let left = softened(lives, life).into_iter().map(|(_, it)| it.force);
+            let left = softened(lives, life).map(|(_, it)| it.force);
             let least = left.reduce(f64::min);
             least.map_or("intact".to_owned(), |mu| format!("softened: mu {mu:.3}"))
         }
     }
+}
+
+/// Notes about what the results do not tell, with settings that provide it.
+pub(super) fn missing(run: &StoredRun, lives: &BondHistories) -> Vec<String> {
+    let model = &run.model;
+    let is_known = lives.criteria.is_empty() || model.largest.is_some();
+    let measures = || lives.criteria.iter().map(|it| it.1.measure);
+    let takes_stress = measures().any(Measure::takes_stress);
+    let printed = [
+        Measure::PrintedOpening,
+        Measure::PrintedSliding,
+        Measure::PrintedMixed,
+    ];
+    let mut largest = model.largest.iter();
+    let is_old =
+        takes_stress && !run.softened.is_empty() && largest.any(|it| it.began_in.is_empty());
+    let (shown, all) = (lives.stored_steps.len(), run.history.len());
+    let notes = [
+        (
+            !is_known && !model.is_in_pieces,
+            "the run is incomplete; the largest utilisations are those of the steps with fields only".to_owned(),
+        ),
+        (
+            !is_known && model.is_in_pieces,
+            "several processes ran the case: the largest utilisations are those of the steps with fields only, and when a bond began to \
+             soften is not known"
+                .to_owned(),
+        ),
+        (
+            is_old,
+            "an earlier version wrote the results: limits are those of the end, also before a bond began to soften".to_owned(),
+        ),
+        (
+            takes_stress && model.has_stiff_cells,
+            "stresses around bonds are without what cells resist beside bonds, which the results do not have".to_owned(),
+        ),
+        (
+            measures().any(|it| printed.contains(&it)),
+            "limits and utilisations are those of the sound body; in the run limits followed the bonds that were left".to_owned(),
+        ),
+        (
+            shown < all,
+            format!("{shown} of {all} steps have fields; with `output.fields_every = 1` all have them"),
+        ),
+    ];
+    let applicable = notes.into_iter().filter(|(applies, _)| *applies);
+    applicable.map(|(_, note)| note).collect()
 }
 
 /// Reasons why two points have no bond, one sentence per line.
@@ -369,7 +436,6 @@ mod tests {
     use ligament_model::failure::softening::{brittle, linear, plastic};
 
     use super::*;
-    use crate::explain::bond_history::life_of;
 
     fn limit_text(measure: Measure, limit: f64, after: AfterLimit) -> String {
         let coefficients: &[f64] = match measure {
@@ -377,14 +443,12 @@ mod tests {
             Measure::MixedModeY => &[0.25, 4.0, 2.0],
             _ => &[],
         };
-        let limit = Limit {
-            name: "own".to_owned(),
-            measure,
-            limit,
-            coefficients: coefficients.to_vec(),
+        let criterion = Criterion {
+            coefficient: coefficients.to_vec().into(),
             after,
+            ..Criterion::brittle("", measure, vec![limit])
         };
-        limits(&life_of(vec![limit], Vec::new())).remove(0).1
+        limits(&[("own".to_owned(), criterion)], 0).remove(0).1
     }
 
     #[test]

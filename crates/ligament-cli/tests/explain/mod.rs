@@ -13,6 +13,7 @@ use serde_json::Value;
 use crate::support::{ligament, text};
 
 mod life;
+mod recorded;
 mod results;
 
 /// Runs a case in a folder; the results are in `results` there.

@@ -21,7 +21,6 @@
 
 mod class;
 mod quotients;
-mod stored;
 mod surroundings;
 
 use std::sync::Arc;
@@ -34,7 +33,6 @@ use crate::bonds::{BondSet, Incidence};
 use crate::tensor::SymTensor;
 pub use class::BondClass;
 pub(super) use quotients::{Axis, Quotient, Quotients};
-pub use stored::LatticeStrains;
 pub use surroundings::Surroundings;
 
 /// Largest number of points that an element couples.

@@ -7,7 +7,7 @@
 mod plane;
 mod space;
 
-use super::{Block, BondDeformation, Element, Rigidities, StiffnessFactors, Term};
+use super::{Block, Element, Rigidities, StiffnessFactors, Term};
 use crate::bonds::BondSet;
 use crate::deformation::Deformation;
 use crate::tensor::SymTensor;
@@ -61,31 +61,6 @@ pub trait PairMechanics<const D: usize, const M: usize> {
             }
         }
         block
-    }
-}
-
-impl<const D: usize, const M: usize> Pair<D, M> {
-    /// A bond of a length (m) and a direction without stiffness, for its deformations.
-    pub fn without_stiffness(length: f64, direction: [f64; D]) -> Self {
-        Self {
-            ends: [0, 1],
-            length,
-            direction,
-            axial_rigidity: 0.0,
-            shear_rigidity: 0.0,
-            rotational_rigidity: 0.0,
-        }
-    }
-
-    /// Deformation that criteria measure, for the motions of the ends A and B, less the deformation by a thermal strain.
-    pub fn measured(&self, ends: [[f64; M]; 2], free: Option<&SymTensor<D>>) -> BondDeformation
-    where
-        Self: PairMechanics<D, M>,
-    {
-        let [a, b] = &ends;
-        let whole = self.between(a, b);
-        let free = free.map(|strain| self.in_strain(strain));
-        free.map_or(whole, |free| whole.less(&free)).measured()
     }
 }
 

@@ -295,7 +295,14 @@ fn fibres_of_a_bond_that_bends() {
                 let moved = n.map(|it| side * stretch * length * it);
                 [moved, turned.map(|it| side * length / radius * it)].concat()
             };
-            let element = Pair::<3, 6>::without_stiffness(length, n);
+            let element = Pair::<3, 6> {
+                ends: [0, 1],
+                length,
+                direction: n,
+                axial_rigidity: 0.0,
+                shear_rigidity: 0.0,
+                rotational_rigidity: 0.0,
+            };
             let deformation = element.between(&end(-0.5), &end(0.5));
             criterion.measure(bond, &deformation.measured())
         };

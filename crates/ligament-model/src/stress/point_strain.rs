@@ -22,13 +22,15 @@ use crate::thermal::ThermalStrain;
 const LEAST_SPAN: f64 = 4e-4;
 
 /// Factor exp(-l/H)/l of a bond of a length l with a horizon H (m), by which near points count more, 1/m.
-pub fn closeness(length: f64, horizon: f64) -> f64 {
+pub(crate) fn closeness(length: f64, horizon: f64) -> f64 {
     (-length / horizon).exp() / length
 }
 
 /// The mean of the known strains of the ends of a bond.
 #[inline]
-pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option<SymTensor<D>> {
+pub(crate) fn mean_strain<const D: usize>(
+    of_ends: [Option<SymTensor<D>>; 2],
+) -> Option<SymTensor<D>> {
     match of_ends {
         [Some(a), Some(b)] => Some(a.plus(&b).scaled(0.5)),
         [one, other] => one.or(other),
@@ -37,7 +39,7 @@ pub fn mean_strain<const D: usize>(of_ends: [Option<SymTensor<D>>; 2]) -> Option
 
 /// Sums over the bonds of a point that determine its strain.
 #[derive(Debug, Clone)]
-pub struct Fit<const D: usize> {
+pub(crate) struct Fit<const D: usize> {
     /// K; entries above its diagonal are not used.
     spread: SMatrix<f64, D, D>,
     /// M.
@@ -57,7 +59,13 @@ impl<const D: usize> Fit<D> {
     /// Adds a bond with the direction n away from the point, the displacement of its other end relative to the point (m), its length (m) and its
     /// weight over the length, V exp(-l/H)/l.
     #[inline]
-    pub fn add(&mut self, n: [f64; D], moved: [f64; D], length: f64, weight_per_length: f64) {
+    pub(crate) fn add(
+        &mut self,
+        n: [f64; D],
+        moved: [f64; D],
+        length: f64,
+        weight_per_length: f64,
+    ) {
         self.add_slope(n, moved, weight_per_length);
         for column in 0..D {
             let spread = length * (weight_per_length * n[column]);
@@ -80,7 +88,7 @@ impl<const D: usize> Fit<D> {
 
     /// Strain of the point, thermal strain included; None where its bonds do not span the space.
     #[inline]
-    pub fn strain(&self) -> Option<SymTensor<D>> {
+    pub(crate) fn strain(&self) -> Option<SymTensor<D>> {
         let gradient = self.transposed_gradient()?;
         Some(SymTensor::from_fn(|row, column| {
             0.5 * (gradient[(row, column)] + gradient[(column, row)])

@@ -50,6 +50,11 @@ impl BondArrays {
         let ends: Vec<[u32; 2]> = ends.filter(|it| *it.1 == 0).map(|it| it.0).collect();
         let (alpha, omega) = (numbers("length_factor")?, numbers("domain_factor")?);
         let dissipated = file.numbers(location, DISSIPATED_ENERGY)?;
+        let (_, tags) = file.tags(FieldLocation::Point)?;
+        let sheet = CsvTable::read(folder.join("breaks.csv"))?;
+        let columns = columns_of_ends(&sheet);
+        let broken = sheet.rows(|row| Ok((tag_pair(row, &columns)?, row.value("step")?)))?;
+        let steps = steps_of(&tags, &ends, broken).into_iter();
         Ok(Some(Self {
             positions: file.points()?,
             horizon: numbers("horizon")?,
@@ -58,26 +63,26 @@ impl BondArrays {
                 .zip(omega)
                 .map(|(alpha, omega)| alpha * omega)
                 .collect(),
-            step_of_breaking: steps_of_breaking(folder, &file, &ends)?,
+            step_of_breaking: steps.map(|it| it.map_or(-1, |step| step as i64)).collect(),
             dissipated_energy: dissipated.map(of_bonds),
             ends,
         }))
     }
 }
 
-/// The step in which each bond broke, from the table of broken bonds.
-fn steps_of_breaking(folder: &Path, model: &VtuFile, ends: &[[u32; 2]]) -> Result<Vec<i64>, Error> {
-    let (_, tags) = model.tags(FieldLocation::Point)?;
-    let sheet = CsvTable::read(folder.join("breaks.csv"))?;
-    let columns = columns_of_ends(&sheet);
-    let broken = sheet.rows(|row| Ok((tag_pair(row, &columns)?, row.value("step")?)))?;
-    let broken: HashMap<[i64; 2], i64> = broken.into_iter().collect();
+/// The step of an event of each bond (n_bonds), given by its ends, from the tags of the ends and the steps of the bonds with the event.
+pub(super) fn steps_of(
+    tags: &[i64],
+    ends: &[[u32; 2]],
+    events: Vec<([i64; 2], usize)>,
+) -> Vec<Option<usize>> {
+    let steps: HashMap<[i64; 2], usize> = events.into_iter().collect();
     let step = |ends: &[u32; 2]| {
         let [a, b] = ends.map(|point| tags[point as usize]);
-        let step = broken.get(&[a, b]).or_else(|| broken.get(&[b, a]));
-        step.copied().unwrap_or(-1)
+        let step = steps.get(&[a, b]).or_else(|| steps.get(&[b, a]));
+        step.copied()
     };
-    Ok(ends.iter().map(step).collect())
+    ends.iter().map(step).collect()
 }
 
 /// Positions of the points from a file of fields, shape (n_points), m; for cells around points, the middles of the cells.

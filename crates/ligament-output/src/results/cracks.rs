@@ -106,8 +106,11 @@ impl StoredCracks {
         let cut = cut_pairs(folder)?.unwrap_or_default();
         let breaks = (1..).zip(broken_pairs(folder)?);
         let breaks = breaks.map(|(order, tags)| (tags, OpeningEvent::Breakage(order)));
-        let all = breaks.chain(softened_pairs(folder, cracked)?);
-        let opened = all.filter_map(|(tags, event)| Some((place(tags)?, event)));
+        let softened = softened_pairs(folder, cracked.event())?.into_iter();
+        let softened = softened.map(|(tags, step)| (tags, OpeningEvent::Step(step)));
+        let opened = breaks
+            .chain(softened)
+            .filter_map(|(tags, event)| Some((place(tags)?, event)));
         let history = CsvTable::read(folder.join("history.csv"))?;
         let records = history.rows(CrackRecord::read)?;
         Ok(Self {
@@ -305,19 +308,15 @@ pub(super) fn broken_pairs(folder: &Path) -> Result<Vec<[i64; 2]>, Error> {
     sheet.rows(|row| tag_pair(row, &columns))
 }
 
-/// Tags of the ends of the softening bonds whose force fell below a share, with the event in which it did.
-pub(super) fn softened_pairs(
-    folder: &Path,
-    cracked: CrackedBelow,
-) -> Result<Vec<([i64; 2], OpeningEvent)>, Error> {
+/// Tags of the ends of the softening bonds with an event in the table of softening, and the step of the event.
+pub(super) fn softened_pairs(folder: &Path, event: &str) -> Result<Vec<([i64; 2], usize)>, Error> {
     let Some(sheet) = table(&folder.join(softening_table::FILE))? else {
         return Ok(Vec::new());
     };
     let columns = columns_of_ends(&sheet);
     let rows = sheet.rows(|row| {
-        let opens = row.value::<String>("event")? == cracked.event();
-        let event = OpeningEvent::Step(row.value("step")?);
-        Ok(opens.then_some((tag_pair(row, &columns)?, event)))
+        let is_sought = row.value::<String>("event")? == event;
+        Ok(is_sought.then_some((tag_pair(row, &columns)?, row.value("step")?)))
     })?;
     Ok(rows.into_iter().flatten().collect())
 }

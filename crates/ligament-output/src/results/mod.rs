@@ -35,6 +35,7 @@ pub mod outputs;
 pub mod passes;
 mod pieces;
 mod point_fields;
+mod restored;
 mod rigid_files;
 mod rule;
 mod softening_table;
@@ -72,6 +73,7 @@ pub use modes::write_modes;
 use outputs::remove_others;
 pub use pieces::PieceWriter;
 pub use point_fields::{location, sides_between_materials};
+pub use restored::{RestoredBody, RestoredStep};
 pub use rigid_files::{StoredRigidBodies, stored_rigid_bodies};
 pub use rule::WriteRule;
 use rule::{WrittenState, n_bonds_of_body};
@@ -416,16 +418,17 @@ impl Observer for ResultWriter<'_> {
         }
         if let Some(largest) = self.largest.as_mut().filter(|_| view.is_whole) {
             largest.update(record.step, view);
-            if view.is_last && self.rule.model {
-                let (folder, grid, fixed) = (self.folder, self.grid, self.fixed);
-                observer_result(model_file::write(
-                    folder.path(),
-                    grid,
-                    fixed,
-                    &self.problem,
-                    Some((largest, view.state)),
-                ))?;
-            }
+        }
+        if self.rule.rewrites_model(view) {
+            let (folder, grid, fixed) = (self.folder.path(), self.grid, self.fixed);
+            let at_end = Some((view.state, self.largest.as_ref()));
+            observer_result(model_file::write(
+                folder,
+                grid,
+                fixed,
+                &self.problem,
+                at_end,
+            ))?;
         }
         observer_result(self.tables.step(record, view))
     }

@@ -2,7 +2,7 @@
 //!
 //! `model.vtu`, in pieces `model.pvtu`, has the points with their tags, volumes and horizons, and the bonds as lines between them, which
 //! give lengths and directions. Factors and horizons have seven digits, limits all digits. The point field `group.NAME` is 1 at the points
-//! of a support or load, NAME as in the columns of the history.
+//! of a support or load, NAME as in the columns of the history. The field data have `stiff_cells` where cells resist strains beside bonds.
 //!
 //! | cell field | of a bond |
 //! |---|---|
@@ -11,11 +11,13 @@
 //! | `horizon` | H, m |
 //! | `length_factor`, `domain_factor` | alpha, Omega |
 //! | `limit.NAME` | limit of the criterion; infinite where the bond never fails by it, or has not begun to soften by the stress around it |
+//! | `limit_at_start.NAME` | at the end of a run, the limit before bonds began to soften by the stress around them |
 //! | `coefficient.NAME` | coefficient q of the criterion's measure, where it has one |
 //! | `toughness_ratio.NAME`, `mixed_mode_exponent.NAME` | G_IIc/G_Ic and eta of the criterion's measure, where they differ from 1 |
 //! | `coefficient_4.NAME` to `coefficient_9.NAME` | further coefficients of a measure of stress, whose second and third have the two names above |
 //! | `after.NAME` | e_u/e_0 or e_f/e_0 of the law after the limit, where it has one |
 //! | `largest_utilisation`, `step_of_largest`, `criterion_of_largest` | largest utilisation over the run, written at its end |
+//! | `step_of_softening` | at the end of a run, step in which the bond began to soften by the stress around it; -1 if it did not |
 
 use std::path::{Path, PathBuf};
 
@@ -41,6 +43,9 @@ pub(super) const GROUP: &str = "group.";
 /// Prefix of the names of the fields of interfaces.
 pub(super) const INTERFACE: &str = "interface.";
 
+/// Name of a number of files in which cells resist strains beside bonds: a far field, or cells with a volumetric stiffness.
+pub(super) const STIFF_CELLS: &str = "stiff_cells";
+
 /// Stem of the model file's name.
 const MODEL: &str = "model";
 
@@ -65,25 +70,27 @@ pub(super) const COEFFICIENTS: [&str; 9] = [
     "coefficient_9",
 ];
 
-/// Writes the model, at the end of a run with the largest utilisations of its bonds, the energies that they dissipated (n_bonds, J), and
-/// the limits of bonds that began to soften by the stress around them.
+/// Writes the model, at the end of a run with the limits of bonds that began to soften by the stress around them, the energies that bonds
+/// dissipated (n_bonds, J) and, where they are known, their largest utilisations.
 pub(super) fn write(
     folder: &Path,
     grid: &BodyGrid,
     fixed: &ConstantFields,
     problem: &Problem,
-    at_end: Option<(&LargestUtilisations, &State)>,
+    at_end: Option<(&State, Option<&LargestUtilisations>)>,
 ) -> Result<(), Error> {
     let system = &problem.system;
     let of_absent: Vec<[u32; 2]> = fixed.absent.iter().map(|pair| pair.ends).collect();
     let lines = BondLines::new(grid, &system.ends, &of_absent);
     let criteria = at_end.map_or_else(
         || problem.criteria.without_state(),
-        |(_, state)| state.softening.criteria(&problem.criteria),
+        |(state, _)| state.softening.criteria(&problem.criteria),
     );
     let mut columns = constant_columns(fixed, problem);
     columns.extend(limits(&criteria));
-    columns.extend(at_end.into_iter().flat_map(columns_at_end));
+    let largest = at_end.and_then(|(_, largest)| largest);
+    columns.extend(largest.into_iter().flat_map(largest_utilisations));
+    columns.extend(at_end.map(|(state, _)| dissipated(state)));
     let count = system.ends.len() + of_absent.len();
     let cell_fields: Vec<Field<'_>> = columns.iter().map(|it| it.field(count)).collect();
     let no_fail: Vec<i64> = fixed.no_fail.iter().copied().map(i64::from).collect();
@@ -98,7 +105,13 @@ pub(super) fn write(
     let subdomain = &system.subdomain;
     let path = folder.join(vtu::file_name(MODEL, subdomain));
     let fields = [&point_fields[..], &cell_fields];
-    lines.write(&path, grid, fields, (subdomain, &[]))
+    let has_stiff_cells = system.has_volumetric_cells || system.far_field.is_some();
+    let field_data: &[_] = if has_stiff_cells {
+        &[(STIFF_CELLS, 1.0)]
+    } else {
+        &[]
+    };
+    lines.write(&path, grid, fields, (subdomain, field_data))
 }
 
 /// A field of the bonds, followed by the absent bonds.
@@ -185,6 +198,9 @@ fn limits<'a>(criteria: &'a CriteriaInState<'_>) -> Vec<Column<'a>> {
             columns.push(Column::double(format!("{what}.{label}"), value));
         };
         push("limit", criteria.limits(number), 0, 1);
+        if criteria.limits(number) != criterion.limit.as_slice() {
+            push("limit_at_start", &criterion.limit, 0, 1);
+        }
         let coefficients = &criterion.coefficient;
         let stride = coefficients.len() / criterion.limit.len().max(1);
         for (first, what) in COEFFICIENTS.iter().take(stride).enumerate() {
@@ -198,16 +214,23 @@ fn limits<'a>(criteria: &'a CriteriaInState<'_>) -> Vec<Column<'a>> {
     columns
 }
 
-/// Fields that are known at the end of a run: the largest utilisations and the dissipated energies.
-fn columns_at_end<'a>((largest, state): (&'a LargestUtilisations, &'a State)) -> [Column<'a>; 4] {
+/// Field of the energies that the bonds dissipated.
+fn dissipated(state: &State) -> Column<'_> {
+    let of_bonds = &state.dissipated;
+    let energy = move |bond: usize| of_bonds.get(bond).copied().unwrap_or(f64::NAN);
+    Column::double(DISSIPATED_ENERGY.to_owned(), energy)
+}
+
+/// Fields of the largest utilisations.
+fn largest_utilisations(largest: &LargestUtilisations) -> Vec<Column<'_>> {
     const OF_ABSENT: LargestUtilisation = LargestUtilisation {
         utilisation: f32::NAN,
         step: 0,
         criterion: 0,
     };
+    let began_in = &largest.began_in;
     let largest = move |bond: usize| largest.of_bonds.get(bond).unwrap_or(&OF_ABSENT);
-    let dissipated = move |bond: usize| state.dissipated.get(bond).copied().unwrap_or(f64::NAN);
-    [
+    let mut columns = vec![
         Column::single("largest_utilisation", move |bond| largest(bond).utilisation),
         Column::integer("step_of_largest".to_owned(), move |bond| {
             i64::from(largest(bond).step)
@@ -215,8 +238,12 @@ fn columns_at_end<'a>((largest, state): (&'a LargestUtilisations, &'a State)) ->
         Column::integer("criterion_of_largest".to_owned(), move |bond| {
             i64::from(largest(bond).criterion)
         }),
-        Column::double(DISSIPATED_ENERGY.to_owned(), dissipated),
-    ]
+    ];
+    if !began_in.is_empty() {
+        let step = move |bond: usize| began_in.get(bond).map_or(-1, |it| i64::from(*it));
+        columns.push(Column::integer("step_of_softening".to_owned(), step));
+    }
+    columns
 }
 
 /// Fields of the supported and loaded points: a name and 1 at its points for each group.

@@ -17,6 +17,7 @@ pub struct PieceWriter<'a> {
     grid: &'a BodyGrid,
     fixed: &'a ConstantFields,
     rule: WriteRule,
+    problem: Problem,
     /// Number of bonds of the body.
     n_bonds: usize,
 }
@@ -42,6 +43,7 @@ impl<'a> PieceWriter<'a> {
             grid,
             fixed,
             rule,
+            problem: problem.clone(),
             n_bonds: n_bonds_of_body(problem),
         })
     }
@@ -56,10 +58,21 @@ impl<'a> PieceWriter<'a> {
 
 impl Observer for PieceWriter<'_> {
     fn step(&mut self, record: &StepRecord, view: &View<'_>) -> Result<(), ObserverError> {
-        if !self.rule.writes_fields(record, view) {
-            return Ok(());
+        if self.rule.writes_fields(record, view) {
+            self.write(WrittenState::of_row(record, view))?;
         }
-        self.write(WrittenState::of_row(record, view))
+        if self.rule.rewrites_model(view) {
+            let (folder, grid, fixed) = (&self.folder, self.grid, self.fixed);
+            let at_end = Some((view.state, None));
+            observer_result(model_file::write(
+                folder,
+                grid,
+                fixed,
+                &self.problem,
+                at_end,
+            ))?;
+        }
+        Ok(())
     }
 
     fn between_breakages(

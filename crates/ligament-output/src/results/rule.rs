@@ -116,6 +116,12 @@ impl WriteRule {
         view.is_last || self.is_due(record.step)
     }
 
+    /// Whether the model is written again, with what is known at the end of a run in which bonds can fail.
+    pub(super) fn rewrites_model(&self, view: &View<'_>) -> bool {
+        let can_fail = !view.criteria.criteria().list.is_empty();
+        self.model && view.is_last && view.is_whole && can_fail
+    }
+
     /// Whether fields are written in a step that is not the last one.
     pub fn is_due(&self, step: usize) -> bool {
         match self.fields_every {

@@ -17,7 +17,10 @@ use crate::folder::ResultFolder;
 pub(super) const FILE: &str = "softening.csv";
 
 /// Words for the events of a row.
-const EVENTS: [&str; 4] = ["begins", "half", "quarter", "opens"];
+const EVENTS: [&str; 4] = [BEGINS, "half", "quarter", "opens"];
+
+/// Word for the step in which the force of a bond began to fall.
+pub(super) const BEGINS: &str = "begins";
 
 /// Share of the force at the limit below which a bond that softens in opening counts as cracked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

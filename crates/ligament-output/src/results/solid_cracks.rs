@@ -194,8 +194,10 @@ fn separated_pairs(
 ) -> Result<Vec<([u32; 2], OpeningEvent, usize)>, Error> {
     let breaks = (1..).zip(broken_pairs(folder)?);
     let breaks = breaks.map(|(order, tags)| (tags, OpeningEvent::Breakage(order)));
+    let softened = softened_pairs(folder, cracked.event())?.into_iter();
+    let softened = softened.map(|(tags, step)| (tags, OpeningEvent::Step(step)));
     let mut opened = Vec::new();
-    for (tags, event) in breaks.chain(softened_pairs(folder, cracked)?) {
+    for (tags, event) in breaks.chain(softened) {
         let step = match event {
             OpeningEvent::Step(step) => step,
             // During a run, broken bonds of a step may be written before the step's row.

@@ -9,12 +9,16 @@ use ligament_model::Absence;
 use ligament_model::tensor::SymTensor;
 use ligament_model::thermal::StressFreeStrains;
 
-use super::model_file::{COEFFICIENTS, GROUP, INTERFACE, model_file};
+use super::cracks::softened_pairs;
+use super::location;
+use super::model_file::{COEFFICIENTS, GROUP, INTERFACE, STIFF_CELLS, model_file};
 use super::outputs::{OutputKind, kind_of, numbered_files, require_results};
+use super::softening_table::BEGINS;
 use super::stored_state::StoredState;
 use super::tables::stored_names;
 use crate::csv::read::{CsvTable, Row};
 use crate::remedy::Remedy;
+use crate::vtu::PIECES_EXTENSION;
 use crate::vtu::read::VtuFile;
 use crate::{Error, FieldLocation};
 
@@ -29,6 +33,8 @@ pub struct StoredRun {
     pub history: Vec<StoredStep>,
     /// Broken bonds, in the order of breaking.
     pub breaks: Vec<StoredBreak>,
+    /// Tags of the ends of the bonds whose force began to fall beyond a limit, with the step; empty where several processes ran the case.
+    pub softened: Vec<([i64; 2], usize)>,
     /// Names of the stored components of a bond's deformation: two, or three for bonds with strains of their own.
     pub deformation_names: &'static [&'static str],
     /// Files of fields by their states.
@@ -58,7 +64,11 @@ pub struct StoredModel {
     pub bonds: StoredBonds,
     /// The failure criteria, in the order of the case.
     pub criteria: Vec<StoredCriterion>,
-    /// Largest utilisations of the bonds over the run; none where the run did not end.
+    /// Whether cells resist strains beside bonds.
+    pub has_stiff_cells: bool,
+    /// Whether several processes wrote the model.
+    pub is_in_pieces: bool,
+    /// Largest utilisations of the bonds over the run; none where the run did not end, or several processes ran it.
     pub largest: Option<StoredLargest>,
 }
 
@@ -88,8 +98,10 @@ pub struct StoredCriterion {
     pub measure: String,
     /// Name of the law after the limit.
     pub after: String,
-    /// Limits, shape (n_bonds).
+    /// Limits, shape (n_bonds); at the end of the run those of bonds that began to soften by the stress around them.
     pub limit: Vec<f64>,
+    /// Limits before bonds began to soften by the stress around them, shape (n_bonds); empty where that changed no limit.
+    pub limit_at_start: Vec<f64>,
     /// Coefficients of the measure, each with shape (n_bonds); may be empty.
     pub coefficients: Vec<Vec<f64>>,
     /// Parameter of the law after the limit, shape (n_bonds) or empty.
@@ -105,6 +117,9 @@ pub struct StoredLargest {
     pub step: Vec<i64>,
     /// Number of its criterion, shape (n_bonds).
     pub criterion: Vec<i64>,
+    /// Step in which each bond began to soften by the stress around it, -1 for bonds that did not, shape (n_bonds); empty where no criterion
+    /// lets bonds begin.
+    pub began_in: Vec<i64>,
 }
 
 /// A row of the history.
@@ -175,6 +190,7 @@ impl StoredRun {
             deformation_names,
             history: CsvTable::read(folder.join("history.csv"))?.rows(StoredStep::from_history)?,
             breaks: broken.rows(|row| StoredBreak::read(row, model.tagged, deformation_names))?,
+            softened: softened_pairs(folder, BEGINS)?,
             fields: numbered_files(folder, "fields")?,
             folder: folder.to_path_buf(),
             model,
@@ -203,11 +219,7 @@ impl StoredRun {
             return Ok(None);
         };
         let file = VtuFile::open(path)?;
-        // The fields of a lattice, and of points, are on their cells.
-        let location = match self.model.tagged {
-            "node" => FieldLocation::Point,
-            _ => FieldLocation::Cell,
-        };
+        let location = location(&file);
         let displacement = file.finite_numbers(location, DISPLACEMENT.name)?;
         let rotation = file.finite_numbers(location, ROTATION.name)?;
         let rotation: Vec<[f64; 3]> = match self.model.in_space {
@@ -223,13 +235,14 @@ impl StoredRun {
             true => Vec::new(),
             false => file.finite_numbers(location, THERMAL_STRAIN.name)?,
         };
-        if rotation.len() != n_points {
+        let displacement: Vec<[f64; 3]> = displacement.as_chunks().0.to_vec();
+        if [rotation.len(), displacement.len()] != [n_points; 2] {
             return Err(file.malformed(format!(
                 "it does not have the {n_points} points of the model"
             )));
         }
         Ok(Some(Motions {
-            displacement: displacement.as_chunks().0.to_vec(),
+            displacement,
             rotation,
             thermal_strain: free_strains(&components, &thermal),
         }))
@@ -295,20 +308,23 @@ impl StoredModel {
             criteria: criteria(folder, &file, &bonds.absence)?,
             largest: StoredLargest::read(&file, &bonds.absence)?,
             bonds,
+            has_stiff_cells: file.field_data()?.iter().any(|it| it.0 == STIFF_CELLS),
+            is_in_pieces: file
+                .path()
+                .extension()
+                .is_some_and(|it| it == PIECES_EXTENSION),
         })
     }
 }
 
 /// Supported and loaded points by the name of their group.
 fn groups(file: &VtuFile) -> Result<BTreeMap<String, Vec<u32>>, Error> {
-    let names = file.fields(FieldLocation::Point);
-    let named = names.filter_map(|field| Some((field, field.strip_prefix(GROUP)?)));
-    let points = |(field, name): (&str, &str)| {
-        let at = file.required_integers(FieldLocation::Point, field)?;
-        let points = (0..).zip(at).filter(|(_, is_in)| *is_in != 0);
-        Ok((name.to_owned(), points.map(|it| it.0).collect()))
+    let marked = marks(file, FieldLocation::Point, GROUP)?.into_iter();
+    let points = |(name, is_in): (String, Vec<bool>)| {
+        let points = (0..).zip(is_in).filter(|(_, is_in)| *is_in);
+        (name, points.map(|it| it.0).collect())
     };
-    named.map(points).collect()
+    Ok(marked.map(points).collect())
 }
 
 impl StoredBonds {
@@ -320,21 +336,25 @@ impl StoredBonds {
             horizon: file.finite_numbers(FieldLocation::Cell, "horizon")?,
             length_factor: bond_values(file, "length_factor", &absence)?,
             domain_factor: bond_values(file, "domain_factor", &absence)?,
-            interfaces: interfaces(file)?,
+            interfaces: marks(file, FieldLocation::Cell, INTERFACE)?,
             absence,
         })
     }
 }
 
-/// Name of each interface, and whether each bond crosses it, shape (n_bonds).
-fn interfaces(file: &VtuFile) -> Result<Vec<(String, Vec<bool>)>, Error> {
-    let names = file.fields(FieldLocation::Cell);
-    let named = names.filter_map(|field| Some((field, field.strip_prefix(INTERFACE)?)));
-    let crossed = |(field, name): (&str, &str)| {
-        let crosses = file.required_integers(FieldLocation::Cell, field)?;
-        Ok((name.to_owned(), crosses.iter().map(|it| *it != 0).collect()))
+/// Names of the fields of marks with a prefix, without it, and whether each point or cell is marked.
+fn marks(
+    file: &VtuFile,
+    location: FieldLocation,
+    prefix: &str,
+) -> Result<Vec<(String, Vec<bool>)>, Error> {
+    let fields = file.fields(location);
+    let named = fields.filter_map(|field| Some((field, field.strip_prefix(prefix)?)));
+    let marked = |(field, name): (&str, &str)| {
+        let marks = file.required_integers(location, field)?;
+        Ok((name.to_owned(), marks.iter().map(|it| *it != 0).collect()))
     };
-    named.map(crossed).collect()
+    named.map(marked).collect()
 }
 
 /// Values of a field that all bonds must have; absent bonds have none.
@@ -373,6 +393,7 @@ fn criteria(
             after: row.value("after")?,
             limit: bond_values(file, &format!("limit.{name}"), absence)?,
             coefficients,
+            limit_at_start: field("limit_at_start")?.unwrap_or_default(),
             parameter: field("after")?.unwrap_or_default(),
             name,
         })
@@ -389,6 +410,7 @@ impl StoredLargest {
             utilisation: bond_values(file, name, absence)?,
             step: file.required_integers(location, "step_of_largest")?,
             criterion: file.required_integers(location, "criterion_of_largest")?,
+            began_in: (file.integers(location, "step_of_softening")?).unwrap_or_default(),
         }))
     }
 }
