@@ -13,7 +13,7 @@ use ligament_analysis::distributed_matrix::{
 use ligament_analysis::history::{Observer, ObserverError, StepRecord, View};
 use ligament_model::connected::first_points;
 use ligament_model::ghosts::Ghosts;
-use ligament_model::prefix_sums::sums_before;
+use ligament_model::prefix_sums::exclusive_prefix_sums;
 use ligament_model::subdomain::{Partition, Subdomain};
 use verification::bench::Bench;
 use verification::threads_as_ranks::on_ranks;
@@ -72,7 +72,7 @@ fn local_points_are_those_of_the_body() {
             .owned()
             .map(|point| f64::from(subdomain.number(point).pow(2)))
             .collect();
-        let sums = sums_before(&subdomain, &squares);
+        let sums = exclusive_prefix_sums(&subdomain, &squares);
         for (point, sum) in subdomain.owned().zip(sums) {
             let before = 0..subdomain.number(point);
             assert_eq!(sum, f64::from(before.map(|it| it * it).sum::<u32>()));

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 
-use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, SingleProcess};
 use ligament_case::case::CaseFile;
 use ligament_cli::explain::{Position, Request, Subject, explain};
 use ligament_model::PointCloud;
@@ -295,7 +295,7 @@ fn limits_of_begun_bonds_are_stored_in_pieces() {
         request.run(ProgressMode::Quiet).unwrap();
         out
     };
-    let alone = limits(&run("alone", Arc::new(Solo)));
+    let alone = limits(&run("alone", Arc::new(SingleProcess)));
     let together = on_ranks(2, |ranks| run("together", ranks));
     assert!(together[0].join("model.pvtu").is_file());
     let request = Request {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ligament::run::{follow, restore};
 use ligament::{Loading, Message};
-use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, SingleProcess};
 use ligament_analysis::driver::{Outcome, Problem};
 use ligament_analysis::history::{
     BreakRecord, Moment, Observer, ObserverError, Onward, StepRecord, View,
@@ -319,7 +319,12 @@ fn compare((text, settings): (&str, &[&str]), (alone, expected): (Outcome, Seen)
 }
 
 fn against_one_process(text: &str, settings: &[&str], least: usize) {
-    let alone = followed((text, settings), Arc::new(Solo), None, Seen::default());
+    let alone = followed(
+        (text, settings),
+        Arc::new(SingleProcess),
+        None,
+        Seen::default(),
+    );
     compare((text, settings), alone, least);
 }
 
@@ -393,7 +398,7 @@ fn any_number_goes_on_from_a_checkpoint() {
             assert_eq!(went.0.broken_bonds, outcome.broken_bonds);
             (off(&went.0, outcome), went.0)
         };
-        let (alone, _) = gone_on(Arc::new(Solo));
+        let (alone, _) = gone_on(Arc::new(SingleProcess));
         let two = on_ranks(2, |ranks| gone_on(ranks).0)[0];
         println!("{broken} bonds before; one process off by {alone:.1e}, two ranks by {two:.1e}");
         assert!(alone < NEAR && two < NEAR);

@@ -190,7 +190,7 @@ fn a_resumed_run_gives_the_same_bits() {
             settings: &[],
             threads: None,
             build: Build::default(),
-            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::SingleProcess),
             is_stopped: &|| false,
         };
         request.resume(ProgressMode::Quiet).unwrap();

@@ -100,7 +100,7 @@ impl Target for Stopped {
             settings: &[],
             threads: Some(1),
             build: Build::default(),
-            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::Solo),
+            communicator: std::sync::Arc::new(ligament_analysis::distributed_matrix::SingleProcess),
             is_stopped: &|| false,
         };
         self.folder.make(input) && request.resume(ProgressMode::Quiet).is_ok()

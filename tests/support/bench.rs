@@ -7,7 +7,7 @@ use ligament::loading::contact_problem;
 use ligament::run::{NoObserver, Solution, follow, on_pool};
 use ligament::setup::ELASTIC_ENERGY_TOLERANCE;
 use ligament::{Loading, Message};
-use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, SingleProcess};
 use ligament_analysis::driver::{self, Outcome, Problem};
 use ligament_analysis::history::{BreakRecord, Observer, ObserverError, StepRecord, View};
 use ligament_analysis::probe::Probe;
@@ -103,7 +103,7 @@ pub fn resume_run(folder: &Path) {
         threads: None,
         build: Build::default(),
         is_stopped: &|| false,
-        communicator: Arc::new(Solo),
+        communicator: Arc::new(SingleProcess),
     };
     resume.resume(ProgressMode::Quiet).unwrap();
 }
@@ -141,7 +141,7 @@ pub fn domain(model: &Model) -> &DomainReport {
 impl Bench {
     /// A bench for a case on a mesh of the repository (named relative to `tests/`).
     pub fn new(text: &str, settings: &[&str]) -> Self {
-        Self::from_case(case(text, settings), None, Arc::new(Solo))
+        Self::from_case(case(text, settings), None, Arc::new(SingleProcess))
     }
 
     /// A bench of one of several ranks, which share the body out.
@@ -154,7 +154,7 @@ impl Bench {
         let folder = TempDir::new().unwrap();
         let file = mesh_setting(mesh, folder.path());
         let settings: Vec<&str> = settings.iter().copied().chain([file.as_str()]).collect();
-        Self::from_case(case(text, &settings), Some(folder), Arc::new(Solo))
+        Self::from_case(case(text, &settings), Some(folder), Arc::new(SingleProcess))
     }
 
     fn from_case(

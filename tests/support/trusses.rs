@@ -127,7 +127,7 @@ impl Truss {
                 far: None,
                 volumetric: None,
                 room: DeformationPool::default(),
-                closeness: std::sync::OnceLock::new(),
+                influence: std::sync::OnceLock::new(),
                 cloud,
                 bonds,
             },

@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use ligament_model::Bonds;
-use ligament_model::contact::{ClosedPair, Rubbing};
+use ligament_model::contact::{ClosedPair, PairFriction};
 use ligament_model::deformation::Deformations;
 use ligament_model::failure::Stresses;
 use serde::{Deserialize, Serialize};
@@ -110,7 +110,7 @@ impl Balanced {
             closed: (self.closed.iter())
                 .map(|it| ClosedPair {
                     gap: factor * it.gap,
-                    rubbing: it.rubbing.map(|it| Rubbing {
+                    friction: it.friction.map(|it| PairFriction {
                         force: it.force.map(|it| factor * it),
                         ..it
                     }),

@@ -8,7 +8,7 @@ use std::io::Read;
 
 use ligament_model::Bonds;
 use ligament_model::communicator::Wire;
-use ligament_model::prefix_sums::sums_before;
+use ligament_model::prefix_sums::exclusive_prefix_sums;
 use ligament_model::subdomain::Subdomain;
 use thiserror::Error;
 
@@ -280,7 +280,7 @@ impl LocalBonds {
         let mut of_points = vec![0.0; subdomain.n_owned()];
         let first_rows = ends.iter().filter_map(|[first, _]| subdomain.row(*first));
         first_rows.for_each(|row| of_points[row] += 1.0);
-        let starts = sums_before(subdomain, &of_points);
+        let starts = exclusive_prefix_sums(subdomain, &of_points);
         let n_all = subdomain.sum(of_points.iter().sum()) as usize;
         let mut next: Vec<usize> = starts.into_iter().map(|it| it as usize).collect();
         let numbered = ends.iter().map(|&[first, _]| {

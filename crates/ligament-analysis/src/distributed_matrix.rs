@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::ops::Deref;
 use std::sync::Arc;
 
-pub use ligament_model::communicator::{Communicator, Solo};
+pub use ligament_model::communicator::{Communicator, SingleProcess};
 
 /// Communicator of the processes of a run, with distributed matrices.
 pub trait MatrixCommunicator: Communicator {
@@ -33,7 +33,7 @@ impl Deref for Processes {
     }
 }
 
-impl MatrixCommunicator for Solo {
+impl MatrixCommunicator for SingleProcess {
     fn has_matrices(&self) -> bool {
         false
     }

@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use ligament_linalg::Elimination;
 pub use ligament_linalg::FactorKind;
-use ligament_model::communicator::Solo;
+use ligament_model::communicator::SingleProcess;
 #[cfg(feature = "case")]
-use ligament_model::word::{OpenWord, open};
+use ligament_model::word::{WordOrAuto, open};
 use ligament_model::{Bonds, case_type};
 use thiserror::Error;
 
@@ -24,7 +24,7 @@ case_type! {
     #[case(serde(default))]
     pub struct SolverSettings {
         /// How the equations are solved: with a factor of the matrix or without a matrix.
-        #[case(serde(with = "open", skip_serializing_if = "Option::is_none"), schemars(with = "OpenWord<Method>"))]
+        #[case(serde(with = "open", skip_serializing_if = "Option::is_none"), schemars(with = "WordOrAuto<Method>"))]
         pub method: Option<Method>,
         /// Force that the iteration leaves out of balance after a breakage, relative to the forces that may act at a point: 1e-8. Bonds that
         /// are nearer to each other than a hundred times this, relatively, break together.
@@ -32,13 +32,13 @@ case_type! {
         #[case(serde(skip_serializing_if = "is_usual_tolerance"))]
         pub tolerance: f64,
         /// The factorisation of the stiffness.
-        #[case(serde(with = "open"), schemars(with = "OpenWord<Factorisation>"))]
+        #[case(serde(with = "open"), schemars(with = "WordOrAuto<Factorisation>"))]
         pub factorisation: Option<Factorisation>,
         /// The order of elimination.
-        #[case(serde(with = "open"), schemars(with = "OpenWord<Ordering>"))]
+        #[case(serde(with = "open"), schemars(with = "WordOrAuto<Ordering>"))]
         pub ordering: Option<Ordering>,
         /// What happens to the factor when bonds break.
-        #[case(serde(with = "open"), schemars(with = "OpenWord<Update>"))]
+        #[case(serde(with = "open"), schemars(with = "WordOrAuto<Update>"))]
         pub update: Option<Update>,
         /// Broken bonds between two factors that are made anew.
         #[range("minimum" = 1)]
@@ -297,7 +297,7 @@ impl Default for SolverSettings {
             clusters_from: POINTS_FOR_CLUSTERS,
             allows_unstable: false,
             factor_memory: None,
-            communicator: Processes(Arc::new(Solo)),
+            communicator: Processes(Arc::new(SingleProcess)),
         }
     }
 }

@@ -7,7 +7,7 @@ use ligament::processes::partition_communicator;
 use ligament::setup::Setup;
 use ligament::stage::{StageWatcher, stage};
 use ligament_analysis::SetupError;
-use ligament_analysis::distributed_matrix::{MatrixCommunicator, Processes, Solo};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, Processes, SingleProcess};
 use ligament_mesh::AnyMesh;
 
 use crate::case::keys::check_dimensions;
@@ -22,7 +22,7 @@ impl CaseFile {
     ///
     /// If a file cannot be read, the mesh has no cells of the kind of the body, or no cell remains of a lattice or of one of its sets.
     pub fn setup(&self, watcher: &mut dyn StageWatcher) -> anyhow::Result<Setup> {
-        self.setup_on_processes(Arc::new(Solo), watcher)
+        self.setup_on_processes(Arc::new(SingleProcess), watcher)
     }
 
     /// The setup of the case on each of several processes. The first one alone reads a mesh; the others have its nodes, and its cells only where

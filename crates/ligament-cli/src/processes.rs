@@ -11,7 +11,7 @@ mod mpi {
     use std::sync::Arc;
 
     use anyhow::Context;
-    use ligament_analysis::distributed_matrix::{Communicator, MatrixCommunicator, Solo};
+    use ligament_analysis::distributed_matrix::{Communicator, MatrixCommunicator, SingleProcess};
     use ligament_petsc::Processes;
     use rayon::ThreadPoolBuilder;
 
@@ -28,7 +28,7 @@ mod mpi {
     /// If MPI was started before, or threads cannot be started.
     pub(crate) fn join() -> anyhow::Result<Arc<dyn MatrixCommunicator>> {
         if !LAUNCHED.iter().any(|name| env::var_os(name).is_some()) {
-            return Ok(Arc::new(Solo));
+            return Ok(Arc::new(SingleProcess));
         }
         let pool = ThreadPoolBuilder::new().num_threads(1).build_global();
         pool.context("the threads were started before the processes")?;
@@ -66,7 +66,7 @@ mod serial {
     use std::sync::Arc;
 
     use anyhow::ensure;
-    use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+    use ligament_analysis::distributed_matrix::{MatrixCommunicator, SingleProcess};
 
     /// Environment variable with the number of processes started by Open MPI.
     const LAUNCHED: &str = "OMPI_COMM_WORLD_SIZE";
@@ -84,7 +84,7 @@ mod serial {
             "{started} processes were started together, and this program was built to be one: build it with `cargo build --release \
              --features petsc`, or start it without mpirun"
         );
-        Ok(Arc::new(Solo))
+        Ok(Arc::new(SingleProcess))
     }
 
     /// Returns false: this process is rank 0.

@@ -1,4 +1,4 @@
-//! Loops on all threads, divided into tasks before they start. Only [`run`] knows rayon, and it knows a task as a function behind a reference:
+//! Loops on all threads, divided into tasks before they start. Only `run` knows rayon, and it knows a task as a function behind a reference:
 //! rayon's functions are compiled once, instead of once for each loop.
 
 use std::ops::Range;

@@ -5,7 +5,7 @@
 /// with a `#[range(...)]` lies within bounds ([`range`](crate::range)).
 /// The schema has the range, and [`Ranged`] checks it in memory. The unit of a number stands in its documentation. A list of words with
 /// `#[auto(...)]` is of choices that may be open: as an `Option` a case file reads it with the word `auto` for `None`, whose meaning the attribute has
-/// ([`Open`](crate::word::Open)).
+/// ([`WithAuto`](crate::word::WithAuto)).
 ///
 /// ```text
 /// ligament_model::case_type! {
@@ -90,7 +90,7 @@ macro_rules! case_type {
                 }
             }
 
-            impl $crate::word::Open for $name {
+            impl $crate::word::WithAuto for $name {
                 type Word = Word;
             }
         };

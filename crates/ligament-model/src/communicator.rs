@@ -141,9 +141,9 @@ impl dyn Communicator + '_ {
 
 /// A run of one process, whose exchanges return their arguments.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Solo;
+pub struct SingleProcess;
 
-impl Communicator for Solo {
+impl Communicator for SingleProcess {
     fn rank(&self) -> usize {
         0
     }

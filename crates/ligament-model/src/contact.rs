@@ -72,12 +72,12 @@ pub struct ClosedPair {
     /// Gap of the pair, negative, m.
     pub gap: f64,
     /// Friction of the pair; `None` without friction.
-    pub rubbing: Option<Rubbing>,
+    pub friction: Option<PairFriction>,
 }
 
 /// Friction on a closed pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rubbing {
+pub struct PairFriction {
     /// Internal force on the second end along the crack, N; the first end has the opposite one.
     pub force: [f64; 3],
     /// Fraction of the elastic force that friction holds: 1 where the pair sticks, less where it slides.
@@ -189,13 +189,13 @@ impl ClosedPair {
         }
         let axis = component.in_space();
         let across = self.force() * self.pair.normal[axis];
-        self.rubbing.map_or(across, |it| across + it.force[axis])
+        self.friction.map_or(across, |it| across + it.force[axis])
     }
 
     /// Contribution of the pair to the virial stress of an end with a given volume (m^3), Pa: half of the force dyad over the volume.
     pub fn virial_share(&self, volume: f64) -> SymTensor<3> {
         let across = self.pair.spread.scaled(0.5 * self.force() / volume);
-        self.rubbing.map_or(across, |it| {
+        self.friction.map_or(across, |it| {
             let along = SymTensor::dyad(it.force, self.pair.way);
             across.plus(&along.scaled(0.5 / volume))
         })
@@ -208,8 +208,8 @@ impl ClosedPair {
 
     /// Energy 1/2 f^2/k of the elastic motion along the crack that holds the friction f, J.
     pub fn stored_in_friction(&self) -> f64 {
-        let of = |it: Rubbing| 0.5 * dot(it.force, it.force) / self.pair.stiffness;
-        self.rubbing.map_or(0.0, of)
+        let of = |it: PairFriction| 0.5 * dot(it.force, it.force) / self.pair.stiffness;
+        self.friction.map_or(0.0, of)
     }
 }
 

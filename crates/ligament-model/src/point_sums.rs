@@ -207,7 +207,7 @@ fn numbers_in<'a>(list: &'a [u32], range: &Range<usize>) -> &'a [u32] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::communicator::Solo;
+    use crate::communicator::SingleProcess;
     use crate::subdomain::{Partition, Subdomain, Whole};
     use std::collections::BTreeSet;
     use std::sync::Arc;
@@ -336,7 +336,7 @@ mod tests {
         // Every second point belongs to the first of two processes.
         let even_first = |points: &mut [u32]| points.sort_unstable_by_key(|it| (it % 2, *it));
         let partition = Partition::new(n_points, 2, &even_first);
-        let subdomain = Subdomain::new(partition, Arc::new(Solo));
+        let subdomain = Subdomain::new(partition, Arc::new(SingleProcess));
         let owned: Vec<u32> = subdomain.owned().collect();
         assert_eq!(owned.len(), n_points / 2);
         for n_tasks in [1, 4, 11] {

@@ -5,7 +5,7 @@ use crate::subdomain::Subdomain;
 /// Sums of the values at owned points (n_owned) over all points of the body of smaller number, for each owned point; collective.
 ///
 /// Each rank adds up the values of a range of numbers, so that no process needs the values of all points.
-pub fn sums_before(subdomain: &Subdomain, values: &[f64]) -> Vec<f64> {
+pub fn exclusive_prefix_sums(subdomain: &Subdomain, values: &[f64]) -> Vec<f64> {
     let (n_all, n_ranks) = (subdomain.n_all(), subdomain.n_ranks());
     let communicator = subdomain.communicator();
     let first = |rank: usize| rank * n_all / n_ranks;

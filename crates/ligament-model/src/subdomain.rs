@@ -8,7 +8,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::communicator::{Communicator, Solo, Wire};
+use crate::communicator::{Communicator, SingleProcess, Wire};
 
 /// Assignment of the points of a body to ranks: parts of the body by recursive bisection.
 #[derive(Debug, Clone)]
@@ -85,7 +85,7 @@ pub struct Subdomain {
 impl Subdomain {
     /// The whole body on one process.
     pub fn whole(n_points: usize) -> Self {
-        Self::new(Partition::whole(n_points), Arc::new(Solo))
+        Self::new(Partition::whole(n_points), Arc::new(SingleProcess))
     }
 
     /// The subdomain of this process in a partition, with all points of the body.

@@ -68,7 +68,7 @@ pub struct BondSystem<const D: usize = 2> {
     /// Reusable memory for deformations.
     pub room: DeformationPool,
     /// Weights of the [strains of points](crate::stress::point_strain), computed at first use, shape (n_bonds).
-    pub closeness: OnceLock<Vec<f64>>,
+    pub influence: OnceLock<Vec<f64>>,
 }
 
 impl<const D: usize> BondSystem<D> {
@@ -125,7 +125,7 @@ impl<const D: usize> BondSystem<D> {
             far: None,
             volumetric: None,
             room: DeformationPool::default(),
-            closeness: OnceLock::new(),
+            influence: OnceLock::new(),
         }
     }
 
@@ -158,7 +158,7 @@ impl<const D: usize> BondSystem<D> {
             volumetric,
             bonds,
             faces: Faces::default(),
-            closeness: OnceLock::new(),
+            influence: OnceLock::new(),
             ..self
         }
     }

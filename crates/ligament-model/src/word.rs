@@ -28,31 +28,31 @@ pub fn read<'de, T: Worded, D: Deserializer<'de>>(deserializer: D) -> Result<T, 
     deserializer.deserialize_enum("word", T::WORDS, WordVisitor(PhantomData))
 }
 
-/// A choice that may be open, for which a case file has the word `auto`; see [`case_type!`](crate::case_type!).
-pub trait Open: Copy {
+/// A choice that a case file may leave to the program by the word `auto`; see [`case_type!`](crate::case_type!).
+pub trait WithAuto: Copy {
     /// The words of the choice, and `auto`.
     type Word: From<Option<Self>> + Into<Option<Self>> + Serialize + DeserializeOwned + JsonSchema;
 }
 
-/// The words of a choice that may be open, for its schema.
-pub type OpenWord<T> = <T as Open>::Word;
+/// The words of a choice that may be left to the program, for its schema.
+pub type WordOrAuto<T> = <T as WithAuto>::Word;
 
 /// Reading and writing of choices that may be open, for serde.
 pub mod open {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-    use super::{Open, OpenWord};
+    use super::{WithAuto, WordOrAuto};
 
     /// Writes a choice.
     ///
     /// # Errors
     ///
     /// If the word cannot be written.
-    pub fn serialize<T: Open, S: Serializer>(
+    pub fn serialize<T: WithAuto, S: Serializer>(
         choice: &Option<T>,
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        OpenWord::<T>::from(*choice).serialize(serializer)
+        WordOrAuto::<T>::from(*choice).serialize(serializer)
     }
 
     /// Reads a choice.
@@ -60,10 +60,10 @@ pub mod open {
     /// # Errors
     ///
     /// If the value is no word, or the word is unknown.
-    pub fn deserialize<'de, T: Open, D: Deserializer<'de>>(
+    pub fn deserialize<'de, T: WithAuto, D: Deserializer<'de>>(
         deserializer: D,
     ) -> Result<Option<T>, D::Error> {
-        OpenWord::<T>::deserialize(deserializer).map(Into::into)
+        WordOrAuto::<T>::deserialize(deserializer).map(Into::into)
     }
 }
 

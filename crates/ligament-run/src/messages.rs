@@ -3,7 +3,7 @@
 use ligament::setup::{Analysis, Setup};
 use ligament::{Body, Message};
 use ligament_model::ElementKind;
-use ligament_model::law::{BondLaw, listed, suited};
+use ligament_model::law::{BondLaw, laws_with, listed};
 
 /// A message with the names of its points, and with the advice for a setup.
 pub fn with_point_names(message: Message, body: &dyn Body, setup: &Setup) -> Message {
@@ -47,7 +47,7 @@ fn remedy_of_overlap(setup: &Setup) -> String {
         }
         _ if turns => "`closing = true` in [model] lets them".to_owned(),
         _ => {
-            let laws = suited(|it| it.shear_form.is_some());
+            let laws = laws_with(|it| it.shear_form.is_some());
             let laws = listed(&laws, BondLaw::quoted);
             format!("`closing = true` in [model] lets them with laws whose points turn ({laws})")
         }

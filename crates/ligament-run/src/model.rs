@@ -6,7 +6,7 @@ pub use ligament::Model;
 use ligament::run::{on_pool, on_threads};
 use ligament::stage::{Finding, StageWatcher};
 use ligament::warning::of_virial_stress;
-use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, SingleProcess};
 use rayon::ThreadPoolBuildError;
 
 use crate::memory;
@@ -67,7 +67,7 @@ pub fn build_model(
     stages: &mut Stages,
     progress: &Progress,
 ) -> anyhow::Result<Model> {
-    build_model_on(case, Arc::new(Solo), stages, progress)
+    build_model_on(case, Arc::new(SingleProcess), stages, progress)
 }
 
 /// Reads the body of a case in the plane and builds its model.

@@ -8,7 +8,7 @@ use std::sync::mpsc::Sender;
 use ligament::Vibration;
 use ligament::run::{on_pool, on_threads};
 use ligament::setup::{Analysis, Refine};
-use ligament_analysis::distributed_matrix::{MatrixCommunicator, Solo};
+use ligament_analysis::distributed_matrix::{MatrixCommunicator, SingleProcess};
 use ligament_analysis::modal::{ModalAnalysis, ModalSettings};
 use ligament_analysis::refinement_pass::PassRecord;
 use ligament_case::case::CaseFile;
@@ -127,7 +127,7 @@ impl<'a> Request<'a> {
             is_aborted: &|| false,
             keeps_inputs: false,
             steps: None,
-            communicator: Arc::new(Solo),
+            communicator: Arc::new(SingleProcess),
             earlier: Vec::new(),
             is_one_pass: false,
         }

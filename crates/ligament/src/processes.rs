@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use ligament_model::communicator::{Communicator, Solo};
+use ligament_model::communicator::{Communicator, SingleProcess};
 
 use crate::setup::{Analysis, Setup};
 
@@ -15,7 +15,7 @@ pub fn partition_communicator(setup: &Setup) -> Arc<dyn Communicator> {
         || !setup.law.row.couples_ends_alone
         || matches!(setup.analysis, Analysis::Modal(_) | Analysis::Motion(_));
     match needs_all {
-        true => Arc::new(Solo),
+        true => Arc::new(SingleProcess),
         false => setup.solver.communicator.0.clone(),
     }
 }

@@ -3,7 +3,7 @@
 //! The closure of pairs follows from the displacements alone, without history.
 
 use ligament_model::Bonds;
-use ligament_model::contact::{ClosedPair, ContactPair, Rubbing};
+use ligament_model::contact::{ClosedPair, ContactPair, PairFriction};
 use ligament_model::layout::{Component, Layout};
 use ligament_model::sweep::BondSweep;
 use ligament_model::tensor::{dot, minus};
@@ -64,7 +64,7 @@ impl FacePairs {
             .map(|(&pair, &gap)| ClosedPair {
                 pair,
                 gap,
-                rubbing: None,
+                friction: None,
             })
             .collect()
     }
@@ -106,8 +106,8 @@ pub(crate) fn end_forces(
     let force = closed.force();
     let row = closed.pair.row.into_iter();
     let row = row.filter(|(_, factor)| *factor != 0.0);
-    let of_friction = |it: Rubbing| closed.pair.row_along(layout, it.force);
-    let along = closed.rubbing.map(of_friction).unwrap_or_default();
+    let of_friction = |it: PairFriction| closed.pair.row_along(layout, it.force);
+    let along = closed.friction.map(of_friction).unwrap_or_default();
     row.map(move |(dof, factor)| (dof as usize, force * factor))
         .chain(along)
 }
@@ -206,7 +206,7 @@ impl FaceEnergy {
         let half = |it: &ClosedPair| {
             let of = |it: &ClosedPair, motions: &[f64]| it.pair.slip(layout, motions);
             let way = minus(of(it, motions), of(it, &self.motions));
-            it.rubbing.map_or(0.0, |on| 0.5 * dot(on.force, way))
+            it.friction.map_or(0.0, |on| 0.5 * dot(on.force, way))
         };
         for it in &self.closed {
             loss.friction += half(it) + it.stored_in_friction();

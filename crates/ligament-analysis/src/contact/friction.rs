@@ -7,7 +7,7 @@
 //! The friction of each equilibrium, and of each explicit step, follows from the friction of the one before, which [`Friction`] stores: the
 //! return mapping of implicit steps (Wriggers 2006, chapter 10).
 
-use ligament_model::contact::{ClosedPair, ContactPair, Rubbing};
+use ligament_model::contact::{ClosedPair, ContactPair, PairFriction};
 use ligament_model::layout::Layout;
 use ligament_model::surface::Vector;
 use ligament_model::tensor::{minus, norm};
@@ -76,7 +76,7 @@ impl Friction {
             let slip = it.pair.slip(layout, motions);
             let (now, share) = self.at(&it.pair, slip, -coefficient * it.force());
             let force = now.force;
-            it.rubbing = Some(Rubbing { force, share });
+            it.friction = Some(PairFriction { force, share });
         }
     }
 

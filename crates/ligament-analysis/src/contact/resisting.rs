@@ -78,8 +78,8 @@ pub(crate) fn by_faces(closed: &[ClosedPair], layout: Layout) -> Vec<Resisting> 
             stiffness: pair.stiffness,
             row: row.map(|&(dof, factor)| (dof as usize, factor)).collect(),
         }];
-        if let Some(rubbing) = it.rubbing {
-            let held = held_motions(layout, pair.normal, (rubbing.force, rubbing.share));
+        if let Some(friction) = it.friction {
+            let held = held_motions(layout, pair.normal, (friction.force, friction.share));
             all.extend(held.into_iter().map(|held| Resisting {
                 key: (number, held.number),
                 way: held.way,

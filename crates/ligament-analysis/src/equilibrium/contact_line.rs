@@ -148,7 +148,7 @@ fn on_line(
         .map(|(&pair, &gap)| ClosedPair {
             pair,
             gap,
-            rubbing: None,
+            friction: None,
         })
         .collect();
     let terms = resisting::by_faces(&pairs, layout);

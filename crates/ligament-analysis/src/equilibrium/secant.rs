@@ -4,7 +4,7 @@ use std::io::Read;
 
 use ligament_model::element::{BondDeformation, StiffnessFactors, Term};
 use ligament_model::failure::{CriteriaInState, Weakened};
-use ligament_model::prefix_sums::sums_before;
+use ligament_model::prefix_sums::exclusive_prefix_sums;
 use ligament_model::subdomain::Subdomain;
 use rayon::prelude::*;
 
@@ -457,7 +457,7 @@ impl OwnUnknowns {
         let layout = unknowns.layout();
         let of_points = |point: u32| unknowns.of_point(point as usize).count() as f64;
         let counts: Vec<f64> = subdomain.owned().map(of_points).collect();
-        let starts = sums_before(subdomain, &counts);
+        let starts = exclusive_prefix_sums(subdomain, &counts);
         let mut next: Vec<usize> = starts.into_iter().map(|it| it as usize).collect();
         let place = |dof: &u32| {
             let next = &mut next[subdomain.row(layout.point(*dof as usize))?];

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 use ligament_linalg::FactorError;
 #[cfg(feature = "case")]
-use ligament_model::word::{OpenWord, open};
+use ligament_model::word::{WordOrAuto, open};
 use ligament_model::{Bonds, LumpedMass, case_type};
 use thiserror::Error;
 
@@ -58,7 +58,7 @@ case_type! {
         #[range("minimum" = 1, "maximum" = MOST_MODES)]
         pub modes: usize,
         /// Inertia of the rotations of the points.
-        #[case(serde(with = "open"), schemars(with = "OpenWord<Rotations>"))]
+        #[case(serde(with = "open"), schemars(with = "WordOrAuto<Rotations>"))]
         pub rotations: Option<Rotations>,
         /// Residual of the search, relative to 1/omega^2.
         #[range("exclusiveMinimum" = 0)]

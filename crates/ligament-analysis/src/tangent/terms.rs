@@ -133,7 +133,7 @@ pub(super) fn fits(falling: &[(u32, Term)], system: &dyn Bonds) -> bool {
 pub(super) fn due_bonds(in_factor: &[StiffnessFactors], state: &State) -> Vec<usize> {
     let remaining = &state.softening.remaining;
     let is_due = |bond: &usize| {
-        state.intact[*bond] && in_factor[*bond].is_off(&remaining[*bond], SECANT_TOLERANCE)
+        state.intact[*bond] && in_factor[*bond].differs_from(&remaining[*bond], SECANT_TOLERANCE)
     };
     parallel::flat_map(remaining.len(), |bond| Some(bond).filter(is_due))
 }

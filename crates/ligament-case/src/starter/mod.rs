@@ -15,7 +15,7 @@ use crate::mesh_file::{MeshFileError, bounding_box, read_in_own_plane};
 use groups::{LoadPlace, MeshGroups, SupportAndLoad};
 use ligament::setup::Law;
 use ligament::warning::large_body;
-use ligament_model::law::{listed, suited};
+use ligament_model::law::{laws_with, listed};
 use ligament_model::material::Space;
 use text::{Body, Section};
 
@@ -126,7 +126,7 @@ fn check_space(law: Law, is_solid: bool) -> Result<(), StarterError> {
 
 /// List of the laws for solids.
 fn laws_for_solids() -> String {
-    listed(&suited(|it| it.exists_in(Space::Solid)), |it| {
+    listed(&laws_with(|it| it.exists_in(Space::Solid)), |it| {
         it.word.to_owned()
     })
 }

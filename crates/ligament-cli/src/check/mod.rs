@@ -17,7 +17,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use ligament_analysis::connectivity::Fragments;
-use ligament_analysis::distributed_matrix::Solo;
+use ligament_analysis::distributed_matrix::SingleProcess;
 use ligament_output::results::fields::ModelPoints;
 use ligament_output::results::point_grid;
 
@@ -53,7 +53,7 @@ pub fn check(
         let mut stages = Stages::default();
         let progress = Progress::new(ProgressMode::Quiet);
         let model = build_model(case, &mut stages, &progress)?;
-        on_pool(&Solo, || {
+        on_pool(&SingleProcess, || {
             let mut report = Report::new(out, lines);
             let refused = write_report(case, extent, (&model, stages), &mut report)?;
             if let Some(folder) = fields {

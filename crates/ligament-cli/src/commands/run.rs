@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Args;
-use ligament_analysis::distributed_matrix::Solo;
+use ligament_analysis::distributed_matrix::SingleProcess;
 use ligament_plot::picture::{asks_for_pictures, draw_run};
 use ligament_run::progress::ProgressMode;
 use ligament_run::run::{Report, Request};
@@ -70,7 +70,7 @@ impl RunArgs {
         // A run of a sweep is one process, whoever started the sweep.
         let communicator = match &self.leash {
             None => processes::join()?,
-            Some(_) => Arc::new(Solo),
+            Some(_) => Arc::new(SingleProcess),
         };
         let case = self.case.load()?;
         // Without load steps there is nothing to go on with later, and for a sweep the run starts anew.

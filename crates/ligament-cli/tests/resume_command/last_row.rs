@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use ligament_analysis::distributed_matrix::Solo;
+use ligament_analysis::distributed_matrix::SingleProcess;
 use ligament_case::case::CaseFile;
 use ligament_output::summary::Build;
 use ligament_run::progress::ProgressMode;
@@ -109,7 +109,7 @@ impl Place {
             threads: None,
             build: Build::default(),
             is_stopped: &|| false,
-            communicator: Arc::new(Solo),
+            communicator: Arc::new(SingleProcess),
         };
         request.resume(ProgressMode::Quiet).unwrap();
     }

@@ -201,11 +201,11 @@ impl StiffnessFactors {
 
     /// Whether a factor differs from its value in `other` by more than a relative tolerance.
     #[inline]
-    pub fn is_off(&self, other: &Self, tolerance: f64) -> bool {
-        let is_off = |one: f64, other: f64| (one - other).abs() > tolerance * one.max(other);
-        is_off(self.axial, other.axial)
-            || is_off(self.shear, other.shear)
-            || is_off(self.rotational, other.rotational)
+    pub fn differs_from(&self, other: &Self, tolerance: f64) -> bool {
+        let differs = |one: f64, other: f64| (one - other).abs() > tolerance * one.max(other);
+        differs(self.axial, other.axial)
+            || differs(self.shear, other.shear)
+            || differs(self.rotational, other.rotational)
     }
 
     /// Decrease of the factors from this state to `later`.

@@ -83,7 +83,7 @@ impl Law {
 }
 
 /// Laws that satisfy a condition.
-pub fn suited(suits: impl Fn(&BondLaw) -> bool) -> Vec<&'static BondLaw> {
+pub fn laws_with(suits: impl Fn(&BondLaw) -> bool) -> Vec<&'static BondLaw> {
     LAWS.into_iter().filter(|it| suits(it)).collect()
 }
 

@@ -79,7 +79,7 @@ impl Carried<'_> {
     fn displacement_of_contact<const D: usize>(&self, bond: u32) -> Option<[f64; D]> {
         let place = (self.closed).binary_search_by_key(&bond, |it| it.pair.number);
         let closed = &self.closed[place.ok()?];
-        let along = closed.rubbing.map_or([0.0; 3], |it| it.force);
+        let along = closed.friction.map_or([0.0; 3], |it| it.force);
         let of_axis = |axis: usize| {
             closed.gap * closed.pair.normal[axis] + along[axis] / closed.pair.stiffness
         };

@@ -22,7 +22,7 @@ use crate::thermal::ThermalStrain;
 const LEAST_SPAN: f64 = 4e-4;
 
 /// Factor exp(-l/H)/l of a bond of a length l with a horizon H (m), by which near points count more, 1/m.
-pub(crate) fn closeness(length: f64, horizon: f64) -> f64 {
+pub(crate) fn influence(length: f64, horizon: f64) -> f64 {
     (-length / horizon).exp() / length
 }
 
@@ -243,7 +243,7 @@ impl<const D: usize> BondSystem<D> {
             },
             moved: minus(motion.place(layout, other), motion.place(layout, point)),
             length: bonds.length[bond],
-            weight_per_length: self.cloud.volumes[other as usize] * self.closeness()[bond],
+            weight_per_length: self.cloud.volumes[other as usize] * self.influence()[bond],
         }
     }
 
@@ -296,11 +296,11 @@ impl<const D: usize> BondSystem<D> {
     }
 
     /// Factor exp(-l/H)/l of each bond, which weights the volumes of its ends, shape (n_bonds).
-    pub(super) fn closeness(&self) -> &[f64] {
-        self.closeness.get_or_init(|| {
+    pub(super) fn influence(&self) -> &[f64] {
+        self.influence.get_or_init(|| {
             let (length, horizon) = (&self.bonds.length, &self.bonds.horizon);
             parallel::values(length.len(), 0.0, |bond| {
-                closeness(length[bond], horizon[bond])
+                influence(length[bond], horizon[bond])
             })
         })
     }

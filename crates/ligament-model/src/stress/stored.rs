@@ -75,7 +75,7 @@ impl<const D: usize> StoredSlopes<'_, D> {
     /// The sums over the intact bonds of a point; `visit` gets each of these bonds with its weight w.
     fn fit(&self, intact: &[bool], point: u32, mut visit: impl FnMut(usize, f64)) -> Fit<D> {
         let BondSystem { bonds, cloud, .. } = self.system;
-        let closeness = self.system.closeness();
+        let influence = self.system.influence();
         let mut fit = Fit::default();
         let family = bonds.incidence.at(point).iter();
         for &bond in family.filter(|&&bond| intact[bond as usize]) {
@@ -84,7 +84,7 @@ impl<const D: usize> StoredSlopes<'_, D> {
             let end = usize::from(bonds.ends[bond][0] != point);
             let length = bonds.length[bond];
             let moved = self.slopes[bond][end].map(|it| it * length);
-            let weight_per_length = volume * closeness[bond];
+            let weight_per_length = volume * influence[bond];
             fit.add(bonds.direction[bond], moved, length, weight_per_length);
             visit(bond, weight_per_length * length);
         }

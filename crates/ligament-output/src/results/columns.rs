@@ -139,9 +139,9 @@ columns! { "Columns of a history for each contact between surfaces: that of a `[
 
 columns! { "Columns of a history for each rigid body."
     RIGID_BODIES of RigidState, Value<'static>:
-    "RIGID.displacement_x" "m" ANY "way of a [rigid body](contact.md) along x" => |it| it.displacement[0].into();
-    "RIGID.displacement_y" "m" ANY "way along y" => |it| it.displacement[1].into();
-    "RIGID.displacement_z" "m" SOLID "way along z, of a solid" => |it| it.displacement[2].into();
+    "RIGID.displacement_x" "m" ANY "displacement of a [rigid body](contact.md) along x" => |it| it.displacement[0].into();
+    "RIGID.displacement_y" "m" ANY "displacement along y" => |it| it.displacement[1].into();
+    "RIGID.displacement_z" "m" SOLID "displacement along z, of a solid" => |it| it.displacement[2].into();
     "RIGID.rotation" "rad" PLANE "its angle, in the plane; 0 without an `inertia`" => |it| it.rotation[2].into();
     "RIGID.velocity_x" "m/s" ANY "its velocity along x" => |it| it.velocity[0].into();
     "RIGID.velocity_y" "m/s" ANY "velocity along y" => |it| it.velocity[1].into();

@@ -202,8 +202,8 @@ fn unknown(run: &StoredRun, criterion: &StoredCriterion) -> Error {
     Error::Unreadable {
         path: run.folder.join(CRITERIA_FILE),
         reason: format!(
-            "criterion {} has the measure `{}` and after its limit `{}`, of which one is unknown here",
-            criterion.name, criterion.measure, criterion.after
+            "this version does not know the measure `{}` of criterion {}, or its law `{}` after the limit",
+            criterion.measure, criterion.name, criterion.after
         ),
     }
 }

@@ -7,7 +7,7 @@ use ligament_analysis::Component;
 use ligament_model::case_type::{Number, OutOfRange, Range, Ranged};
 use ligament_model::correction::patch;
 use ligament_model::failure::Choice;
-use ligament_model::law::{BondLaw, Materials, PaperCorrection, suited};
+use ligament_model::law::{BondLaw, Materials, PaperCorrection, laws_with};
 use ligament_model::scatter::{Distribution, Scatter, Scattered};
 use ligament_model::{Advice, Anisotropic, Elasticity, Material, Orthotropic, Plane};
 
@@ -87,7 +87,7 @@ impl Setup {
                 self.law.name(),
                 taken.word()
             );
-            let laws = Setting::Law(suited(|it| it.materials >= needed));
+            let laws = Setting::Law(laws_with(|it| it.materials >= needed));
             return contradiction(elasticity, Advice::new(text, [laws]));
         }
         // Six constants describe either state of the plane, and so does their thermal expansion.
@@ -145,7 +145,7 @@ impl Setup {
                         "\"{kind}\" looks at strains of the bond's own, which only {{}} has: for \"{law}\" take \
                          \"critical-stretch\" or \"bond-energy\""
                     );
-                    (text, suited(BondLaw::has_own_strains))
+                    (text, laws_with(BondLaw::has_own_strains))
                 };
                 return contradiction(field.part("kind"), Advice::new(text, [Setting::Law(laws)]));
             }

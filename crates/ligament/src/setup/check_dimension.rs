@@ -4,7 +4,7 @@ use ligament_analysis::Component;
 use ligament_analysis::probe::PointReading;
 use ligament_model::horizon::INCLUSION_TOLERANCE;
 use ligament_model::law::rotational::{RotationalScale, RotationalStiffness};
-use ligament_model::law::{BondLaw, listed, orthotropic, suited};
+use ligament_model::law::{BondLaw, laws_with, listed, orthotropic};
 use ligament_model::material::Space;
 use ligament_model::stress::tip_field::TipQuantity;
 use ligament_model::tensor::SymTensor;
@@ -102,7 +102,7 @@ impl Setup {
             let reason = format!(
                 "\"{}\" is a law of the plane: solids take {}",
                 self.law.name(),
-                listed(&suited(|it| it.exists_in(space)), BondLaw::quoted)
+                listed(&laws_with(|it| it.exists_in(space)), BondLaw::quoted)
             );
             return contradiction(field, reason);
         }
@@ -123,7 +123,7 @@ impl Setup {
             (None, _) => {
                 let reason = format!(
                     "the points of \"{law}\" have no rotations, so that nothing resists them: take {}",
-                    listed(&suited(|it| it.shear_form.is_some()), BondLaw::quoted)
+                    listed(&laws_with(|it| it.shear_form.is_some()), BondLaw::quoted)
                 );
                 return contradiction(field, reason);
             }
@@ -180,7 +180,7 @@ impl Setup {
         if self.law.element() != ElementKind::Beam {
             let reason = format!(
                 "faces can slide on each other without turning moments only where points turn, and those of \"{law}\" do not: take {}",
-                listed(&suited(|it| it.shear_form.is_some()), BondLaw::quoted)
+                listed(&laws_with(|it| it.shear_form.is_some()), BondLaw::quoted)
             );
             return contradiction(field, reason);
         }
