@@ -269,8 +269,8 @@ fn limits(folder: &Path) -> BTreeMap<[i64; 2], [f64; 2]> {
         .collect()
 }
 
-/// Several processes store the limits of bonds that began to soften as one process does, each those of its bonds; 1e-6: the solutions of both differ
-/// by rounding.
+/// Limits of bonds that began to soften are stored by two processes, each for its own bonds, as one process stores them: to 1e-6, because
+/// solutions of one and of two processes differ by rounding.
 #[test]
 fn limits_of_begun_bonds_are_stored_in_pieces() {
     let folder = tempfile::tempdir().unwrap();

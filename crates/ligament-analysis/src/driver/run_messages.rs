@@ -31,7 +31,7 @@ const ROUNDING: f64 = 1e-12;
 /// Angle from which on a fragment counts as turned, rad: linear motions make it longer by half of its square, .5 %.
 const TURNED: f64 = 0.1;
 
-/// Message about the parts that a breakage detached, of which these supports hold the rigid motions.
+/// Message about the parts that a breakage detached and whose rigid motions some added supports hold.
 pub(super) fn detached_parts(fragments: &Fragments, holds: &[AddedSupport]) -> Option<Message> {
     let mut loose: Vec<u32> = holds.iter().map(|hold| hold.fragment).collect();
     loose.dedup();

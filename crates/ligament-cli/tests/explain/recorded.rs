@@ -153,7 +153,7 @@ fn a_body_in_the_plane_is_told_as_it_was_recorded() {
     }
 }
 
-/// The same in space.
+/// Bonds of a solid that break at once and bonds that soften, as in the plane.
 #[test]
 fn a_solid_is_told_as_it_was_recorded() {
     let body = "solid_lattice = { cells = [6, 6, 6], spacing = [0.01, 0.01, 0.01], set = { held = { bottom = 1 }, pulled = { top = 1 } } }";

@@ -161,7 +161,8 @@ fn system(model: &StoredModel, pairs: &[usize], element: ElementKind) -> Arc<dyn
     without_stiffness(positions, *in_space, volumes, element, arrays)
 }
 
-/// Horizon of a bond with all digits, of which the model has seven: the mean of the horizons of its ends or the larger one.
+/// Horizon of a bond, m, as the mean of the horizons of its ends or the larger one: whichever has the seven digits of the stored model; the
+/// stored number where neither has.
 fn horizon(model: &StoredModel, pair: usize) -> f64 {
     let stored = model.bonds.horizon[pair];
     let [a, b] = model.bonds.ends[pair].map(|end| model.horizon[end as usize]);

@@ -98,7 +98,8 @@ pub struct StoredCriterion {
     pub measure: String,
     /// Name of the law after the limit.
     pub after: String,
-    /// Limits, shape (n_bonds); at the end of the run those of bonds that began to soften by the stress around them.
+    /// Limits of the measure, shape (n_bonds). For bonds that began to soften by the stress around them, the measure at which they began, if the
+    /// run ended.
     pub limit: Vec<f64>,
     /// Limits before bonds began to soften by the stress around them, shape (n_bonds); empty where that changed no limit.
     pub limit_at_start: Vec<f64>,

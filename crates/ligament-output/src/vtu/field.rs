@@ -2,12 +2,12 @@
 //!
 //! Blocks are compressed as a whole and by all threads. The writer of vtkio compresses number by number, which takes ten times as long.
 
-use ligament_model::parallel;
 use std::io::{self, Write};
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use base64::write::EncoderWriter;
+use ligament_model::parallel;
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
 use crate::xml::escape_attribute;

@@ -3,9 +3,9 @@
 //! With the velocities v- and v+ in the middles of the steps before and after a time, a = (v+ - v-)/dt and v = (v+ + v-)/2, so that damping alpha M
 //! and dashpots are implicit in the velocity: v+ = (M/dt + C/2)^-1 ((M/dt - C/2) v- + F - f).
 
-use ligament_model::parallel;
 use std::collections::BTreeMap;
 
+use ligament_model::parallel;
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 

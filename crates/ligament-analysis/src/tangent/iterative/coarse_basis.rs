@@ -1,7 +1,8 @@
 //! The coarse space spanned by the rigid motions of aggregates.
 
-use ligament_model::parallel;
 use std::collections::BTreeMap;
+
+use ligament_model::parallel;
 
 use super::aggregates::Aggregates;
 use super::operator::Operator;

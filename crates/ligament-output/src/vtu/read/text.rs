@@ -1,11 +1,11 @@
 //! The text of a VTU file, and its arrays.
 
-use ligament_model::parallel;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
+use ligament_model::parallel;
 use miniz_oxide::inflate::decompress_to_vec_zlib_with_limit;
 use roxmltree::{Document, Node};
 
